@@ -1,0 +1,53 @@
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/.ready
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test test-slow lint types layers wheel lock scene data clean
+
+help: ## Show this list
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
+
+setup: $(READY) ## Make .venv with everything that development needs
+
+$(READY): requirements/dev.txt pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/dev.txt
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
+
+demo: $(READY) ## Build the knowledge graph of the built-in kitchen and ask it three questions
+	@mkdir -p build
+	$(BIN)/usd2kg demo -o build/kitchen.ttl
+
+test: $(READY) ## Run the tests
+	$(BIN)/python -m pytest -q
+
+test-slow: $(READY) ## Run the tests that take long
+	$(BIN)/python -m pytest -q -m slow
+
+lint: $(READY) ## Check style and formatting
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(READY) ## Check types
+	$(BIN)/mypy
+
+layers: $(READY) ## Check that packages import only what lies below them
+	$(BIN)/lint-imports --no-logo
+
+wheel: $(READY) ## Build the wheel into dist/
+	@rm -rf dist
+	$(BIN)/uv build --quiet --wheel --no-build-isolation --python $(BIN)/python
+
+lock: $(READY) ## Pin what pyproject.toml asks for into requirements/, with hashes
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
+	  --group dev --output-file requirements/dev.txt pyproject.toml
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
+	  --output-file requirements/run.txt pyproject.toml
+
+scene: $(READY) ## Write the demo kitchen anew from its scripts
+	$(BIN)/python -m examples.demo_kitchen.make
+
+clean: ## Remove what was built
+	rm -rf .venv build dist

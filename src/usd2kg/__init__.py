@@ -1,0 +1,61 @@
+"""usd2kg: from an OpenUSD scene to a knowledge graph.
+
+>>> import usd2kg
+>>> usd2kg.__all__[:3]
+['BuildResult', 'Grounding', 'KnowledgeGraph']
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from usd2kg.errors import Usd2kgError
+    from usd2kg.graph import KnowledgeGraph, instantiate, load_graph, write_graph
+    from usd2kg.grounding import Grounding, ground, make_grounder
+    from usd2kg.ontology import TBox, load_home_tbox, load_tbox
+    from usd2kg.pipeline import BuildResult, build
+    from usd2kg.scene import Scene, read_scene
+
+_HOMES = {
+    "BuildResult": "pipeline",
+    "Grounding": "grounding",
+    "KnowledgeGraph": "graph",
+    "Scene": "scene",
+    "TBox": "ontology",
+    "Usd2kgError": "errors",
+    "build": "pipeline",
+    "ground": "grounding",
+    "instantiate": "graph",
+    "load_graph": "graph",
+    "load_home_tbox": "ontology",
+    "load_tbox": "ontology",
+    "make_grounder": "grounding",
+    "read_scene": "scene",
+    "write_graph": "graph",
+}
+
+__all__ = [
+    "BuildResult",
+    "Grounding",
+    "KnowledgeGraph",
+    "Scene",
+    "TBox",
+    "Usd2kgError",
+    "build",
+    "ground",
+    "instantiate",
+    "load_graph",
+    "load_home_tbox",
+    "load_tbox",
+    "make_grounder",
+    "read_scene",
+    "write_graph",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # Names load when they are used: `usd2kg --help` must not wait for OpenUSD.
+    if name not in _HOMES:
+        raise AttributeError(f"module 'usd2kg' has no attribute {name!r}")
+    from importlib import import_module  # noqa: PLC0415
+
+    return getattr(import_module(f"usd2kg.{_HOMES[name]}"), name)

@@ -1,0 +1,1 @@
+"""The command line. Each command checks its arguments, calls the library and prints."""

@@ -1,0 +1,63 @@
+"""The command `usd2kg`.
+
+Exit codes: 0 done, 2 wrong usage or an input or output that cannot be used.
+"""
+
+import logging
+import os
+import sys
+import traceback
+from typing import Annotated
+
+import typer
+
+from usd2kg.cli import build, demo, ground, inspect, ontology, query
+from usd2kg.cli.output import talk
+from usd2kg.errors import Usd2kgError
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    name="usd2kg",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="From an OpenUSD scene to a knowledge graph: grounds every object to a class of your OWL ontology.",
+)
+app.command("build")(build.build_command)
+app.command("inspect")(inspect.inspect_command)
+app.command("ground")(ground.ground_command)
+app.command("query")(query.query_command)
+app.command("demo")(demo.demo_command)
+app.add_typer(ontology.app, name="ontology")
+
+
+@app.callback()
+def _options(
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Say what is done, and show the traceback of an error.")
+    ] = False,
+) -> None:
+    level = logging.INFO if verbose else logging.WARNING
+    logging.basicConfig(level=level, stream=sys.stderr, format="%(message)s")
+
+
+def main() -> None:
+    """Run the command line; an error that a user can mend becomes one line and exit code 2."""
+    try:
+        app()
+    except Usd2kgError as error:
+        if {"--verbose", "-v"} & set(sys.argv[1:]):
+            traceback.print_exc()
+        talk(f"usd2kg: {' '.join(str(error).split())}")
+        sys.exit(2)
+    except BrokenPipeError:
+        # The reader of our output has enough (`| head`): that is no error of ours.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
+
+
+if __name__ == "__main__":
+    main()

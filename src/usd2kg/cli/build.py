@@ -1,0 +1,147 @@
+"""usd2kg build: the whole chain."""
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from usd2kg.cli.options import Dictionary, Evidence, GrounderName, JsonOutput, OntologyFile, Regime
+from usd2kg.cli.output import print_json, talk
+from usd2kg.errors import OutputError, Usd2kgError
+
+if TYPE_CHECKING:
+    from usd2kg.pipeline import BuildResult
+
+__all__ = ["build_command", "summarize", "summary_text"]
+
+_CONFIDENCE_BANDS = ((0.8, "0.8 and more"), (0.5, "0.5 to 0.8"), (0.0, "below 0.5"))
+
+
+def build_command(
+    scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="One or more USD stages.")],
+    ontology: OntologyFile = None,
+    grounder: GrounderName = "embedded",
+    dictionary: Dictionary = None,
+    regime: Regime = "semantic",
+    evidence: Evidence = None,
+    base: Annotated[
+        str | None,
+        typer.Option("--base", help="IRI under which the individuals lie, ending in / or #; default: by file name."),
+    ] = None,
+    profile: Annotated[
+        str, typer.Option("--profile", help="How objects are written: auto (default), soma or plain.")
+    ] = "auto",
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="Graph to write, .ttl or .nt; a folder for several scenes; default: SCENE.ttl here."
+        ),
+    ] = None,
+    json: JsonOutput = False,
+) -> None:
+    """Build the knowledge graph of a scene: read it, ground its objects, relate them, write RDF."""
+    from usd2kg import grounding  # noqa: PLC0415
+    from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+
+    targets = _targets(scenes, output)
+    groups = grounding.parse_evidence(evidence) if evidence is not None else None
+    naming_regime = grounding.parse_regime(regime)
+    chosen = grounding.make_grounder(grounder, dictionary=dictionary)
+    tbox = open_tbox(ontology)
+    for note in tbox.notes:
+        talk(f"{note.code}: {note.message}")
+    summaries, failures = [], []
+    for scene, target in zip(scenes, targets, strict=True):
+        start = time.perf_counter()
+        try:
+            result = build(
+                scene, tbox, grounder=chosen, regime=naming_regime, evidence=groups, base=base, profile=profile
+            )
+            _write(result, target)
+        except Usd2kgError as error:
+            # One bad scene must not cost the others; with one scene it is simply the error.
+            if len(scenes) == 1:
+                raise
+            talk(f"usd2kg: {error}")
+            failures.append(scene)
+            continue
+        summary = {**summarize(result), "output": str(target), "seconds": round(time.perf_counter() - start, 3)}
+        summaries.append(summary)
+        if not json:
+            talk(summary_text(summary))
+    if json:
+        print_json(summaries if len(scenes) > 1 else summaries[0])
+    if failures:
+        raise typer.Exit(2)
+
+
+def _targets(scenes: list[Path], output: Path | None) -> list[Path]:
+    """Return where each scene's graph goes, checked before any work is spent."""
+    from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.graph import graph_format  # noqa: PLC0415
+
+    if len(scenes) == 1 and not (output is not None and output.is_dir()):
+        targets = [output if output is not None else Path(f"{scenes[0].stem}.ttl")]
+    else:
+        folder = output if output is not None else Path()
+        if not folder.is_dir():
+            raise OutputError(f"{folder}: is not a folder; expected one for the graphs of {len(scenes)} scenes")
+        targets = [folder / f"{scene.stem}.ttl" for scene in scenes]
+    if len(set(targets)) < len(targets):
+        raise OutputError(
+            "two scenes have the same file name, so their graphs would overwrite each other; build them apart"
+        )
+    for target in targets:
+        graph_format(target)
+        check_writable(target)
+    return targets
+
+
+def _write(result: "BuildResult", target: Path) -> None:
+    from usd2kg.graph import write_graph  # noqa: PLC0415
+
+    write_graph(result.graph, target)
+
+
+def summarize(result: "BuildResult") -> dict[str, Any]:
+    """Return what a build gave, in numbers."""
+    predictions = result.grounding.predictions
+    relations: dict[str, int] = {}
+    for relation in result.graph.relations:
+        relations[relation.kind] = relations.get(relation.kind, 0) + 1
+    bands = dict.fromkeys((label for _, label in _CONFIDENCE_BANDS), 0)
+    for p in predictions:
+        if p.confidence is not None:
+            bands[next(label for floor, label in _CONFIDENCE_BANDS if p.confidence >= floor)] += 1
+    status: dict[str, int] = {}
+    for p in predictions:
+        status[p.status.value] = status.get(p.status.value, 0) + 1
+    return {
+        "scene": result.scene.source,
+        "prims": result.scene.prim_count,
+        "objects": len(result.scene.objects),
+        "classes": len(result.graph.classes),
+        "status": status,
+        "confidence": bands,
+        "is_calibrated": result.grounding.is_calibrated,
+        "relations": relations,
+        "triples": len(result.graph.triples),
+        "diagnostics": len(result.scene.diagnostics),
+    }
+
+
+def summary_text(summary: dict[str, Any]) -> str:
+    """Return the numbers of a build as a few lines."""
+    relations = ", ".join(f"{count} {kind}" for kind, count in summary["relations"].items()) or "none"
+    bands = ", ".join(f"{count} at {band}" for band, count in summary["confidence"].items() if count) or "none"
+    status = ", ".join(f"{count} {name}" for name, count in summary["status"].items())
+    calibration = "" if summary["is_calibrated"] else " (not calibrated: it only ranks)"
+    lines = [
+        f"{summary['scene']}: {summary['objects']} objects of {summary['classes']} classes ({status})",
+        f"  confidence: {bands}{calibration}",
+        f"  relations: {relations}; {summary['triples']} triples in {summary['seconds']:.2f} s",
+    ]
+    if summary["diagnostics"]:
+        lines.append(f"  {summary['diagnostics']} diagnostics: usd2kg inspect {summary['scene']}")
+    return "\n".join([*lines, f"  written to {summary['output']}"])

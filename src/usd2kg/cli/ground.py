@@ -1,0 +1,45 @@
+"""usd2kg ground: the mapping of prims to classes, without a graph."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from usd2kg.cli.options import Dictionary, Evidence, GrounderName, OntologyFile, Regime, SceneFile
+from usd2kg.cli.output import emit, talk
+
+__all__ = ["ground_command"]
+
+
+def ground_command(
+    scene: SceneFile,
+    ontology: OntologyFile = None,
+    grounder: GrounderName = "embedded",
+    dictionary: Dictionary = None,
+    regime: Regime = "semantic",
+    evidence: Evidence = None,
+    paths: Annotated[
+        Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
+    ] = None,
+    file_format: Annotated[str, typer.Option("--format", help="csv (default) or json.")] = "csv",
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write; default: stdout.")] = None,
+) -> None:
+    """Ground the objects of a scene: print path, class, label, confidence, status and grounder of each."""
+    from usd2kg import grounding  # noqa: PLC0415
+    from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.pipeline import open_tbox  # noqa: PLC0415
+    from usd2kg.scene import read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+
+    groups = grounding.parse_evidence(evidence) if evidence is not None else None
+    naming_regime = grounding.parse_regime(regime)
+    grounding.check_format(file_format)
+    if output is not None:
+        check_writable(output)
+    chosen = grounding.make_grounder(grounder, dictionary=dictionary)
+    wanted = grounding.read_paths(paths) if paths is not None else None
+    tbox = open_tbox(ontology)
+    found = read_scene(scene, paths=wanted)
+    result = grounding.ground(found, tbox, chosen, regime=naming_regime, evidence=groups, paths=wanted)
+    emit(grounding.format_mapping(result, tbox, file_format), output)
+    for path in found.missing_paths:
+        talk(f"{scene}: there is no prim {path}; its row has the status missing")

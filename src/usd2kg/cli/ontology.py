@@ -1,0 +1,87 @@
+"""usd2kg ontology: what objects can be grounded to."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from usd2kg.cli.options import JsonOutput
+from usd2kg.cli.output import emit, print_json, talk
+
+if TYPE_CHECKING:
+    from usd2kg.ontology import TBox
+
+__all__ = ["app"]
+
+app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Show the classes that objects can be grounded to.")
+
+_File = Annotated[
+    Path | None, typer.Argument(metavar="[FILE]", help="An OWL file; default: the built-in home ontology.")
+]
+_Roots = Annotated[
+    list[str] | None,
+    typer.Option("--root", help="IRI or CURIE of a class; the scope is what lies below. May be repeated."),
+]
+
+
+@app.command("show")
+def show(file: _File = None, root: _Roots = None, comments: bool = False, json: JsonOutput = False) -> None:
+    """Show the classes in scope as a tree."""
+    from usd2kg.ontology import linearize_tree  # noqa: PLC0415
+
+    tbox = _load(file, root)
+    if json:
+        print_json(_as_json(tbox))
+    else:
+        emit(linearize_tree(tbox, with_comments=comments), None)
+
+
+@app.command("linearize")
+def linearize(file: _File = None, root: _Roots = None, tree: bool = False) -> None:
+    """Print the classes as they are put into a prompt: one a line, alphabetical, or as a tree with --tree."""
+    from usd2kg.ontology import linearize_flat, linearize_tree  # noqa: PLC0415
+
+    tbox = _load(file, root)
+    emit(linearize_tree(tbox, with_comments=True) if tree else linearize_flat(tbox), None)
+
+
+@app.command("scope")
+def scope(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> None:
+    """Print the IRIs of the classes in scope."""
+    tbox = _load(file, root)
+    iris = [cls.iri for cls in tbox.classes]
+    if json:
+        print_json(iris)
+    else:
+        emit("".join(f"{iri}\n" for iri in iris), None)
+
+
+def _load(file: Path | None, roots: list[str] | None) -> "TBox":
+    from usd2kg.ontology import load_home_tbox, load_tbox  # noqa: PLC0415 - loads the OWL parser
+
+    tbox = load_tbox(file, roots=roots) if file is not None else load_home_tbox()
+    for note in tbox.notes:
+        talk(f"{note.code}: {note.message}")
+    talk(f"{tbox.source}: {len(tbox.classes)} classes in scope, {len(tbox.roots)} roots")
+    return tbox
+
+
+def _as_json(tbox: "TBox") -> dict[str, Any]:
+    return {
+        "source": tbox.source,
+        "ontology": tbox.ontology_iri,
+        "version": tbox.version_iri,
+        "content_hash": tbox.content_hash,
+        "imports": list(tbox.imports),
+        "classes": [
+            {
+                "iri": cls.iri,
+                "label": cls.label,
+                "alt_labels": list(cls.alt_labels),
+                "comment": cls.comment,
+                "parents": list(cls.parents),
+            }
+            for cls in tbox.classes
+        ],
+        "notes": [{"code": note.code, "message": note.message} for note in tbox.notes],
+    }

@@ -1,0 +1,57 @@
+"""Printing: data on stdout, talk on stderr."""
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from usd2kg.files import write_whole
+
+__all__ = ["emit", "format_table", "print_json", "printable", "talk"]
+
+_WIDEST = 60
+
+
+def talk(message: str) -> None:
+    """Print a line for the person at the terminal, on stderr."""
+    print(printable(message), file=sys.stderr)  # noqa: T201
+
+
+def print_json(data: Any) -> None:
+    """Print data as JSON on stdout."""
+    print(json.dumps(data, indent=1, ensure_ascii=False))  # noqa: T201
+
+
+def emit(text: str, path: Path | None) -> None:
+    """Write text to a file, whole or not at all; to stdout if there is none."""
+    if path is None:
+        sys.stdout.write(text)
+    else:
+        write_whole(path, text.encode("utf-8"))
+
+
+def printable(text: str) -> str:
+    """Return text without control characters: names on a stage must not steer a terminal."""
+    return "".join(c if c.isprintable() or c in "\t\n" else "\ufffd" for c in text)
+
+
+def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:
+    """Return rows as aligned text; long cells are cut in the middle, where paths say least.
+
+    >>> print(format_table(("name", "size"), [("mug", "0.09"), ("table", None)]), end="")
+    name   size
+    mug    0.09
+    table
+    """
+    cells = [[_shorten(printable(cell or "").replace("\n", " ")) for cell in row] for row in [columns, *rows]]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
+    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells)
+    return "\n".join(lines) + "\n"
+
+
+def _shorten(text: str) -> str:
+    if len(text) <= _WIDEST:
+        return text
+    head = _WIDEST // 3
+    return f"{text[:head]}…{text[len(text) - (_WIDEST - head - 1) :]}"

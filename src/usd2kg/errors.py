@@ -1,0 +1,47 @@
+"""The exceptions that usd2kg raises on purpose.
+
+::
+
+    Usd2kgError
+    ├── SceneError        the stage cannot be read, or holds no object
+    ├── OntologyError     the ontology cannot be read, or no class is in scope
+    ├── GroundingError    the grounder is unknown or its settings are wrong
+    ├── GraphError        the graph cannot be read, or a question cannot be understood
+    └── OutputError       a result cannot be written
+
+Each message says where, what was found, what was expected and what to do, in one line.
+Bugs of our own are never wrapped: they pass through as they are.
+"""
+
+__all__ = [
+    "GraphError",
+    "GroundingError",
+    "OntologyError",
+    "OutputError",
+    "SceneError",
+    "Usd2kgError",
+]
+
+
+class Usd2kgError(Exception):
+    """Base of all errors that a user can mend."""
+
+
+class SceneError(Usd2kgError):
+    """The stage cannot be opened, or no object was found on it."""
+
+
+class OntologyError(Usd2kgError):
+    """The ontology cannot be read or places no class in the scope."""
+
+
+class GroundingError(Usd2kgError):
+    """A grounder, regime or evidence group is unknown, or a settings file is malformed."""
+
+
+class GraphError(Usd2kgError):
+    """A graph file cannot be read, or a question cannot be answered from it."""
+
+
+class OutputError(Usd2kgError):
+    """A result cannot be written where the user wants it."""

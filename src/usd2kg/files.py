@@ -1,0 +1,44 @@
+"""Writing results: whole or not at all."""
+
+import os
+import tempfile
+from pathlib import Path
+
+from usd2kg.errors import OutputError
+
+__all__ = ["check_writable", "write_whole"]
+
+
+def check_writable(path: Path) -> None:
+    """Raise OutputError now if `path` could not be written later, before any work is spent."""
+    if path.is_dir():
+        raise OutputError(f"{path}: is a folder, expected a file name to write to")
+    folder = path.parent
+    if not folder.is_dir():
+        raise OutputError(f"{path}: the folder {folder} does not exist; create it or choose another output")
+    if not os.access(folder, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+        raise OutputError(f"{path}: is not writable; choose another output or change its permissions")
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write `data` to `path` so that a reader sees the old file or the whole new one, never a part."""
+    check_writable(path)
+    try:
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+            Path(temporary).chmod(_usual_mode())
+            Path(temporary).replace(path)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise OutputError(f"{path}: could not be written ({error.strerror}); choose another output") from error
+
+
+def _usual_mode() -> int:
+    # mkstemp makes files for the owner alone; a result should be as readable as any other file.
+    umask = os.umask(0)
+    os.umask(umask)
+    return 0o666 & ~umask

@@ -1,0 +1,250 @@
+"""Asking a graph: SPARQL, and ready questions in plain words."""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.words import split_identifier
+
+__all__ = ["Answer", "GraphStore", "load_graph"]
+
+_INPUT_FORMATS = {
+    ".ttl": ox.RdfFormat.TURTLE,
+    ".nt": ox.RdfFormat.N_TRIPLES,
+    ".rdf": ox.RdfFormat.RDF_XML,
+    ".owl": ox.RdfFormat.RDF_XML,
+    ".nq": ox.RdfFormat.N_QUADS,
+    ".trig": ox.RdfFormat.TRIG,
+    ".jsonld": ox.RdfFormat.JSON_LD,
+}
+_ON = "soma:isOntopOf|u2k:on"
+_INSIDE = "soma:isInsideOf|u2k:inside"
+
+_RELATED = """
+SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
+  VALUES ?a {{ {anchors} }}
+  ?o {predicate} ?a ; rdfs:label ?object ; u2k:primPath ?path .
+  ?a rdfs:label ?anchor .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a ; {number} ?number . }}
+}} ORDER BY ?path"""
+
+_WHERE = """
+SELECT DISTINCT ?object ?class ?path ?center ?on ?inside WHERE {{
+  VALUES ?o {{ {things} }}
+  ?o rdfs:label ?object ; u2k:primPath ?path .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}
+  OPTIONAL {{ ?o {on} ?a . ?a rdfs:label ?on . }}
+  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . }}
+}} ORDER BY ?path"""
+
+_ALL = """
+SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
+  VALUES ?wanted {{ {classes} }}
+  ?c rdfs:subClassOf* ?wanted ; rdfs:label ?class .
+  ?o a ?c ; rdfs:label ?object ; u2k:primPath ?path .
+  OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?confidence . }}
+}} ORDER BY ?path"""
+
+
+_MEMBERS = """
+SELECT DISTINCT ?o ?p WHERE {{
+  VALUES ?wanted {{ {classes} }}
+  ?o a/rdfs:subClassOf* ?wanted ; u2k:primPath ?p .
+}} ORDER BY ?p"""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A table of results."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str | None, ...], ...]
+    """Values as text; None where a row has none."""
+    sparql: str
+    """The query that was run."""
+
+
+class GraphStore:
+    """A graph in memory that answers questions. It never changes."""
+
+    def __init__(self, store: ox.Store, source: str) -> None:
+        self._store = store
+        self._source = source
+
+    def __len__(self) -> int:
+        return len(self._store)
+
+    def sparql(self, query: str) -> Answer:
+        """Return the answer to a SPARQL 1.1 query; our usual prefixes need no declaration.
+
+        Raises:
+            GraphError: the query does not parse, or updates.
+        """
+        try:
+            found = self._store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
+        except SyntaxError as error:
+            reason = " ".join(str(error).split())
+            raise GraphError(
+                f"query: not valid SPARQL ({reason}); only SELECT, ASK, CONSTRUCT and DESCRIBE run here"
+            ) from error
+        if isinstance(found, ox.QueryBoolean):
+            return Answer(("answer",), ((str(bool(found)).lower(),),), query)
+        if isinstance(found, ox.QueryTriples):
+            rows = tuple(tuple(_plain(term) for term in triple) for triple in found)
+            return Answer(("subject", "predicate", "object"), tuple(sorted(rows)), query)
+        columns = tuple(variable.value for variable in found.variables)
+        return Answer(columns, tuple(tuple(_plain(s[c]) for c in columns) for s in found), query)
+
+    def on(self, thing: str) -> Answer:
+        """Return what stands or lies on a thing, named by label, class, words or prim path."""
+        return self._related(thing, _ON, "u2k:gap", "gap_m")
+
+    def inside(self, thing: str) -> Answer:
+        """Return what is inside a thing."""
+        return self._related(thing, _INSIDE, "u2k:insideRatio", "inside_ratio")
+
+    def where_is(self, thing: str) -> Answer:
+        """Return where a thing is: the centre of its box in metres, and what it is on and inside of."""
+        things = _values(self.find(thing))
+        return self._named(_WHERE.format(things=things, on=_ON, inside=_INSIDE), {"center": "center_m"})
+
+    def all_of(self, name: str) -> Answer:
+        """Return all things of a class, subclasses included; the class is named by label, local name or IRI."""
+        classes = self._find_classes(name)
+        if not classes:
+            raise GraphError(
+                f"{self._source}: no class is called {name!r}; the graph holds {', '.join(self._class_labels())}"
+            )
+        return self._named(_ALL.format(classes=_values(classes)), {})
+
+    def ask(self, words: Sequence[str]) -> Answer:
+        """Return the answer to a ready question: `on X`, `in X`, `where is X`, `all of CLASS`.
+
+        Raises:
+            GraphError: the question is none of these, or what it asks about is not in the graph.
+        """
+        question = " ".join(words).strip().rstrip("?").strip()
+        for pattern, method in _QUESTIONS:
+            found = re.fullmatch(pattern, question, flags=re.IGNORECASE)
+            if found:
+                answer: Answer = getattr(self, method)(found.group("thing").strip())
+                return answer
+        raise GraphError(
+            f"question {question!r} is not understood; expected 'on X', 'in X', 'where is X' or 'all of CLASS', "
+            "or a query with --sparql"
+        )
+
+    def find(self, thing: str) -> list[ox.NamedNode]:
+        """Return the objects that a person means, by the first way that finds any.
+
+        Ways: prim path; label; class (subclasses included); all words in the label.
+
+        Raises:
+            GraphError: there is no such thing.
+        """
+        thing = re.sub(r"^(the|a|an)\s+", "", thing.strip(), flags=re.IGNORECASE)
+        labels = self._labels()
+        wanted = _words(thing)
+        ways = (
+            [node for node, path, _ in labels if path == thing],
+            [node for node, _, label in labels if label.lower() == thing.lower()],
+            self._members(self._find_classes(thing)),
+            [node for node, _, label in labels if wanted and wanted <= _words(label)],
+        )
+        for found in ways:
+            if found:
+                return found
+        raise GraphError(
+            f"{self._source}: nothing is called {thing!r}; expected a label, a class or a prim path, "
+            "see usd2kg query GRAPH all of CLASS"
+        )
+
+    def _related(self, thing: str, predicate: str, number: str, number_name: str) -> Answer:
+        query = _RELATED.format(anchors=_values(self.find(thing)), predicate=predicate, number=number)
+        return self._named(query, {"number": number_name})
+
+    def _named(self, query: str, names: dict[str, str]) -> Answer:
+        answer = self.sparql(query)
+        return Answer(tuple(names.get(column, column) for column in answer.columns), answer.rows, query)
+
+    def _labels(self) -> list[tuple[ox.NamedNode, str, str]]:
+        rows = self._select("SELECT ?o ?p ?l WHERE { ?o u2k:primPath ?p ; rdfs:label ?l } ORDER BY ?p")
+        return [(row["o"], row["p"].value, row["l"].value) for row in rows]
+
+    def _select(self, query: str) -> list[Any]:
+        rows = self._store.query(query, prefixes=PREFIXES)
+        assert isinstance(rows, ox.QuerySolutions)
+        return list(rows)
+
+    def _find_classes(self, name: str) -> list[ox.NamedNode]:
+        rows = self._select("SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }")
+        wanted = _words(name)
+        found = {
+            row["c"]
+            for row in rows
+            if row["c"].value == name
+            or _words(re.split(r"[#/]", row["c"].value)[-1]) == wanted
+            or (row["l"] is not None and _words(row["l"].value) == wanted)
+        }
+        return sorted(found, key=lambda node: node.value)
+
+    def _class_labels(self) -> list[str]:
+        query = "SELECT DISTINCT ?l WHERE { ?o u2k:primPath [] ; a ?c . ?c rdfs:label ?l } ORDER BY ?l"
+        return [row[0] or "" for row in self.sparql(query).rows]
+
+    def _members(self, classes: list[ox.NamedNode]) -> list[ox.NamedNode]:
+        if not classes:
+            return []
+        return [row["o"] for row in self._select(_MEMBERS.format(classes=_values(classes)))]
+
+
+_QUESTIONS = (
+    (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", "on"),
+    (r"(what\s+is\s+)?(in|inside)( of)?\s+(?P<thing>.+)", "inside"),
+    (r"where(\s+is|\s+are|-is|'s)?\s+(?P<thing>.+)", "where_is"),
+    (r"all(\s+of|-of)?\s+(?P<thing>.+)", "all_of"),
+)
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(word.lower() for word in split_identifier(text))
+
+
+def _values(nodes: Iterable[ox.NamedNode]) -> str:
+    # Terms come from the store and print themselves escaped: no text of a user or a stage enters a query.
+    return " ".join(str(node) for node in nodes)
+
+
+def _plain(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple | None) -> str | None:
+    if term is None:
+        return None
+    return str(term) if isinstance(term, ox.Triple) else term.value
+
+
+def load_graph(path: Path) -> GraphStore:
+    """Return the graph in a file, ready to be asked.
+
+    Raises:
+        GraphError: the file is missing, its ending names no RDF format, or it does not parse.
+    """
+    rdf_format = _INPUT_FORMATS.get(path.suffix.lower())
+    if not path.is_file():
+        raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
+    if rdf_format is None:
+        endings = ", ".join(_INPUT_FORMATS)
+        raise GraphError(f"{path}: the ending {path.suffix!r} names no RDF format; expected one of {endings}")
+    store = ox.Store()
+    try:
+        store.bulk_load(path=str(path), format=rdf_format)
+    except (SyntaxError, OSError) as error:
+        reason = " ".join(str(error).split())
+        raise GraphError(f"{path}: does not parse as {rdf_format.name} ({reason}); build the graph again") from error
+    return GraphStore(store, str(path))

@@ -1,0 +1,24 @@
+"""From a Scene and a TBox to a Grounding: a class for every object, how sure, and why."""
+
+from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
+from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
+from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
+from usd2kg.grounding.registry import GROUNDERS, make_grounder
+
+__all__ = [
+    "GROUNDERS",
+    "MAPPING_FORMATS",
+    "Candidate",
+    "Grounder",
+    "Grounding",
+    "Prediction",
+    "Status",
+    "check_format",
+    "format_mapping",
+    "ground",
+    "make_grounder",
+    "parse_evidence",
+    "parse_regime",
+    "read_grounding",
+    "read_paths",
+]

@@ -1,0 +1,105 @@
+"""The one interface of all grounders, and the function that runs one over a scene."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from importlib.metadata import version
+from typing import Protocol
+
+from usd2kg.errors import GroundingError
+from usd2kg.grounding.model import Grounding, Prediction, Status
+from usd2kg.ontology import TBox
+from usd2kg.scene import EVIDENCE_GROUPS, NamingRegime, ObjectView, Scene, view_objects
+
+__all__ = ["Grounder", "ground", "parse_evidence", "parse_regime"]
+
+
+class Grounder(Protocol):
+    """Chooses a class of a TBox for each object view."""
+
+    name: str
+    """Stable id: `dictionary`, `embedded`…"""
+    is_calibrated: bool
+    """Whether its confidences are fitted probabilities."""
+
+    @property
+    def settings(self) -> Mapping[str, str]:
+        """The settings that its answers depend on, as text."""
+        ...
+
+    def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
+        """Return one prediction for each (prim path, view), in order.
+
+        The path is the key to answer under and no evidence: under a naming regime it would give the name
+        away. What is learnt from one view must not be used for another.
+        """
+        ...
+
+
+def ground(
+    scene: Scene,
+    tbox: TBox,
+    grounder: Grounder,
+    *,
+    regime: NamingRegime = NamingRegime.SEMANTIC,
+    evidence: frozenset[str] | None = None,
+    paths: Iterable[str] | None = None,
+) -> Grounding:
+    """Return a class of `tbox` for each object of `scene`.
+
+    Args:
+        scene: the objects; all of them are context for each other, whatever is asked for.
+        tbox: the classes to choose from.
+        grounder: who chooses.
+        regime: how the names are masked.
+        evidence: names of the evidence groups that may be used; all by default.
+        paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
+    """
+    views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence)}
+    wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
+    found = [(path, views[path]) for path in wanted if path in views]
+    by_path = {p.prim_path: p for p in grounder.ground_views(found, tbox)}
+    return Grounding(
+        scene=scene.source,
+        scene_hash=scene.content_hash,
+        ontology=tbox.ontology_iri,
+        ontology_hash=tbox.content_hash,
+        grounder=grounder.name,
+        settings={
+            "regime": regime.value,
+            "evidence": ",".join(sorted(evidence if evidence is not None else EVIDENCE_GROUPS)),
+            **grounder.settings,
+        },
+        is_calibrated=grounder.is_calibrated,
+        tool_version=version("usd2kg"),
+        predictions=tuple(by_path.get(path) or _missing(path, grounder.name) for path in wanted),
+    )
+
+
+def _missing(path: str, grounder: str) -> Prediction:
+    return Prediction(path, None, None, Status.MISSING, grounder, "there is no such prim on the stage")
+
+
+def parse_regime(text: str) -> NamingRegime:
+    """Return the regime that a user names.
+
+    Raises:
+        GroundingError: there is no such regime.
+    """
+    try:
+        return NamingRegime(text)
+    except ValueError as error:
+        known = ", ".join(NamingRegime)
+        raise GroundingError(f"regime {text!r} is unknown; expected one of {known}") from error
+
+
+def parse_evidence(text: str) -> frozenset[str]:
+    """Return the evidence groups of a comma-separated list.
+
+    Raises:
+        GroundingError: one of them is no evidence group, or none is named.
+    """
+    groups = frozenset(part.strip() for part in text.split(",") if part.strip())
+    unknown = sorted(groups - EVIDENCE_GROUPS)
+    if unknown or not groups:
+        found = f"group {unknown[0]!r} is unknown" if unknown else "no group is named"
+        raise GroundingError(f"evidence: {found}; expected a list of {', '.join(sorted(EVIDENCE_GROUPS))}")
+    return groups

@@ -1,0 +1,161 @@
+"""The TBox's words: which terms name a class, and where each class lies in the noun taxonomy."""
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
+from usd2kg.ontology import ClassIRI, OntologyClass, TBox
+from usd2kg.words import split_identifier
+
+__all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "sense_weight"]
+
+_LABEL, _SYNONYM, _HEAD = 1.0, 0.92, 0.6
+_DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
+_OTHER_DOMAIN = 0.45
+_RANK_DECAY = 0.93
+_PLAUSIBLE = 0.7
+"""A sense that fits this share as well as the best one may be meant too."""
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A term that names a class."""
+
+    class_iri: ClassIRI
+    text: str
+    weight: float
+    """1 for the class's own label, less for a synonym, least for the last word of a longer label."""
+
+
+@dataclass(frozen=True, slots=True)
+class Anchor:
+    """A class's place in the taxonomy."""
+
+    class_iri: ClassIRI
+    weight: float
+
+
+@dataclass(frozen=True)
+class Lexicon:
+    """The words of one TBox."""
+
+    terms: Mapping[str, Term]
+    """Term without spaces → the class it names."""
+    anchors: Mapping[int, Anchor]
+    """Synset → the class aligned with it."""
+    first_words: Mapping[str, Term]
+    """First word of a label → that class, where no other label begins with it (`trash` of trash container)."""
+    vocabulary: frozenset[str]
+    """All single words of the terms."""
+    default: ClassIRI
+    """The class that is true of most things: the root with the most classes below it."""
+
+
+def sense_weight(sense: Sense) -> float:
+    """Return how likely a sense is meant by the name of an object on a stage: artifacts first."""
+    return _DOMAIN_WEIGHTS.get(sense.domain, _OTHER_DOMAIN) * _RANK_DECAY ** (sense.rank - 1)
+
+
+def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> Lexicon:
+    """Return the lexicon of a TBox.
+
+    Args:
+        tbox: the classes.
+        taxonomy: what their terms are aligned with.
+        synonyms: further terms by class IRI, beside the TBox's own labels.
+    """
+    affixes = _affixes(tbox, taxonomy)
+    terms: dict[str, Term] = {}
+    anchors: dict[int, Anchor] = {}
+    depths = tbox.depths
+    for cls in sorted(tbox.classes, key=lambda cls: (depths[cls.iri], cls.iri)):
+        for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
+            for words in _variants(text, affixes, taxonomy):
+                _keep_best(terms, "".join(words), Term(cls.iri, " ".join(words), weight))
+    for key, term in list(terms.items()):
+        _anchor(key, term, tbox, terms, taxonomy, anchors)
+    for term in list(terms.values()):
+        _add_head(term, terms, taxonomy)
+    return Lexicon(
+        terms=terms,
+        anchors=anchors,
+        first_words=_first_words(terms),
+        vocabulary=frozenset(word for term in terms.values() for word in term.text.split()),
+        default=max(tbox.roots, key=lambda root: (sum(tbox.is_subclass(c.iri, root) for c in tbox.classes), root)),
+    )
+
+
+def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
+    yield cls.label, _LABEL
+    yield cls.local_name, _LABEL
+    for text in (*cls.alt_labels, *synonyms):
+        yield text, _SYNONYM
+
+
+def _words(text: str) -> tuple[str, ...]:
+    plain = re.sub(r"\(.*?\)|\[.*?\]", " ", text)
+    return tuple(word.lower() for word in split_identifier(plain) if not word.isdigit())
+
+
+def _affixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
+    """Return first words that are the ontology's own jargon: shared by many classes, and no thing's name."""
+    firsts = Counter(words[0] for cls in tbox.classes if len(words := _words(cls.local_name)) > 1)
+    return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy)
+
+
+def _variants(text: str, affixes: frozenset[str], taxonomy: Taxonomy) -> Iterator[tuple[str, ...]]:
+    words = _words(text)
+    if not words:
+        return
+    words = (*words[:-1], taxonomy.singular(words[-1]))
+    yield words
+    if len(words) > 1 and words[0] in affixes:
+        yield words[1:]
+
+
+def _keep_best(terms: dict[str, Term], key: str, term: Term) -> None:
+    # Classes come from general to special, so that of two claims to a word the general class's stays.
+    if key not in terms or terms[key].weight < term.weight:
+        terms[key] = term
+
+
+def _add_head(term: Term, terms: dict[str, Term], taxonomy: Taxonomy) -> None:
+    """Let the last word of a label stand for the class where no class goes by that word alone."""
+    head = term.text.split()[-1]
+    if term.weight == _LABEL and " " in term.text and head not in terms:
+        terms[head] = Term(term.class_iri, head, _HEAD)
+
+
+def _first_words(terms: Mapping[str, Term]) -> dict[str, Term]:
+    found: dict[str, list[Term]] = {}
+    for term in terms.values():
+        if " " in term.text and term.weight == _LABEL:
+            found.setdefault(term.text.split()[0], []).append(term)
+    return {
+        word: Term(named[0].class_iri, named[0].text, _HEAD)
+        for word, named in found.items()
+        if len({term.class_iri for term in named}) == 1 and word not in terms
+    }
+
+
+def _anchor(
+    key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy, anchors: dict[int, Anchor]
+) -> None:
+    """Align a term with its senses; those that fit much worse than the best are not meant."""
+    above = {iri for iri in tbox.closure(term.class_iri) if iri != term.class_iri}
+
+    def fit(sense: Sense) -> float:
+        # A sense below a word that names a superclass is the one the ontologist meant.
+        lemmas = {taxonomy.name(up).replace(" ", "") for up, hops in taxonomy.walk_up(sense.synset) if hops}
+        agreement = sum(1 for lemma in lemmas if lemma in terms and terms[lemma].class_iri in above)
+        return sense_weight(sense) * (1 + 0.5 * agreement)
+
+    fits = {sense.synset: fit(sense) for sense in taxonomy.senses(key)}
+    for synset, value in fits.items():
+        share = value / max(fits.values())
+        known = anchors.get(synset)
+        weight = term.weight * share
+        if share >= _PLAUSIBLE and (known is None or known.weight < weight):
+            anchors[synset] = Anchor(term.class_iri, weight)

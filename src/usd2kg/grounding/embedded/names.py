@@ -1,0 +1,162 @@
+"""Reading an object's name as a noun phrase: which of its words says what it is."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from rapidfuzz import process
+from rapidfuzz.distance import OSA
+
+from usd2kg.grounding.embedded.lexicon import Lexicon
+from usd2kg.grounding.embedded.taxonomy import Taxonomy
+from usd2kg.words import is_telling, split_identifier
+
+__all__ = ["NamePhrase", "NameReader"]
+
+_PLACEMENTS = frozenset(
+    """
+    top bottom middle mid left right front back rear upper lower inner outer center centre side corner end north
+    south east west open closed main big small large long short tall mini new single double half full one two
+    three four five six first second third type var variant alt empty used set grey gray beige
+    """.split()
+)
+_STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
+_THING_DOMAINS = frozenset({"artifact", "food"})
+
+
+@dataclass(frozen=True, slots=True)
+class NamePhrase:
+    """The words of a name, as they were understood."""
+
+    words: tuple[str, ...]
+    """Modifiers first, the head noun last; empty if the name says nothing."""
+    context: tuple[str, ...] = ()
+    """Words of the name that refer to the thing's parent or place (`cabinet10` in `cabinet10_drawer`)."""
+    corrections: tuple[tuple[str, str], ...] = ()
+    """(as written, as read) of the words that were corrected or split."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Token:
+    text: str
+    number: str
+    """Digits written on to the word, without a separator; empty if none."""
+
+
+class NameReader:
+    """Reads names with the words of one lexicon and the taxonomy."""
+
+    def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
+        self._lexicon = lexicon
+        self._taxonomy = taxonomy
+        self._by_length: dict[int, list[str]] = {}
+        vocabulary = {word for word in taxonomy.words(_THING_DOMAINS) if len(word) > 3} | lexicon.vocabulary
+        for word in sorted(vocabulary):
+            self._by_length.setdefault(len(word), []).append(word)
+        self.correct = lru_cache(maxsize=65536)(self._correct)
+
+    def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
+        """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
+        tokens = [token for token in _tokens(name) if is_telling(token.text)]
+        tokens, references = self._part_references(tokens, parents)
+        words: list[str] = []
+        corrections: list[tuple[str, str]] = []
+        for token in tokens:
+            read = self.correct(token.text)
+            words.extend(read)
+            if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
+                corrections.append((token.text, " ".join(read)))
+        return NamePhrase(tuple(words), tuple(token.text for token in references), tuple(corrections))
+
+    def is_known(self, word: str) -> bool:
+        """Return whether a word is a term of the TBox, or a noun or adjective of the taxonomy."""
+        return (
+            word in self._lexicon.terms
+            or word in self._lexicon.vocabulary
+            or word in self._taxonomy
+            or word in self._taxonomy.adjectives
+            or word in _PLACEMENTS
+        )
+
+    def is_modifier(self, word: str) -> bool:
+        """Return whether a word, at the end of a name, describes and does not say what the thing is."""
+        if word in self._lexicon.terms:
+            return False
+        if word in _PLACEMENTS or word in self._taxonomy.adjectives:
+            return True
+        senses = self._taxonomy.senses(word)
+        return bool(senses) and all(sense.domain in _STUFF_DOMAINS for sense in senses)
+
+    def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
+        """Part the words that repeat a parent's name from those that are the thing's own."""
+        above = {token for parent in parents for token in _tokens(parent)}
+        references = [token for token in tokens if _is_reference(token, above)]
+        own = [token for token in tokens if token not in references]
+        if any(not self.is_modifier(word) for token in own for word in self.correct(token.text)):
+            return own, references
+        return tokens, []
+
+    def _correct(self, word: str) -> tuple[str, ...]:
+        """Return a word as known words: itself, its singular, a compound split, or the nearest spelling."""
+        if self.is_known(word):
+            return (word,)
+        singular = self._taxonomy.singular(word)
+        if singular != word:
+            return (singular,)
+        return self._split(word) or self._respell(word) or (word,)
+
+    def _split(self, word: str) -> tuple[str, ...] | None:
+        """Split a compound into known words, the longest last word first; pipeline tokens at the end fall off."""
+        for at in range(3, len(word) - 2):
+            left, right = word[:at], self._taxonomy.singular(word[at:])
+            if not is_telling(right):
+                return self._known_words(left)
+            if self._is_noun(right) and (before := self._known_words(left)):
+                return (*before, right)
+        return None
+
+    def _known_words(self, word: str) -> tuple[str, ...] | None:
+        return (word,) if self.is_known(word) else self._split(word)
+
+    def _is_noun(self, word: str) -> bool:
+        if word in self._lexicon.terms:
+            return True
+        return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in self._taxonomy.senses(word))
+
+    def _respell(self, word: str) -> tuple[str, ...] | None:
+        if len(word) < 4 or not word.isalpha():
+            return None
+        budget = 1 if len(word) < 8 else 2
+        best: tuple[int, int, str] | None = None
+        for length in range(len(word) - budget, len(word) + budget + 1):
+            choices = self._by_length.get(length, [])
+            for candidate, distance, _ in process.extract(
+                word, choices, scorer=OSA.distance, score_cutoff=budget, limit=5
+            ):
+                # The TBox's own words first: they are what the scene is likely to be about.
+                rank = (int(distance), candidate not in self._lexicon.vocabulary, candidate)
+                if candidate[0] == word[0] and (best is None or rank < best):
+                    best = rank
+        return (best[2],) if best else None
+
+
+def _tokens(name: str) -> list[_Token]:
+    tokens: list[_Token] = []
+    at = 0
+    for part in split_identifier(name):
+        start = name.find(part, at)
+        is_glued = start == at and start > 0
+        at = start + len(part)
+        if part.isdigit() and tokens and is_glued and name[start - 1].isalpha():
+            tokens[-1] = _Token(tokens[-1].text, part)
+        else:
+            tokens.append(_Token(part.lower(), ""))
+    return tokens
+
+
+def _is_reference(token: _Token, above: set[_Token]) -> bool:
+    if token in above:
+        return True
+    # `cab10` below `cabinet10`: the same number on a word that begins alike.
+    return bool(token.number) and any(
+        token.number == other.number and other.text.startswith(token.text) for other in above
+    )

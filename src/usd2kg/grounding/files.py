@@ -1,0 +1,91 @@
+"""Groundings as files: a CSV mapping for other tools, JSON that can be read back, and lists of paths."""
+
+import csv
+import io
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from usd2kg.errors import GroundingError
+from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
+from usd2kg.ontology import TBox
+
+__all__ = ["MAPPING_FORMATS", "check_format", "format_mapping", "read_grounding", "read_paths"]
+
+MAPPING_FORMATS = ("csv", "json")
+_COLUMNS = ("path", "class", "label", "confidence", "status", "grounder")
+_FORMAT = "usd2kg-grounding/1"
+
+
+def format_mapping(grounding: Grounding, tbox: TBox, file_format: str) -> str:
+    """Return the mapping of prims to classes as `csv` or `json`.
+
+    CSV has the columns path, class (IRI), label, confidence, status and grounder; what is unknown is empty.
+    JSON holds everything and is read back by `read_grounding`.
+
+    Raises:
+        GroundingError: the format is neither.
+    """
+    check_format(file_format)
+    if file_format == "csv":
+        return _format_csv(grounding, tbox)
+    return json.dumps({"format": _FORMAT, **asdict(grounding)}, indent=1, ensure_ascii=False) + "\n"
+
+
+def check_format(file_format: str) -> None:
+    """Raise GroundingError if a mapping cannot be written in that format."""
+    if file_format not in MAPPING_FORMATS:
+        raise GroundingError(f"format {file_format!r} is unknown; expected one of {', '.join(MAPPING_FORMATS)}")
+
+
+def _format_csv(grounding: Grounding, tbox: TBox) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for p in grounding.predictions:
+        label = tbox.by_iri[p.class_iri].label if p.class_iri else ""
+        confidence = "" if p.confidence is None else f"{p.confidence:.4f}"
+        writer.writerow((p.prim_path, p.class_iri or "", label, confidence, p.status.value, p.grounder))
+    return text.getvalue()
+
+
+def read_grounding(path: Path) -> Grounding:
+    """Return the grounding in a JSON file that `format_mapping` wrote.
+
+    Raises:
+        GroundingError: the file is missing or is no such JSON.
+    """
+    try:
+        data = json.loads(path.read_text("utf-8"))
+        if data.pop("format") != _FORMAT:
+            raise ValueError("another format")
+        predictions = tuple(_read_prediction(item) for item in data.pop("predictions"))
+        return Grounding(predictions=predictions, **data)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise GroundingError(
+            f"{path}: cannot be read as a grounding ({error}); expected JSON written by usd2kg ground --format json"
+        ) from error
+
+
+def _read_prediction(item: dict[str, Any]) -> Prediction:
+    item["status"] = Status(item["status"])
+    item["evidence"] = tuple(item["evidence"])
+    item["candidates"] = tuple(Candidate(**candidate) for candidate in item["candidates"])
+    return Prediction(**item)
+
+
+def read_paths(path: Path) -> list[str]:
+    """Return the prim paths in the column `path` of a CSV file, in order, without repeats.
+
+    Raises:
+        GroundingError: the file cannot be read or has no such column.
+    """
+    try:
+        rows = csv.DictReader(path.read_text("utf-8-sig").splitlines())
+    except (OSError, UnicodeDecodeError) as error:
+        raise GroundingError(f"{path}: cannot be read as a CSV file with a column 'path' ({error})") from error
+    if "path" not in (rows.fieldnames or ()):
+        found = ", ".join(rows.fieldnames or ()) or "nothing"
+        raise GroundingError(f"{path}: line 1 has the columns {found}; expected a column 'path'")
+    return list(dict.fromkeys(row["path"].strip() for row in rows if row["path"] and row["path"].strip()))

@@ -1,0 +1,19 @@
+"""From OWL files to a TBox: the classes in scope with labels, comments and hierarchy."""
+
+from usd2kg.ontology.linearize import linearize_flat, linearize_tree
+from usd2kg.ontology.load import load_home_tbox, load_tbox
+from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
+from usd2kg.ontology.prefixes import compact_iri, expand_curie
+
+__all__ = [
+    "ClassIRI",
+    "OntologyClass",
+    "OntologyNote",
+    "TBox",
+    "compact_iri",
+    "expand_curie",
+    "linearize_flat",
+    "linearize_tree",
+    "load_home_tbox",
+    "load_tbox",
+]

@@ -1,0 +1,113 @@
+"""What an ontology says about its named classes, in plain dictionaries, whatever syntax it came in."""
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+__all__ = [
+    "ALT_LABELS",
+    "DEFINITIONS",
+    "DEPRECATED",
+    "HAS_DISPOSITION",
+    "LABELS",
+    "TOP_CLASSES",
+    "Annotations",
+    "ClassAxioms",
+    "merge_axioms",
+]
+
+_RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+_SKOS = "http://www.w3.org/2004/02/skos/core#"
+_OBO = "http://purl.obolibrary.org/obo/"
+_OIO = "http://www.geneontology.org/formats/oboInOwl#"
+
+LABELS = (f"{_SKOS}prefLabel", f"{_RDFS}label")
+ALT_LABELS = (
+    f"{_SKOS}altLabel",
+    f"{_SKOS}hiddenLabel",
+    f"{_OBO}IAO_0000118",
+    f"{_OIO}hasExactSynonym",
+    f"{_OIO}hasRelatedSynonym",
+    f"{_OIO}hasNarrowSynonym",
+)
+DEFINITIONS = (
+    f"{_SKOS}definition",
+    f"{_OBO}IAO_0000115",
+    "http://purl.org/dc/terms/description",
+    "http://purl.org/dc/elements/1.1/description",
+    f"{_RDFS}comment",
+)
+DEPRECATED = "http://www.w3.org/2002/07/owl#deprecated"
+HAS_DISPOSITION = "http://www.ease-crc.org/ont/SOMA.owl#hasDisposition"
+TOP_CLASSES = frozenset({"http://www.w3.org/2002/07/owl#Thing", f"{_RDFS}Resource"})
+
+
+@dataclass
+class Annotations:
+    """Texts of one class, as (language or empty, text), by property IRI."""
+
+    texts: dict[str, set[tuple[str, str]]] = field(default_factory=lambda: defaultdict(set))
+    is_deprecated: bool = False
+
+    def pick(self, properties: Iterable[str]) -> str:
+        """Return the text of the first property that has one: English, else untagged, else any."""
+        for name in properties:
+            if self.texts.get(name):
+                return min(self.texts[name], key=_language_rank)[1]
+        return ""
+
+    def all(self, properties: Iterable[str]) -> set[str]:
+        """Return the texts of all the properties, of every language."""
+        return {text for name in properties for _, text in self.texts.get(name, ())}
+
+
+def _language_rank(tagged: tuple[str, str]) -> tuple[int, str, str]:
+    language, text = tagged
+    rank = 0 if language.lower().split("-")[0] == "en" else 1 if not language else 2
+    return (rank, language, text)
+
+
+@dataclass
+class ClassAxioms:
+    """Axioms over named classes."""
+
+    parents: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    """Class → stated superclasses that are named; complex expressions give their named conjuncts."""
+    annotations: dict[str, Annotations] = field(default_factory=lambda: defaultdict(Annotations))
+    dispositions: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    classes: set[str] = field(default_factory=set)
+    """Every declared or used named class."""
+    ontology_iri: str | None = None
+    version_iri: str | None = None
+    imports: set[str] = field(default_factory=set)
+
+    def add_parent(self, child: str, parent: str) -> None:
+        """State that `child` is a subclass of `parent`."""
+        self.classes.update({child, parent} - TOP_CLASSES)
+        if child != parent and parent not in TOP_CLASSES:
+            self.parents[child].add(parent)
+
+    def annotate(self, subject: str, name: str, text: str, language: str) -> None:
+        """State a text about `subject`; white space is folded."""
+        notes = self.annotations[subject]
+        if name == DEPRECATED:
+            notes.is_deprecated = text.strip().lower() in {"true", "1"}
+        else:
+            notes.texts[name].add((language, " ".join(text.split())))
+
+
+def merge_axioms(several: Iterable[ClassAxioms]) -> ClassAxioms:
+    """Return the axioms of several documents together."""
+    merged = ClassAxioms()
+    for axioms in several:
+        merged.classes |= axioms.classes
+        for cls, parents in axioms.parents.items():
+            merged.parents[cls] |= parents
+        for cls, dispositions in axioms.dispositions.items():
+            merged.dispositions[cls] |= dispositions
+        for cls, notes in axioms.annotations.items():
+            known = merged.annotations[cls]
+            known.is_deprecated |= notes.is_deprecated
+            for name, texts in notes.texts.items():
+                known.texts[name] |= texts
+    return merged

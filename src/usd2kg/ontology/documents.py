@@ -1,0 +1,201 @@
+"""Ontology documents: sniffing their syntax, parsing them, closing over local imports."""
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+from xml.etree import ElementTree
+
+from usd2kg.errors import OntologyError
+from usd2kg.ontology.axioms import ClassAxioms
+from usd2kg.ontology.model import OntologyNote
+from usd2kg.ontology.owl_syntax import read_owl_axioms
+from usd2kg.ontology.rdf_syntax import read_rdf_axioms
+
+__all__ = ["Document", "close_imports", "parse_document", "sniff_syntax"]
+
+_CATALOG = "catalog-v001.xml"
+_CATALOG_URI = "{urn:oasis:names:tc:entity:xmlns:xml:catalog}uri"
+_ENDINGS = {".owl", ".ofn", ".omn", ".owx", ".rdf", ".ttl", ".nt", ".xml", ".jsonld"}
+_SYNTAXES = {
+    "ofn": "OWL functional syntax",
+    "omn": "Manchester syntax",
+    "owx": "OWL/XML",
+    "rdf": "RDF/XML",
+    "ttl": "Turtle or N-Triples",
+    "jsonld": "JSON-LD",
+}
+_OWL_SYNTAXES: dict[str, Literal["ofn", "omn", "owx"]] = {"ofn": "ofn", "omn": "omn", "owx": "owx"}
+
+
+@dataclass(frozen=True)
+class Document:
+    """One parsed ontology document."""
+
+    source: str
+    iri: str
+    version_iri: str | None
+    imports: tuple[str, ...]
+    """IRIs that it imports, sorted."""
+    axioms: ClassAxioms
+    digest: str
+    """SHA-256 of the bytes."""
+
+
+def sniff_syntax(text: str) -> str | None:
+    """Return a key of the known syntaxes by looking at the content; None if it looks like none.
+
+    File endings are not looked at: `.owl` is used for at least three of them.
+
+    >>> sniff_syntax("# a comment\\nPrefix(:=<http://x#>)")
+    'ofn'
+    """
+    start = text.lstrip("\ufeff \t\r\n")
+    if start.startswith("<") and not re.match(r"<[a-zA-Z][a-zA-Z0-9+.-]*:[^\s<>]*>", start):
+        root = re.search(r"<(?![?!])([A-Za-z_][\w.-]*:)?([A-Za-z_][\w.-]*)", _without_xml_prolog(start))
+        return {"RDF": "rdf", "Ontology": "owx"}.get(root.group(2)) if root else None
+    body = re.sub(r"^\s*#[^\n]*\n", "", start, flags=re.MULTILINE).lstrip()
+    if re.match(r"(Prefix|Ontology)\s*\(", body):
+        return "ofn"
+    if re.match(r"(Prefix|Ontology)\s*:", body):
+        return "omn"
+    if re.match(r"@prefix|@base|prefix\s|base\s|<|_:|\[|[\w.-]*:[\w.-]*\s", body, flags=re.IGNORECASE):
+        return "jsonld" if _is_json(body) else "ttl"
+    return "jsonld" if _is_json(body) else None
+
+
+def _without_xml_prolog(text: str) -> str:
+    # The internal subset of a DOCTYPE holds entity declarations that look like tags.
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
+    return re.sub(r"<!DOCTYPE[^\[>]*(\[.*?\]\s*)?>", "", text, count=1, flags=re.DOTALL)
+
+
+def _is_json(text: str) -> bool:
+    if text[:1] not in {"{", "["}:
+        return False
+    try:
+        json.loads(text)
+    except ValueError:
+        return False
+    return True
+
+
+def parse_document(path: Path) -> Document:
+    """Return the parsed ontology at `path`.
+
+    Raises:
+        OntologyError: the file is missing, of no known syntax, or malformed.
+    """
+    data = _read(path)
+    text = _decode(path, data)
+    syntax = sniff_syntax(text)
+    known = ", ".join(_SYNTAXES.values())
+    if syntax is None:
+        found = " ".join(text[:60].split())
+        raise OntologyError(f"{path}: not an ontology (begins with {found!r}), expected one of {known}")
+    try:
+        owl_syntax = _OWL_SYNTAXES.get(syntax)
+        axioms = read_owl_axioms(text, owl_syntax) if owl_syntax else read_rdf_axioms(text, syntax)
+    except (ValueError, SyntaxError) as error:
+        raise OntologyError(
+            f"{path}: looks like {_SYNTAXES[syntax]} but does not parse ({_shorten(str(error))}); mend or re-export it"
+        ) from error
+    return Document(
+        source=str(path),
+        iri=axioms.ontology_iri or path.resolve().as_uri(),
+        version_iri=axioms.version_iri,
+        imports=tuple(sorted(axioms.imports)),
+        axioms=axioms,
+        digest=hashlib.sha256(data).hexdigest(),
+    )
+
+
+def _read(path: Path) -> bytes:
+    if path.is_dir():
+        raise OntologyError(f"{path}: is a folder, expected an ontology file; name the file inside it")
+    try:
+        return path.read_bytes()
+    except FileNotFoundError as error:
+        raise OntologyError(f"{path}: no such file; expected an ontology ({', '.join(sorted(_ENDINGS))})") from error
+    except OSError as error:
+        raise OntologyError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
+
+
+def _decode(path: Path, data: bytes) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise OntologyError(
+            f"{path}: byte {error.start} is not UTF-8 text, expected an ontology; is it a binary or compressed file?"
+        ) from error
+
+
+def _shorten(message: str, limit: int = 200) -> str:
+    line = " ".join(message.replace("Failed to open ontology: ", "").split())
+    return line if len(line) <= limit else line[: limit - 1] + "…"
+
+
+def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[OntologyNote, ...]]:
+    """Return `document` with everything it imports, found locally, and notes on what was not found.
+
+    Imports are looked up in the OASIS catalog (`catalog-v001.xml`) of the document's folder, then by file
+    name in that folder. Nothing is fetched from the network.
+    """
+    found = {document.iri: document}
+    notes: list[OntologyNote] = []
+    missing: set[str] = set()
+    pending = [document]
+    while pending:
+        current = pending.pop()
+        for iri in current.imports:
+            if iri in found or iri in missing:
+                continue
+            path = _locate(iri, Path(current.source).parent)
+            if path is None:
+                missing.add(iri)
+                notes.append(OntologyNote("missing-import", _missing_import(iri, current)))
+                continue
+            imported = parse_document(path)
+            # An import may resolve to a document that calls itself by another IRI: keep it under both.
+            found[iri] = imported
+            if imported.iri not in found or imported.iri == iri:
+                pending.append(imported)
+    distinct = {doc.source: doc for doc in found.values()}
+    others = sorted((doc for doc in distinct.values() if doc is not document), key=lambda doc: doc.iri)
+    return (document, *others), tuple(sorted(notes, key=lambda note: note.message))
+
+
+def _missing_import(iri: str, document: Document) -> str:
+    return (
+        f"{document.source}: imports <{iri}>, which is neither in {_CATALOG} nor in the folder; "
+        "classes are placed without it"
+    )
+
+
+def _locate(iri: str, folder: Path) -> Path | None:
+    catalog = _read_catalog(folder / _CATALOG)
+    if iri in catalog:
+        return catalog[iri] if catalog[iri].is_file() else None
+    name = iri.rstrip("#/").rpartition("/")[2]
+    names = [name, *(Path(name).stem + ending for ending in sorted(_ENDINGS))]
+    # Only a plain file name is looked up: an IRI must not walk to other folders.
+    return next((folder / n for n in names if n and n not in {".", ".."} and (folder / n).is_file()), None)
+
+
+def _read_catalog(path: Path) -> dict[str, Path]:
+    if not path.is_file():
+        return {}
+    try:
+        root = ElementTree.parse(path).getroot()
+    except ElementTree.ParseError as error:
+        raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); mend or remove it") from error
+    return {entry.attrib["name"]: path.parent / entry.attrib["uri"] for entry in _entries(root)}
+
+
+def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:
+    for entry in root.iter(_CATALOG_URI):
+        if "name" in entry.attrib and "uri" in entry.attrib and "://" not in entry.attrib["uri"]:
+            yield entry

@@ -1,0 +1,113 @@
+"""load_tbox: from an ontology file to a TBox."""
+
+import hashlib
+from collections.abc import Iterable
+from dataclasses import replace
+from importlib.resources import as_file, files
+from pathlib import Path
+
+from usd2kg.errors import OntologyError
+from usd2kg.ontology.axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
+from usd2kg.ontology.documents import Document, close_imports, parse_document
+from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
+from usd2kg.ontology.prefixes import expand_curie
+from usd2kg.ontology.scope import ancestors, default_scope, nearest_parents, rooted_scope
+
+__all__ = ["load_home_tbox", "load_tbox"]
+
+_HOME = "built-in home TBox"
+_SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
+
+
+def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes: Iterable[str] | None = None) -> TBox:
+    """Return the classes of an ontology that objects can be grounded to.
+
+    Args:
+        source: an ontology in functional syntax, RDF/XML, OWL/XML, Turtle, N-Triples, JSON-LD or Manchester
+            syntax, told apart by content. Imports are read from the catalog or folder beside it.
+        roots: IRIs or CURIEs; the scope is these classes and all below them.
+        classes: IRIs or CURIEs; the scope is exactly these classes.
+
+    Raises:
+        OntologyError: the file cannot be read, or no class is in scope.
+    """
+    return _load(Path(source), str(source), roots, classes)
+
+
+def load_home_tbox() -> TBox:
+    """Return the TBox that ships with usd2kg: SOMA-HOME's classes with labels and synonyms of our own."""
+    with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
+        # The classes are SOMA-HOME's own, so that is what a graph over them imports.
+        return replace(_load(path, _HOME, None, None), ontology_iri=_SOMA_HOME)
+
+
+def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[str] | None) -> TBox:
+    document = parse_document(path)
+    documents, notes = close_imports(document)
+    own = document.axioms
+    closure = merge_axioms(doc.axioms for doc in documents)
+    scope = _scope(name, own, closure, roots, classes)
+    parents = nearest_parents(scope, closure.parents)
+    return TBox(
+        source=name,
+        ontology_iri=document.iri,
+        version_iri=document.version_iri,
+        content_hash=_hash(documents),
+        classes=tuple(_class(iri, parents[iri], closure) for iri in sorted(scope)),
+        imports=tuple(doc.iri for doc in documents[1:]),
+        notes=(*notes, *_cycle_notes(scope, closure)),
+    )
+
+
+def _scope(
+    name: str,
+    own: ClassAxioms,
+    closure: ClassAxioms,
+    roots: Iterable[str] | None,
+    classes: Iterable[str] | None,
+) -> set[str]:
+    if classes is not None:
+        scope = {expand_curie(iri) for iri in classes}
+        unknown = sorted(scope - closure.classes)
+        if unknown:
+            raise OntologyError(f"{name}: <{unknown[0]}> is no class of the ontology; check the list of classes")
+    elif roots is not None:
+        scope = rooted_scope([expand_curie(iri) for iri in roots], closure)
+    else:
+        scope = default_scope(own, closure)
+    if not scope:
+        raise OntologyError(
+            f"{name}: no class in scope ({len(closure.classes)} classes found, none placed in a hierarchy); "
+            "expected an OWL ontology with classes, name roots with --root if it has them"
+        )
+    return scope
+
+
+def _hash(documents: Iterable[Document]) -> str:
+    digests = sorted(document.digest for document in documents)
+    return "sha256:" + hashlib.sha256("".join(digests).encode()).hexdigest()
+
+
+def _class(iri: str, parents: tuple[str, ...], closure: ClassAxioms) -> OntologyClass:
+    texts = closure.annotations[iri]
+    label = texts.pick(LABELS) or local_name(iri)
+    others = texts.all((*LABELS, *ALT_LABELS)) - {label}
+    stated = {iri, *ancestors(closure.parents, iri)}
+    dispositions = {up for cls in stated for up in closure.dispositions.get(cls, ())}
+    dispositions |= {up for disposition in dispositions for up in ancestors(closure.parents, disposition)}
+    return OntologyClass(
+        iri=iri,
+        label=label,
+        alt_labels=tuple(sorted(others)),
+        comment=texts.pick(DEFINITIONS),
+        parents=parents,
+        dispositions=tuple(sorted(dispositions)),
+    )
+
+
+def _cycle_notes(scope: set[str], closure: ClassAxioms) -> list[OntologyNote]:
+    return [
+        OntologyNote("cycle", f"<{iri}> is stated to be a subclass of itself; the edges of that cycle are left out")
+        for iri in sorted(scope)
+        if any(iri in ancestors(closure.parents, parent) for parent in closure.parents.get(iri, ()))
+    ]

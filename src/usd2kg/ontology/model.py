@@ -1,0 +1,150 @@
+"""The TBox: the classes that objects can be grounded to, and the hierarchy between them."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from usd2kg.errors import OntologyError
+from usd2kg.ontology.prefixes import expand_curie
+
+__all__ = ["ClassIRI", "OntologyClass", "OntologyNote", "TBox", "local_name"]
+
+ClassIRI = str
+"""An absolute IRI that names a class."""
+
+
+def local_name(iri: str) -> str:
+    """Return the part of an IRI after its last `#`, `/` or `:`.
+
+    >>> local_name("http://www.ease-crc.org/ont/SOMA.owl#Cup")
+    'Cup'
+    """
+    return iri.rstrip("#/").replace("#", "/").rpartition("/")[2].rpartition(":")[2]
+
+
+@dataclass(frozen=True, slots=True)
+class OntologyClass:
+    """One class as the ontology describes it."""
+
+    iri: ClassIRI
+    label: str
+    """The preferred label, else the local name."""
+    alt_labels: tuple[str, ...]
+    """Further labels and synonyms, sorted."""
+    comment: str
+    """The definition or comment, empty if none."""
+    parents: tuple[ClassIRI, ...]
+    """Nearest superclasses inside the scope, sorted; none for a root."""
+    dispositions: tuple[str, ...] = ()
+    """IRIs of the dispositions stated for it or for a superclass (SOMA's `hasDisposition some …`)."""
+
+    @property
+    def local_name(self) -> str:
+        """The part of the IRI that people read."""
+        return local_name(self.iri)
+
+
+@dataclass(frozen=True, slots=True)
+class OntologyNote:
+    """Something about the ontology that a user should know; loading went on."""
+
+    code: str
+    """`missing-import`, `cycle`, `deprecated`…"""
+    message: str
+
+
+@dataclass(frozen=True)
+class TBox:
+    """The classes in scope, sorted by IRI, with their hierarchy."""
+
+    source: str
+    """The file as the user named it, or `built-in home TBox`."""
+    ontology_iri: str
+    """IRI of the ontology that a graph over these classes imports."""
+    version_iri: str | None
+    content_hash: str
+    """`sha256:` over all documents of the imports closure."""
+    classes: tuple[OntologyClass, ...]
+    imports: tuple[str, ...] = ()
+    """IRIs of the other documents of the closure, sorted."""
+    notes: tuple[OntologyNote, ...] = ()
+
+    @cached_property
+    def by_iri(self) -> Mapping[ClassIRI, OntologyClass]:
+        """IRI → class."""
+        return {cls.iri: cls for cls in self.classes}
+
+    @cached_property
+    def roots(self) -> tuple[ClassIRI, ...]:
+        """The classes without a superclass in the scope, sorted."""
+        return tuple(cls.iri for cls in self.classes if not cls.parents)
+
+    @cached_property
+    def children(self) -> Mapping[ClassIRI, tuple[ClassIRI, ...]]:
+        """IRI → direct subclasses, sorted."""
+        found: dict[ClassIRI, list[ClassIRI]] = {cls.iri: [] for cls in self.classes}
+        for cls in self.classes:
+            for parent in cls.parents:
+                found[parent].append(cls.iri)
+        return {iri: tuple(subclasses) for iri, subclasses in found.items()}
+
+    @cached_property
+    def _closures(self) -> Mapping[ClassIRI, frozenset[ClassIRI]]:
+        closures: dict[ClassIRI, frozenset[ClassIRI]] = {}
+
+        def close(iri: ClassIRI) -> frozenset[ClassIRI]:
+            if iri not in closures:
+                above = [close(parent) for parent in self.by_iri[iri].parents]
+                closures[iri] = frozenset({iri}).union(*above)
+            return closures[iri]
+
+        for cls in self.classes:
+            close(cls.iri)
+        return closures
+
+    def closure(self, iri: ClassIRI) -> frozenset[ClassIRI]:
+        """Return a class with all its superclasses in the scope (the ↑c of hierarchical measures)."""
+        return self._closures[iri]
+
+    def is_subclass(self, iri: ClassIRI, ancestor: ClassIRI) -> bool:
+        """Return whether `iri` is `ancestor` or below it."""
+        return ancestor in self._closures[iri]
+
+    @cached_property
+    def depths(self) -> Mapping[ClassIRI, int]:
+        """IRI → longest way up to a root, 0 for a root."""
+        depths: dict[ClassIRI, int] = {}
+        for iri in sorted(self._closures, key=lambda key: len(self._closures[key])):
+            depths[iri] = max((depths[parent] + 1 for parent in self.by_iri[iri].parents), default=0)
+        return depths
+
+    def lowest_common_ancestors(self, iris: Iterable[ClassIRI]) -> tuple[ClassIRI, ...]:
+        """Return the deepest classes that are above (or equal to) all of `iris`, sorted; maybe none."""
+        common = frozenset.intersection(*(self._closures[iri] for iri in iris))
+        return tuple(sorted(iri for iri in common if not any(iri in self._closures[other] for other in common - {iri})))
+
+    @cached_property
+    def _iris_by_local_name(self) -> Mapping[str, tuple[ClassIRI, ...]]:
+        found: dict[str, list[ClassIRI]] = {}
+        for cls in self.classes:
+            found.setdefault(cls.local_name, []).append(cls.iri)
+        return {name: tuple(iris) for name, iris in found.items()}
+
+    def resolve(self, name: str) -> ClassIRI:
+        """Return the class that a person means by an IRI, a CURIE, or a local name unique in the scope.
+
+        Raises:
+            OntologyError: no class of the scope, or several, go by that name.
+        """
+        name = name.strip().removeprefix("<").removesuffix(">")
+        for candidate in (name, expand_curie(name)):
+            if candidate in self.by_iri:
+                return candidate
+        named = self._iris_by_local_name.get(name, ())
+        if len(named) == 1:
+            return named[0]
+        found = f"{len(named)} classes ({', '.join(named)})" if named else "no class"
+        raise OntologyError(
+            f"{self.source}: {name!r} names {found} of the {len(self.classes)} in scope; "
+            "expected an IRI, a CURIE or a unique local name, see usd2kg ontology show"
+        )

@@ -1,0 +1,93 @@
+"""Class axioms from OWL's own syntaxes (functional, Manchester, OWL/XML), by py-horned-owl."""
+
+from collections.abc import Iterator
+from typing import Any, Literal
+
+import pyhornedowl
+
+from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
+
+__all__ = ["read_owl_axioms"]
+
+
+def read_owl_axioms(text: str, syntax: Literal["ofn", "omn", "owx"]) -> ClassAxioms:
+    """Return the axioms of a document; `syntax` is `ofn`, `omn` or `owx`.
+
+    Raises:
+        ValueError: the text does not parse.
+    """
+    axioms = ClassAxioms()
+    for item in pyhornedowl.open_ontology_from_string(text, serialization=syntax).get_components():
+        handler = _HANDLERS.get(type(item.component).__name__)
+        if handler is not None:
+            handler(item.component, axioms)
+    return axioms
+
+
+def _identify(component: Any, axioms: ClassAxioms) -> None:
+    axioms.ontology_iri = str(component.iri) if component.iri else None
+    axioms.version_iri = str(component.viri) if component.viri else None
+
+
+def _import(component: Any, axioms: ClassAxioms) -> None:
+    axioms.imports.add(str(component.first))
+
+
+def _declare(component: Any, axioms: ClassAxioms) -> None:
+    axioms.classes.add(str(component.first.first))
+
+
+def _subclass(component: Any, axioms: ClassAxioms) -> None:
+    child = _named(component.sub)
+    if child is not None:
+        _add_superclass(child, component.sup, axioms)
+
+
+def _equivalent(component: Any, axioms: ClassAxioms) -> None:
+    named = [iri for expression in component.first if (iri := _named(expression))]
+    for expression in component.first:
+        if type(expression).__name__ == "ObjectIntersectionOf":
+            for iri in named:
+                _add_superclass(iri, expression, axioms)
+
+
+def _add_superclass(child: str, expression: Any, axioms: ClassAxioms) -> None:
+    for part in _conjuncts(expression):
+        parent = _named(part)
+        if parent is not None:
+            axioms.add_parent(child, parent)
+        elif type(part).__name__ == "ObjectSomeValuesFrom" and _property(part.ope) == HAS_DISPOSITION:
+            axioms.dispositions[child].update(iri for fill in _conjuncts(part.bce) if (iri := _named(fill)))
+
+
+def _conjuncts(expression: Any) -> Iterator[Any]:
+    if type(expression).__name__ == "ObjectIntersectionOf":
+        for part in expression.first:
+            yield from _conjuncts(part)
+    else:
+        yield expression
+
+
+def _named(expression: Any) -> str | None:
+    return str(expression.first) if type(expression).__name__ == "Class" else None
+
+
+def _property(expression: Any) -> str:
+    return str(expression.first) if type(expression).__name__ == "ObjectProperty" else ""
+
+
+def _annotate(component: Any, axioms: ClassAxioms) -> None:
+    value = component.ann.av
+    text = getattr(value, "literal", None)
+    if text is not None:
+        axioms.annotate(str(component.subject), str(component.ann.ap.first), text, getattr(value, "lang", ""))
+
+
+_HANDLERS = {
+    "OntologyID": _identify,
+    "Import": _import,
+    "DeclareClass": _declare,
+    "SubClassOf": _subclass,
+    "EquivalentClasses": _equivalent,
+    "AnnotationAssertion": _annotate,
+}

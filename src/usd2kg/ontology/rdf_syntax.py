@@ -1,0 +1,100 @@
+"""Class axioms from RDF syntaxes (RDF/XML, Turtle, N-Triples, JSON-LD), by pyoxigraph.
+
+Read from the triples and not by an OWL parser: much published RDF is not quite OWL (plain `rdfs:Class`,
+undeclared annotation properties, SHACL shapes as classes), and its hierarchy is as good.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
+
+__all__ = ["read_rdf_axioms"]
+
+_RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+_RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+_OWL = "http://www.w3.org/2002/07/owl#"
+_CLASS_TYPES = (f"{_OWL}Class", f"{_RDFS}Class")
+_FORMATS = {
+    "rdf": ox.RdfFormat.RDF_XML,
+    "ttl": ox.RdfFormat.TURTLE,
+    "jsonld": ox.RdfFormat.JSON_LD,
+}
+
+_Triples = dict[Any, dict[str, list[Any]]]
+"""Subject → predicate IRI → objects."""
+
+
+def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
+    """Return the axioms of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
+
+    Raises:
+        SyntaxError: the text does not parse.
+    """
+    triples: _Triples = defaultdict(lambda: defaultdict(list))
+    # A base makes documents readable that use relative IRIs without declaring one.
+    for quad in ox.parse(text, format=_FORMATS[syntax], base_iri="http://example.org/"):
+        triples[quad.subject][quad.predicate.value].append(quad.object)
+    axioms = ClassAxioms()
+    for subject, statements in triples.items():
+        if isinstance(subject, ox.NamedNode):
+            _read_subject(subject.value, statements, triples, axioms)
+    return axioms
+
+
+def _read_subject(iri: str, statements: dict[str, list[Any]], triples: _Triples, axioms: ClassAxioms) -> None:
+    types = {node.value for node in statements.get(f"{_RDF}type", ()) if isinstance(node, ox.NamedNode)}
+    if f"{_OWL}Ontology" in types:
+        axioms.ontology_iri = iri
+        axioms.version_iri = next((node.value for node in statements.get(f"{_OWL}versionIRI", ())), None)
+        axioms.imports |= {node.value for node in statements.get(f"{_OWL}imports", ())}
+        return
+    if not types.isdisjoint(_CLASS_TYPES):
+        axioms.classes.add(iri)
+    for node in statements.get(f"{_RDFS}subClassOf", ()):
+        _add_superclass(iri, node, triples, axioms)
+    for node in statements.get(f"{_OWL}equivalentClass", ()):
+        if _is_intersection(node, triples):
+            _add_superclass(iri, node, triples, axioms)
+    for predicate, objects in statements.items():
+        for node in objects:
+            if isinstance(node, ox.Literal):
+                axioms.annotate(iri, predicate, node.value, node.language or "")
+
+
+def _add_superclass(child: str, expression: Any, triples: _Triples, axioms: ClassAxioms) -> None:
+    for part in _conjuncts(expression, triples):
+        if isinstance(part, ox.NamedNode):
+            axioms.add_parent(child, part.value)
+            continue
+        restriction = triples.get(part, {})
+        on_property = [
+            node.value for node in restriction.get(f"{_OWL}onProperty", ()) if isinstance(node, ox.NamedNode)
+        ]
+        if on_property == [HAS_DISPOSITION]:
+            fillers = [f for node in restriction.get(f"{_OWL}someValuesFrom", ()) for f in _conjuncts(node, triples)]
+            axioms.dispositions[child].update(node.value for node in fillers if isinstance(node, ox.NamedNode))
+
+
+def _is_intersection(node: Any, triples: _Triples) -> bool:
+    return isinstance(node, ox.BlankNode) and f"{_OWL}intersectionOf" in triples.get(node, {})
+
+
+def _conjuncts(node: Any, triples: _Triples) -> Iterator[Any]:
+    if not _is_intersection(node, triples):
+        yield node
+        return
+    for head in triples[node][f"{_OWL}intersectionOf"]:
+        for part in _list(head, triples):
+            yield from _conjuncts(part, triples)
+
+
+def _list(head: Any, triples: _Triples) -> Iterator[Any]:
+    seen = set()
+    while head in triples and head not in seen:
+        seen.add(head)
+        yield from triples[head].get(f"{_RDF}first", ())
+        head = next(iter(triples[head].get(f"{_RDF}rest", ())), None)

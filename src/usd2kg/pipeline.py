@@ -1,0 +1,65 @@
+"""build: the whole chain, from a scene and an ontology to a knowledge graph."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from usd2kg.graph import KnowledgeGraph, instantiate
+from usd2kg.grounding import Grounder, Grounding, ground, make_grounder
+from usd2kg.ontology import TBox, load_home_tbox, load_tbox
+from usd2kg.scene import NamingRegime, Scene, read_scene
+
+__all__ = ["BuildResult", "build", "open_tbox"]
+
+
+@dataclass(frozen=True)
+class BuildResult:
+    """What each step of the chain gave."""
+
+    scene: Scene
+    tbox: TBox
+    grounding: Grounding
+    graph: KnowledgeGraph
+
+
+def build(
+    scene: Path | str,
+    ontology: TBox | Path | str | None = None,
+    *,
+    grounder: Grounder | str = "embedded",
+    regime: NamingRegime = NamingRegime.SEMANTIC,
+    evidence: frozenset[str] | None = None,
+    paths: Iterable[str] | None = None,
+    base: str | None = None,
+    profile: str = "auto",
+) -> BuildResult:
+    """Return the knowledge graph of a USD scene, and everything on the way to it.
+
+    Args:
+        scene: the stage's root layer.
+        ontology: an OWL file, or a TBox that was loaded before; by default the built-in home TBox.
+        grounder: a grounder, or the name of one.
+        regime: how names are masked; for evaluation.
+        evidence: the evidence groups that may be used, all by default.
+        paths: prims that are objects whatever the rules of selection say.
+        base: IRI under which individuals lie.
+        profile: how objects are written: auto, soma or plain.
+
+    Raises:
+        Usd2kgError: an input cannot be read; the message says which, and what to do.
+    """
+    read = read_scene(scene, paths=paths)
+    tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
+    chosen = make_grounder(grounder) if isinstance(grounder, str) else grounder
+    grounding = ground(read, tbox, chosen, regime=regime, evidence=evidence)
+    graph = instantiate(read, tbox, grounding, base=base, profile=profile)
+    return BuildResult(read, tbox, grounding, graph)
+
+
+def open_tbox(ontology: Path | str | None) -> TBox:
+    """Return the TBox of an OWL file, or the built-in one if none is named.
+
+    Raises:
+        OntologyError: the file cannot be read or has no class in scope.
+    """
+    return load_tbox(ontology) if ontology is not None else load_home_tbox()

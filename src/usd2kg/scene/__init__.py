@@ -1,0 +1,24 @@
+"""From a USD stage to a Scene: objects with boxes, poses, masses and evidence, in metres and z-up.
+
+This package alone knows OpenUSD.
+"""
+
+from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
+from usd2kg.scene.read import read_scene
+from usd2kg.scene.views import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, abbreviate, view_objects
+
+__all__ = [
+    "EVIDENCE_GROUPS",
+    "STUDY_GROUPS",
+    "Box",
+    "Diagnostic",
+    "Instances",
+    "NamingRegime",
+    "ObjectView",
+    "Scene",
+    "SceneObject",
+    "StageFrame",
+    "abbreviate",
+    "read_scene",
+    "view_objects",
+]

@@ -1,0 +1,92 @@
+"""What else the stage says about an object: asset, materials, parts, mass, colour, texts."""
+
+from collections.abc import Iterator
+from pathlib import PurePosixPath
+from typing import Any
+
+from pxr import Usd, UsdGeom, UsdPhysics
+
+from usd2kg.scene.model import StageFrame, Vector
+from usd2kg.scene.outline import Node
+
+__all__ = ["asset_names", "display_color", "mass_kg", "material_names", "own_nodes", "part_names"]
+
+
+def own_nodes(node: Node, objects: frozenset[str] | dict[str, str]) -> Iterator[Node]:
+    """Yield `node` and what is below it, without the other objects nested below it."""
+    pending = [node]
+    while pending:
+        current = pending.pop()
+        yield current
+        pending.extend(child for child in reversed(current.children) if child.path not in objects)
+
+
+def asset_names(prim: Any) -> tuple[str, ...]:
+    """Return the names of the asset a prim comes from: assetInfo name and identifier, then file stems."""
+    info = prim.GetAssetInfo()
+    identifier = info.get("identifier")
+    names = [str(info.get("name", "")), _stem(getattr(identifier, "path", str(identifier or "")))]
+    for spec in prim.GetPrimStack():
+        for arcs in (spec.referenceList, spec.payloadList):
+            names.extend(_stem(arc.assetPath) for arc in arcs.GetAddedOrExplicitItems())
+    return tuple(dict.fromkeys(name for name in names if name))
+
+
+def _stem(asset_path: str) -> str:
+    return PurePosixPath(asset_path.replace("\\", "/")).stem
+
+
+def material_names(nodes: list[Node]) -> tuple[str, ...]:
+    """Return the names of the materials bound on `nodes`, their geometry subsets or above them."""
+    names: dict[str, None] = {}
+    for node in nodes:
+        for prim in (node.prim, *_subsets(node)):
+            for target in _bound(prim):
+                names[target] = None
+    above = nodes[0].parent
+    while not names and above is not None and above.parent is not None:
+        names.update(dict.fromkeys(_bound(above.prim)))
+        above = above.parent
+    return tuple(names)
+
+
+def _subsets(node: Node) -> list[Any]:
+    return list(UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(node.prim))) if node.is_gprim else []
+
+
+def _bound(prim: Any) -> list[str]:
+    relationship = (prim.GetPrim() if hasattr(prim, "GetPrim") else prim).GetRelationship("material:binding")
+    return [target.name for target in relationship.GetTargets()] if relationship else []
+
+
+def part_names(nodes: list[Node]) -> tuple[str, ...]:
+    """Return the distinct names of the prims below an object, in order, its own name left out."""
+    return tuple(dict.fromkeys(node.name for node in nodes[1:] if node.name != nodes[0].name))
+
+
+def mass_kg(nodes: list[Node], frame: StageFrame) -> float | None:
+    """Return the authored mass of the object's prim, or the sum over its parts; None if none is authored.
+
+    UsdPhysics: a mass of 0 means "not authored, to be derived", so it is none.
+    """
+    own = _mass(nodes[0].prim)
+    parts = [own] if own else [mass for node in nodes[1:] if (mass := _mass(node.prim))]
+    return sum(parts) * frame.kilograms_per_unit if parts else None
+
+
+def _mass(prim: Any) -> float | None:
+    if not prim.HasAPI(UsdPhysics.MassAPI):
+        return None
+    mass = UsdPhysics.MassAPI(prim).GetMassAttr().Get()
+    return float(f"{mass:.7g}") if mass and 0 < mass < float("inf") else None
+
+
+def display_color(nodes: list[Node], time: Usd.TimeCode) -> Vector | None:
+    """Return the first display colour authored on the object's geometry, linear RGB; None if none is."""
+    for node in nodes:
+        if node.is_gprim:
+            colors = UsdGeom.Gprim(node.prim).GetDisplayColorAttr().Get(time)
+            if colors:
+                red, green, blue = (float(f"{value:.6g}") for value in colors[0])
+                return (red, green, blue)
+    return None

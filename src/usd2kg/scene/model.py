@@ -1,0 +1,160 @@
+"""The records that reading a stage gives: plain, immutable, without any open stage behind them."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+__all__ = ["Box", "Diagnostic", "Instances", "Scene", "SceneObject", "StageFrame"]
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """An axis-aligned box in the scene's world frame: metres, z-up, right-handed."""
+
+    lower: Vector
+    """Smallest x, y, z."""
+    upper: Vector
+    """Largest x, y, z."""
+
+    @property
+    def size(self) -> Vector:
+        """Extent along x, y and z in metres."""
+        (x0, y0, z0), (x1, y1, z1) = self.lower, self.upper
+        return (x1 - x0, y1 - y0, z1 - z0)
+
+    @property
+    def center(self) -> Vector:
+        """The middle of the box in metres."""
+        (x0, y0, z0), (x1, y1, z1) = self.lower, self.upper
+        return ((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2)
+
+    @property
+    def volume(self) -> float:
+        """Volume in cubic metres; 0 for a flat box."""
+        width, depth, height = self.size
+        return width * depth * height
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """Something about the stage that a user should know; reading went on."""
+
+    code: str
+    """A short stable word: `composition`, `units`, `transform`, `empty-box`, `openusd`…"""
+    message: str
+    """What was found and what follows from it."""
+    prim_path: str | None = None
+    """The prim it is about, where there is one."""
+    layer: str | None = None
+    """The identifier of the layer it is about, where there is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class StageFrame:
+    """How the stage measures, before everything is converted to metres, kilograms and z-up."""
+
+    up_axis: str
+    """`Y` or `Z`, as composed."""
+    metres_per_unit: float
+    """Length of one stage unit in metres."""
+    kilograms_per_unit: float
+    """Mass of one stage unit in kilograms."""
+    is_authored: bool
+    """Whether the length unit is authored; False means OpenUSD's fallback of one centimetre."""
+
+
+@dataclass(frozen=True, slots=True)
+class Instances:
+    """The copies that one point instancer scatters."""
+
+    count: int
+    """Number of copies that are drawn."""
+    prototypes: tuple[str, ...]
+    """Names of the prototypes, in the instancer's order."""
+
+
+@dataclass(frozen=True, slots=True)
+class SceneObject:
+    """One thing a person would point at and name, with all that the stage says about it.
+
+    Lengths are metres and masses kilograms in the z-up world frame; None means that the stage does not say.
+    """
+
+    prim_path: str
+    """The authored path: the stable key of the object."""
+    name: str
+    """The prim's own name, the last part of its path."""
+    type_name: str
+    """The prim's schema type (`Xform`, `Mesh`…), empty if untyped."""
+    kind: str
+    """The authored model kind, empty if none."""
+    selected_by: str
+    """Why this prim is an object, in words."""
+    parent_path: str | None
+    """The nearest object above this one, or None."""
+    box: Box | None
+    """Everything below the prim, nested objects included; None where there is no geometry."""
+    own_box: Box | None
+    """The same without the objects nested below it."""
+    position: Vector | None
+    """World translation of the prim's own frame; None if its transform is not finite."""
+    orientation: Quaternion | None
+    """World rotation (x, y, z, w) of the prim's own frame; None if it has none (shear, zero scale)."""
+    mass_kg: float | None
+    """Authored mass, of the prim or added up over its parts."""
+    display_name: str
+    """The authored display name, empty if none."""
+    documentation: str
+    """The authored documentation, empty if none."""
+    asset: tuple[str, ...]
+    """Identifiers of the asset it comes from: assetInfo name and identifier, references, payloads."""
+    materials: tuple[str, ...]
+    """Names of the materials bound on it or below it, in order of appearance."""
+    parts: tuple[str, ...]
+    """Distinct names of the prims below it, in order of appearance, nested objects left out."""
+    display_color: Vector | None
+    """First authored display colour, linear RGB from 0 to 1."""
+    instance_of: str | None
+    """Path of the prototype shared with other copies; None if the prim is not an instance."""
+    instances: Instances | None = None
+    """Set where the object stands for the copies of a point instancer."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """All objects of one stage, in traversal order, and what reading it brought up."""
+
+    source: str
+    """The file as the user named it."""
+    content_hash: str
+    """`sha256:` over all layers the stage was composed from."""
+    frame: StageFrame
+    """The stage's own measures."""
+    time: float | None
+    """The time code that was read; None for the default time."""
+    prim_count: int
+    """Prims visited, instance proxies included."""
+    objects: tuple[SceneObject, ...]
+    """The objects, in traversal order: parents before children."""
+    left_out: Mapping[str, int]
+    """Reason → number of prims that are not objects for that reason."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """What was odd on the stage."""
+    missing_paths: tuple[str, ...] = field(default=())
+    """Paths that were asked for and do not exist on the stage."""
+
+    @cached_property
+    def by_path(self) -> Mapping[str, SceneObject]:
+        """Prim path → object."""
+        return {obj.prim_path: obj for obj in self.objects}
+
+    def ancestors(self, obj: SceneObject) -> Iterator[SceneObject]:
+        """Yield the objects above `obj`, nearest first."""
+        parent = obj.parent_path
+        while parent is not None:
+            above = self.by_path[parent]
+            yield above
+            parent = above.parent_path

@@ -1,0 +1,163 @@
+"""read_scene: from a USD file to a Scene."""
+
+import logging
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from pxr import Tf, Usd, UsdGeom
+
+from usd2kg.errors import SceneError
+from usd2kg.scene import evidence
+from usd2kg.scene.bounds import BoxReader, read_pose, union
+from usd2kg.scene.model import Diagnostic, Instances, Scene, SceneObject, StageFrame
+from usd2kg.scene.outline import Node, Outline, outline_stage
+from usd2kg.scene.selection import Selection, select_objects
+from usd2kg.scene.stage import OpenedStage, open_stage
+
+__all__ = ["read_scene"]
+
+logger = logging.getLogger(__name__)
+
+
+def read_scene(source: Path | str, *, paths: Iterable[str] | None = None) -> Scene:
+    """Return the objects of a USD stage with everything the stage says about them.
+
+    Args:
+        source: the stage's root layer (.usd, .usda, .usdc, .usdz).
+        paths: prim paths that are objects whatever the rules say, beside those the rules choose.
+            Paths that do not exist are listed in `Scene.missing_paths`.
+
+    Raises:
+        SceneError: the file cannot be read, or no object is on the stage.
+    """
+    opened = open_stage(Path(source))
+    time = Usd.TimeCode.EarliestTime() if opened.stage.HasAuthoredTimeCodeRange() else Usd.TimeCode.Default()
+    outline = outline_stage(opened, time)
+    selection = select_objects(outline)
+    wanted = list(dict.fromkeys(paths or ()))
+    nodes = {node.path: node for node in outline.root.walk()}
+    missing = _add_wanted(wanted, nodes, selection, opened)
+    objects, notes = _read_objects(opened, outline, selection, time)
+    if not objects:
+        raise SceneError(_no_object_message(str(source), outline, selection))
+    logger.info("%s: %d objects among %d prims", source, len(objects), outline.prim_count)
+    return Scene(
+        source=str(source),
+        content_hash=opened.content_hash,
+        frame=opened.frame,
+        time=None if time.IsDefault() else opened.stage.GetStartTimeCode(),
+        prim_count=outline.prim_count,
+        objects=tuple(objects),
+        left_out=dict(sorted(selection.left_out.items())),
+        diagnostics=(*opened.diagnostics, *notes),
+        missing_paths=tuple(missing),
+    )
+
+
+def _add_wanted(wanted: list[str], nodes: dict[str, Node], selection: Selection, opened: OpenedStage) -> list[str]:
+    """Add the asked-for prims to the selection, in traversal order; return the paths that do not exist."""
+    missing = []
+    for path in wanted:
+        if path in selection.chosen:
+            continue
+        if path in nodes and path != "/":
+            selection.chosen[path] = "asked for by path"
+        else:
+            missing.append(path)
+    if len(missing) < len(wanted):
+        in_order = {path: selection.chosen[path] for path in nodes if path in selection.chosen}
+        selection.chosen.clear()
+        selection.chosen.update(in_order)
+    return missing
+
+
+def _no_object_message(source: str, outline: Outline, selection: Selection) -> str:
+    counts = ", ".join(f"{count} {reason}" for reason, count in selection.left_out.most_common(4))
+    found = f"{outline.prim_count} prims ({counts})" if counts else f"{outline.prim_count} prims"
+    return f"{source}: no object found among {found}; expected prims with geometry, see usd2kg inspect --help"
+
+
+def _read_objects(
+    opened: OpenedStage, outline: Outline, selection: Selection, time: Usd.TimeCode
+) -> tuple[list[SceneObject], list[Diagnostic]]:
+    reader = _ObjectReader(opened.frame, selection.chosen, time)
+    objects: list[SceneObject] = []
+    # (node, path of the nearest object above)
+    pending: list[tuple[Node, str | None]] = [(outline.root, None)]
+    while pending:
+        node, parent_path = pending.pop()
+        if node.path in selection.chosen:
+            objects.append(reader.read(node, parent_path))
+            parent_path = node.path
+        pending.extend((child, parent_path) for child in reversed(node.children))
+    return objects, reader.notes
+
+
+class _ObjectReader:
+    """Reads one object at a time, sharing OpenUSD's caches."""
+
+    def __init__(self, frame: StageFrame, chosen: dict[str, str], time: Usd.TimeCode) -> None:
+        self.frame = frame
+        self.chosen = chosen
+        self.time = time
+        self.boxes = BoxReader(frame, time)
+        self.xforms = UsdGeom.XformCache(time)
+        self.notes: list[Diagnostic] = []
+
+    def read(self, node: Node, parent_path: str | None) -> SceneObject:
+        nodes = list(evidence.own_nodes(node, self.chosen))
+        prim = node.prim
+        box, own_box = self._boxes(node, nodes)
+        position, orientation = self._pose(node)
+        return SceneObject(
+            prim_path=node.path,
+            name=node.name,
+            type_name=node.type_name,
+            kind=node.kind,
+            selected_by=self.chosen[node.path],
+            parent_path=parent_path,
+            box=box,
+            own_box=own_box,
+            position=position,
+            orientation=orientation,
+            mass_kg=evidence.mass_kg(nodes, self.frame),
+            display_name=prim.GetDisplayName(),
+            documentation=prim.GetDocumentation().strip(),
+            asset=evidence.asset_names(prim),
+            materials=evidence.material_names(nodes),
+            parts=evidence.part_names(nodes),
+            display_color=evidence.display_color(nodes, self.time),
+            instance_of=str(prim.GetPrototype().GetPath()) if prim.IsInstance() else None,
+            instances=_read_instances(prim) if node.is_instancer else None,
+        )
+
+    def _boxes(self, node: Node, nodes: list[Node]) -> tuple[Any, Any]:
+        try:
+            box = self.boxes.read(node.prim)
+            is_whole = sum(own.is_gprim or own.is_instancer for own in nodes) == node.gprim_count
+            if is_whole or box is None:
+                own_box = box
+            else:
+                own_box = union([b for own in nodes if own.is_gprim and (b := self.boxes.read(own.prim))])
+        except Tf.ErrorException as error:
+            self._note("geometry", node, f"its box could not be computed ({error}); it has none in the graph")
+            return None, None
+        if box is None:
+            self._note("empty-box", node, "no geometry that can be measured; it has no size in the graph")
+        return box, own_box
+
+    def _pose(self, node: Node) -> tuple[Any, Any]:
+        position, orientation = read_pose(self.xforms, node.prim, self.frame)
+        if position is None or orientation is None:
+            self._note("transform", node, "its transform has no finite position or rotation; pose left out")
+        return position, orientation
+
+    def _note(self, code: str, node: Node, message: str) -> None:
+        self.notes.append(Diagnostic(code, message, node.path))
+
+
+def _read_instances(prim: Any) -> Instances:
+    instancer = UsdGeom.PointInstancer(prim)
+    count = len(instancer.GetProtoIndicesAttr().Get() or ())
+    return Instances(count, tuple(target.name for target in instancer.GetPrototypesRel().GetTargets()))

@@ -1,0 +1,203 @@
+"""Which prims are objects: things a person would point at and name.
+
+In order: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads,
+instances), and for geometry that none of these covers its nearest owner that is not a mere grouping.
+The rules see outline nodes only, so each can be tried on a tree written by hand.
+"""
+
+from collections import Counter
+from dataclasses import dataclass
+
+from usd2kg.scene.outline import Node, Outline
+from usd2kg.words import split_identifier
+
+__all__ = ["Selection", "select_objects"]
+
+_COMPONENT = "component"
+_STRUCTURE_KINDS = frozenset({"assembly", "group"})
+_GROUPING_WORDS = frozenset(
+    """
+    group groups grp all misc various stuff items furniture furnitures assets geo geometry meshes set sets
+    layout environment env world root scene visuals models parts structure decoration decorations
+    """.split()
+)
+_ARM_JOINTS = 4
+"""A chain of this many turning joints, each below the other, is a robot arm and not furniture."""
+
+
+@dataclass(frozen=True)
+class Selection:
+    """The chosen prims, in traversal order, and why the others were left out."""
+
+    chosen: dict[str, str]
+    """Prim path → why it is an object, in words."""
+    left_out: Counter[str]
+    """Reason → number of prims."""
+
+
+def select_objects(outline: Outline) -> Selection:
+    """Return the prims of `outline` that are objects, each with the reason."""
+    candidates = _model_candidates(outline)
+    _drop_whole_scene(outline.root, candidates)
+    _merge_robot_arms(outline, candidates)
+    _merge_wrappers(outline.root, candidates)
+    candidates.update(_geometry_owners(outline.root, candidates))
+    chosen = {node.path: candidates[node.path] for node in outline.root.walk() if node.path in candidates}
+    return Selection(chosen, _count_left_out(outline, chosen))
+
+
+def _model_candidates(outline: Outline) -> dict[str, str]:
+    found: dict[str, str] = {}
+    # (node, below a component or body, below an asset)
+    pending = [(outline.root, False, False)]
+    while pending:
+        node, in_model, in_asset = pending.pop()
+        is_there = node.gprim_count > 0 or _has_unresolved(node) or _has_missing_mesh(node)
+        if node.kind == _COMPONENT:
+            found[node.path] = "authored kind: component"
+            in_model = True
+        elif node.is_body and is_there and node.kind not in _STRUCTURE_KINDS:
+            found[node.path] = "rigid body"
+            in_model = True
+        elif node.is_instancer:
+            found[node.path] = "point instancer"
+        elif node.is_asset and is_there and not (in_model or in_asset or node.is_gprim) and _is_one_asset(node):
+            found[node.path] = "asset boundary (reference, payload or instance)"
+            in_asset = True
+        pending.extend((child, in_model, in_asset) for child in node.children)
+    return found
+
+
+def _has_unresolved(node: Node) -> bool:
+    return node.gprim_count == 0 and any(below.is_unresolved for below in node.walk())
+
+
+def _has_missing_mesh(node: Node) -> bool:
+    """Whether an importer left an empty frame where the visible mesh should be: a named thing all the same."""
+    return node.gprim_count == 0 and any(
+        child.type_name == "Xform" and not child.is_hidden and not child.children for child in node.children
+    )
+
+
+def _is_one_asset(node: Node) -> bool:
+    """Whether the referenced prim is one thing, not a whole set that brings in assets of its own."""
+    if node.kind in _STRUCTURE_KINDS:
+        return False
+    nested = sum(1 for below in node.walk() if below is not node and below.is_asset and not below.is_gprim)
+    return nested < 2
+
+
+def _drop_whole_scene(root: Node, candidates: dict[str, str]) -> None:
+    """A converter's root prim is a component too (the whole room as one model): it is no object then."""
+    for node in root.children:
+        if node.path in candidates and len(_nearest_below(node, candidates)) > 1:
+            del candidates[node.path]
+
+
+def _nearest_below(node: Node, candidates: dict[str, str]) -> list[Node]:
+    """Return the candidates below `node` with no other candidate between."""
+    found: list[Node] = []
+    pending = list(reversed(node.children))
+    while pending:
+        below = pending.pop()
+        if below.path in candidates:
+            found.append(below)
+        else:
+            pending.extend(reversed(below.children))
+    return found
+
+
+def _merge_robot_arms(outline: Outline, candidates: dict[str, str]) -> None:
+    turning = {path for path, joint in outline.joints.items() if joint == "PhysicsRevoluteJoint"}
+    for node in outline.root.walk():
+        if node.path in candidates and node.is_body and _chain_length(node, turning) >= _ARM_JOINTS:
+            for below in node.walk():
+                if below is not node:
+                    candidates.pop(below.path, None)
+            candidates[node.path] = "robot: a chain of turning joints"
+
+
+def _chain_length(node: Node, turning: set[str]) -> int:
+    """Return the longest run of turning joints below `node`, if the chain never branches into objects."""
+    length, current = 0, node
+    while True:
+        links = [child for child in current.children if child.is_body]
+        if len(links) != 1:
+            return length
+        current = links[0]
+        length += current.path in turning
+
+
+def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
+    """A body or asset without geometry of its own wraps one object, and then is it, or groups several."""
+    for node in reversed(list(root.walk())):
+        if node.path not in candidates or node.is_instancer or node.is_gprim:
+            continue
+        nested = _nearest_below(node, candidates)
+        own_gprims = node.gprim_count - sum(below.gprim_count for below in nested)
+        if own_gprims or not nested:
+            continue
+        if len(nested) == 1:
+            del candidates[nested[0].path]
+        elif node.kind != _COMPONENT:
+            del candidates[node.path]
+
+
+def _geometry_owners(root: Node, candidates: dict[str, str]) -> dict[str, str]:
+    owners: dict[str, str] = {}
+    for node in _owners_below(root, candidates):
+        owners[node.path] = "geometry without a model above it"
+    return owners
+
+
+def _uncovered(node: Node, candidates: dict[str, str]) -> int:
+    """Number of gprims at and below `node` that no candidate holds."""
+    if node.path in candidates:
+        return 0
+    return node.gprim_count - sum(below.gprim_count for below in _nearest_below(node, candidates))
+
+
+def _owners_below(node: Node, candidates: dict[str, str]) -> list[Node]:
+    bare = [child for child in node.children if _uncovered(child, candidates)]
+    gprims = [child for child in bare if child.is_gprim]
+    is_grouping = _is_grouping(node, candidates)
+    if gprims and not is_grouping:
+        return [node]
+    found = [owner for child in bare if not child.is_gprim for owner in _owners_below(child, candidates)]
+    is_lone_root = _is_lone_root(node) and not _nearest_below(node, candidates)
+    if len(gprims) + len(found) == 1 and (is_lone_root or not is_grouping):
+        return [node]
+    return [*gprims, *found]
+
+
+def _is_grouping(node: Node, candidates: dict[str, str]) -> bool:
+    is_top = node.parent is None or node.parent.parent is None
+    last_words = [word for word in split_identifier(node.name.lower()) if word.isalpha()][-1:]
+    is_named_group = not _GROUPING_WORDS.isdisjoint(last_words)
+    holds_objects = bool(_nearest_below(node, candidates))
+    return is_top or node.is_scope or node.kind in _STRUCTURE_KINDS or is_named_group or holds_objects
+
+
+def _is_lone_root(node: Node) -> bool:
+    """Whether the file is one asset: a single root prim with nothing below it but what is asked about."""
+    above = node.parent
+    return above is not None and above.parent is None and not node.is_scope and node.gprim_count == above.gprim_count
+
+
+def _count_left_out(outline: Outline, chosen: dict[str, str]) -> Counter[str]:
+    counts = Counter(outline.left_out)
+    # (node, below an object)
+    pending = [(child, False) for child in outline.root.children]
+    while pending:
+        node, in_object = pending.pop()
+        is_object = node.path in chosen
+        if not is_object:
+            counts[_reason(node, in_object, chosen)] += 1
+        pending.extend((child, in_object or is_object) for child in node.children)
+    return counts
+
+
+def _reason(node: Node, in_object: bool, chosen: dict[str, str]) -> str:
+    if node.gprim_count == 0:
+        return "guide or proxy geometry" if node.hidden_gprim_count else "no geometry"
+    return "part of an object" if in_object else "grouping of objects"

@@ -1,0 +1,153 @@
+"""Opening a stage, with everything OpenUSD has to say turned into diagnostics."""
+
+import hashlib
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
+
+from usd2kg.errors import SceneError
+from usd2kg.scene.model import Diagnostic, StageFrame
+
+__all__ = ["OpenedStage", "open_stage"]
+
+_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
+_USD_FALLBACK_METRES = 0.01
+
+
+@dataclass(frozen=True)
+class OpenedStage:
+    """A composed stage and what opening it brought up."""
+
+    stage: Any
+    frame: StageFrame
+    content_hash: str
+    diagnostics: tuple[Diagnostic, ...]
+    unresolved: frozenset[str]
+    """Paths of prims below which a reference or payload could not be found."""
+
+
+def open_stage(source: Path) -> OpenedStage:
+    """Open `source` with all payloads loaded.
+
+    Raises:
+        SceneError: the file is missing, is no USD file or is corrupt.
+    """
+    _check_file(source)
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    try:
+        stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
+    except Tf.ErrorException as error:
+        raise SceneError(_cannot_open(source, str(error))) from error
+    finally:
+        # The delegate is process-wide: take its notes at once, before anybody else's arrive.
+        notes = [note.commentary for note in delegate.TakeUncoalescedDiagnostics()]
+        del delegate
+    if stage is None:
+        raise SceneError(_cannot_open(source, "; ".join(notes)))
+    composition = [_composition_diagnostic(error, stage) for error in stage.GetCompositionErrors()]
+    frame, frame_notes = _read_frame(stage)
+    return OpenedStage(
+        stage=stage,
+        frame=frame,
+        content_hash=_hash_layers(stage),
+        diagnostics=_distinct([*composition, *frame_notes, *_other_notes(notes, composition)]),
+        unresolved=frozenset(note.prim_path for note in composition if note.prim_path not in {None, "/"}),
+    )
+
+
+def _check_file(source: Path) -> None:
+    if not source.exists():
+        raise SceneError(f"{source}: no such file; expected a USD stage ({', '.join(_SUFFIXES)})")
+    if source.is_dir():
+        raise SceneError(f"{source}: is a folder, expected a USD stage; name the root layer inside it")
+    if source.stat().st_size == 0:
+        raise SceneError(f"{source}: the file is empty, expected a USD stage; export it again")
+    if not Sdf.FileFormat.FindByExtension(str(source)):
+        raise SceneError(
+            f"{source}: not a USD file (ending {source.suffix or 'missing'!r}), "
+            f"expected one of {', '.join(_SUFFIXES)}; convert the scene to USD first"
+        )
+
+
+def _cannot_open(source: Path, reason: str) -> str:
+    detail = _shorten(reason)
+    return f"{source}: OpenUSD cannot read this layer{f' ({detail})' if detail else ''}; export it again"
+
+
+def _shorten(message: str, limit: int = 240) -> str:
+    """Return the first thing the message says, on one line, without the places in OpenUSD's own code."""
+    texts = re.split(r"'?\s*Error in '[^']*' at line \d+ in file \S+ : '?", message.strip())
+    first = next((text for text in texts if text.strip(" '")), "")
+    line = " ".join(first.split()).removeprefix("Encountered: ").rstrip("'")
+    return line if len(line) <= limit else line[: limit - 1] + "…"
+
+
+def _composition_diagnostic(error: Any, stage: Any) -> Diagnostic:
+    site = error.rootSite
+    layer = getattr(getattr(error, "layer", None), "identifier", None) or stage.GetRootLayer().identifier
+    return Diagnostic("composition", _shorten(str(error)), str(site.path), layer)
+
+
+def _other_notes(notes: Iterable[str], composition: Iterable[Diagnostic]) -> list[Diagnostic]:
+    # The stage repeats its composition errors as warnings; those are told already, with their prims.
+    told = [diagnostic.message.rstrip("…") for diagnostic in composition]
+    new = (note for note in notes if not any(message in note for message in told))
+    return [Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in new]
+
+
+def _prim_in(note: str) -> str | None:
+    found = re.search(r"<(/[^>]*)>", note)
+    return found.group(1) if found else None
+
+
+def _distinct(notes: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(dict.fromkeys(notes))
+
+
+def _read_frame(stage: Any) -> tuple[StageFrame, list[Diagnostic]]:
+    notes: list[Diagnostic] = []
+    layer = stage.GetRootLayer().identifier
+    metres = _metadata(stage, UsdGeom.Tokens.metersPerUnit)
+    is_authored = isinstance(metres, int | float) and 0 < metres < float("inf")
+    if metres is not None and not is_authored:
+        notes.append(
+            Diagnostic("units", f"metersPerUnit is {metres!r}, expected a positive number; 0.01 is used", None, layer)
+        )
+    if metres is None:
+        notes.append(
+            Diagnostic("units", "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used", None, layer)
+        )
+    up_axis = _metadata(stage, UsdGeom.Tokens.upAxis)
+    if up_axis not in {"Y", "Z", None}:
+        notes.append(Diagnostic("units", f"upAxis is {str(up_axis)!r}, expected Y or Z; Y is used", None, layer))
+    kilograms = _metadata(stage, UsdPhysics.Tokens.kilogramsPerUnit)
+    frame = StageFrame(
+        up_axis="Z" if up_axis == "Z" else "Y",
+        metres_per_unit=_as_double(metres) if is_authored else _USD_FALLBACK_METRES,
+        kilograms_per_unit=_as_double(kilograms) if isinstance(kilograms, int | float) and kilograms > 0 else 1.0,
+        is_authored=is_authored,
+    )
+    return frame, notes
+
+
+def _metadata(stage: Any, key: str) -> Any:
+    # Not UsdGeom.GetStageMetersPerUnit: it raises where the value is authored with another type than double.
+    return stage.GetMetadata(key) if stage.HasAuthoredMetadata(key) else None
+
+
+def _as_double(value: float) -> float:
+    # A value authored as a 32-bit float (0.01 reads 0.00999999977…) means the number that was typed.
+    return float(f"{value:.7g}")
+
+
+def _hash_layers(stage: Any) -> str:
+    digests = []
+    for layer in stage.GetUsedLayers():
+        path = Path(layer.realPath) if layer.realPath else None
+        if path is not None and path.is_file():
+            digests.append(hashlib.sha256(path.read_bytes()).hexdigest())
+    return "sha256:" + hashlib.sha256("".join(sorted(digests)).encode()).hexdigest()

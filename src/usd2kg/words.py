@@ -1,0 +1,78 @@
+"""Reading identifiers as words: `SM_CupCBlue_01` is "cup c blue"."""
+
+import unicodedata
+from functools import lru_cache
+
+__all__ = ["is_telling", "split_identifier", "words_of"]
+
+_PRODUCTION_TOKENS = frozenset(
+    """
+    sm sk skm geo geom geometry mesh msh mdl model obj object grp group xform prop props asset jnt joint low
+    high hi lo mid lod proxy render prx visual vis viz collision col coll lib link root ref rig final wip old
+    new copy copie copia inst instance default scene node prim shape polysurface ver version cm mm ctrl loc
+    locator temp tmp test static bp
+    """.split()
+)
+"""Tokens that pipelines put into names and that say nothing of what a thing is."""
+
+
+def split_identifier(identifier: str) -> tuple[str, ...]:
+    """Return the parts of an identifier in order, as written: words, letters and digit runs.
+
+    Splits at case changes, at letter-digit borders and at anything that is neither letter nor digit.
+    Identifiers that an exporter had to escape (`tn__knob1_f5`, USD's transcoding of "knob 1") lose
+    the escape's prefix and code.
+
+    >>> split_identifier("SM_CupCBlue_01")
+    ('SM', 'Cup', 'C', 'Blue', '01')
+    >>> split_identifier("TVCabinet2b")
+    ('TV', 'Cabinet', '2', 'b')
+    >>> split_identifier("tn__knob1_f5")
+    ('knob', '1')
+    """
+    text = unicodedata.normalize("NFC", identifier)
+    if text.startswith("tn__"):
+        text = text[4:].rpartition("_")[0] or text[4:]
+    parts: list[str] = []
+    start = 0
+    for end in range(1, len(text) + 1):
+        if end == len(text) or _is_border(text, end):
+            if text[start].isalnum():
+                parts.append(text[start:end])
+            start = end
+    return tuple(parts)
+
+
+def _is_border(text: str, at: int) -> bool:
+    before, after = text[at - 1], text[at]
+    if before.isalnum() != after.isalnum() or before.isdigit() != after.isdigit():
+        return True
+    if not before.isalnum():
+        return False
+    if before.islower() and after.isupper():
+        return True
+    # The last capital of a run starts the next word: TVCabinet is TV + Cabinet.
+    return before.isupper() and after.isupper() and at + 1 < len(text) and text[at + 1].islower()
+
+
+@lru_cache(maxsize=65536)
+def words_of(identifier: str) -> tuple[str, ...]:
+    """Return the telling words of an identifier, lower case, in order.
+
+    Numbers, single letters and the tokens of production pipelines (`SM_`, `_LOW`, `_geo`) are left out;
+    a name of nothing else has no words.
+
+    >>> words_of("SM_CupCBlue_01")
+    ('cup', 'blue')
+    >>> words_of("Küchentisch_LOD0")
+    ('küchentisch',)
+    >>> words_of("geo_01")
+    ()
+    """
+    parts = [part.lower() for part in split_identifier(identifier)]
+    return tuple(part for part in parts if is_telling(part))
+
+
+def is_telling(word: str) -> bool:
+    """Return whether a lower-case word may say what a thing is: no number, no letter, no pipeline token."""
+    return (len(word) > 1 or not word.isascii()) and not word.isdigit() and word not in _PRODUCTION_TOKENS

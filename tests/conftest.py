@@ -1,0 +1,39 @@
+"""Fixtures that several tests share."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from usd2kg.ontology import TBox, load_home_tbox
+
+SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
+"""Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
+
+
+@pytest.fixture
+def write_stage(tmp_path: Path) -> Callable[..., Path]:
+    """A function that writes a layer of text, `#usda 1.0` added, and returns its path."""
+
+    def write(text: str, name: str = "scene.usda") -> Path:
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("#usda 1.0\n" + text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture(scope="session")
+def home_tbox() -> TBox:
+    """The TBox that ships with the package."""
+    return load_home_tbox()
+
+
+def shared_file(relative: str) -> Path:
+    """Return a file of the shared inputs; skip the test where they are absent."""
+    path = SHARED / relative
+    if not path.exists():
+        pytest.skip(f"needs the shared input {relative}, which is not part of the project")
+    return path
