@@ -99,6 +99,9 @@ class SceneObject:
     """Everything below the prim, nested objects included; None where there is no geometry."""
     own_box: Box | None
     """The same without the objects nested below it."""
+    part_boxes: tuple[Box, ...]
+    """Boxes of the object's own geometry prims, where there are several: a shelf's boards, a chair's seat. At most
+    64, the largest; empty where one box says all."""
     position: Vector | None
     """World translation of the prim's own frame; None if its transform is not finite."""
     orientation: Quaternion | None

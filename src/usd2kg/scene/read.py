@@ -10,7 +10,7 @@ from pxr import Tf, Usd, UsdGeom
 from usd2kg.errors import SceneError
 from usd2kg.scene import evidence
 from usd2kg.scene.bounds import BoxReader, read_pose, union
-from usd2kg.scene.model import Diagnostic, Instances, Scene, SceneObject, StageFrame
+from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
 from usd2kg.scene.outline import Node, Outline, outline_stage
 from usd2kg.scene.selection import Selection, select_objects
 from usd2kg.scene.stage import OpenedStage, open_stage
@@ -18,6 +18,8 @@ from usd2kg.scene.stage import OpenedStage, open_stage
 __all__ = ["read_scene"]
 
 logger = logging.getLogger(__name__)
+
+_MOST_PARTS = 64
 
 
 def read_scene(source: Path | str, *, paths: Iterable[str] | None = None) -> Scene:
@@ -108,7 +110,7 @@ class _ObjectReader:
     def read(self, node: Node, parent_path: str | None) -> SceneObject:
         nodes = list(evidence.own_nodes(node, self.chosen))
         prim = node.prim
-        box, own_box = self._boxes(node, nodes)
+        box, own_box, part_boxes = self._boxes(node, nodes)
         position, orientation = self._pose(node)
         return SceneObject(
             prim_path=node.path,
@@ -119,6 +121,7 @@ class _ObjectReader:
             parent_path=parent_path,
             box=box,
             own_box=own_box,
+            part_boxes=part_boxes,
             position=position,
             orientation=orientation,
             mass_kg=evidence.mass_kg(nodes, self.frame),
@@ -132,20 +135,26 @@ class _ObjectReader:
             instances=_read_instances(prim) if node.is_instancer else None,
         )
 
-    def _boxes(self, node: Node, nodes: list[Node]) -> tuple[Any, Any]:
+    def _boxes(self, node: Node, nodes: list[Node]) -> tuple[Box | None, Box | None, tuple[Box, ...]]:
+        """Return the box of all below the prim, the box of its own geometry, and the boxes of its own parts."""
         try:
             box = self.boxes.read(node.prim)
+            gprims = [own for own in nodes if own.is_gprim and not own.is_hidden]
+            parts = [part for own in gprims if (part := self.boxes.read(own.prim))] if len(gprims) > 1 else []
             is_whole = sum(own.is_gprim or own.is_instancer for own in nodes) == node.gprim_count
             if is_whole or box is None:
                 own_box = box
+            elif parts:
+                own_box = union(parts)
             else:
-                own_box = union([b for own in nodes if own.is_gprim and (b := self.boxes.read(own.prim))])
+                own_box = self.boxes.read(gprims[0].prim) if gprims else None
         except Tf.ErrorException as error:
             self._note("geometry", node, f"its box could not be computed ({error}); it has none in the graph")
-            return None, None
+            return None, None, ()
         if box is None:
             self._note("empty-box", node, "no geometry that can be measured; it has no size in the graph")
-        return box, own_box
+        largest = sorted(parts, key=lambda part: -part.volume)[:_MOST_PARTS]
+        return box, own_box, tuple(part for part in parts if part in largest)
 
     def _pose(self, node: Node) -> tuple[Any, Any]:
         position, orientation = read_pose(self.xforms, node.prim, self.frame)

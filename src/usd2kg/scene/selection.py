@@ -56,7 +56,7 @@ def _model_candidates(outline: Outline) -> dict[str, str]:
         if node.kind == _COMPONENT:
             found[node.path] = "authored kind: component"
             in_model = True
-        elif node.is_body and is_there and node.kind not in _STRUCTURE_KINDS:
+        elif node.is_body and is_there and not node.kind:
             found[node.path] = "rigid body"
             in_model = True
         elif node.is_instancer:

@@ -79,6 +79,8 @@ class ObjectView:
     """The prim's name, as the regime shows it."""
     parents: tuple[str, ...] = ()
     """Names of the prims above, outermost first."""
+    groups: tuple[str, ...] = ()
+    """The last of `parents`: those that are below the nearest object above, and so only group."""
     siblings: Sequence[str] = ()
     """Names of the other objects under the same prim, in traversal order."""
     size: Vector | None = None
@@ -134,21 +136,28 @@ def view_objects(
     families = _families(scene)
     for index, obj in enumerate(scene.objects):
         parents, siblings = _company(obj, families, regime)
+        grouping = parents[obj.parent_path.count("/") if obj.parent_path else 0 :]
         view = ObjectView(
             name=masked[index] if "name" in shown else "",
             is_masked=regime is not NamingRegime.SEMANTIC,
         )
-        yield obj, _with_evidence(view, obj, shown, parents, siblings)
+        yield obj, _with_evidence(view, obj, shown, parents, grouping, siblings)
 
 
 def _with_evidence(
-    view: ObjectView, obj: SceneObject, shown: frozenset[str], parents: tuple[str, ...], siblings: Sequence[str]
+    view: ObjectView,
+    obj: SceneObject,
+    shown: frozenset[str],
+    parents: tuple[str, ...],
+    grouping: tuple[str, ...],
+    siblings: Sequence[str],
 ) -> ObjectView:
     has_name = "name" in shown and not view.is_masked
     return ObjectView(
         name=view.name,
         is_masked=view.is_masked,
         parents=parents if "hierarchy" in shown else (),
+        groups=grouping if "hierarchy" in shown else (),
         siblings=siblings if "hierarchy" in shown else (),
         size=obj.box.size if obj.box and "geometry" in shown else None,
         mass_kg=obj.mass_kg if "geometry" in shown else None,

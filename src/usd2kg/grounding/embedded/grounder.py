@@ -21,15 +21,17 @@ from usd2kg.words import words_of
 
 __all__ = ["EmbeddedGrounder"]
 
-_SHARES = {"name": 1.0, "asset": 0.9, "documentation": 0.8, "parts": 0.5}
+_SHARES = {"name": 1.0, "asset": 0.9, "documentation": 0.8, "hierarchy": 0.55, "parts": 0.5}
 """How far each source of words is trusted, as a share of what the name would be."""
+_SOURCES = {"asset": "asset", "documentation": "documentation", "hierarchy": "group", "parts": "parts"}
 _CLEAR = 0.5
 """A name that scores this is believed before other evidence is asked."""
 _PRIMITIVES = frozenset(["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull"])
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
 _COMPANY = 0.45
 _COMPANY_SAMPLE = 200
-_UNKNOWN = 0.2
+_UNKNOWN = 0.28
+_DEFAULT = 0.1
 _CANDIDATES = 8
 
 
@@ -82,12 +84,11 @@ class _Run:
 
     def predict(self, view: ObjectView) -> Prediction:
         findings = self._by_words(view)
-        if not findings and not words_of(view.name):
+        if not findings and (view.is_masked or not words_of(view.name)):
             findings = self._by_company(view)
-        if not findings:
-            return self._default("nothing is known about it")
+        if not findings or findings[0].match.score < _UNKNOWN:
+            return self._default("what is known about it does not say what it is")
         best = findings[0]
-        status = Status.SUPERCLASS if best.match.score < _UNKNOWN else Status.GROUNDED
         scores = {finding.match.class_iri: finding.match.score for finding in reversed(findings)}
         candidates = sorted(
             (Candidate(iri, score) for iri, score in scores.items()), key=lambda c: (-c.score, c.class_iri)
@@ -96,7 +97,7 @@ class _Run:
             prim_path="",
             class_iri=best.match.class_iri,
             confidence=round(best.match.score, 4),
-            status=status,
+            status=Status.GROUNDED,
             grounder=EmbeddedGrounder.name,
             explanation=best.match.explanation,
             evidence=(best.group,),
@@ -108,7 +109,7 @@ class _Run:
         findings: list[_Finding] = []
         for group, text in _texts(view):
             for match in self._match(text, view.parents if group == "name" else ()):
-                said = match.explanation if group == "name" else f"{match.explanation} (from its {group})"
+                said = match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
                 findings.append(_Finding(group, Match(match.class_iri, match.score * _SHARES[group], said)))
             findings.sort(key=_by_score)
             if findings and findings[0].match.score >= _CLEAR:
@@ -139,11 +140,11 @@ class _Run:
         return Prediction(
             prim_path="",
             class_iri=self._lexicon.default,
-            confidence=_UNKNOWN / 2,
+            confidence=_DEFAULT,
             status=Status.SUPERCLASS,
             grounder=EmbeddedGrounder.name,
             explanation=f"{reason}; {self._tbox.by_iri[self._lexicon.default].local_name} is true of most things",
-            candidates=(Candidate(self._lexicon.default, _UNKNOWN / 2),),
+            candidates=(Candidate(self._lexicon.default, _DEFAULT),),
         )
 
 
@@ -156,6 +157,7 @@ def _texts(view: ObjectView) -> list[tuple[str, str]]:
     texts = [("name", view.name), ("name", view.display_name)]
     texts += [("asset", asset) for asset in view.asset]
     texts.append(("documentation", _first_phrase(view.documentation)))
+    texts += [("hierarchy", group) for group in reversed(view.groups) if _is_plural(group)]
     texts += [("parts", part) for part in view.parts[:20] if not _PRIMITIVES.issuperset(words_of(part))]
     return [(group, text) for group, text in dict.fromkeys(texts) if text]
 
@@ -172,3 +174,9 @@ def _first_phrase(documentation: str) -> str:
         if word[-1:] in ".,;:!?":
             break
     return " ".join(words[:6])
+
+
+def _is_plural(name: str) -> bool:
+    """Return whether a group is named after what it holds (`mugs`, `wallUnits`) and not after a place."""
+    words = words_of(name)
+    return bool(words) and load_taxonomy().singular(words[-1]) != words[-1]

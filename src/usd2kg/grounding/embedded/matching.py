@@ -13,7 +13,7 @@ __all__ = ["Match", "Matcher"]
 
 _TERM, _COMPOUND_KIND, _KIND = 0.97, 0.88, 0.82
 _HOP_DECAY = 0.965
-_ROOT_SHARE = 0.6
+_ROOT_SHARE = 0.75
 _FORMER_HEAD = 0.55
 _RESPELLED = 0.9
 _PLACED = 0.95
@@ -51,6 +51,8 @@ class Matcher:
         share = _RESPELLED if phrase.corrections else 1.0
         note = "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
         for head in range(len(phrase.words), 0, -1):
+            if self._names_contents(phrase.words[:head]):
+                continue
             found = self._at_head(phrase.words[:head], (*phrase.context, *_words_above(parents)))
             for match in found:
                 yield Match(match.class_iri, match.score * share, match.explanation + note)
@@ -63,6 +65,17 @@ class Matcher:
             term = self._lexicon.first_words.get(word)
             if term is not None:
                 yield Match(term.class_iri, _TERM * term.weight, f"“{word}” is the beginning of “{term.text}”{note}")
+
+    def _names_contents(self, words: tuple[str, ...]) -> bool:
+        """Return whether the last word says what a thing before it is made of or holds: `can_tomato`, `sink_steel`.
+
+        A compound that is known as a whole (`wine glass`) says what it says.
+        """
+        *before, last = words
+        if not before or not self._reader.is_stuff(last) or not self._reader.is_thing(before[-1]):
+            return False
+        compounds = ("".join(words[start:]) for start in range(len(words) - 1))
+        return not any(key in self._lexicon.terms or key in self._taxonomy for key in compounds)
 
     def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> list[Match]:
         """Return the matches of the longest run of words that ends with the last one and is known."""

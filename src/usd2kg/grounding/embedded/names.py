@@ -20,7 +20,10 @@ _PLACEMENTS = frozenset(
     """.split()
 )
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
+_CONTENT_DOMAINS = frozenset({"food", "plant"})
 _THING_DOMAINS = frozenset({"artifact", "food"})
+_SHORTEST_RESPELLED = 6
+"""Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +89,16 @@ class NameReader:
         senses = self._taxonomy.senses(word)
         return bool(senses) and all(sense.domain in _STUFF_DOMAINS for sense in senses)
 
+    def is_stuff(self, word: str) -> bool:
+        """Return whether a word is first of all something that a thing is made of or holds: steel, glass, tomato."""
+        senses = self._taxonomy.senses(word)
+        return bool(senses) and senses[0].domain in _STUFF_DOMAINS | _CONTENT_DOMAINS
+
+    def is_thing(self, word: str) -> bool:
+        """Return whether a word is first of all a made thing."""
+        senses = self._taxonomy.senses(word)
+        return word in self._lexicon.terms if not senses else senses[0].domain == "artifact"
+
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
         above = {token for parent in parents for token in _tokens(parent)}
@@ -115,7 +128,13 @@ class NameReader:
         return None
 
     def _known_words(self, word: str) -> tuple[str, ...] | None:
-        return (word,) if self.is_known(word) else self._split(word)
+        """Return a run of letters as known words of any kind, the longest last word first."""
+        if self.is_known(word):
+            return (word,)
+        for at in range(3, len(word) - 2):
+            if self.is_known(word[at:]) and (before := self._known_words(word[:at])):
+                return (*before, word[at:])
+        return None
 
     def _is_noun(self, word: str) -> bool:
         if word in self._lexicon.terms:
@@ -133,8 +152,11 @@ class NameReader:
                 word, choices, scorer=OSA.distance, score_cutoff=budget, limit=5
             ):
                 # The TBox's own words first: they are what the scene is likely to be about.
-                rank = (int(distance), candidate not in self._lexicon.vocabulary, candidate)
-                if candidate[0] == word[0] and (best is None or rank < best):
+                is_foreign = candidate not in self._lexicon.vocabulary
+                rank = (int(distance), is_foreign, candidate)
+                if candidate[0] != word[0] or (is_foreign and len(word) < _SHORTEST_RESPELLED):
+                    continue
+                if best is None or rank < best:
                     best = rank
         return (best[2],) if best else None
 
