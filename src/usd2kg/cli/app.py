@@ -37,7 +37,8 @@ app.add_typer(ontology.app, name="ontology")
 @app.callback()
 def _options(
     verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="Say what is done, and show the traceback of an error.")
+        bool,
+        typer.Option("--verbose", help="Say what is done, and show the traceback of an error; may stand anywhere."),
     ] = False,
 ) -> None:
     level = logging.INFO if verbose else logging.WARNING
@@ -46,10 +47,15 @@ def _options(
 
 def main() -> None:
     """Run the command line; an error that a user can mend becomes one line and exit code 2."""
+    arguments = sys.argv[1:]
+    is_verbose = "--verbose" in arguments
+    if is_verbose:
+        # It belongs to the whole program, but people add it to the end of the command that just failed.
+        arguments = ["--verbose", *(argument for argument in arguments if argument != "--verbose")]
     try:
-        app()
+        app(args=arguments)
     except Usd2kgError as error:
-        if {"--verbose", "-v"} & set(sys.argv[1:]):
+        if is_verbose:
             traceback.print_exc()
         talk(f"usd2kg: {' '.join(str(error).split())}")
         sys.exit(2)

@@ -42,7 +42,7 @@ def read_scene(source: Path | str, *, paths: Iterable[str] | None = None) -> Sce
     missing = _add_wanted(wanted, nodes, selection, opened)
     objects, notes = _read_objects(opened, outline, selection, time)
     if not objects:
-        raise SceneError(_no_object_message(str(source), outline, selection))
+        raise SceneError(_no_object_message(str(source), outline, selection, opened))
     logger.info("%s: %d objects among %d prims", source, len(objects), outline.prim_count)
     return Scene(
         source=str(source),
@@ -74,10 +74,11 @@ def _add_wanted(wanted: list[str], nodes: dict[str, Node], selection: Selection,
     return missing
 
 
-def _no_object_message(source: str, outline: Outline, selection: Selection) -> str:
+def _no_object_message(source: str, outline: Outline, selection: Selection, opened: OpenedStage) -> str:
     counts = ", ".join(f"{count} {reason}" for reason, count in selection.left_out.most_common(4))
     found = f"{outline.prim_count} prims ({counts})" if counts else f"{outline.prim_count} prims"
-    return f"{source}: no object found among {found}; expected prims with geometry, see usd2kg inspect --help"
+    trouble = f"; {opened.diagnostics[0].message}" if opened.diagnostics else ""
+    return f"{source}: no object among {found}, expected prims with geometry; check what the file refers to{trouble}"
 
 
 def _read_objects(

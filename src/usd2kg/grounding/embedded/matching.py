@@ -16,6 +16,8 @@ _HOP_DECAY = 0.965
 _ROOT_SHARE = 0.75
 _FORMER_HEAD = 0.55
 _RESPELLED = 0.9
+_WEAK = 0.5
+_EPITHET = 0.8
 _PLACED = 0.95
 
 
@@ -56,9 +58,12 @@ class Matcher:
             found = self._at_head(phrase.words[:head], (*phrase.context, *_words_above(parents)))
             for match in found:
                 yield Match(match.class_iri, match.score * share, match.explanation + note)
-            if found:
+            is_weak = max((match.score for match in found), default=0.0) < _WEAK
+            if found and not (is_weak and self._reader.is_epithet(phrase.words[head - 1])):
                 return
-            if not self._reader.is_modifier(phrase.words[head - 1]):
+            if found:
+                share *= _EPITHET
+            elif not self._reader.is_modifier(phrase.words[head - 1]):
                 # The word that should say what it is means nothing here: what stands before it says less.
                 share *= _FORMER_HEAD
         for word in reversed(phrase.words):

@@ -94,6 +94,11 @@ class NameReader:
         senses = self._taxonomy.senses(word)
         return bool(senses) and senses[0].domain in _STUFF_DOMAINS | _CONTENT_DOMAINS
 
+    def is_epithet(self, word: str) -> bool:
+        """Return whether a word is first of all no thing of a scene, but may describe one: `tap_swanNeck`."""
+        senses = self._taxonomy.senses(word)
+        return bool(senses) and senses[0].domain not in _THING_DOMAINS | {"communication"}
+
     def is_thing(self, word: str) -> bool:
         """Return whether a word is first of all a made thing."""
         senses = self._taxonomy.senses(word)

@@ -1,0 +1,116 @@
+"""The demo kitchen from file to answers, against its gold labels and the relations it was built with."""
+
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import usd2kg
+from usd2kg.demo import demo_gold, demo_relations, demo_scene
+from usd2kg.ontology import TBox
+from usd2kg.pipeline import BuildResult
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def built() -> BuildResult:
+    return usd2kg.build(demo_scene())
+
+
+@pytest.fixture(scope="module")
+def store(built: BuildResult, tmp_path_factory: pytest.TempPathFactory):
+    path = tmp_path_factory.mktemp("demo") / "kitchen.ttl"
+    usd2kg.write_graph(built.graph, path)
+    return usd2kg.load_graph(path)
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_gold_object_is_found_and_no_other(built: BuildResult) -> None:
+    gold = {row["path"] for row in _rows(demo_gold())}
+    found = {obj.prim_path for obj in built.scene.objects}
+    assert found == gold
+    assert len(gold) >= 120
+    assert built.scene.left_out["camera"] == 2
+    assert built.scene.left_out["light"] == 3
+    assert built.scene.left_out["invisible"] == 1
+    assert built.scene.left_out["inactive"] == 1
+
+
+def test_classes_agree_with_the_gold_labels(built: BuildResult, home_tbox: TBox) -> None:
+    # Floors a little below what is measured (0.78 and 0.93), so that a grounder that got worse is noticed.
+    strict = accepted = 0
+    gold = _rows(demo_gold())
+    for row in gold:
+        right = home_tbox.resolve(row["class"])
+        also = {home_tbox.resolve(name) for name in row["also"].split("|") if name}
+        answer = built.grounding.by_path[row["path"]].class_iri
+        strict += answer == right
+        accepted += answer == right or answer in also
+    assert strict / len(gold) >= 0.75
+    assert accepted / len(gold) >= 0.90
+
+
+def test_relations_agree_with_the_layout(built: BuildResult) -> None:
+    true = {(row["subject"], row["relation"], row["object"]) for row in _rows(demo_relations())}
+    found = {(relation.target, relation.kind, relation.anchor) for relation in built.graph.relations}
+    right = len(found & true)
+    # Measured: 202 of 215 found are true, 202 of 245 true are found.
+    assert right / len(found) >= 0.92
+    assert right / len(true) >= 0.80
+
+
+def test_what_is_on_the_dining_table(store) -> None:
+    labels = {row[0] for row in store.ask(["what", "is", "on", "the", "dining", "table?"]).rows}
+    assert {"dinnerPlate_1", "wineGlass_01", "saladBowl", "breadBasket", "knife_3"} <= labels
+    assert "diningTable" not in labels
+    assert not labels & {"roll_1", "pastaBowl_1"}, "these are in the basket and on a plate"
+
+
+def test_what_is_in_the_refrigerator(store) -> None:
+    labels = {row[0] for row in store.ask(["in", "refrigerator"]).rows}
+    assert {"milkCarton_1", "butterDish", "eggCarton"} <= labels
+    assert "toaster" not in labels
+
+
+def test_all_of_a_class_includes_its_subclasses(store) -> None:
+    classes = {row[1] for row in store.ask(["all", "of", "crockery"]).rows}
+    assert {"dinner plate", "cup", "wine glass", "pan"} <= classes
+    assert "refrigerator" not in classes
+
+
+def test_where_a_thing_is(store) -> None:
+    answer = store.ask(["where", "is", "toaster"])
+    row = dict(zip(answer.columns, answer.rows[0], strict=True))
+    assert row["on"] == "Worktop"
+    height = float((row["center_m"] or "").split()[2])
+    # The worktop is 0.90 m high and the toaster about 0.21 m: its middle is near 1.0 m.
+    assert height == pytest.approx(1.0, abs=0.05)
+
+
+def test_the_same_input_gives_the_same_bytes(tmp_path: Path) -> None:
+    outputs = []
+    for seed in ("1", "2"):
+        path = tmp_path / f"{seed}.ttl"
+        code = (
+            "import sys, usd2kg; from pathlib import Path; from usd2kg.demo import demo_scene;"
+            "usd2kg.write_graph(usd2kg.build(demo_scene()).graph, Path(sys.argv[1]))"
+        )
+        subprocess.run([sys.executable, "-c", code, str(path)], check=True, env={"PYTHONHASHSEED": seed})
+        outputs.append(path.read_bytes())
+    assert outputs[0] == outputs[1]
+
+
+def test_the_scripts_write_the_scene_that_ships(tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "-m", "examples.demo_kitchen.make", str(tmp_path)], check=True, cwd=ROOT)
+    shipped = demo_scene().parent
+    names = {str(path.relative_to(shipped)) for path in shipped.rglob("*") if path.is_file()}
+    made = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
+    assert made == names
+    assert all((tmp_path / name).read_bytes() == (shipped / name).read_bytes() for name in names)

@@ -1,0 +1,91 @@
+"""Scenes and TBoxes written by hand, so that grounding is tested without OpenUSD or OWL files."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from usd2kg.grounding import Prediction
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.ontology import OntologyClass, TBox
+from usd2kg.scene import ObjectView, Scene, SceneObject, StageFrame
+
+SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
+LAB = "https://lab.example/onto#"
+
+
+def make_object(path: str, **known: Any) -> SceneObject:
+    """Return an object of which only the path is known, and what `known` adds."""
+    blank: dict[str, Any] = {
+        "prim_path": path,
+        "name": path.rpartition("/")[2],
+        "type_name": "Xform",
+        "kind": "component",
+        "selected_by": "written by hand",
+        "parent_path": None,
+        "box": None,
+        "own_box": None,
+        "part_boxes": (),
+        "position": None,
+        "orientation": None,
+        "mass_kg": None,
+        "display_name": "",
+        "documentation": "",
+        "asset": (),
+        "materials": (),
+        "parts": (),
+        "display_color": None,
+        "instance_of": None,
+    }
+    return SceneObject(**(blank | known))
+
+
+def make_scene(*objects: SceneObject, source: str = "room.usda") -> Scene:
+    return Scene(
+        source=source,
+        content_hash="sha256:5ce7e",
+        frame=StageFrame("Z", 1.0, 1.0, True),
+        time=None,
+        prim_count=len(objects),
+        objects=objects,
+        left_out={},
+    )
+
+
+def scene_of(*paths: str) -> Scene:
+    return make_scene(*(make_object(path) for path in paths))
+
+
+def make_class(
+    name: str, *parents: str, label: str = "", synonyms: Iterable[str] = (), base: str = LAB
+) -> OntologyClass:
+    return OntologyClass(
+        iri=base + name,
+        label=label or name,
+        alt_labels=tuple(sorted(synonyms)),
+        comment="",
+        parents=tuple(sorted(base + parent for parent in parents)),
+    )
+
+
+def make_tbox(*classes: OntologyClass) -> TBox:
+    return TBox(
+        source="written by hand",
+        ontology_iri="https://lab.example/onto",
+        version_iri=None,
+        content_hash="sha256:7b0c5",
+        classes=tuple(sorted(classes, key=lambda cls: cls.iri)),
+    )
+
+
+def ground_names(names: Sequence[str], tbox: TBox, **evidence: Any) -> list[Prediction]:
+    """Return the predictions of the embedded grounder for bare names."""
+    views = [(f"/Room/thing{i}", ObjectView(name=name, **evidence)) for i, name in enumerate(names)]
+    return EmbeddedGrounder().ground_views(views, tbox)
+
+
+def ground_view(view: ObjectView, tbox: TBox) -> Prediction:
+    return EmbeddedGrounder().ground_views([("/Room/thing", view)], tbox)[0]
+
+
+def local(prediction: Prediction) -> str:
+    """Return the local name of a prediction's class, empty if it has none."""
+    return (prediction.class_iri or "").rpartition("#")[2]

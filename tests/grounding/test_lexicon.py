@@ -1,0 +1,168 @@
+"""The words of a TBox: which terms name which class, and which meaning of a word a class stands for."""
+
+import pytest
+
+from tests.grounding.records import LAB, SOMA, make_class, make_tbox
+from usd2kg.grounding.embedded.lexicon import Lexicon, build_lexicon, sense_weight
+from usd2kg.grounding.embedded.taxonomy import Sense, load_taxonomy
+from usd2kg.ontology import TBox
+
+
+def lexicon_of(tbox: TBox, synonyms: dict[str, tuple[str, ...]] | None = None) -> Lexicon:
+    return build_lexicon(tbox, load_taxonomy(), synonyms or {})
+
+
+def named(lexicon: Lexicon, term: str) -> str | None:
+    found = lexicon.terms.get(term)
+    return found.class_iri.rpartition("#")[2] if found else None
+
+
+def anchored(lexicon: Lexicon, lemma: str) -> dict[int, str]:
+    """Return rank of meaning → class, for the meanings of a word that are aligned with a class."""
+    senses = load_taxonomy().senses(lemma)
+    anchors = {sense.rank: lexicon.anchors.get(sense.synset) for sense in senses}
+    return {rank: anchor.class_iri.rpartition("#")[2] for rank, anchor in anchors.items() if anchor}
+
+
+LABORATORY = make_tbox(
+    make_class("Equipment"),
+    make_class("GlassVessel", "Equipment", label="glass vessel"),
+    make_class("Beaker", "GlassVessel", synonyms=("beaker glass", "Becherglas")),
+    make_class("BunsenBurner", "Equipment", label="Bunsen burner (gas)", synonyms=("burners",)),
+)
+
+
+def test_label_local_name_and_synonyms_name_the_class():
+    lexicon = lexicon_of(LABORATORY)
+    terms = ["equipment", "glassvessel", "beaker", "beakerglass", "becherglas", "bunsenburner"]
+    assert [named(lexicon, term) for term in terms] == [
+        "Equipment",
+        "GlassVessel",
+        "Beaker",
+        "Beaker",
+        "Beaker",
+        "BunsenBurner",
+    ]
+    assert named(lexicon, "centrifuge") is None
+
+
+def test_a_remark_in_brackets_is_no_part_of_the_label():
+    assert named(lexicon_of(LABORATORY), "bunsenburnergas") is None
+
+
+def test_terms_are_kept_in_the_singular():
+    lexicon = lexicon_of(LABORATORY)
+    assert named(lexicon, "burner") == "BunsenBurner"
+    assert named(lexicon, "burners") is None
+
+
+def test_a_label_weighs_more_than_a_synonym_and_a_synonym_more_than_a_head():
+    lexicon = lexicon_of(LABORATORY)
+    label, synonym, head = (lexicon.terms[term].weight for term in ("beaker", "becherglas", "vessel"))
+    assert label == 1.0
+    assert label > synonym > head
+
+
+def test_the_last_word_of_a_label_stands_for_the_class_where_no_class_has_that_name():
+    assert named(lexicon_of(LABORATORY), "vessel") == "GlassVessel"
+    with_vessel = make_tbox(*LABORATORY.classes, make_class("Vessel", "Equipment"))
+    assert named(lexicon_of(with_vessel), "vessel") == "Vessel"
+
+
+def test_the_last_word_of_a_mere_synonym_stands_for_nothing():
+    # "beaker glass" is a synonym: not everything called glass is a beaker.
+    assert named(lexicon_of(LABORATORY), "glass") is None
+
+
+def test_a_first_word_stands_for_the_class_only_if_no_other_label_begins_with_it():
+    assert lexicon_of(LABORATORY).first_words["bunsen"].class_iri == LAB + "BunsenBurner"
+    with_stand = make_tbox(*LABORATORY.classes, make_class("BunsenStand", "Equipment"))
+    assert "bunsen" not in lexicon_of(with_stand).first_words
+
+
+def test_a_word_that_is_a_term_is_no_first_word():
+    tbox = make_tbox(make_class("Beaker"), make_class("BeakerTongs", label="beaker tongs"))
+    assert "beaker" not in lexicon_of(tbox).first_words
+
+
+def test_synonyms_from_elsewhere_are_added_by_class():
+    lexicon = lexicon_of(LABORATORY, {LAB + "Beaker": ("griffin cup",), LAB + "NoSuchClass": ("ghost",)})
+    assert named(lexicon, "griffincup") == "Beaker"
+    assert named(lexicon, "ghost") is None
+
+
+def test_an_own_label_wins_over_the_synonym_of_another_class():
+    tbox = make_tbox(make_class("Cup", synonyms=("mug",)), make_class("Mug"))
+    assert named(lexicon_of(tbox), "mug") == "Mug"
+    tbox = make_tbox(make_class("Cup"), make_class("Amug", synonyms=("cup",)))
+    assert named(lexicon_of(tbox), "cup") == "Cup"
+
+
+def test_of_two_equal_claims_the_general_class_keeps_the_word():
+    tbox = make_tbox(
+        make_class("Equipment"),
+        make_class("Zvessel", "Equipment", synonyms=("container",)),
+        make_class("Ajar", "Zvessel", synonyms=("container",)),
+    )
+    assert named(lexicon_of(tbox), "container") == "Zvessel"
+
+
+def test_jargon_that_many_names_begin_with_is_dropped(home_tbox: TBox):
+    # SOMA calls things DesignedTool, DesignedContainer… and nobody says "designed tool".
+    lexicon = lexicon_of(home_tbox)
+    assert named(lexicon, "tool") == "DesignedTool"
+    assert named(lexicon, "designedtool") == "DesignedTool"
+    assert named(lexicon, "container") == "DesignedContainer"
+
+
+@pytest.mark.parametrize(
+    ("names", "term"),
+    [
+        # Twice is no habit of the ontology's.
+        (["DesignedTool", "DesignedBox"], "tool"),
+        # "Kitchen" is a thing's name: a kitchen knife is not just any knife.
+        (["KitchenTool", "KitchenBox", "KitchenRack"], "box"),
+    ],
+)
+def test_other_first_words_are_kept(names: list[str], term: str):
+    lexicon = lexicon_of(make_tbox(*(make_class(name) for name in names)))
+    # The bare word is at most a head, never the label itself.
+    assert lexicon.terms[term].weight < 1.0
+
+
+def test_a_label_is_aligned_with_the_meaning_below_its_superclass():
+    # WordNet's cranes: a constellation (3), the machine that lifts (4), the wading bird (5).
+    machine = make_tbox(make_class("LiftingDevice"), make_class("Crane", "LiftingDevice"))
+    assert anchored(lexicon_of(machine), "crane") == {4: "Crane"}
+    bird = make_tbox(make_class("Bird"), make_class("WadingBird", "Bird"), make_class("Crane", "WadingBird"))
+    assert 5 in anchored(lexicon_of(bird), "crane")
+    assert 4 not in anchored(lexicon_of(bird), "crane")
+
+
+def test_things_made_come_before_other_meanings():
+    made, animal = Sense(0, 1, "artifact"), Sense(1, 1, "animal")
+    assert sense_weight(made) > sense_weight(animal)
+    assert sense_weight(made) > sense_weight(Sense(2, 2, "artifact"))
+
+
+def test_the_default_is_the_root_with_the_most_classes_below_it(home_tbox: TBox):
+    assert lexicon_of(LABORATORY).default == LAB + "Equipment"
+    two = make_tbox(make_class("Alone"), make_class("Wide"), make_class("A", "Wide"), make_class("B", "Wide"))
+    assert lexicon_of(two).default == LAB + "Wide"
+    assert lexicon_of(home_tbox).default.endswith("#DesignedArtifact")
+
+
+def test_the_vocabulary_holds_the_words_of_all_terms():
+    assert {"bunsen", "burner", "glass", "vessel", "beaker"} <= lexicon_of(LABORATORY).vocabulary
+
+
+def test_the_home_tbox_names_every_class_by_its_own_local_name(home_tbox: TBox):
+    lexicon = lexicon_of(home_tbox)
+    wrong = [
+        cls.local_name
+        for cls in home_tbox.classes
+        if (term := lexicon.terms.get(cls.local_name.lower())) is None or term.class_iri != cls.iri
+    ]
+    assert wrong == []
+    assert named(lexicon, "cup") == "Cup"
+    assert lexicon.terms["cup"].class_iri == SOMA + "Cup"

@@ -1,0 +1,192 @@
+"""Groundings as files: the CSV's exact bytes, JSON read back, lists of paths."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.grounding.records import LAB, make_class, make_tbox
+from usd2kg.errors import GroundingError
+from usd2kg.grounding import Candidate, Grounding, Prediction, Status, format_mapping, read_grounding, read_paths
+
+TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label='cup, "tall"'))
+
+
+def make_grounding(*predictions: Prediction) -> Grounding:
+    return Grounding(
+        scene="room.usda",
+        scene_hash="sha256:1",
+        ontology="https://lab.example/onto",
+        ontology_hash="sha256:2",
+        grounder="embedded",
+        settings={"regime": "semantic", "evidence": "name"},
+        is_calibrated=False,
+        tool_version="0.1.0",
+        predictions=predictions,
+    )
+
+
+SMALL = make_grounding(
+    Prediction(
+        "/Küche/Cup_1",
+        LAB + "Cup",
+        0.97,
+        Status.GROUNDED,
+        "embedded",
+        "“cup” is the label",
+        ("name",),
+        (Candidate(LAB + "Cup", 0.97), Candidate(LAB + "Thing", 0.123456789)),
+    ),
+    Prediction("/Küche/x", LAB + "Thing", 0.1, Status.SUPERCLASS, "embedded", "nothing is known"),
+    Prediction("/Küche/y", None, None, Status.REFUSED, "dictionary", "not in the dictionary"),
+    Prediction("/Küche/z", None, None, Status.MISSING, "embedded", "no such prim"),
+)
+
+
+class TestCsv:
+    def test_exact_bytes(self):
+        assert format_mapping(SMALL, TBOX, "csv") == (
+            "path,class,label,confidence,status,grounder\n"
+            '/Küche/Cup_1,https://lab.example/onto#Cup,"cup, ""tall""",0.9700,grounded,embedded\n'
+            "/Küche/x,https://lab.example/onto#Thing,Thing,0.1000,superclass,embedded\n"
+            "/Küche/y,,,,refused,dictionary\n"
+            "/Küche/z,,,,missing,embedded\n"
+        )
+
+    def test_no_predictions_leave_the_header(self):
+        assert format_mapping(make_grounding(), TBOX, "csv") == "path,class,label,confidence,status,grounder\n"
+
+    @settings(deadline=None, max_examples=80)
+    @given(st.text(st.characters(exclude_characters="\r\x00", exclude_categories=["Cs"]), min_size=1, max_size=30))
+    def test_any_path_and_label_survive(self, text: str):
+        tbox = make_tbox(make_class("Thing", label=text))
+        grounding = make_grounding(Prediction(text, LAB + "Thing", 1.0, Status.GROUNDED, "embedded", ""))
+        rows = list(csv.DictReader(io.StringIO(format_mapping(grounding, tbox, "csv"), newline="")))
+        assert [(row["path"], row["label"]) for row in rows] == [(text, text)]
+
+
+class TestJson:
+    def test_what_is_read_back_is_equal(self, tmp_path: Path):
+        path = tmp_path / "mapping.json"
+        path.write_text(format_mapping(SMALL, TBOX, "json"), encoding="utf-8")
+        assert read_grounding(path) == SMALL
+
+    def test_its_types_are_those_of_the_records(self, tmp_path: Path):
+        path = tmp_path / "mapping.json"
+        path.write_text(format_mapping(SMALL, TBOX, "json"), encoding="utf-8")
+        first = read_grounding(path).predictions[0]
+        assert isinstance(first.status, Status)
+        assert isinstance(first.candidates[0], Candidate)
+        assert isinstance(first.evidence, tuple)
+
+    def test_it_is_plain_json_with_a_format_mark(self):
+        data = json.loads(format_mapping(SMALL, TBOX, "json"))
+        assert data["format"] == "usd2kg-grounding/1"
+        assert data["predictions"][0]["status"] == "grounded"
+        assert data["predictions"][2]["class_iri"] is None
+
+    def test_the_text_ends_with_one_newline(self):
+        text = format_mapping(SMALL, TBOX, "json")
+        assert text.endswith("}\n")
+        assert "Küche" in text
+
+    @settings(deadline=None, max_examples=60)
+    @given(
+        st.text(st.characters(exclude_categories=["Cs"]), max_size=30),
+        st.floats(0, 1),
+        st.sampled_from(list(Status)),
+        st.dictionaries(st.text("abc"), st.text("xyz"), max_size=3),
+    )
+    def test_anything_is_read_back_equal(
+        self, tmp_path_factory: pytest.TempPathFactory, text: str, score: float, status: Status, options: dict[str, str]
+    ):
+        prediction = Prediction(text, text, score, status, text, text, (text,), (Candidate(text, score),))
+        grounding = Grounding(text, "", "", "", "", options, True, "", (prediction,))
+        path = tmp_path_factory.getbasetemp() / "any.json"
+        path.write_text(format_mapping(grounding, TBOX, "json"), encoding="utf-8")
+        assert read_grounding(path) == grounding
+
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "",
+            "path,class\n",
+            "[]",
+            "null",
+            "{}",
+            '{"format": "usd2kg-grounding/2", "predictions": []}',
+            '{"format": "usd2kg-grounding/1"}',
+            '{"format": "usd2kg-grounding/1", "predictions": [], "surprise": 1}',
+            '{"format": "usd2kg-grounding/1", "predictions": [{}]}',
+            '{"format": "usd2kg-grounding/1", "predictions": 7}',
+        ],
+    )
+    def test_other_json_is_an_error_that_names_the_file(self, tmp_path: Path, text: str):
+        path = tmp_path / "mapping.json"
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(GroundingError) as error:
+            read_grounding(path)
+        assert str(path) in str(error.value)
+        assert "--format json" in str(error.value)
+
+    def test_an_unknown_status_is_an_error(self, tmp_path: Path):
+        path = tmp_path / "mapping.json"
+        path.write_text(format_mapping(SMALL, TBOX, "json").replace('"refused"', '"shy"'), encoding="utf-8")
+        with pytest.raises(GroundingError, match="shy"):
+            read_grounding(path)
+
+    def test_a_missing_file_is_an_error(self, tmp_path: Path):
+        with pytest.raises(GroundingError, match=r"none\.json"):
+            read_grounding(tmp_path / "none.json")
+
+
+def test_an_unknown_format_is_an_error():
+    with pytest.raises(GroundingError, match="format 'xlsx' is unknown; expected one of csv, json"):
+        format_mapping(SMALL, TBOX, "xlsx")
+
+
+class TestPaths:
+    def read(self, folder: Path, data: str | bytes) -> list[str]:
+        path = folder / "paths.csv"
+        path.write_bytes(data if isinstance(data, bytes) else data.encode())
+        return read_paths(path)
+
+    @pytest.mark.parametrize(
+        ("text", "paths"),
+        [
+            ("path\n/b\n/a\n", ["/b", "/a"]),
+            ("path\r\n/b\r\n/a\r\n", ["/b", "/a"]),
+            ("path\n/a", ["/a"]),
+            ("\ufeffpath,class,also\n/a,Cup,\n/b,Oven,Stove\n", ["/a", "/b"]),
+            ("class,path\nCup,/a\n", ["/a"]),
+            # Repeats, blanks and empty cells.
+            ("path\n/a\n\n/b\n/a\n", ["/a", "/b"]),
+            ('path,note\n /a ,"x"\n,empty\n', ["/a"]),
+            ("path\n", []),
+            ("path\n/Küche/杯子\n", ["/Küche/杯子"]),
+        ],
+    )
+    def test_the_column_path_in_order_without_repeats(self, tmp_path: Path, text: str, paths: list[str]):
+        assert self.read(tmp_path, text) == paths
+
+    @pytest.mark.parametrize(("text", "found"), [("", "nothing"), ("/a\n/b\n", "/a"), ("Path\n/a\n", "Path")])
+    def test_a_file_without_that_column_is_an_error(self, tmp_path: Path, text: str, found: str):
+        with pytest.raises(GroundingError) as error:
+            self.read(tmp_path, text)
+        assert "expected a column 'path'" in str(error.value)
+        assert f"has the columns {found}" in str(error.value)
+
+    def test_a_missing_or_binary_file_is_an_error(self, tmp_path: Path):
+        with pytest.raises(GroundingError, match=r"none\.csv: cannot be read"):
+            read_paths(tmp_path / "none.csv")
+        with pytest.raises(GroundingError, match=r"paths\.csv: cannot be read"):
+            self.read(tmp_path, b"path\n\xff\xff\n")
+
+    def test_a_quote_that_never_closes_is_an_error_and_no_crash(self, tmp_path: Path):
+        # All that follows is one field, longer than the csv module allows (131,072 characters).
+        with pytest.raises(GroundingError, match=r"paths\.csv"):
+            self.read(tmp_path, 'path\n"/a\n' + "/Room/Cup\n" * 20_000)

@@ -1,0 +1,217 @@
+"""Names read as noun phrases."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.grounding.records import ground_names, ground_view, local
+from usd2kg.grounding.embedded.lexicon import build_lexicon
+from usd2kg.grounding.embedded.names import NamePhrase, NameReader
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.ontology import TBox, load_home_tbox
+from usd2kg.scene import ObjectView
+
+
+@pytest.fixture(scope="module")
+def reader(home_tbox: TBox) -> NameReader:
+    return NameReader(build_lexicon(home_tbox, load_taxonomy(), {}), load_taxonomy())
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("Cup", ("cup",)),
+        ("coffee_mug_03", ("coffee", "mug")),
+        ("WineBottle2b", ("wine", "bottle")),
+        ("SM_Wall_Clock_LOD0", ("wall", "clock")),
+        ("TVCabinet", ("tv", "cabinet")),
+        ("obj_042", ()),
+        ("_", ()),
+        ("", ()),
+    ],
+)
+def test_a_name_is_its_telling_words(reader: NameReader, name: str, words: tuple[str, ...]):
+    assert reader.read(name) == NamePhrase(words)
+
+
+class TestReferencesToParents:
+    def test_the_parents_name_is_context_and_not_the_thing(self, reader: NameReader):
+        phrase = reader.read("cabinet10_drawer_top", ("kitchen", "cabinet10"))
+        assert phrase.words == ("drawer", "top")
+        assert phrase.context == ("cabinet",)
+
+    def test_a_shortened_parent_is_recognised_by_its_number(self, reader: NameReader):
+        phrase = reader.read("handle_cab10_b", ("kitchen", "cabinet10", "cabinet10_drawer_bottom"))
+        assert phrase.words == ("handle",)
+        assert phrase.context == ("cab",)
+
+    def test_another_number_is_another_thing(self, reader: NameReader):
+        assert "cab" in reader.read("handle_cab11_b", ("cabinet10",)).words
+        assert reader.read("cabinet11_drawer", ("cabinet10",)).context == ()
+
+    def test_a_name_that_only_repeats_its_parent_keeps_its_words(self, reader: NameReader):
+        assert reader.read("cabinet10", ("kitchen", "cabinet10")).words == ("cabinet",)
+        # "top" alone says where, not what.
+        assert reader.read("cabinet10_top", ("cabinet10",)).words == ("cabinet", "top")
+
+    def test_without_parents_nothing_is_dropped(self, reader: NameReader):
+        assert reader.read("cabinet10_drawer_top").words == ("cabinet", "drawer", "top")
+
+    @pytest.mark.parametrize(
+        ("name", "parents", "expected"),
+        [
+            ("cabinet10_drawer_top", ("Kitchen", "cabinet10"), "Drawer"),
+            ("handle_cab10_b", ("Kitchen", "cabinet10", "cabinet10_drawer_bottom"), "DesignedHandle"),
+            ("oven_door", ("Kitchen", "oven"), "Door"),
+            ("table_lamp", ("Room", "table"), "Appliance"),
+        ],
+    )
+    def test_the_class_is_that_of_the_thing_itself(
+        self, home_tbox: TBox, name: str, parents: tuple[str, ...], expected: str
+    ):
+        assert local(ground_view(ObjectView(name=name, parents=parents), home_tbox)) == expected
+
+
+class TestSpelling:
+    @pytest.mark.parametrize(
+        ("name", "read", "expected"),
+        [
+            ("Cuboard", "cupboard", "Cupboard"),
+            ("Galss", "glass", "Glass"),
+            ("Refrigirator_01", "refrigerator", "Refrigerator"),
+            ("dishwaher", "dishwasher", "Dishwasher"),
+        ],
+    )
+    def test_a_misspelt_name_is_read_as_the_nearest_word(
+        self, reader: NameReader, home_tbox: TBox, name: str, read: str, expected: str
+    ):
+        assert reader.read(name).words == (read,)
+        assert reader.read(name).corrections[0][1] == read
+        prediction = ground_names([name], home_tbox)[0]
+        assert local(prediction) == expected
+        assert f"read as “{read}”" in prediction.explanation
+
+    @pytest.mark.parametrize("word", ["cup", "oven", "lamp", "table", "mat", "cage"])
+    def test_a_word_that_is_known_stays(self, reader: NameReader, word: str):
+        assert reader.read(word) == NamePhrase((word,))
+
+    @pytest.mark.parametrize(
+        "word",
+        [
+            # Nothing within one letter of so short a word.
+            "xqzv",
+            # Too short to be sure: "cub" is not taken for a cup.
+            "cqp",
+            # Letters before a known word, but more than two apart from any.
+            "zzyxwvutsrq",
+        ],
+    )
+    def test_a_word_far_from_all_others_stays(self, reader: NameReader, word: str):
+        assert reader.read(word).words == (word,)
+        assert reader.read(word).corrections == ()
+
+    def test_a_correction_makes_less_sure(self, home_tbox: TBox):
+        right, wrong = ground_names(["Cupboard", "Cuboard"], home_tbox)
+        assert wrong.confidence < right.confidence
+
+
+class TestCompounds:
+    @pytest.mark.parametrize(
+        ("name", "words"),
+        [
+            ("hingeleftdoor", ("hinge", "left", "door")),
+            ("lamptable", ("lamp", "table")),
+            # `root` at the end is the exporter's.
+            ("hoodroot", ("hood",)),
+        ],
+    )
+    def test_a_compound_is_split_into_known_words(self, reader: NameReader, name: str, words: tuple[str, ...]):
+        assert reader.read(name).words == words
+
+    @pytest.mark.parametrize(
+        ("name", "expected"),
+        [
+            ("diningtable", "Table"),
+            ("hingeleftdoor", "Door"),
+            ("winebottle", "WineBottle"),
+            ("trashcan", "TrashContainer"),
+            ("bookshelf", "DesignedFurniture"),
+        ],
+    )
+    def test_a_compound_is_its_last_thing(self, home_tbox: TBox, name: str, expected: str):
+        assert local(ground_names([name], home_tbox)[0]) == expected
+
+    @pytest.mark.parametrize("word", ["carpet", "mushroom", "cupboard", "keyboard", "dishwasher"])
+    def test_a_word_of_its_own_is_not_split(self, reader: NameReader, word: str):
+        assert reader.read(word).words == (word,)
+
+
+class TestModifiers:
+    @pytest.mark.parametrize(
+        ("name", "expected"),
+        [
+            ("mugLarge_red_02", "Cup"),
+            ("mug_large_red", "Cup"),
+            ("red_large_mug", "Cup"),
+            ("DrawerTopLeft", "Drawer"),
+            ("chair_wooden_01", "DesignedChair"),
+            ("plate_white_small", "Plate"),
+        ],
+    )
+    def test_what_describes_may_follow(self, home_tbox: TBox, name: str, expected: str):
+        assert local(ground_names([name], home_tbox)[0]) == expected
+
+    def test_what_is_a_modifier(self, reader: NameReader):
+        assert all(reader.is_modifier(word) for word in ("red", "large", "left", "top", "wooden"))
+        assert not any(reader.is_modifier(word) for word in ("mug", "lamp", "drawer", "qwrtz"))
+
+
+class TestUnicode:
+    @pytest.mark.parametrize(
+        ("name", "expected"),
+        [
+            ("Kühlschrank", "Refrigerator"),
+            ("Ku\u0308hlschrank_01", "Refrigerator"),
+            ("Schüssel_groß", "Bowl"),
+            ("Nachttisch", "BedsideTable"),
+            ("Weinglas_03", "WineGlass"),
+            ("Waschmaschine", "Appliance"),
+            ("Stuhl2", "DesignedChair"),
+            ("Mülleimer", "TrashContainer"),
+        ],
+    )
+    def test_german_names(self, home_tbox: TBox, name: str, expected: str):
+        assert local(ground_names([name], home_tbox)[0]) == expected
+
+    @pytest.mark.parametrize("name", ["杯子", "стол", "🍵", "\u202eCup", "ﬁsh", "İ", "ß"])
+    def test_any_script_gets_an_answer(self, home_tbox: TBox, name: str):
+        assert ground_names([name], home_tbox)[0].class_iri in home_tbox.by_iri
+
+
+_HOME_READER = NameReader(build_lexicon(load_home_tbox(), load_taxonomy(), {}), load_taxonomy())
+
+
+@settings(deadline=None, max_examples=150)
+@given(st.text(max_size=24), st.lists(st.text(max_size=8), max_size=2))
+def test_reading_never_fails_and_is_repeatable(name: str, parents: list[str]):
+    phrase = _HOME_READER.read(name, tuple(parents))
+    assert phrase == _HOME_READER.read(name, tuple(parents))
+    assert all(word and word == word.strip() for word in phrase.words)
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    st.lists(st.sampled_from(["cup", "wine", "glass", "lamp", "oven", "door", "red"]), min_size=1, max_size=4),
+    st.integers(0, 999),
+)
+def test_the_way_of_writing_makes_no_difference(words: list[str], number: int):
+    camel = "".join(word.title() for word in words)
+    writings = [
+        "_".join(words),
+        camel,
+        camel[0].lower() + camel[1:],
+        f"{camel}_{number}",
+        f"SM_{camel}",
+        "-".join(words),
+    ]
+    assert {_HOME_READER.read(text).words for text in writings} == {tuple(words)}

@@ -1,0 +1,118 @@
+"""The noun taxonomy: senses in order, ways up, singulars."""
+
+import itertools
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy, load_taxonomy
+
+# Line n after the adjectives is synset n; the rank of a meaning stands after its lemma.
+#
+#   0 entity ── 1 artifact ── 2 tool ── 4 cutter ── 6 knife
+#            └─ 3 food        └──────────────────────┘ (a knife is an artifact also directly)
+#                └─ 5 bun
+TINY = Taxonomy(
+    "red wooden\n"
+    "top\t\tentity:1\n"
+    "artifact\t0\tartifact:1\n"
+    "artifact\t1\ttool:1\n"
+    "food\t0\tfood:1\n"
+    "artifact\t2\tcutter:1\n"
+    "food\t3\tbun:2|roll:2\n"
+    "artifact\t4 1\tknife:1|flower pot:1|x-ray:3|bun:1"
+)
+
+
+def test_the_meaning_used_most_comes_first_whatever_the_order_of_the_file():
+    assert TINY.senses("bun") == [Sense(6, 1, "artifact"), Sense(5, 2, "food")]
+
+
+def test_an_unknown_lemma_has_no_senses():
+    assert TINY.senses("buns") == []
+    assert "buns" not in TINY
+    assert "bun" in TINY
+
+
+def test_a_compound_is_found_without_its_space_or_hyphen():
+    assert TINY.senses("flowerpot") == [Sense(6, 1, "artifact")]
+    assert TINY.senses("xray") == [Sense(6, 3, "artifact")]
+    assert TINY.senses("flower pot") == []
+
+
+def test_adjectives_are_the_first_line():
+    assert TINY.adjectives == {"red", "wooden"}
+
+
+def test_a_synset_is_named_by_its_first_lemma():
+    assert [TINY.name(synset) for synset in (5, 6)] == ["bun", "knife"]
+
+
+def test_walk_up_yields_each_synset_once_at_its_shortest_distance():
+    # 6 → {4, 1} in one hop; 4 → 2 and 1 → 0 in two; 2 → 1 is seen already, 0 has nothing above.
+    assert list(TINY.walk_up(6)) == [(6, 0), (4, 1), (1, 1), (2, 2), (0, 2)]
+    assert list(TINY.walk_up(0)) == [(0, 0)]
+
+
+def test_path_up_takes_a_shortest_way():
+    assert TINY.path_up(6, 0) == [6, 1, 0]
+    assert TINY.path_up(6, 2) == [6, 4, 2]
+    assert TINY.path_up(6, 6) == [6]
+
+
+@pytest.mark.parametrize(
+    ("word", "singular"),
+    [
+        ("knives", "knife"),
+        ("boxes", "box"),
+        ("buses", "bus"),
+        ("shelves", "shelf"),
+        ("dishes", "dish"),
+        ("cherries", "cherry"),
+        ("toys", "toy"),
+        ("women", "woman"),
+        # Nouns as they stand, although they end like plurals.
+        ("glass", "glass"),
+        ("glasses", "glasses"),
+        ("lens", "lens"),
+        ("gas", "gas"),
+        # Not nouns at all.
+        ("qwertys", "qwertys"),
+        ("us", "us"),
+        ("", ""),
+    ],
+)
+def test_singular(word: str, singular: str):
+    assert load_taxonomy().singular(word) == singular
+
+
+def test_words_are_single_and_of_the_domain():
+    assert TINY.words(frozenset({"food"})) == ["bun", "food", "roll"]
+    assert "flowerpot" in TINY.words(frozenset({"artifact"}))
+    assert TINY.words(frozenset({"plant"})) == []
+
+
+def test_the_shipped_taxonomy_knows_that_a_mug_is_an_artifact():
+    taxonomy = load_taxonomy()
+    (sense,) = [sense for sense in taxonomy.senses("mug") if sense.domain == "artifact"]
+    above = [taxonomy.name(synset) for synset, _ in taxonomy.walk_up(sense.synset)]
+    assert "vessel" in above
+    assert "container" in above
+    assert "furniture" not in above
+
+
+def test_the_shipped_taxonomy_is_read_once():
+    assert load_taxonomy() is load_taxonomy()
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sampled_from(["cup", "crane", "table", "bass", "oven", "book", "palm", "mouse"]), st.data())
+def test_path_up_agrees_with_walk_up(lemma: str, data: st.DataObject):
+    taxonomy = load_taxonomy()
+    start = data.draw(st.sampled_from(taxonomy.senses(lemma))).synset
+    target, hops = data.draw(st.sampled_from(list(taxonomy.walk_up(start))))
+    path = taxonomy.path_up(start, target)
+    assert (path[0], path[-1], len(path)) == (start, target, hops + 1)
+    for below, above in itertools.pairwise(path):
+        assert (above, 1) in list(taxonomy.walk_up(below))

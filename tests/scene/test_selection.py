@@ -1,0 +1,374 @@
+"""Which prims are objects, one small stage a rule."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from tests.scene.usda import METRES, component, cube, prim, rigid, xform
+
+KIND = "authored kind: component"
+BODY = "rigid body"
+ASSET = "asset boundary (reference, payload or instance)"
+OWNER = "geometry without a model above it"
+ROBOT = "robot: a chain of turning joints"
+
+
+def chosen(scene):
+    """Return prim path → why it is an object, in order."""
+    return {obj.prim_path: obj.selected_by for obj in scene.objects}
+
+
+def parents(scene):
+    """Return name → name of the object above."""
+    return {obj.name: obj.parent_path and obj.parent_path.rpartition("/")[2] for obj in scene.objects}
+
+
+def group(name, *body, meta=()):
+    return xform(name, *body, meta=meta, kind="group")
+
+
+def reference(name, asset, *body, meta=()):
+    return prim("", name, *body, meta=[f"references = @{asset}@", *meta])
+
+
+@pytest.fixture
+def write_asset(write_stage):
+    """A function that writes an asset whose default prim is `name`."""
+
+    def write(name, *body, kind=None):
+        text = f'(\n    defaultPrim = "{name}"\n)\n' + xform(name, *body, kind=kind)
+        return write_stage(text, f"{name.lower()}.usda").name
+
+    return write
+
+
+# --- the authored model hierarchy --------------------------------------------------------------------
+
+
+def test_components_are_objects_and_groups_are_structure(read):
+    scene = read(
+        group(
+            "World", group("Furniture", component("Chair", cube("leg"), cube("seat")), component("Table", cube("top")))
+        )
+    )
+    assert chosen(scene) == {"/World/Furniture/Chair": KIND, "/World/Furniture/Table": KIND}
+    assert scene.left_out == {"grouping of objects": 2, "part of an object": 3}
+
+
+def test_assemblies_are_structure(read):
+    scene = read(xform("Set", component("Chair", cube("a")), component("Table", cube("b")), kind="assembly"))
+    assert list(chosen(scene)) == ["/Set/Chair", "/Set/Table"]
+
+
+def test_nested_components_are_objects_in_objects(read):
+    scene = read(xform("World", component("Desk", cube("top"), component("Drawer", cube("front"))), cube("box")))
+    assert parents(scene) == {"Desk": None, "Drawer": "Desk", "box": None}
+
+
+def test_subcomponents_are_parts(read):
+    drawer = xform("Drawer", cube("front"), kind="subcomponent")
+    scene = read(xform("World", component("Desk", cube("top"), drawer), component("Lamp", cube("bulb"))))
+    assert chosen(scene) == {"/World/Desk": KIND, "/World/Lamp": KIND}
+    assert scene.by_path["/World/Desk"].parts == ("top", "Drawer", "front")
+
+
+def test_kinds_derived_from_component_are_components(tmp_path, write_stage):
+    # Kinds are registered when the process starts, so this needs one of its own.
+    kinds = {"prop": {"baseKind": "component"}, "setpiece": {"baseKind": "group"}}
+    plugin = {"Name": "kinds", "Type": "resource", "Root": ".", "ResourcePath": ".", "Info": {"Kinds": kinds}}
+    (tmp_path / "plugInfo.json").write_text(json.dumps({"Plugins": [plugin]}))
+    tree = xform("World", xform("Set", xform("Cup", cube("a"), kind="prop"), cube("b"), kind="setpiece"), kind="group")
+    code = (
+        "import json, sys; from usd2kg.scene import read_scene\n"
+        "print(json.dumps({o.prim_path: o.selected_by for o in read_scene(sys.argv[1]).objects}))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(write_stage(METRES + tree))],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PXR_PLUGINPATH_NAME": str(tmp_path)},
+    )
+    assert json.loads(done.stdout) == {"/World/Set/Cup": KIND, "/World/Set/b": OWNER}
+
+
+def test_unknown_kind_counts_as_none(read):
+    scene = read(xform("World", xform("Cup", cube("a"), kind="crockery"), cube("b")))
+    assert chosen(scene) == {"/World/Cup": OWNER, "/World/b": OWNER}
+
+
+def test_component_that_is_the_whole_scene_is_no_object(read):
+    scene = read(component("Room", rigid("Chair", cube("a")), rigid("Table", cube("b"))))
+    assert chosen(scene) == {"/Room/Chair": BODY, "/Room/Table": BODY}
+
+
+def test_component_that_is_the_whole_file_is_the_object(read):
+    assert chosen(read(component("Chair", cube("leg"), cube("seat")))) == {"/Chair": KIND}
+
+
+def test_cabinet_at_the_root_with_drawers_of_its_own_stays_an_object(read):
+    # It owns its carcass, and another thing stands beside it: it is no room.
+    cabinet = component("Cabinet", cube("carcass"), rigid("Upper", cube("a")), rigid("Lower", cube("b")))
+    scene = read(cabinet + component("Table", cube("top")))
+    assert chosen(scene) == {"/Cabinet": KIND, "/Cabinet/Upper": BODY, "/Cabinet/Lower": BODY, "/Table": KIND}
+
+
+# --- rigid bodies ------------------------------------------------------------------------------------
+
+
+def test_nested_bodies_are_objects_in_objects(read):
+    handle = rigid("Handle", cube("bar"))
+    cabinet = rigid("Cabinet", cube("carcass"), rigid("Drawer", cube("front"), handle))
+    scene = read(xform("World", cabinet, rigid("Chair", cube("seat"))))
+    assert set(chosen(scene).values()) == {BODY}
+    assert parents(scene) == {"Cabinet": None, "Drawer": "Cabinet", "Handle": "Drawer", "Chair": None}
+
+
+def test_prim_with_a_mass_is_a_body_and_a_mesh_with_one_is_a_part(read):
+    massive = xform("Pot", cube("a"), cube("b"), apis=["PhysicsMassAPI"])
+    part = cube("c", meta=['prepend apiSchemas = ["PhysicsMassAPI"]'])
+    scene = read(xform("World", massive, xform("Pan", part, cube("d"))))
+    assert chosen(scene) == {"/World/Pot": BODY, "/World/Pan": OWNER}
+
+
+def test_body_that_wraps_one_body_is_that_object(read):
+    wrapper = rigid("Door_out", rigid("Door", cube("panel")))
+    scene = read(xform("World", wrapper, cube("box")))
+    assert chosen(scene) == {"/World/Door_out": BODY, "/World/box": OWNER}
+
+
+def test_body_that_wraps_several_bodies_groups_them(read):
+    wrapper = rigid("Counter", rigid("Left", cube("a")), rigid("Right", cube("b")))
+    scene = read(xform("World", wrapper, cube("box")))
+    assert list(chosen(scene)) == ["/World/Counter/Left", "/World/Counter/Right", "/World/box"]
+
+
+def test_component_that_wraps_several_bodies_stays(read):
+    kitchen = component("Cabinet", rigid("Left", cube("a")), rigid("Right", cube("b")))
+    scene = read(xform("World", kitchen, cube("box")))
+    assert parents(scene) == {"Cabinet": None, "Left": "Cabinet", "Right": "Cabinet", "box": None}
+
+
+def test_body_with_a_little_geometry_of_its_own_is_no_wrapper(read):
+    scene = read(xform("World", rigid("Door_out", cube("hinge"), rigid("Door", cube("panel"))), cube("box")))
+    assert parents(scene) == {"Door_out": None, "Door": "Door_out", "box": None}
+
+
+def test_body_of_guide_geometry_alone_is_left_out(read):
+    scene = read(xform("World", rigid("Collider", cube("hull", purpose="guide")), cube("box")))
+    assert list(chosen(scene)) == ["/World/box"]
+    assert scene.left_out == {"grouping of objects": 1, "guide or proxy geometry": 2}
+
+
+def test_body_whose_mesh_is_missing_is_kept(read):
+    # An importer that could not find the mesh leaves an empty frame in its place.
+    shelf = rigid("Shelf", xform("visual"), cube("hull", purpose="guide"))
+    scene = read(xform("World", shelf, rigid("Joint"), cube("box")))
+    assert chosen(scene) == {"/World/Shelf": BODY, "/World/box": OWNER}
+    assert scene.by_path["/World/Shelf"].box is None
+    assert [(note.code, note.prim_path) for note in scene.diagnostics] == [("empty-box", "/World/Shelf")]
+
+
+def arm(links, joint="PhysicsRevoluteJoint"):
+    """Return nested bodies link0…, each moved by a joint, and the joints."""
+    tree, path, joints = "", "/World/link0", []
+    for index in range(1, links + 1):
+        path += f"/link{index}"
+        joints.append(prim(joint, f"joint{index}", f"rel physics:body1 = <{path}>"))
+    for index in range(links, -1, -1):
+        tree = rigid(f"link{index}", cube(f"mesh{index}"), tree)
+    return tree, xform("joints", *joints)
+
+
+def test_chain_of_four_turning_joints_is_one_robot(read):
+    scene = read(xform("World", *arm(4), cube("box")))
+    assert chosen(scene) == {"/World/link0": ROBOT, "/World/box": OWNER}
+    # link1-4 and mesh0-4 are parts, the four joints physics.
+    assert scene.left_out == {"grouping of objects": 1, "no geometry": 1, "part of an object": 9, "physics": 4}
+
+
+@pytest.mark.parametrize(("links", "joint"), [(3, "PhysicsRevoluteJoint"), (4, "PhysicsPrismaticJoint")])
+def test_short_or_sliding_chains_are_furniture(read, links, joint):
+    scene = read(xform("World", *arm(links, joint), cube("box")))
+    assert len(scene.objects) == links + 2
+
+
+# --- asset boundaries --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arc", ["references", "payload", "instanceable = true\nreferences"])
+def test_what_brings_in_an_asset_is_an_object(read, write_asset, arc):
+    asset = write_asset("Cup", cube("body"), cube("handle"))
+    cups = [prim("", name, meta=[f"{arc} = @{asset}@"]) for name in ("Cup1", "Cup2")]
+    scene = read(xform("World", xform("Crockery", *cups)))
+    assert chosen(scene) == {"/World/Crockery/Cup1": ASSET, "/World/Crockery/Cup2": ASSET}
+    shared = {obj.instance_of for obj in scene.objects}
+    assert len(shared) == 1
+    assert (shared == {None}) == ("instanceable" not in arc)
+
+
+def test_asset_within_an_asset_is_a_part(read, write_asset):
+    write_asset("Handle", cube("bar"))
+    door = write_asset("Door", cube("panel"), reference("Grip", "handle.usda"))
+    scene = read(xform("World", reference("Door1", door), cube("box")))
+    assert list(chosen(scene)) == ["/World/Door1", "/World/box"]
+
+
+def test_referenced_set_of_several_assets_is_structure(read, write_asset):
+    cup = write_asset("Cup", cube("body"))
+    tray = write_asset("Tray", reference("A", cup), reference("B", cup))
+    scene = read(xform("World", reference("Breakfast", tray), cube("box")))
+    assert chosen(scene) == {"/World/Breakfast/A": ASSET, "/World/Breakfast/B": ASSET, "/World/box": OWNER}
+
+
+def test_referenced_group_is_structure(read, write_asset):
+    room = write_asset("Room", cube("floor"), cube("wall"), kind="group")
+    assert list(chosen(read(xform("World", reference("R", room))))) == ["/World/R/floor", "/World/R/wall"]
+
+
+def test_referenced_mesh_is_no_boundary_of_its_own(read, write_stage):
+    write_stage('(\n    defaultPrim = "Leg"\n)\n' + cube("Leg"), "leg.usda")
+    legs = [prim("Cube", name, meta=["references = @leg.usda@"]) for name in ("leg1", "leg2")]
+    assert chosen(read(xform("World", xform("Stool", *legs), cube("box")))) == {
+        "/World/Stool": OWNER,
+        "/World/box": OWNER,
+    }
+
+
+def test_reference_to_something_without_geometry_is_no_object(read, write_stage):
+    write_stage('(\n    defaultPrim = "Rig"\n)\n' + xform("Rig", prim("SphereLight", "key")), "rig.usda")
+    assert list(chosen(read(xform("World", reference("Lights", "rig.usda"), cube("box"))))) == ["/World/box"]
+
+
+# --- geometry that no model covers -------------------------------------------------------------------
+
+
+def test_bare_meshes_below_the_root_are_objects(read):
+    scene = read(xform("World", cube("Floor"), cube("Wall")))
+    assert chosen(scene) == {"/World/Floor": OWNER, "/World/Wall": OWNER}
+
+
+def test_bare_meshes_below_a_scope_are_objects(read):
+    scene = read(xform("World", prim("Scope", "Things", cube("Cup"), cube("Pot"))))
+    assert list(chosen(scene)) == ["/World/Things/Cup", "/World/Things/Pot"]
+
+
+@pytest.mark.parametrize(
+    ("name", "is_grouping"), [("Props_Group", True), ("Furniture", True), ("GroupTherapyChair", False)]
+)
+def test_an_xform_named_as_a_grouping_is_one(read, name, is_grouping):
+    scene = read(xform("World", xform(name, cube("a"), cube("b"))))
+    both = [f"/World/{name}/a", f"/World/{name}/b"]
+    assert list(chosen(scene)) == (both if is_grouping else [f"/World/{name}"])
+
+
+def test_an_xform_of_several_meshes_is_one_object(read):
+    scene = read(xform("World", xform("Chair", cube("seat"), cube("leg")), xform("Table", cube("top"))))
+    assert chosen(scene) == {"/World/Chair": OWNER, "/World/Table": OWNER}
+
+
+def test_xforms_around_one_mesh_are_one_object_at_the_outermost(read):
+    scene = read(xform("World", xform("Chair", xform("visual", cube("mesh"))), cube("box")))
+    assert list(chosen(scene)) == ["/World/Chair", "/World/box"]
+
+
+def test_an_xform_that_holds_a_model_groups_the_meshes_beside_it(read):
+    scene = read(xform("World", xform("Corner", component("Lamp", cube("bulb")), cube("Rug"))))
+    assert chosen(scene) == {"/World/Corner/Lamp": KIND, "/World/Corner/Rug": OWNER}
+
+
+def test_file_of_a_single_asset_is_one_object(read):
+    assert chosen(read(xform("Teapot", cube("body")))) == {"/Teapot": OWNER}
+
+
+def test_mesh_as_root_prim_is_an_object(read):
+    assert list(chosen(read(cube("Teapot"), cube("Cup")))) == ["/Teapot", "/Cup"]
+
+
+def test_deep_nesting_does_no_harm(read):
+    # Deeper than Python's default limit of 1000 calls.
+    tree = cube("mesh")
+    for index in range(1100):
+        tree = xform(f"n{index}", tree)
+    scene = read(tree + cube("box"))
+    assert len(scene.objects) == 2
+
+
+# --- point instancers --------------------------------------------------------------------------------
+
+
+def instancer(name, *lines, where="/World"):
+    return prim("PointInstancer", name, *lines, f"rel prototypes = [<{where}/{name}/Blade>, <{where}/{name}/Stone>]",
+                cube("Blade"), cube("Stone"))  # fmt: skip
+
+
+FIVE = ["int[] protoIndices = [0, 1, 0, 0, 0]", "point3f[] positions = [(0,0,0), (1,0,0), (2,0,0), (3,0,0), (9,0,0)]"]
+
+
+def test_point_instancer_is_one_object_with_count_and_prototypes(read):
+    scene = read(xform("World", instancer("Grass", *FIVE), cube("box")))
+    grass = scene.by_path["/World/Grass"]
+    assert grass.selected_by == "point instancer"
+    assert (grass.instances.count, grass.instances.prototypes) == (5, ("Blade", "Stone"))
+    # Cubes of 1 m from x = 0 to x = 9: from -0.5 to 9.5.
+    assert grass.box.size == pytest.approx((10, 1, 1))
+    assert grass.own_box == grass.box
+    assert scene.prim_count == 3  # the prototypes are not visited
+    assert scene.by_path["/World/box"].instances is None
+
+
+def test_copies_that_are_not_drawn_do_not_count(read):
+    hidden = [*FIVE, "int64[] ids = [0, 1, 2, 3, 4]", "int64[] invisibleIds = [4]"]
+    grass = read(xform("World", instancer("Grass", *hidden), cube("box"))).by_path["/World/Grass"]
+    assert grass.box.size == pytest.approx((4, 1, 1))  # -0.5 to 3.5
+    assert grass.instances.count == 4
+
+
+def test_copies_that_move_are_counted_at_the_time_that_is_read(read):
+    moving = [line.replace(" = ", ".timeSamples = {1: ") + "}" for line in FIVE]
+    layer = METRES.replace("(\n", "(\n    startTimeCode = 1\n    endTimeCode = 2\n", 1)
+    scene = read(xform("World", instancer("Grass", *moving), cube("box")), layer=layer)
+    assert scene.by_path["/World/Grass"].instances.count == 5
+
+
+def test_component_that_wraps_an_instancer_keeps_the_count(read):
+    meadow = component("Meadow", instancer("Grass", *FIVE, where="/World/Meadow"))
+    scene = read(xform("World", meadow, cube("box")))
+    assert [obj.instances.count for obj in scene.objects if obj.instances] == [5]
+
+
+# --- what a user asks for ----------------------------------------------------------------------------
+
+
+def test_asked_for_paths_are_added_in_traversal_order(read):
+    chair = component("Chair", cube("leg"), cube("seat"))
+    scene = read(xform("World", chair, cube("box")), paths=["/World/Chair/seat", "/World", "/World/box"])
+    assert chosen(scene) == {
+        "/World": "asked for by path",
+        "/World/Chair": KIND,
+        "/World/Chair/seat": "asked for by path",
+        "/World/box": OWNER,
+    }
+    assert parents(scene) == {"World": None, "Chair": "World", "seat": "Chair", "box": "World"}
+    assert scene.missing_paths == ()
+
+
+def test_paths_that_do_not_exist_are_listed_in_the_order_asked(read):
+    scene = read(xform("World", cube("box")), paths=["/World/Z", "/World/box", "no path", "/", "/World/A"])
+    assert scene.missing_paths == ("/World/Z", "no path", "/", "/World/A")
+    assert "/World/box" in scene.by_path
+
+
+def test_asked_for_paths_are_no_longer_counted_as_left_out(read):
+    tree = xform("World", component("Chair", cube("leg"), cube("seat")), cube("box"))
+    without, asked = read(tree), read(tree, paths=["/World/Chair/seat"])
+    assert without.left_out["part of an object"] == 2
+    assert asked.left_out["part of an object"] == 1
+
+
+def test_a_stage_without_geometry_can_still_be_asked_for_a_prim(read):
+    scene = read(xform("World", xform("Anchor")), paths=["/World/Anchor"])
+    assert [obj.name for obj in scene.objects] == ["Anchor"]

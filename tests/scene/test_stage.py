@@ -1,0 +1,296 @@
+"""Opening a stage: what cannot be read, what is missing, what it measures in."""
+
+import hashlib
+import subprocess
+import sys
+
+import pytest
+from pxr import Sdf, Usd, UsdGeom, Vt
+
+from tests.scene.usda import METRES, cube, header, move, prim, xform
+from usd2kg.errors import SceneError
+from usd2kg.scene import Diagnostic, read_scene
+
+CUBE = xform("World", cube("box"))
+
+
+def refusal(path):
+    """Return the message with which `path` is refused, after the path itself; it is one line."""
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path}: ")
+    assert "\n" not in message
+    return message.removeprefix(f"{path}: ")
+
+
+def write_crate(path):
+    """Write a binary stage with one mesh and return its bytes."""
+    stage = Usd.Stage.CreateNew(str(path))
+    UsdGeom.SetStageMetersPerUnit(stage, 1)
+    mesh = UsdGeom.Mesh.Define(stage, "/World/Mesh")
+    mesh.CreatePointsAttr([(float(i), float(i % 7), 0.5) for i in range(200)])
+    stage.Save()
+    return path.read_bytes()
+
+
+# --- what is refused ---------------------------------------------------------------------------------
+
+
+def test_missing_file_is_refused(tmp_path):
+    assert refusal(tmp_path / "nope.usda") == "no such file; expected a USD stage (.usd, .usda, .usdc, .usdz)"
+
+
+def test_folder_is_refused(tmp_path):
+    folder = tmp_path / "kitchen.usd"
+    folder.mkdir()
+    assert refusal(folder) == "is a folder, expected a USD stage; name the root layer inside it"
+
+
+def test_empty_file_is_refused(tmp_path):
+    path = tmp_path / "empty.usda"
+    path.touch()
+    assert refusal(path) == "the file is empty, expected a USD stage; export it again"
+
+
+@pytest.mark.parametrize(("name", "ending"), [("scene.txt", "'.txt'"), ("scene.gltf", "'.gltf'"), ("scene", "missing")])
+def test_other_endings_are_refused_with_the_ending(tmp_path, name, ending):
+    path = tmp_path / name
+    path.write_text("#usda 1.0\n" + CUBE)
+    message = refusal(path)
+    assert message.startswith("not a USD file (ending ")
+    assert ending in message
+    assert message.endswith("convert the scene to USD first")
+
+
+@pytest.mark.parametrize("name", ["a.usd", "a.usda", "a.usdc", "a.usdz"])
+def test_text_that_is_no_layer_is_refused(tmp_path, name, capfd):
+    path = tmp_path / name
+    path.write_text("A kitchen with a table.\n")
+    message = refusal(path)
+    assert message.startswith("OpenUSD cannot read this layer (")
+    assert message.endswith("; export it again")
+    assert capfd.readouterr() == ("", "")
+
+
+def test_syntax_error_is_located(write_stage):
+    # Line 1 is the magic line, line 2 opens the prim, line 3 is the one that is wrong.
+    message = refusal(write_stage('def Xform "World" {\n    float[][] wrong = 1\n}\n'))
+    assert ":3:" in message
+    assert "wrong" in message
+
+
+def test_latin1_layer_is_refused_and_not_a_crash(tmp_path):
+    path = tmp_path / "umlaut.usda"
+    path.write_bytes('#usda 1.0\ndef Xform "Küche" {}\n'.encode("latin-1"))
+    assert refusal(path).startswith("OpenUSD cannot read this layer")
+
+
+@pytest.mark.parametrize("keep", [8, 40, 0.5, 0.95, -1])
+def test_truncated_crate_is_refused(tmp_path, keep, capfd):
+    whole = write_crate(tmp_path / "whole.usdc")
+    end = int(keep * len(whole)) if isinstance(keep, float) else keep
+    cut = tmp_path / "cut.usdc"
+    cut.write_bytes(whole[:end])
+    assert "OpenUSD cannot read this layer (" in refusal(cut)
+    assert capfd.readouterr() == ("", "")
+    assert [obj.name for obj in read_scene(tmp_path / "whole.usdc").objects] == ["World"]  # near miss: uncut it reads
+
+
+@pytest.mark.parametrize(("start", "said"), [(0, "bootstrap section corrupt"), (16, "corrupt")])
+def test_crate_with_flipped_bytes_is_refused(tmp_path, start, said):
+    # A crate starts with its magic (8 bytes), its version (8) and the place of its table of contents (8).
+    data = bytearray(write_crate(tmp_path / "whole.usdc"))
+    data[start : start + 8] = bytes(255 - value for value in data[start : start + 8])
+    path = tmp_path / "flipped.usdc"
+    path.write_bytes(data)
+    assert said in refusal(path)
+
+
+def test_stage_without_prims_is_refused_with_what_was_found(write_stage):
+    assert refusal(write_stage(METRES)) == (
+        "no object found among 0 prims; expected prims with geometry, see usd2kg inspect --help"
+    )
+
+
+def test_stage_without_geometry_names_the_commonest_reasons(write_stage):
+    path = write_stage(METRES + xform("World", prim("Camera", "A"), prim("Camera", "B"), prim("SphereLight", "L")))
+    assert refusal(path).startswith("no object found among 4 prims (2 camera, ")
+
+
+# --- what is missing ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arc", ["references", "payload"])
+def test_unresolved_arc_keeps_its_object_and_is_told_once(read, write_stage, capfd, arc):
+    chair = prim("", "Chair", move(1, 2, 0), meta=[f"{arc} = @chair.usd@"])
+    scene = read(xform("World", chair, cube("box")))
+    obj = scene.by_path["/World/Chair"]
+    assert (obj.position, obj.box) == ((1, 2, 0), None)
+    notes = [note for note in scene.diagnostics if note.code == "composition"]
+    assert [note.prim_path for note in notes] == ["/World/Chair"]
+    assert notes[0].layer == scene.source
+    assert notes[0].message.startswith(f"Could not open asset @chair.usd@ for {arc.removesuffix('s')} introduced by @")
+    assert not [note for note in scene.diagnostics if note.code == "openusd"]
+    assert capfd.readouterr() == ("", "")
+
+
+def test_unresolved_arc_of_another_layer_names_that_layer(read, write_stage):
+    sub = write_stage(xform("World", prim("Xform", "Chair", meta=["references = @chair.usd@"])), "sub.usda")
+    scene = read(xform("World", cube("box")), layer="(\n    metersPerUnit = 1\n    subLayers = [@./sub.usda@]\n)\n")
+    note = next(note for note in scene.diagnostics if note.code == "composition")
+    assert note.prim_path == "/World/Chair"
+    assert note.layer == str(sub)
+
+
+def test_missing_prim_of_an_existing_layer_keeps_its_object(read, write_stage):
+    write_stage(xform("Other"), "asset.usda")
+    scene = read(xform("World", prim("", "Cup", meta=["references = @asset.usda@</Cup>"]), cube("box")))
+    assert "/World/Cup" in scene.by_path
+    assert "/World/Cup" in {note.prim_path for note in scene.diagnostics}
+
+
+def test_missing_sublayer_is_told_with_the_root_layer(read):
+    scene = read(CUBE, layer="(\n    metersPerUnit = 1\n    subLayers = [@gone.usda@]\n)\n")
+    assert [obj.prim_path for obj in scene.objects] == ["/World"]
+    note = next(note for note in scene.diagnostics if "gone.usda" in note.message)
+    assert (note.code, note.layer) == ("composition", scene.source)
+
+
+def test_every_instance_of_an_asset_with_a_missing_payload_stays(read, write_stage):
+    asset = '(\n    defaultPrim = "Lamp"\n)\n' + xform("Lamp", xform("geo", meta=["payload = @nope.usd@"]))
+    write_stage(asset, "lamp.usda")
+    lamps = [prim("", name, meta=["references = @lamp.usda@", "instanceable = true"]) for name in ("L1", "L2", "L3")]
+    scene = read(xform("World", *lamps, cube("box")))
+    assert [obj.name for obj in scene.objects] == ["L1", "L2", "L3", "box"]
+
+
+def test_resolved_stage_has_no_diagnostics(read):
+    assert read(CUBE).diagnostics == ()
+
+
+def test_transform_that_openusd_rejects_is_a_diagnostic(read, capfd):
+    # USD allows any token in xformOpOrder; asking for the transform then raises inside OpenUSD.
+    broken = xform("Broken", 'uniform token[] xformOpOrder = ["xformOp:nope", "bad"]', cube("box"))
+    scene = read(xform("World", broken, cube("other")))
+    assert [obj.name for obj in scene.objects] == ["Broken", "other"]
+    assert "/World/Broken" in {note.prim_path for note in scene.diagnostics}
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["int[] protoIndices = [0, 7]", "point3f[] positions = [(0, 0, 0), (1, 0, 0)]"],
+        ["int[] protoIndices = [0, 0, 0]", "point3f[] positions = [(0, 0, 0)]"],
+        ["point3f[] positions = [(0, 0, 0)]"],
+    ],
+    ids=["index out of range", "too few positions", "no indices"],
+)
+def test_broken_point_instancer_is_a_diagnostic_and_prints_nothing(read, capfd, lines):
+    instancer = prim("PointInstancer", "Grass", *lines, "rel prototypes = [</World/Grass/Blade>]", cube("Blade"))
+    scene = read(xform("World", instancer, cube("box")))
+    assert [obj.name for obj in scene.objects] == ["Grass", "box"]
+    assert "/World/Grass" in {note.prim_path for note in scene.diagnostics}
+    assert capfd.readouterr() == ("", "")
+
+
+# --- what it measures in -----------------------------------------------------------------------------
+
+
+def frame_of(read, **metadata):
+    scene = read(CUBE, layer=header(**metadata) if metadata else "")
+    return scene, scene.frame
+
+
+def test_units_are_read_as_authored(read):
+    scene, frame = frame_of(read, metersPerUnit=0.0254, upAxis="Z", kilogramsPerUnit=0.001)
+    assert (frame.metres_per_unit, frame.up_axis, frame.kilograms_per_unit, frame.is_authored) == (
+        0.0254,
+        "Z",
+        0.001,
+        True,
+    )
+    assert scene.diagnostics == ()
+
+
+def test_missing_units_fall_back_and_are_told(read):
+    scene, frame = frame_of(read)
+    # OpenUSD's fallbacks: a centimetre, y-up, one kilogram.
+    assert (frame.metres_per_unit, frame.up_axis, frame.kilograms_per_unit, frame.is_authored) == (
+        0.01,
+        "Y",
+        1.0,
+        False,
+    )
+    assert scene.diagnostics == (
+        Diagnostic("units", "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used", None, scene.source),
+    )
+
+
+@pytest.mark.parametrize("value", [-1, 0, "inf", "nan"])
+def test_impossible_metres_per_unit_fall_back_and_are_told(read, value):
+    text = f"(\n    metersPerUnit = {value}\n)\n"
+    scene = read(CUBE, layer=text)
+    assert scene.frame.metres_per_unit == 0.01
+    assert not scene.frame.is_authored
+    (note,) = scene.diagnostics
+    assert note.code == "units"
+    assert note.message.startswith(f"metersPerUnit is {float(value)!r}, expected a positive number")
+
+
+def test_metres_per_unit_authored_as_float_means_the_number_typed(tmp_path):
+    # 0.01 as a 32-bit float is 0.00999999977…; a cube of 100 units is 1 m all the same.
+    layer = Sdf.Layer.CreateNew(str(tmp_path / "float.usdc"))
+    layer.pseudoRoot.SetInfo("metersPerUnit", Vt.Float(0.01))
+    stage = Usd.Stage.Open(layer)
+    UsdGeom.Cube.Define(stage, "/Box").CreateSizeAttr(100.0)
+    layer.Save()
+    stored = Usd.Stage.Open(str(tmp_path / "float.usdc")).GetMetadata("metersPerUnit")
+    assert stored != 0.01  # the trap is there
+    scene = read_scene(tmp_path / "float.usdc")
+    assert scene.frame.metres_per_unit == 0.01
+    assert scene.objects[0].box.size == (1.0, 1.0, 1.0)
+
+
+def test_wrong_up_axis_is_told_and_y_is_used(read):
+    scene, frame = frame_of(read, metersPerUnit=1, upAxis="X")
+    assert frame.up_axis == "Y"
+    assert [note.message for note in scene.diagnostics] == ["upAxis is 'X', expected Y or Z; Y is used"]
+
+
+@pytest.mark.parametrize("value", [-2, 0, "inf"])
+def test_impossible_kilograms_per_unit_count_as_one_and_are_told(read, value):
+    scene = read(CUBE, layer=f"(\n    metersPerUnit = 1\n    kilogramsPerUnit = {value}\n)\n")
+    assert scene.frame.kilograms_per_unit == 1.0
+    assert [note.code for note in scene.diagnostics] == ["units"]
+    assert "kilogramsPerUnit" in scene.diagnostics[0].message
+
+
+# --- what identifies it ------------------------------------------------------------------------------
+
+
+def test_hash_covers_every_layer_and_not_the_place(write_stage):
+    def digest(folder, asset_size):
+        write_stage(cube("Cup", size=asset_size), f"{folder}/asset.usda")
+        scene = METRES + xform("World", prim("", "Cup", meta=["references = @asset.usda@</Cup>"]))
+        return read_scene(write_stage(scene, f"{folder}/scene.usda")).content_hash
+
+    first = digest("one", 1)
+    assert first.startswith("sha256:")
+    assert len(first) == len("sha256:") + hashlib.sha256().digest_size * 2
+    assert digest("two", 1) == first
+    assert digest("three", 2) != first
+
+
+def test_source_is_kept_as_the_user_named_it(write_stage, monkeypatch):
+    path = write_stage(METRES + CUBE)
+    monkeypatch.chdir(path.parent)
+    assert read_scene("scene.usda").source == "scene.usda"
+
+
+def test_reading_needs_no_terminal(write_stage):
+    path = write_stage(METRES + xform("World", prim("", "Chair", meta=["references = @chair.usd@"]), cube("box")))
+    code = "import sys; from usd2kg.scene import read_scene; read_scene(sys.argv[1])"
+    done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("", "")
