@@ -6,6 +6,7 @@
     ├── SceneError        the stage cannot be read, or holds no object
     ├── OntologyError     the ontology cannot be read, or no class is in scope
     ├── GroundingError    the grounder is unknown or its settings are wrong
+    ├── EvaluationError   gold labels, a matrix or stored results cannot be used
     ├── GraphError        the graph cannot be read, or a question cannot be understood
     └── OutputError       a result cannot be written
 
@@ -14,6 +15,7 @@ Bugs of our own are never wrapped: they pass through as they are.
 """
 
 __all__ = [
+    "EvaluationError",
     "GraphError",
     "GroundingError",
     "OntologyError",
@@ -37,6 +39,10 @@ class OntologyError(Usd2kgError):
 
 class GroundingError(Usd2kgError):
     """A grounder, regime or evidence group is unknown, or a settings file is malformed."""
+
+
+class EvaluationError(Usd2kgError):
+    """Gold labels, a matrix of runs or stored results cannot be read or do not fit together."""
 
 
 class GraphError(Usd2kgError):

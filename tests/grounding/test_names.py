@@ -1,15 +1,24 @@
 """Names read as noun phrases."""
 
+from collections.abc import Iterable
+from typing import ClassVar
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.grounding.records import ground_names, ground_view, local
+from tests.grounding.records import ground_names, local
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.embedded.lexicon import build_lexicon
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import ObjectView
+
+
+def classes_of(names: Iterable[str], tbox: TBox) -> dict[str, str]:
+    listed = list(names)
+    return dict(zip(listed, map(local, ground_names(listed, tbox)), strict=True))
 
 
 @pytest.fixture(scope="module")
@@ -57,39 +66,37 @@ class TestReferencesToParents:
     def test_without_parents_nothing_is_dropped(self, reader: NameReader):
         assert reader.read("cabinet10_drawer_top").words == ("cabinet", "drawer", "top")
 
-    @pytest.mark.parametrize(
-        ("name", "parents", "expected"),
-        [
-            ("cabinet10_drawer_top", ("Kitchen", "cabinet10"), "Drawer"),
-            ("handle_cab10_b", ("Kitchen", "cabinet10", "cabinet10_drawer_bottom"), "DesignedHandle"),
-            ("oven_door", ("Kitchen", "oven"), "Door"),
-            ("table_lamp", ("Room", "table"), "Appliance"),
-        ],
-    )
-    def test_the_class_is_that_of_the_thing_itself(
-        self, home_tbox: TBox, name: str, parents: tuple[str, ...], expected: str
-    ):
-        assert local(ground_view(ObjectView(name=name, parents=parents), home_tbox)) == expected
+    def test_the_class_is_that_of_the_thing_itself(self, home_tbox: TBox):
+        views = {
+            "Drawer": ObjectView(name="cabinet10_drawer_top", parents=("Kitchen", "cabinet10")),
+            "DesignedHandle": ObjectView(
+                name="handle_cab10_b", parents=("Kitchen", "cabinet10", "cabinet10_drawer_bottom")
+            ),
+            "Door": ObjectView(name="oven_door", parents=("Kitchen", "oven")),
+            "Appliance": ObjectView(name="table_lamp", parents=("Room", "table")),
+        }
+        found = EmbeddedGrounder().ground_views(list(views.items()), home_tbox)
+        assert [local(p) for p in found] == list(views)
 
 
 class TestSpelling:
-    @pytest.mark.parametrize(
-        ("name", "read", "expected"),
-        [
-            ("Cuboard", "cupboard", "Cupboard"),
-            ("Galss", "glass", "Glass"),
-            ("Refrigirator_01", "refrigerator", "Refrigerator"),
-            ("dishwaher", "dishwasher", "Dishwasher"),
-        ],
-    )
-    def test_a_misspelt_name_is_read_as_the_nearest_word(
-        self, reader: NameReader, home_tbox: TBox, name: str, read: str, expected: str
-    ):
-        assert reader.read(name).words == (read,)
-        assert reader.read(name).corrections[0][1] == read
-        prediction = ground_names([name], home_tbox)[0]
-        assert local(prediction) == expected
-        assert f"read as “{read}”" in prediction.explanation
+    MISSPELT: ClassVar = {
+        "Cuboard": "Cupboard",
+        "Galss": "Glass",
+        "refrigirator": "Refrigerator",
+        "Dishwaher": "Dishwasher",
+    }
+
+    @pytest.mark.parametrize(("name", "meant"), MISSPELT.items())
+    def test_a_misspelt_name_is_read_as_the_nearest_word(self, reader: NameReader, name: str, meant: str):
+        phrase = reader.read(f"{name}_01")
+        assert phrase.words == (meant.lower(),)
+        assert phrase.corrections == ((name.lower(), meant.lower()),)
+
+    def test_its_class_is_that_of_the_word_that_was_meant(self, home_tbox: TBox):
+        for prediction, meant in zip(ground_names([*self.MISSPELT], home_tbox), self.MISSPELT.values(), strict=True):
+            assert local(prediction) == meant
+            assert f"read as “{meant.lower()}”" in prediction.explanation
 
     @pytest.mark.parametrize("word", ["cup", "oven", "lamp", "table", "mat", "cage"])
     def test_a_word_that_is_known_stays(self, reader: NameReader, word: str):
@@ -128,18 +135,15 @@ class TestCompounds:
     def test_a_compound_is_split_into_known_words(self, reader: NameReader, name: str, words: tuple[str, ...]):
         assert reader.read(name).words == words
 
-    @pytest.mark.parametrize(
-        ("name", "expected"),
-        [
-            ("diningtable", "Table"),
-            ("hingeleftdoor", "Door"),
-            ("winebottle", "WineBottle"),
-            ("trashcan", "TrashContainer"),
-            ("bookshelf", "DesignedFurniture"),
-        ],
-    )
-    def test_a_compound_is_its_last_thing(self, home_tbox: TBox, name: str, expected: str):
-        assert local(ground_names([name], home_tbox)[0]) == expected
+    def test_a_compound_is_its_last_thing(self, home_tbox: TBox):
+        expected = {
+            "diningtable": "Table",
+            "hingeleftdoor": "Door",
+            "winebottle": "WineBottle",
+            "trashcan": "TrashContainer",
+            "bookshelf": "DesignedFurniture",
+        }
+        assert classes_of(expected, home_tbox) == expected
 
     @pytest.mark.parametrize("word", ["carpet", "mushroom", "cupboard", "keyboard", "dishwasher"])
     def test_a_word_of_its_own_is_not_split(self, reader: NameReader, word: str):
@@ -147,19 +151,16 @@ class TestCompounds:
 
 
 class TestModifiers:
-    @pytest.mark.parametrize(
-        ("name", "expected"),
-        [
-            ("mugLarge_red_02", "Cup"),
-            ("mug_large_red", "Cup"),
-            ("red_large_mug", "Cup"),
-            ("DrawerTopLeft", "Drawer"),
-            ("chair_wooden_01", "DesignedChair"),
-            ("plate_white_small", "Plate"),
-        ],
-    )
-    def test_what_describes_may_follow(self, home_tbox: TBox, name: str, expected: str):
-        assert local(ground_names([name], home_tbox)[0]) == expected
+    def test_what_describes_may_follow(self, home_tbox: TBox):
+        expected = {
+            "mugLarge_red_02": "Cup",
+            "mug_large_red": "Cup",
+            "red_large_mug": "Cup",
+            "DrawerTopLeft": "Drawer",
+            "chair_wooden_01": "DesignedChair",
+            "plate_white_small": "Plate",
+        }
+        assert classes_of(expected, home_tbox) == expected
 
     def test_what_is_a_modifier(self, reader: NameReader):
         assert all(reader.is_modifier(word) for word in ("red", "large", "left", "top", "wooden"))
@@ -167,25 +168,22 @@ class TestModifiers:
 
 
 class TestUnicode:
-    @pytest.mark.parametrize(
-        ("name", "expected"),
-        [
-            ("Kühlschrank", "Refrigerator"),
-            ("Ku\u0308hlschrank_01", "Refrigerator"),
-            ("Schüssel_groß", "Bowl"),
-            ("Nachttisch", "BedsideTable"),
-            ("Weinglas_03", "WineGlass"),
-            ("Waschmaschine", "Appliance"),
-            ("Stuhl2", "DesignedChair"),
-            ("Mülleimer", "TrashContainer"),
-        ],
-    )
-    def test_german_names(self, home_tbox: TBox, name: str, expected: str):
-        assert local(ground_names([name], home_tbox)[0]) == expected
+    def test_german_names(self, home_tbox: TBox):
+        expected = {
+            "Kühlschrank": "Refrigerator",
+            "Ku\u0308hlschrank_01": "Refrigerator",
+            "Schüssel_groß": "Bowl",
+            "Nachttisch": "BedsideTable",
+            "Weinglas_03": "WineGlass",
+            "Waschmaschine": "Appliance",
+            "Stuhl2": "DesignedChair",
+            "Mülleimer": "TrashContainer",
+        }
+        assert classes_of(expected, home_tbox) == expected
 
-    @pytest.mark.parametrize("name", ["杯子", "стол", "🍵", "\u202eCup", "ﬁsh", "İ", "ß"])
-    def test_any_script_gets_an_answer(self, home_tbox: TBox, name: str):
-        assert ground_names([name], home_tbox)[0].class_iri in home_tbox.by_iri
+    def test_any_script_gets_an_answer(self, home_tbox: TBox):
+        for prediction in ground_names(["杯子", "стол", "🍵", "\u202eCup", "ﬁsh", "İ", "ß"], home_tbox):
+            assert prediction.class_iri in home_tbox.by_iri
 
 
 _HOME_READER = NameReader(build_lexicon(load_home_tbox(), load_taxonomy(), {}), load_taxonomy())

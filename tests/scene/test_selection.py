@@ -75,6 +75,12 @@ def test_subcomponents_are_parts(read):
     assert scene.by_path["/World/Desk"].parts == ("top", "Drawer", "front")
 
 
+def test_subcomponents_that_are_bodies_are_parts_all_the_same(read):
+    wheel = xform("Wheel", cube("tyre"), kind="subcomponent", apis=["PhysicsRigidBodyAPI"])
+    scene = read(xform("World", component("Cart", cube("deck"), wheel), rigid("Wheel", cube("spare"))))
+    assert chosen(scene) == {"/World/Cart": KIND, "/World/Wheel": BODY}
+
+
 def test_kinds_derived_from_component_are_components(tmp_path, write_stage):
     # Kinds are registered when the process starts, so this needs one of its own.
     kinds = {"prop": {"baseKind": "component"}, "setpiece": {"baseKind": "group"}}
@@ -158,8 +164,8 @@ def test_body_with_a_little_geometry_of_its_own_is_no_wrapper(read):
 
 
 def test_body_of_guide_geometry_alone_is_left_out(read):
-    scene = read(xform("World", rigid("Collider", cube("hull", purpose="guide")), cube("box")))
-    assert list(chosen(scene)) == ["/World/box"]
+    scene = read(xform("World", rigid("Collider", cube("hull", purpose="guide")), cube("box"), cube("mat")))
+    assert list(chosen(scene)) == ["/World/box", "/World/mat"]
     assert scene.left_out == {"grouping of objects": 1, "guide or proxy geometry": 2}
 
 
@@ -240,7 +246,10 @@ def test_referenced_mesh_is_no_boundary_of_its_own(read, write_stage):
 
 def test_reference_to_something_without_geometry_is_no_object(read, write_stage):
     write_stage('(\n    defaultPrim = "Rig"\n)\n' + xform("Rig", prim("SphereLight", "key")), "rig.usda")
-    assert list(chosen(read(xform("World", reference("Lights", "rig.usda"), cube("box"))))) == ["/World/box"]
+    assert list(chosen(read(xform("World", reference("Lights", "rig.usda"), cube("a"), cube("b"))))) == [
+        "/World/a",
+        "/World/b",
+    ]
 
 
 # --- geometry that no model covers -------------------------------------------------------------------
@@ -260,9 +269,9 @@ def test_bare_meshes_below_a_scope_are_objects(read):
     ("name", "is_grouping"), [("Props_Group", True), ("Furniture", True), ("GroupTherapyChair", False)]
 )
 def test_an_xform_named_as_a_grouping_is_one(read, name, is_grouping):
-    scene = read(xform("World", xform(name, cube("a"), cube("b"))))
+    scene = read(xform("World", xform(name, cube("a"), cube("b")), cube("box")))
     both = [f"/World/{name}/a", f"/World/{name}/b"]
-    assert list(chosen(scene)) == (both if is_grouping else [f"/World/{name}"])
+    assert list(chosen(scene)) == [*(both if is_grouping else [f"/World/{name}"]), "/World/box"]
 
 
 def test_an_xform_of_several_meshes_is_one_object(read):

@@ -97,25 +97,25 @@ def test_truncated_crate_is_refused(tmp_path, keep, capfd):
     assert [obj.name for obj in read_scene(tmp_path / "whole.usdc").objects] == ["World"]  # near miss: uncut it reads
 
 
-@pytest.mark.parametrize(("start", "said"), [(0, "bootstrap section corrupt"), (16, "corrupt")])
-def test_crate_with_flipped_bytes_is_refused(tmp_path, start, said):
+@pytest.mark.parametrize("start", [0, 16])
+def test_crate_with_flipped_bytes_is_refused(tmp_path, start):
     # A crate starts with its magic (8 bytes), its version (8) and the place of its table of contents (8).
     data = bytearray(write_crate(tmp_path / "whole.usdc"))
     data[start : start + 8] = bytes(255 - value for value in data[start : start + 8])
     path = tmp_path / "flipped.usdc"
     path.write_bytes(data)
-    assert said in refusal(path)
+    assert refusal(path).startswith("OpenUSD cannot read this layer (")
 
 
 def test_stage_without_prims_is_refused_with_what_was_found(write_stage):
-    assert refusal(write_stage(METRES)) == (
-        "no object found among 0 prims; expected prims with geometry, see usd2kg inspect --help"
-    )
+    message = refusal(write_stage(METRES))
+    assert message.startswith("no object among 0 prims")
+    assert "expected prims with geometry" in message
 
 
 def test_stage_without_geometry_names_the_commonest_reasons(write_stage):
     path = write_stage(METRES + xform("World", prim("Camera", "A"), prim("Camera", "B"), prim("SphereLight", "L")))
-    assert refusal(path).startswith("no object found among 4 prims (2 camera, ")
+    assert "4 prims (2 camera, " in refusal(path)
 
 
 # --- what is missing ---------------------------------------------------------------------------------
@@ -123,7 +123,7 @@ def test_stage_without_geometry_names_the_commonest_reasons(write_stage):
 
 @pytest.mark.parametrize("arc", ["references", "payload"])
 def test_unresolved_arc_keeps_its_object_and_is_told_once(read, write_stage, capfd, arc):
-    chair = prim("", "Chair", move(1, 2, 0), meta=[f"{arc} = @chair.usd@"])
+    chair = xform("Chair", move(1, 2, 0), meta=[f"{arc} = @chair.usd@"])
     scene = read(xform("World", chair, cube("box")))
     obj = scene.by_path["/World/Chair"]
     assert (obj.position, obj.box) == ((1, 2, 0), None)
@@ -133,6 +133,12 @@ def test_unresolved_arc_keeps_its_object_and_is_told_once(read, write_stage, cap
     assert notes[0].message.startswith(f"Could not open asset @chair.usd@ for {arc.removesuffix('s')} introduced by @")
     assert not [note for note in scene.diagnostics if note.code == "openusd"]
     assert capfd.readouterr() == ("", "")
+
+
+def test_place_of_a_prim_whose_type_went_missing_with_its_asset_is_kept(read):
+    # `def "Chair"` leaves the type to the asset; without one OpenUSD does not look at its transform.
+    chair = prim("", "Chair", move(1, 2, 0), meta=["references = @chair.usd@"])
+    assert read(xform("World", chair, cube("box"))).by_path["/World/Chair"].position == (1, 2, 0)
 
 
 def test_unresolved_arc_of_another_layer_names_that_layer(read, write_stage):

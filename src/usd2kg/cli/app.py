@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli import build, demo, ground, inspect, ontology, query
+from usd2kg.cli import build, demo, evaluate, ground, inspect, ontology, query
 from usd2kg.cli.output import talk
 from usd2kg.errors import Usd2kgError
 
@@ -32,6 +32,7 @@ app.command("ground")(ground.ground_command)
 app.command("query")(query.query_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(ontology.app, name="ontology")
+app.add_typer(evaluate.app, name="eval")
 
 
 @app.callback()

@@ -4,10 +4,11 @@ This package alone knows OpenUSD.
 """
 
 from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
-from usd2kg.scene.read import read_scene
+from usd2kg.scene.read import ASKED_FOR, read_scene
 from usd2kg.scene.views import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, abbreviate, view_objects
 
 __all__ = [
+    "ASKED_FOR",
     "EVIDENCE_GROUPS",
     "STUDY_GROUPS",
     "Box",

@@ -15,10 +15,12 @@ from usd2kg.scene.outline import Node, Outline, outline_stage
 from usd2kg.scene.selection import Selection, select_objects
 from usd2kg.scene.stage import OpenedStage, open_stage
 
-__all__ = ["read_scene"]
+__all__ = ["ASKED_FOR", "read_scene"]
 
 logger = logging.getLogger(__name__)
 
+ASKED_FOR = "asked for by path"
+"""`selected_by` of an object that the rules did not choose."""
 _MOST_PARTS = 64
 
 
@@ -64,7 +66,7 @@ def _add_wanted(wanted: list[str], nodes: dict[str, Node], selection: Selection,
         if path in selection.chosen:
             continue
         if path in nodes and path != "/":
-            selection.chosen[path] = "asked for by path"
+            selection.chosen[path] = ASKED_FOR
         else:
             missing.append(path)
     if len(missing) < len(wanted):

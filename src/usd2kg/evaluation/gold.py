@@ -1,0 +1,71 @@
+"""Gold labels: what a person says each prim is."""
+
+import csv
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from usd2kg.errors import EvaluationError, OntologyError
+from usd2kg.ontology import ClassIRI, TBox
+
+__all__ = ["GoldLabel", "read_gold"]
+
+_COLUMNS = ("path", "class", "also")
+
+
+@dataclass(frozen=True, slots=True)
+class GoldLabel:
+    """The label of one prim."""
+
+    prim_path: str
+    target: ClassIRI
+    """The class."""
+    also: frozenset[ClassIRI]
+    """Other classes that a careful person would defend; without the target."""
+
+
+def read_gold(path: Path, tbox: TBox) -> tuple[GoldLabel, ...]:
+    """Return the labels of a CSV file `path,class,also`, in its order.
+
+    Classes are IRIs, CURIEs or local names that are unique in the scope; `also` holds several, parted by `|`.
+
+    Raises:
+        EvaluationError: the file cannot be read, a column is missing, a class is not in scope, or a path stands twice.
+    """
+    try:
+        text = path.read_text("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise EvaluationError(
+            f"{path}: cannot be read as gold labels ({error}); expected CSV path,class,also"
+        ) from error
+    rows = csv.DictReader(text.splitlines())
+    missing = [column for column in _COLUMNS[:2] if column not in (rows.fieldnames or ())]
+    if missing:
+        found = ", ".join(rows.fieldnames or ()) or "nothing"
+        raise EvaluationError(f"{path}: line 1 has the columns {found}; expected path,class,also")
+    labels = [_label(path, rows.line_num, row, tbox) for row in rows if (row["path"] or "").strip()]
+    _check_distinct(path, labels)
+    if not labels:
+        raise EvaluationError(f"{path}: holds no label; expected a row path,class,also for each object")
+    return tuple(labels)
+
+
+def _label(path: Path, line: int, row: dict[str, str | None], tbox: TBox) -> GoldLabel:
+    prim_path = (row["path"] or "").strip()
+    name = (row["class"] or "").strip()
+    if not name:
+        raise EvaluationError(f"{path}: line {line}: {prim_path} has no class; fill it in or remove the row")
+    try:
+        target = tbox.resolve(name)
+        also = frozenset(tbox.resolve(part) for part in (row.get("also") or "").split("|") if part.strip())
+    except OntologyError as error:
+        raise EvaluationError(f"{path}: line {line}: {error}") from error
+    return GoldLabel(prim_path, target, also - {target})
+
+
+def _check_distinct(path: Path, labels: Iterable[GoldLabel]) -> None:
+    seen: set[str] = set()
+    for label in labels:
+        if label.prim_path in seen:
+            raise EvaluationError(f"{path}: {label.prim_path} stands twice; expected one row for each prim")
+        seen.add(label.prim_path)

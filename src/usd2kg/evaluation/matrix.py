@@ -1,0 +1,154 @@
+"""A matrix of runs: scenes × grounders × regimes × ablations × repeats, described in a TOML file."""
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from usd2kg.errors import EvaluationError, GroundingError
+from usd2kg.grounding import GROUNDERS, parse_evidence
+from usd2kg.scene import NamingRegime
+
+__all__ = ["STUDY_ABLATION", "Cell", "Matrix", "SceneSpec", "read_matrix"]
+
+STUDY_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
+    "geometry only": (NamingRegime.OPAQUE, "geometry"),
+    "hierarchy only": (NamingRegime.OPAQUE, "hierarchy"),
+    "geometry + position": (NamingRegime.OPAQUE, "geometry,position"),
+    "position only": (NamingRegime.OPAQUE, "position"),
+    "full context, anonymised": (NamingRegime.OPAQUE_ANONYMOUS, "geometry,position,hierarchy"),
+    "hierarchy only, anonymised": (NamingRegime.OPAQUE_ANONYMOUS, "hierarchy"),
+}
+"""The study's six conditions, under opaque names: condition → (regime, evidence)."""
+
+OWN_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
+    "name only": (NamingRegime.SEMANTIC, "name"),
+    "name + hierarchy": (NamingRegime.SEMANTIC, "name,hierarchy"),
+    "name + asset": (NamingRegime.SEMANTIC, "name,asset"),
+    "all but the name": (NamingRegime.SEMANTIC, "geometry,position,hierarchy,asset,materials,parts"),
+    "asset only": (NamingRegime.SEMANTIC, "asset"),
+    "parts only": (NamingRegime.SEMANTIC, "parts"),
+}
+"""Our own conditions, under authored names."""
+
+_KEYS = {"title", "regimes", "grounders", "repeats", "ablation", "scene"}
+_SCENE_KEYS = {"name", "path", "gold", "ontology", "optional", "note"}
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSpec:
+    """One scene of a matrix; paths are absolute."""
+
+    name: str
+    path: Path
+    gold: Path
+    ontology: Path | None
+    """None for the built-in home TBox."""
+    note: str
+    """Said beside the scene's figures: who labelled it, whether it may be tuned on."""
+    is_optional: bool
+    """Whether the matrix goes on without the scene where its files are absent."""
+
+    @property
+    def missing(self) -> Path | None:
+        """The first of its files that does not exist."""
+        files = (self.path, self.gold, *((self.ontology,) if self.ontology else ()))
+        return next((file for file in files if not file.exists()), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One run of the matrix."""
+
+    scene: SceneSpec
+    grounder: str
+    condition: str
+    """Name of the regime, or of the ablation's condition."""
+    regime: NamingRegime
+    evidence: frozenset[str] | None
+    repeat: int
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """What is to be run."""
+
+    title: str
+    scenes: tuple[SceneSpec, ...]
+    grounders: tuple[str, ...]
+    regimes: tuple[NamingRegime, ...]
+    repeats: int
+    has_ablation: bool
+
+    def cells(self) -> Iterator[Cell]:
+        """Yield all runs, scene by scene."""
+        conditions: list[tuple[str, NamingRegime, frozenset[str] | None]] = [(r.value, r, None) for r in self.regimes]
+        if self.has_ablation:
+            ablations = {**STUDY_ABLATION, **OWN_ABLATION}
+            conditions += [(name, regime, parse_evidence(groups)) for name, (regime, groups) in ablations.items()]
+        for scene in self.scenes:
+            for grounder in self.grounders:
+                for condition, regime, evidence in conditions:
+                    for repeat in range(1, self.repeats + 1):
+                        yield Cell(scene, grounder, condition, regime, evidence, repeat)
+
+
+def read_matrix(path: Path) -> Matrix:
+    """Return the matrix in a TOML file; its paths are relative to the file.
+
+    Raises:
+        EvaluationError: the file cannot be read, or says something that is not understood.
+    """
+    try:
+        data = tomllib.loads(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise EvaluationError(
+            f"{path}: cannot be read as a matrix ({error}); expected TOML, see docs/evaluation.md"
+        ) from error
+    _check_keys(path, "the matrix", data, _KEYS)
+    scenes = tuple(_read_scene_spec(path, spec) for spec in data.get("scene", ()))
+    if not scenes:
+        raise EvaluationError(f"{path}: names no scene; expected at least one [[scene]] with path and gold")
+    grounders = tuple(data.get("grounders", GROUNDERS))
+    unknown = [name for name in grounders if name not in GROUNDERS]
+    if unknown:
+        raise EvaluationError(f"{path}: grounder {unknown[0]!r} is unknown; expected {', '.join(GROUNDERS)}")
+    try:
+        regimes = tuple(NamingRegime(name) for name in data.get("regimes", list(NamingRegime)))
+    except (ValueError, GroundingError) as error:
+        raise EvaluationError(f"{path}: {error}; expected regimes of {', '.join(NamingRegime)}") from error
+    return Matrix(
+        title=str(data.get("title", path.stem)),
+        scenes=scenes,
+        grounders=grounders,
+        regimes=regimes,
+        repeats=int(data.get("repeats", 1)),
+        has_ablation=bool(data.get("ablation", False)),
+    )
+
+
+def _read_scene_spec(path: Path, spec: Mapping[str, Any]) -> SceneSpec:
+    name = str(spec.get("name", spec.get("path", "a scene")))
+    _check_keys(path, f"scene {name!r}", spec, _SCENE_KEYS)
+    for key in ("path", "gold"):
+        if key not in spec:
+            raise EvaluationError(f"{path}: scene {name!r} has no {key}; expected path and gold")
+    folder = path.resolve().parent
+    scene = SceneSpec(
+        name=name,
+        path=folder / spec["path"],
+        gold=folder / spec["gold"],
+        ontology=folder / spec["ontology"] if "ontology" in spec else None,
+        note=str(spec.get("note", "")),
+        is_optional=bool(spec.get("optional", False)),
+    )
+    if scene.missing and not scene.is_optional:
+        raise EvaluationError(f"{path}: scene {name!r}: {scene.missing} does not exist; mend the path or set optional")
+    return scene
+
+
+def _check_keys(path: Path, what: str, data: Mapping[str, Any], known: set[str]) -> None:
+    unknown = sorted(set(data) - known)
+    if unknown:
+        raise EvaluationError(f"{path}: {what} has the key {unknown[0]!r}; expected {', '.join(sorted(known))}")

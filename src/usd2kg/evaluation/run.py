@@ -1,0 +1,93 @@
+"""One evaluation: a grounder on a scene with gold labels, under one regime and one set of evidence."""
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from usd2kg.evaluation.gold import GoldLabel
+from usd2kg.evaluation.metrics.selection import SelectionScore, score_selection
+from usd2kg.evaluation.sample import Score, join_scores
+from usd2kg.evaluation.summary import Summary, summarize_scores
+from usd2kg.grounding import Grounder, Grounding, ground
+from usd2kg.ontology import TBox
+from usd2kg.scene import ASKED_FOR, NamingRegime, Scene
+
+__all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "selection_of"]
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The scores of one run and what they come to."""
+
+    grounding: Grounding
+    scores: tuple[Score, ...]
+    summary: Summary
+    seconds: float
+    """Time the grounder took for the labelled objects, without reading the scene."""
+
+
+def evaluate(
+    scene: Scene,
+    gold: Sequence[GoldLabel],
+    tbox: TBox,
+    grounder: Grounder,
+    *,
+    regime: NamingRegime = NamingRegime.SEMANTIC,
+    evidence: frozenset[str] | None = None,
+) -> Evaluation:
+    """Return the evaluation of a grounder on the labelled prims of a scene.
+
+    The scene must have been read with the gold paths as `paths`, so that each is an object; all other objects are
+    context.
+    """
+    start = time.perf_counter()
+    paths = [label.prim_path for label in gold]
+    grounding = ground(scene, tbox, grounder, regime=regime, evidence=evidence, paths=paths)
+    return score_grounding(grounding, gold, tbox, time.perf_counter() - start)
+
+
+def score_grounding(grounding: Grounding, gold: Sequence[GoldLabel], tbox: TBox, seconds: float) -> Evaluation:
+    """Return the evaluation of answers that were given before."""
+    scores = join_scores(gold, grounding)
+    return Evaluation(grounding, scores, summarize_scores(scores, tbox), seconds)
+
+
+def selection_of(scene: Scene, gold: Sequence[GoldLabel]) -> SelectionScore:
+    """Return how the selection rules alone do against the labelled prims."""
+    selected = [obj.prim_path for obj in scene.objects if obj.selected_by != ASKED_FOR]
+    return score_selection(selected, (label.prim_path for label in gold))
+
+
+def evaluation_json(evaluation: Evaluation, selection: SelectionScore | None = None) -> dict[str, Any]:
+    """Return an evaluation as plain data: the figures, what produced them, and every score."""
+    grounding = evaluation.grounding
+    data: dict[str, Any] = {
+        **evaluation.summary.as_json(),
+        "seconds": evaluation.seconds,
+        "scene": grounding.scene,
+        "scene_hash": grounding.scene_hash,
+        "ontology": grounding.ontology,
+        "ontology_hash": grounding.ontology_hash,
+        "grounder": grounding.grounder,
+        "settings": dict(grounding.settings),
+        "is_calibrated": grounding.is_calibrated,
+        "tool_version": grounding.tool_version,
+        "scores": [score_json(score) for score in evaluation.scores],
+    }
+    if selection is not None:
+        data["selection"] = selection._asdict()
+    return data
+
+
+def score_json(score: Score) -> Mapping[str, Any]:
+    """Return one score as plain data."""
+    return {
+        "path": score.id,
+        "target": score.target,
+        "also": sorted(score.also),
+        "answer": score.answer,
+        "confidence": score.confidence,
+        "status": score.status.value,
+        "explanation": score.explanation,
+    }

@@ -1,0 +1,58 @@
+"""Results of single runs in files, to be compared later."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from usd2kg.errors import EvaluationError
+from usd2kg.evaluation.sample import Score
+from usd2kg.grounding import Status
+
+__all__ = ["StoredRun", "read_run"]
+
+
+@dataclass(frozen=True)
+class StoredRun:
+    """One run as `usd2kg eval run --output` wrote it."""
+
+    source: str
+    ontology_hash: str
+    description: str
+    """Grounder and settings in a line."""
+    scores: tuple[Score, ...]
+
+
+def read_run(path: Path) -> StoredRun:
+    """Return the run in a JSON file.
+
+    Raises:
+        EvaluationError: the file cannot be read as a run.
+    """
+    try:
+        data = json.loads(path.read_text("utf-8"))
+        settings = data["settings"]
+        return StoredRun(
+            source=str(path),
+            ontology_hash=data["ontology_hash"],
+            description=f"{data['grounder']}, {settings['regime']} names, evidence {settings['evidence']}",
+            scores=tuple(_score(item) for item in data["scores"]),
+        )
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise EvaluationError(
+            f"{path}: cannot be read as a run ({type(error).__name__}: {error}); "
+            "expected JSON written by usd2kg eval run --output"
+        ) from error
+
+
+def _score(item: dict[str, Any]) -> Score:
+    return Score(
+        id=item["path"],
+        name=item["path"].rpartition("/")[2],
+        target=item["target"],
+        also=frozenset(item["also"]),
+        answer=item["answer"],
+        confidence=item["confidence"],
+        status=Status(item["status"]),
+        explanation=item["explanation"],
+    )

@@ -1,0 +1,40 @@
+"""A gold file to fill in: one row for each object of a scene."""
+
+import csv
+import io
+
+from usd2kg.grounding import Grounding
+from usd2kg.ontology import TBox
+from usd2kg.scene import Scene, SceneObject
+from usd2kg.words import words_of
+
+__all__ = ["gold_template"]
+
+_COLUMNS = ("path", "class", "also", "words", "size_m", "asset", "documentation")
+
+
+def gold_template(scene: Scene, suggestions: Grounding | None = None, tbox: TBox | None = None) -> str:
+    """Return CSV with a row for each object, class and also to be filled in.
+
+    Beside them stand what helps a person to decide; reading gold ignores those columns. With `suggestions`, the class
+    is filled in for review. Labels that are to measure a grounder should not start from its own answers.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for obj in scene.objects:
+        writer.writerow(_row(obj, _suggestion(obj, suggestions, tbox)))
+    return text.getvalue()
+
+
+def _suggestion(obj: SceneObject, suggestions: Grounding | None, tbox: TBox | None) -> str:
+    if suggestions is None or tbox is None:
+        return ""
+    found = suggestions.by_path.get(obj.prim_path)
+    return tbox.by_iri[found.class_iri].local_name if found and found.class_iri else ""
+
+
+def _row(obj: SceneObject, suggestion: str) -> tuple[str, ...]:
+    size = " x ".join(f"{side:.2f}" for side in obj.box.size) if obj.box else ""
+    words = " ".join(words_of(obj.display_name or obj.name))
+    return (obj.prim_path, suggestion, "", words, size, ", ".join(obj.asset), obj.documentation)

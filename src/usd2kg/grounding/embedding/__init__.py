@@ -1,0 +1,1 @@
+"""The study's S-BERT baseline: sentence embeddings of names, compared by their cosine."""

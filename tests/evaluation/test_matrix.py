@@ -1,0 +1,127 @@
+"""Matrices: what they may say, what they run, and that nothing is asked twice."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from usd2kg.errors import EvaluationError
+from usd2kg.evaluation import read_matrix, run_matrix
+from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.scene import NamingRegime
+
+SCENE = """
+def Xform "World" {
+  def Xform "Chair_1" (kind = "component")
+  {
+    def Cube "a" {}
+  }
+  def Xform "Table_1" (kind = "component")
+  {
+    def Cube "a" {}
+  }
+}
+"""
+
+
+@pytest.fixture
+def matrix(tmp_path: Path, write_stage: Callable[..., Path]) -> Path:
+    write_stage(SCENE)
+    (tmp_path / "gold.csv").write_text("path,class\n/World/Chair_1,DesignedChair\n/World/Table_1,Table\n")
+    path = tmp_path / "matrix.toml"
+    path.write_text(
+        'title = "two things"\ngrounders = ["embedded"]\nregimes = ["semantic", "opaque"]\nrepeats = 2\n'
+        '[[scene]]\nname = "room"\npath = "scene.usda"\ngold = "gold.csv"\n'
+        '[[scene]]\nname = "elsewhere"\npath = "none.usda"\ngold = "none.csv"\noptional = true\n'
+    )
+    return path
+
+
+def test_cells_are_the_product_of_what_is_named(matrix: Path) -> None:
+    plan = read_matrix(matrix)
+    cells = [cell for cell in plan.cells() if cell.scene.name == "room"]
+    assert [(c.condition, c.repeat) for c in cells] == [("semantic", 1), ("semantic", 2), ("opaque", 1), ("opaque", 2)]
+
+
+def test_the_ablation_is_the_study_s_six_conditions_and_our_own(matrix: Path) -> None:
+    matrix.write_text(matrix.read_text().replace("repeats = 2", "ablation = true"))
+    cells = [cell for cell in read_matrix(matrix).cells() if cell.scene.name == "room"]
+    assert [c.condition for c in cells][2:] == [*STUDY_ABLATION, *OWN_ABLATION]
+    by_name = {c.condition: c for c in cells}
+    assert len(STUDY_ABLATION) == 6
+    assert by_name["geometry only"].regime is NamingRegime.OPAQUE
+    assert by_name["geometry only"].evidence == {"geometry"}
+    assert by_name["hierarchy only, anonymised"].regime is NamingRegime.OPAQUE_ANONYMOUS
+
+
+def test_answers_are_stored_and_never_asked_for_twice(
+    matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    original = EmbeddedGrounder.ground_views
+
+    def counting(self: EmbeddedGrounder, views, tbox):  # type: ignore[no-untyped-def]
+        asked.append(len(views))
+        return original(self, views, tbox)
+
+    monkeypatch.setattr(EmbeddedGrounder, "ground_views", counting)
+    plan = read_matrix(matrix)
+    (first,) = run_matrix(plan, tmp_path / "out")
+    assert asked == [2, 2, 2, 2]
+    assert first.cells[0].evaluation.summary.ema == 100.0
+    (again,) = run_matrix(plan, tmp_path / "out")
+    assert asked == [2, 2, 2, 2]
+    assert all(cell.was_stored for cell in again.cells)
+    assert [c.evaluation.scores for c in again.cells] == [c.evaluation.scores for c in first.cells]
+    run_matrix(plan, tmp_path / "out", refresh=True)
+    assert len(asked) == 8
+
+
+def test_an_interrupted_run_goes_on_where_it_stopped(matrix: Path, tmp_path: Path) -> None:
+    plan = read_matrix(matrix)
+    seen = []
+
+    def stop_after_two(result) -> None:  # type: ignore[no-untyped-def]
+        seen.append(result.was_stored)
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_matrix(plan, tmp_path / "out", progress=stop_after_two)
+    (result,) = run_matrix(plan, tmp_path / "out")
+    assert [cell.was_stored for cell in result.cells] == [True, True, False, False]
+
+
+def test_another_gold_class_scores_the_stored_answers_anew(matrix: Path, tmp_path: Path) -> None:
+    plan = read_matrix(matrix)
+    run_matrix(plan, tmp_path / "out")
+    (tmp_path / "gold.csv").write_text("path,class\n/World/Chair_1,Sofa\n/World/Table_1,Table\n")
+    (result,) = run_matrix(plan, tmp_path / "out")
+    assert result.cells[0].was_stored
+    assert result.cells[0].evaluation.summary.ema == 50.0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('grounders = ["embedded"]', 'grounders = ["oracle"]', "grounder 'oracle' is unknown"),
+        ('"opaque"', '"foggy"', "expected regimes of semantic"),
+        ("repeats = 2", "repeat = 2", "the matrix has the key 'repeat'; expected"),
+        ('gold = "gold.csv"', 'golden = "gold.csv"', "scene 'room' has the key 'golden'"),
+        ('gold = "gold.csv"', "", "scene 'room' has no gold"),
+        ('"scene.usda"', '"other.usda"', "other.usda does not exist"),
+        ("[[scene]]", "[[scene", "cannot be read as a matrix"),
+    ],
+)
+def test_a_bad_matrix_says_what_is_wrong(matrix: Path, old: str, new: str, said: str) -> None:
+    matrix.write_text(matrix.read_text().replace(old, new, 1))
+    with pytest.raises(EvaluationError, match=said):
+        read_matrix(matrix)
+
+
+def test_a_matrix_without_scenes_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "m.toml"
+    path.write_text('title = "x"\n')
+    with pytest.raises(EvaluationError, match="names no scene"):
+        read_matrix(path)

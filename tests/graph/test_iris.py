@@ -1,0 +1,137 @@
+"""IRIs of individuals: unique, reversible, legal."""
+
+import pyoxigraph as ox
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from usd2kg.errors import GraphError
+from usd2kg.graph import individual_iri, prim_path_of
+from usd2kg.graph.iris import check_base, default_base
+
+BASE = "https://my.lab/k/"
+
+_STARTS = st.characters(categories=["Lu", "Ll", "Lt", "Lm", "Lo", "Nl"], include_characters="_")
+_REST = st.text(
+    st.characters(categories=["Lu", "Ll", "Lt", "Lm", "Lo", "Nl", "Mn", "Mc", "Nd", "Pc"], include_characters="_")
+)
+NAMES = st.builds(lambda start, rest: start + rest, _STARTS, _REST)
+"""Prim names: XID_Start or underscore, then XID_Continue."""
+PATHS = st.lists(NAMES, min_size=1, max_size=5).map(lambda names: "/" + "/".join(names))
+PARTS = st.sampled_from(["box", "mass", "place", "pose", "shape"])
+
+
+@pytest.mark.parametrize(
+    ("path", "iri"),
+    [
+        ("/World/Table_1/Cup_3", "https://my.lab/k/World.Table_1.Cup_3"),
+        ("/Cup", "https://my.lab/k/Cup"),
+        # UTF-8 of ü is C3 BC.
+        ("/Küche/Cup", "https://my.lab/k/K%C3%BCche.Cup"),
+    ],
+)
+def test_the_iri_of_a_prim(path: str, iri: str):
+    assert individual_iri(BASE, path) == iri
+    assert prim_path_of(BASE, iri) == path
+
+
+def test_the_iri_of_a_part_leads_back_to_its_prim():
+    iri = individual_iri(BASE, "/World/Cup", "shape")
+    assert iri == "https://my.lab/k/World.Cup-shape"
+    assert prim_path_of(BASE, iri) == "/World/Cup"
+
+
+def test_a_child_called_like_a_part_is_another_individual():
+    assert individual_iri(BASE, "/Cup/box") != individual_iri(BASE, "/Cup", "box")
+    assert individual_iri(BASE, "/Cup_box") != individual_iri(BASE, "/Cup", "box")
+
+
+def test_hash_and_urn_bases():
+    assert individual_iri("https://my.lab/k#", "/World/Cup") == "https://my.lab/k#World.Cup"
+    assert prim_path_of("urn:lab:", individual_iri("urn:lab:", "/World/Cup")) == "/World/Cup"
+
+
+@settings(deadline=None, max_examples=300)
+@given(PATHS)
+def test_reversible(path: str):
+    assert prim_path_of(BASE, individual_iri(BASE, path)) == path
+
+
+@settings(deadline=None, max_examples=300)
+@given(PATHS, PATHS, PARTS, PARTS)
+def test_different_things_have_different_iris(first: str, second: str, part: str, other: str):
+    iris = [
+        individual_iri(BASE, path, of_part)
+        for path in dict.fromkeys([first, second])
+        for of_part in dict.fromkeys(["", part, other])
+    ]
+    assert len(iris) == len(set(iris))
+
+
+@settings(deadline=None, max_examples=200)
+@given(PATHS, PARTS)
+def test_every_iri_is_legal_and_survives_a_file(path: str, part: str):
+    for iri in (individual_iri(BASE, path), individual_iri(BASE, path, part)):
+        triple = ox.Triple(ox.NamedNode(iri), ox.NamedNode("urn:p"), ox.Literal("x"))
+        data = ox.serialize([triple], format=ox.RdfFormat.TURTLE, prefixes={"": BASE})
+        (quad,) = ox.parse(data, format=ox.RdfFormat.TURTLE)
+        assert quad.subject.value == iri
+
+
+def test_names_that_differ_in_unicode_form_only_stay_apart():
+    composed, decomposed = "/K\u00fcche", "/Ku\u0308che"
+    assert individual_iri(BASE, composed) != individual_iri(BASE, decomposed)
+    assert prim_path_of(BASE, individual_iri(BASE, decomposed)) == decomposed
+
+
+@pytest.mark.parametrize(
+    ("source", "base"),
+    [
+        ("scenes/kitchen.usda", "https://example.org/kitchen/"),
+        ("my kitchen.usd", "https://example.org/my%20kitchen/"),
+        ("Küche#1.usdz", "https://example.org/K%C3%BCche%231/"),
+        ("a<b>.usda", "https://example.org/a%3Cb%3E/"),
+    ],
+)
+def test_the_default_base_is_made_from_the_files_name(source: str, base: str):
+    assert default_base(source) == base
+    assert check_base(base) == base
+    ox.NamedNode(base)
+
+
+@pytest.mark.parametrize("base", ["https://my.lab/k/", "https://my.lab/k#", "urn:lab:", "http://müller.example/küche/"])
+def test_a_base_that_is_fine(base: str):
+    assert check_base(base) == base
+    ox.NamedNode(individual_iri(base, "/World/Cup"))
+
+
+@pytest.mark.parametrize(
+    "base",
+    [
+        # Not absolute.
+        "kitchen/",
+        "",
+        "/",
+        "//my.lab/",
+        ":/",
+        "/a:b/",
+        "1:/",
+        # Nothing to join names to.
+        "https://my.lab/k",
+        "https://my.lab/k?x=1",
+        # Not an IRI.
+        "https://my lab/",
+        "https://my.lab/<k>/",
+        'https://my.lab/"/',
+        "https://my.lab/{k}/",
+        "https://my.lab/\n/",
+        "https://my.lab/\x00/",
+        "https://my.lab/%zz/",
+        "https://[my.lab/",
+    ],
+)
+def test_a_base_that_is_no_iri_is_an_error(base: str):
+    with pytest.raises(GraphError) as error:
+        check_base(base)
+    assert repr(base) in str(error.value)
+    assert "ends in / or #" in str(error.value)

@@ -1,0 +1,189 @@
+"""Imports: found by the catalog or in the folder, never fetched, never fatal when missing."""
+
+import pytest
+
+from usd2kg.errors import OntologyError
+from usd2kg.ontology import load_tbox
+
+CATALOG = '<catalog prefer="public" xmlns="urn:oasis:names:tc:entity:xmlns:xml:catalog">{}</catalog>'
+
+
+@pytest.fixture
+def write_catalog(tmp_path):
+    """A function that writes `catalog-v001.xml` from IRI → place."""
+
+    def write(**places):
+        entries = "".join(f'<uri name="{iri}" uri="{place}"/>' for iri, place in places.items())
+        (tmp_path / "catalog-v001.xml").write_text(CATALOG.format(entries))
+
+    return write
+
+
+def ontology(iri, *imports):
+    listed = "".join(f" ; owl:imports <{name}>" for name in imports)
+    return f"<{iri}> a owl:Ontology{listed} .\n"
+
+
+def names(tbox):
+    return [cls.local_name for cls in tbox.classes]
+
+
+PHYSICAL = ":Cup rdfs:subClassOf :Crockery . :Plan rdfs:subClassOf :Idea .\n"
+UPPER = ":Crockery rdfs:subClassOf dul:PhysicalObject .\n"
+"""With this imported, :Cup and :Crockery are known to be physical and :Plan is not."""
+
+
+def test_import_by_catalog(write_turtle, write_catalog):
+    write_catalog(**{"http://example.com/upper": "lib/other_name.ttl"})
+    write_turtle(ontology("http://example.com/upper") + UPPER, "lib/other_name.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
+    assert (names(tbox), tbox.imports, tbox.notes) == (["Crockery", "Cup"], ("http://example.com/upper",), ())
+
+
+@pytest.mark.parametrize("name", ["upper.ttl", "upper.owl", "upper"])
+@pytest.mark.parametrize(
+    "iri", ["http://example.com/upper", "http://example.com/upper.owl", "http://example.com/upper#", "urn/upper/"]
+)
+def test_import_by_file_name_in_the_folder(write_turtle, name, iri):
+    if iri.endswith(".owl") and name == "upper":
+        name = "upper.owl"
+    write_turtle(UPPER, name)
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", iri) + PHYSICAL))
+    assert (names(tbox), tbox.notes) == (["Crockery", "Cup"], ())
+
+
+def test_imports_of_imports_are_read(write_turtle):
+    write_turtle(ontology("http://example.com/a", "http://example.com/b"), "a.ttl")
+    write_turtle(ontology("http://example.com/b") + UPPER, "b.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/a") + PHYSICAL))
+    assert names(tbox) == ["Crockery", "Cup"]
+    assert tbox.imports == ("http://example.com/a", "http://example.com/b")
+
+
+def test_cyclic_imports_end(write_turtle):
+    write_turtle(ontology("http://example.com/a", "http://example.com/home") + UPPER, "a.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/a") + PHYSICAL))
+    assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://example.com/a",))
+
+
+def test_cycle_by_version_iri_does_not_import_the_file_itself(write_turtle, write_catalog):
+    write_catalog(**{"http://example.com/a": "a.ttl", "http://example.com/home/1.0": "home.ttl"})
+    write_turtle(ontology("http://example.com/a", "http://example.com/home/1.0") + UPPER, "a.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/a") + PHYSICAL))
+    assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://example.com/a",))
+
+
+def test_import_that_calls_itself_otherwise_is_read_once(write_turtle):
+    write_turtle(ontology("http://other.org/name") + UPPER, "upper.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
+    assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://other.org/name",))
+
+
+def test_missing_import_is_told_and_not_fatal(write_turtle):
+    path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
+    tbox = load_tbox(path)
+    assert names(tbox) == ["Crockery", "Cup", "Idea", "Plan"]  # nothing says what is physical
+    assert [(note.code, note.message) for note in tbox.notes] == [
+        (
+            "missing-import",
+            f"{path}: imports <http://example.com/upper>, which is neither in catalog-v001.xml nor in the folder; "
+            "classes are placed without it",
+        )
+    ]
+
+
+def test_import_with_an_endless_name_is_missing_like_any_other(write_turtle):
+    # No file system takes a name of 400 letters.
+    path = write_turtle(ontology("http://example.com/home", "http://example.com/" + "a" * 400) + PHYSICAL)
+    assert [note.code for note in load_tbox(path).notes] == ["missing-import"]
+
+
+def test_same_missing_import_is_told_once(write_turtle):
+    write_turtle(ontology("http://example.com/a", "http://example.com/gone"), "a.ttl")
+    home = ontology("http://example.com/home", "http://example.com/a", "http://example.com/gone")
+    assert len(load_tbox(write_turtle(home + PHYSICAL)).notes) == 1
+
+
+def test_catalog_place_is_a_uri(write_turtle, write_catalog):
+    # XML Catalogs 1.1, section 6.1: `uri` is a URI reference, so a blank is written %20.
+    write_catalog(**{"http://example.com/upper": "my%20upper.ttl"})
+    write_turtle(UPPER, "my upper.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
+    assert tbox.notes == ()
+
+
+def test_catalog_entry_without_its_file_is_a_missing_import(write_turtle, write_catalog):
+    write_catalog(**{"http://example.com/upper": "gone.ttl"})
+    write_turtle(UPPER, "upper.ttl")  # the catalog decides: no second guess by name
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
+    assert [note.code for note in tbox.notes] == ["missing-import"]
+
+
+def test_catalogs_of_the_editor_protege_are_read(write_turtle, tmp_path):
+    group = '<group id="Folder Repository" prefer="public" xml:base=""><uri id="x" name="{}" uri="u.ttl"/></group>'
+    (tmp_path / "catalog-v001.xml").write_text(CATALOG.format(group.format("http://example.com/upper")))
+    write_turtle(UPPER, "u.ttl")
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
+    assert names(tbox) == ["Crockery", "Cup"]
+
+
+@pytest.mark.parametrize("text", ["<catalog", "", "no xml at all"])
+def test_malformed_catalog_is_refused(write_turtle, tmp_path, text):
+    (tmp_path / "catalog-v001.xml").write_text(text)
+    path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
+    with pytest.raises(OntologyError) as caught:
+        load_tbox(path)
+    message = str(caught.value)
+    assert message.startswith(f"{tmp_path / 'catalog-v001.xml'}: the catalog is not well-formed XML (")
+    assert message.endswith("; mend or remove it")
+    assert "\n" not in message
+
+
+def test_catalog_is_not_needed_without_imports(write_turtle, tmp_path):
+    (tmp_path / "catalog-v001.xml").write_text("<catalog")
+    assert names(load_tbox(write_turtle(PHYSICAL))) == ["Crockery", "Cup", "Idea", "Plan"]
+
+
+def test_malformed_import_is_refused_with_its_own_place(write_turtle, tmp_path):
+    (tmp_path / "upper.ttl").write_text("@prefix broken")
+    path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
+    with pytest.raises(OntologyError, match=r"upper\.ttl: looks like Turtle or N-Triples but does not parse"):
+        load_tbox(path)
+
+
+# --- nothing outside -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "iri",
+    [
+        "http://example.com/../secret.ttl",
+        "http://example.com/..",
+        "http://example.com/..%2Fsecret.ttl",
+        "file:///etc/passwd",
+        "../secret.ttl",
+    ],
+)
+def test_import_iri_does_not_leave_the_folder(write_turtle, iri):
+    write_turtle(UPPER, "secret.ttl")
+    path = write_turtle(ontology("http://example.com/home", iri) + PHYSICAL, "inside/home.ttl")
+    tbox = load_tbox(path)
+    assert [note.code for note in tbox.notes] == ["missing-import"]
+    assert tbox.imports == ()
+
+
+@pytest.mark.parametrize("place", ["http://example.com/upper.ttl", "file://{outside}"])
+def test_catalog_does_not_lead_to_the_network_or_to_file_urls(write_turtle, write_catalog, tmp_path, place):
+    outside = write_turtle(UPPER, "elsewhere/upper.ttl")
+    write_catalog(**{"http://example.com/gone": place.format(outside=outside)})
+    path = write_turtle(ontology("http://example.com/home", "http://example.com/gone") + PHYSICAL)
+    assert [note.code for note in load_tbox(path).notes] == ["missing-import"]
+
+
+def test_hash_covers_the_whole_closure(write_turtle):
+    write_turtle(UPPER, "upper.ttl")
+    home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
+    first = load_tbox(home).content_hash
+    assert load_tbox(home).content_hash == first
+    write_turtle(UPPER + ":Extra a owl:Class .", "upper.ttl")
+    assert load_tbox(home).content_hash != first

@@ -1,0 +1,152 @@
+"""Asking a TBox: hierarchy, common ancestors, names."""
+
+import random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from usd2kg.errors import OntologyError
+from usd2kg.ontology import OntologyClass, TBox
+
+BASE = "http://example.com/home#"
+
+
+def tbox_of(**parents):
+    """Return a TBox from local name → local names of the parents, apart by blanks."""
+    classes = tuple(
+        OntologyClass(BASE + name, name.lower(), (), "", tuple(BASE + up for up in sorted(ups.split())))
+        for name, ups in sorted(parents.items())
+    )
+    return TBox("home.owl", BASE, None, "sha256:0", classes)
+
+
+#        Artifact        Food
+#        /      \         |
+#     Seat     Bed      Bread
+#      /  \    /
+#   Chair SofaBed
+HOME = tbox_of(Artifact="", Seat="Artifact", Bed="Artifact", Chair="Seat", SofaBed="Seat Bed", Food="", Bread="Food")
+
+
+def local(iris):
+    return [iri.removeprefix(BASE) for iri in iris]
+
+
+def test_roots_and_children_are_sorted():
+    assert local(HOME.roots) == ["Artifact", "Food"]
+    assert local(HOME.children[BASE + "Artifact"]) == ["Bed", "Seat"]
+    assert HOME.children[BASE + "Bread"] == ()
+
+
+def test_closure_is_the_class_with_all_above():
+    assert sorted(local(HOME.closure(BASE + "SofaBed"))) == ["Artifact", "Bed", "Seat", "SofaBed"]
+    assert local(HOME.closure(BASE + "Food")) == ["Food"]
+
+
+def test_subclass_is_reflexive_and_one_way():
+    assert HOME.is_subclass(BASE + "Chair", BASE + "Artifact")
+    assert HOME.is_subclass(BASE + "Chair", BASE + "Chair")
+    assert not HOME.is_subclass(BASE + "Artifact", BASE + "Chair")
+    assert not HOME.is_subclass(BASE + "Chair", BASE + "Food")
+
+
+def test_depth_is_the_longest_way_up():
+    # D is below B and below C below B: two edges by B, three by C.
+    deep = tbox_of(A="", B="A", C="B", D="B C")
+    assert local(deep.depths) == ["A", "B", "C", "D"]
+    assert list(deep.depths.values()) == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("names", "expected"),
+    [
+        ("Chair SofaBed", ["Seat"]),
+        ("Chair Bed", ["Artifact"]),
+        ("Chair Seat", ["Seat"]),
+        ("Chair", ["Chair"]),
+        ("SofaBed SofaBed", ["SofaBed"]),
+        ("Chair Bread", []),
+        ("Chair SofaBed Bed", ["Artifact"]),
+    ],
+)
+def test_lowest_common_ancestors(names, expected):
+    assert local(HOME.lowest_common_ancestors([BASE + name for name in names.split()])) == expected
+
+
+def test_several_lowest_common_ancestors_are_sorted():
+    both = tbox_of(A="", B="A", C="A", D="B C", E="B C")
+    assert local(both.lowest_common_ancestors([BASE + "D", BASE + "E"])) == ["B", "C"]
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000), st.integers(1, 12))
+def test_hierarchy_of_any_tree_is_consistent(seed, size):
+    # Parents are drawn among earlier names only, so there is no cycle.
+    rng = random.Random(seed)
+    names = [chr(ord("A") + index) for index in range(size)]
+    parents = {
+        name: " ".join(rng.sample(names[:index], rng.randint(0, min(index, 2)))) for index, name in enumerate(names)
+    }
+    tbox = tbox_of(**parents)
+    for cls in tbox.classes:
+        closure = tbox.closure(cls.iri)
+        assert closure == {cls.iri}.union(*(tbox.closure(parent) for parent in cls.parents))
+        assert all(tbox.depths[parent] < tbox.depths[cls.iri] for parent in cls.parents)
+        assert all(cls.iri in tbox.children[parent] for parent in cls.parents)
+        assert (cls.iri in tbox.roots) == (tbox.depths[cls.iri] == 0) == (len(closure) == 1)
+    first, last = tbox.classes[0].iri, tbox.classes[-1].iri
+    common = tbox.closure(first) & tbox.closure(last)
+    lowest = tbox.lowest_common_ancestors([first, last])
+    assert set(lowest) <= common
+    assert all(any(tbox.is_subclass(low, iri) for low in lowest) for iri in common)
+
+
+def test_very_deep_hierarchies_do_no_harm():
+    # Deeper than Python's default limit of 1000 calls; C0000 is the deepest.
+    chain = tbox_of(**{f"C{index:04}": f"C{index + 1:04}" if index < 1100 else "" for index in range(1101)})
+    assert len(chain.closure(BASE + "C0000")) == 1101
+    assert chain.depths[BASE + "C0000"] == 1100
+
+
+# --- names -------------------------------------------------------------------------------------------
+
+SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
+NAMED = TBox(
+    "soma.owl",
+    SOMA,
+    None,
+    "sha256:0",
+    tuple(OntologyClass(iri, "", (), "", ()) for iri in (BASE + "Cup", SOMA + "Bowl", SOMA + "Cup")),
+)
+
+
+@pytest.mark.parametrize(
+    ("name", "iri"),
+    [
+        (SOMA + "Cup", SOMA + "Cup"),
+        (f"<{SOMA}Cup>", SOMA + "Cup"),
+        ("soma:Cup", SOMA + "Cup"),
+        ("SOMA:Cup", SOMA + "Cup"),
+        (" soma:Bowl\n", SOMA + "Bowl"),
+        ("Bowl", SOMA + "Bowl"),
+        (BASE + "Cup", BASE + "Cup"),
+    ],
+)
+def test_resolve(name, iri):
+    assert NAMED.resolve(name) == iri
+
+
+def test_ambiguous_names_are_refused_with_the_choices():
+    with pytest.raises(OntologyError) as caught:
+        NAMED.resolve("Cup")
+    assert str(caught.value) == (
+        f"soma.owl: 'Cup' names 2 classes ({BASE}Cup, {SOMA}Cup) of the 3 in scope; "
+        "expected an IRI, a CURIE or a unique local name, see usd2kg ontology show"
+    )
+
+
+@pytest.mark.parametrize("name", ["cup", "Cupboard", "", "soma:Plate", "https://www.ease-crc.org/ont/SOMA.owl#Cup"])
+def test_unknown_names_are_refused(name):
+    with pytest.raises(OntologyError, match="names no class of the 3 in scope"):
+        NAMED.resolve(name)
