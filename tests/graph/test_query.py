@@ -65,7 +65,8 @@ class TestOnAndIn:
         assert answer.rows == self.ON_TABLE
 
     @pytest.mark.parametrize(
-        "question", ["in fruit bowl", "what is in the bowl?", "inside of FruitBowl", "inside bowl"]
+        "question",
+        ["in fruit bowl", "what is in the bowl?", "inside of FruitBowl", "inside bowl"],
     )
     def test_what_is_in_the_bowl(self, store: GraphStore, question: str):
         answer = store.ask(question.split())
@@ -264,7 +265,7 @@ class TestSparql:
             # Nothing listens at port 9.
             "SELECT ?s { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }",
             "ASK { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }",
-            "CONSTRUCT WHERE { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }",
+            "CONSTRUCT { ?s ?p ?o } WHERE { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }",
         ],
     )
     def test_a_query_that_fails_while_it_runs_is_an_error_too(self, store: GraphStore, query: str):

@@ -266,7 +266,15 @@ def test_bare_meshes_below_a_scope_are_objects(read):
 
 
 @pytest.mark.parametrize(
-    ("name", "is_grouping"), [("Props_Group", True), ("Furniture", True), ("GroupTherapyChair", False)]
+    ("name", "is_grouping"),
+    [
+        ("Props_Group", True),
+        ("PropsGroup", True),
+        ("Furniture", True),
+        ("GRP", True),
+        ("Group_Therapy_Chair", False),
+        ("Offset", False),  # ends in "set" and is no set
+    ],
 )
 def test_an_xform_named_as_a_grouping_is_one(read, name, is_grouping):
     scene = read(xform("World", xform(name, cube("a"), cube("b")), cube("box")))

@@ -277,16 +277,17 @@ def test_impossible_kilograms_per_unit_count_as_one_and_are_told(read, value):
 
 
 def test_hash_covers_every_layer_and_not_the_place(write_stage):
-    def digest(folder, asset_size):
+    def digest(folder, asset_size=1, other_size=1):
         write_stage(cube("Cup", size=asset_size), f"{folder}/asset.usda")
-        scene = METRES + xform("World", prim("", "Cup", meta=["references = @asset.usda@</Cup>"]))
+        cup = prim("", "Cup", meta=["references = @asset.usda@</Cup>"])
+        scene = METRES + xform("World", cup, cube("Other", size=other_size))
         return read_scene(write_stage(scene, f"{folder}/scene.usda")).content_hash
 
-    first = digest("one", 1)
+    first = digest("one")
     assert first.startswith("sha256:")
     assert len(first) == len("sha256:") + hashlib.sha256().digest_size * 2
-    assert digest("two", 1) == first
-    assert digest("three", 2) != first
+    assert digest("two") == first
+    assert len({first, digest("three", asset_size=2), digest("four", other_size=2)}) == 3
 
 
 def test_source_is_kept_as_the_user_named_it(write_stage, monkeypatch):

@@ -4,7 +4,6 @@ Exit codes: 0 done, 2 wrong usage or an input or output that cannot be used.
 """
 
 import logging
-import os
 import sys
 import traceback
 from typing import Annotated
@@ -54,16 +53,12 @@ def main() -> None:
         # It belongs to the whole program, but people add it to the end of the command that just failed.
         arguments = ["--verbose", *(argument for argument in arguments if argument != "--verbose")]
     try:
-        app(args=arguments)
+        app(args=arguments, prog_name="usd2kg")
     except Usd2kgError as error:
         if is_verbose:
             traceback.print_exc()
         talk(f"usd2kg: {' '.join(str(error).split())}")
         sys.exit(2)
-    except BrokenPipeError:
-        # The reader of our output has enough (`| head`): that is no error of ours.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Printing: data on stdout, talk on stderr."""
 
 import json
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,15 +21,21 @@ def talk(message: str) -> None:
 
 def print_json(data: Any) -> None:
     """Print data as JSON on stdout."""
-    print(json.dumps(data, indent=1, ensure_ascii=False))  # noqa: T201
+    emit(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
 
 
 def emit(text: str, path: Path | None) -> None:
     """Write text to a file, whole or not at all; to stdout if there is none."""
-    if path is None:
-        sys.stdout.write(text)
-    else:
+    if path is not None:
         write_whole(path, text.encode("utf-8"))
+        return
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader of our output has enough (`| head`): that is no error of ours.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
 
 
 def printable(text: str) -> str:

@@ -39,6 +39,13 @@ def read_gold(path: Path, tbox: TBox) -> tuple[GoldLabel, ...]:
             f"{path}: cannot be read as gold labels ({error}); expected CSV path,class,also"
         ) from error
     rows = csv.DictReader(text.splitlines())
+    try:
+        return _read_rows(path, rows, tbox)
+    except csv.Error as error:
+        raise EvaluationError(f"{path}: line {rows.line_num} is not CSV ({error}); expected path,class,also") from error
+
+
+def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> tuple[GoldLabel, ...]:
     missing = [column for column in _COLUMNS[:2] if column not in (rows.fieldnames or ())]
     if missing:
         found = ", ".join(rows.fieldnames or ()) or "nothing"

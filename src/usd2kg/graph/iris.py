@@ -1,7 +1,10 @@
 """IRIs of individuals: from prim paths, stable across runs, unique, and back again."""
 
+import re
 from pathlib import Path
 from urllib.parse import quote, unquote
+
+import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 
@@ -26,7 +29,13 @@ def check_base(base: str) -> str:
     Raises:
         GraphError: it is not an absolute IRI that ends in `/` or `#`.
     """
-    if ":" not in base or not base.endswith(("/", "#", ":")) or any(c in base for c in ' <>"{}|\\^`'):
+    try:
+        is_good = base.endswith(("/", "#", ":")) and base.isprintable() and bool(re.match(r"[A-Za-z][\w+.-]*:", base))
+        # Turtle's parser is what must be able to read it back.
+        next(iter(ox.parse(f"<{base}x> <{base}x> <{base}x> .", format=ox.RdfFormat.TURTLE)))
+    except SyntaxError:
+        is_good = False
+    if not is_good:
         raise GraphError(f"base {base!r}: expected an absolute IRI that ends in / or #, like https://my.lab/kitchen/")
     return base
 

@@ -76,4 +76,9 @@ def number(value: float, datatype: str = "double") -> ox.Literal:
 
 def text(value: str) -> ox.Literal:
     """Return a plain string literal; characters that RDF's syntaxes cannot hold become U+FFFD."""
-    return ox.Literal("".join(c if c in "\t\n\r" or c >= " " else "\ufffd" for c in value))
+    return ox.Literal("".join(c if c in "\t\n\r" or _is_character(c) else "\ufffd" for c in value))
+
+
+def _is_character(c: str) -> bool:
+    """Return whether XML and RDF can hold a character: no control code, no half of a surrogate pair."""
+    return c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff"

@@ -69,7 +69,10 @@ class DictionaryGrounder:
 
 def _read_pairs(text: str, source: str) -> dict[str, str]:
     rows = csv.DictReader(text.splitlines())
-    if not {"name", "class"} <= set(rows.fieldnames or ()):
-        found = ", ".join(rows.fieldnames or ()) or "nothing"
-        raise GroundingError(f"{source}: line 1 has the columns {found}; expected name,class")
-    return {row["name"]: row["class"] for row in rows if row["name"] and row["class"]}
+    try:
+        if not {"name", "class"} <= set(rows.fieldnames or ()):
+            found = ", ".join(rows.fieldnames or ()) or "nothing"
+            raise GroundingError(f"{source}: line 1 has the columns {found}; expected name,class")
+        return {row["name"]: row["class"] for row in rows if row["name"] and row["class"]}
+    except csv.Error as error:
+        raise GroundingError(f"{source}: line {rows.line_num} is not CSV ({error}); expected name,class") from error

@@ -85,7 +85,10 @@ def read_paths(path: Path) -> list[str]:
         rows = csv.DictReader(path.read_text("utf-8-sig").splitlines())
     except (OSError, UnicodeDecodeError) as error:
         raise GroundingError(f"{path}: cannot be read as a CSV file with a column 'path' ({error})") from error
-    if "path" not in (rows.fieldnames or ()):
-        found = ", ".join(rows.fieldnames or ()) or "nothing"
-        raise GroundingError(f"{path}: line 1 has the columns {found}; expected a column 'path'")
-    return list(dict.fromkeys(row["path"].strip() for row in rows if row["path"] and row["path"].strip()))
+    try:
+        if "path" not in (rows.fieldnames or ()):
+            found = ", ".join(rows.fieldnames or ()) or "nothing"
+            raise GroundingError(f"{path}: line 1 has the columns {found}; expected a column 'path'")
+        return list(dict.fromkeys(row["path"].strip() for row in rows if row["path"] and row["path"].strip()))
+    except csv.Error as error:
+        raise GroundingError(f"{path}: line {rows.line_num} is not CSV ({error}); expected a column 'path'") from error

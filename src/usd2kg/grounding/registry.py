@@ -7,16 +7,17 @@ from usd2kg.grounding.base import Grounder
 
 __all__ = ["GROUNDERS", "make_grounder"]
 
-GROUNDERS = ("embedded", "dictionary")
+GROUNDERS = ("embedded", "dictionary", "embedding", "volume")
 """Names that `make_grounder` knows; the first is the default."""
 
 
-def make_grounder(name: str, *, dictionary: Path | None = None) -> Grounder:
+def make_grounder(name: str, *, dictionary: Path | None = None, class_sizes: Path | None = None) -> Grounder:
     """Return the grounder of that name.
 
     Args:
         name: one of `GROUNDERS`.
         dictionary: for `dictionary`, a CSV file `name,class` of the user's own.
+        class_sizes: for `volume`, a CSV file of usual sizes of the user's own.
 
     Raises:
         GroundingError: there is no such grounder, or its file cannot be read.
@@ -30,4 +31,12 @@ def make_grounder(name: str, *, dictionary: Path | None = None) -> Grounder:
         from usd2kg.grounding.dictionary import DictionaryGrounder  # noqa: PLC0415
 
         return DictionaryGrounder.from_csv(dictionary) if dictionary else DictionaryGrounder.multiverse()
+    if name == "embedding":
+        from usd2kg.grounding.embedding.grounder import EmbeddingGrounder  # noqa: PLC0415
+
+        return EmbeddingGrounder()
+    if name == "volume":
+        from usd2kg.grounding.volume import VolumeGrounder  # noqa: PLC0415
+
+        return VolumeGrounder.from_csv(class_sizes) if class_sizes else VolumeGrounder()
     raise GroundingError(f"grounder {name!r} is unknown; expected one of {', '.join(GROUNDERS)}")

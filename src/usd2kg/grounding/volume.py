@@ -141,6 +141,8 @@ def _read_volumes(text: str, source: str) -> dict[str, float]:
             )
         for row in rows:
             where = f"{source}: line {rows.line_num}"
+            if len(row) > len(rows.fieldnames or ()):
+                raise GroundingError(f"{where} has more cells than line 1; expected metres as in 0.08, with a point")
             named = (row["class"] or "").strip()
             if not named:
                 raise GroundingError(f"{where} names no class; expected an IRI, a CURIE or a local name")
@@ -149,7 +151,7 @@ def _read_volumes(text: str, source: str) -> dict[str, float]:
                 raise GroundingError(f"{where}: {named} is already in line {earlier}; expected each class once")
             volumes[named] = math.prod(_read_side(row, side, where) for side in _SIDES)
     except csv.Error as error:
-        raise GroundingError(f"{source}: line {rows.line_num}: {error}; expected a CSV file") from error
+        raise GroundingError(f"{source}: line {rows.reader.line_num}: {error}; expected a CSV file") from error
     return volumes
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
+from urllib.parse import unquote
 from xml.etree import ElementTree
 
 from usd2kg.errors import OntologyError
@@ -145,6 +146,8 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
     name in that folder. Nothing is fetched from the network.
     """
     found = {document.iri: document}
+    if document.version_iri:
+        found[document.version_iri] = document
     notes: list[OntologyNote] = []
     missing: set[str] = set()
     pending = [document]
@@ -163,8 +166,8 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
             found[iri] = imported
             if imported.iri not in found or imported.iri == iri:
                 pending.append(imported)
-    distinct = {doc.source: doc for doc in found.values()}
-    others = sorted((doc for doc in distinct.values() if doc is not document), key=lambda doc: doc.iri)
+    distinct = {doc.digest: doc for doc in found.values()}
+    others = sorted((doc for doc in distinct.values() if doc.digest != document.digest), key=lambda doc: doc.iri)
     return (document, *others), tuple(sorted(notes, key=lambda note: note.message))
 
 
@@ -178,11 +181,19 @@ def _missing_import(iri: str, document: Document) -> str:
 def _locate(iri: str, folder: Path) -> Path | None:
     catalog = _read_catalog(folder / _CATALOG)
     if iri in catalog:
-        return catalog[iri] if catalog[iri].is_file() else None
+        return catalog[iri] if _is_file(catalog[iri]) else None
     name = iri.rstrip("#/").rpartition("/")[2]
     names = [name, *(Path(name).stem + ending for ending in sorted(_ENDINGS))]
     # Only a plain file name is looked up: an IRI must not walk to other folders.
-    return next((folder / n for n in names if n and n not in {".", ".."} and (folder / n).is_file()), None)
+    return next((folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n)), None)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:
+        # No file system takes a name of 400 letters.
+        return False
 
 
 def _read_catalog(path: Path) -> dict[str, Path]:
@@ -192,7 +203,7 @@ def _read_catalog(path: Path) -> dict[str, Path]:
         root = ElementTree.parse(path).getroot()
     except ElementTree.ParseError as error:
         raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); mend or remove it") from error
-    return {entry.attrib["name"]: path.parent / entry.attrib["uri"] for entry in _entries(root)}
+    return {entry.attrib["name"]: path.parent / unquote(entry.attrib["uri"]) for entry in _entries(root)}
 
 
 def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:

@@ -91,15 +91,17 @@ class TBox:
     @cached_property
     def _closures(self) -> Mapping[ClassIRI, frozenset[ClassIRI]]:
         closures: dict[ClassIRI, frozenset[ClassIRI]] = {}
-
-        def close(iri: ClassIRI) -> frozenset[ClassIRI]:
-            if iri not in closures:
-                above = [close(parent) for parent in self.by_iri[iri].parents]
-                closures[iri] = frozenset({iri}).union(*above)
-            return closures[iri]
-
+        # Not recursive: a hierarchy may be deeper than Python's stack.
         for cls in self.classes:
-            close(cls.iri)
+            pending = [cls.iri]
+            while pending:
+                parents = self.by_iri[pending[-1]].parents
+                open_ones = [parent for parent in parents if parent not in closures]
+                if open_ones:
+                    pending.extend(open_ones)
+                    continue
+                iri = pending.pop()
+                closures[iri] = frozenset({iri}).union(*(closures[parent] for parent in parents))
         return closures
 
     def closure(self, iri: ClassIRI) -> frozenset[ClassIRI]:

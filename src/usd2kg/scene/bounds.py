@@ -66,11 +66,13 @@ def read_pose(cache: UsdGeom.XformCache, prim: Any, frame: StageFrame) -> tuple[
 
     Scale and mirroring are taken out of the rotation. Either is None where the matrix has no such part.
     """
-    matrix = cache.GetLocalToWorldTransform(prim)
+    matrix = _local_to_world(cache, prim)
     translation = tuple(matrix.ExtractTranslation())
     if not all(math.isfinite(value) for row in matrix for value in row):
         return None, None
     position = to_world((translation[0], translation[1], translation[2]), frame)
+    if _is_flat(matrix):
+        return position, None
     rotation = matrix.RemoveScaleShear()
     if not all(math.isfinite(value) for row in rotation for value in row):
         return position, None
@@ -81,12 +83,29 @@ def read_pose(cache: UsdGeom.XformCache, prim: Any, frame: StageFrame) -> tuple[
     return position, _canonical(quaternion)
 
 
+def _local_to_world(cache: UsdGeom.XformCache, prim: Any) -> Any:
+    if prim.GetTypeName() or not prim.HasAttribute(UsdGeom.Tokens.xformOpOrder):
+        return cache.GetLocalToWorldTransform(prim)
+    # `def "Chair"` leaves its type to the asset it references; where that is missing, OpenUSD takes the prim for one
+    # without a transform, though it has one.
+    local = UsdGeom.Xformable(prim).GetLocalTransformation(cache.GetTime())
+    return local * cache.GetLocalToWorldTransform(prim.GetParent())
+
+
+def _is_flat(matrix: Any) -> bool:
+    """Return whether the matrix squeezes space to a plane, a line or a point, so that no rotation is left."""
+    rows = [matrix.GetRow3(i) for i in range(3)]
+    lengths = [row.GetLength() for row in rows]
+    return min(lengths) < 1e-12 or abs(Gf.Dot(Gf.Cross(rows[0], rows[1]), rows[2])) < 1e-9 * math.prod(lengths)
+
+
 def _canonical(quaternion: Any) -> Quaternion | None:
     length = quaternion.GetLength()
     if not math.isfinite(length) or length < 1e-9:
         return None
-    x, y, z = (value / length for value in quaternion.GetImaginary())
-    w = quaternion.GetReal() / length
+    parts = (quaternion.GetReal(), *quaternion.GetImaginary())
+    # Noise around zero must not decide the sign of a half turn.
+    w, x, y, z = (0.0 if abs(value) < 1e-12 * length else value / length for value in parts)
     # q and -q are the same rotation; one of them is written, always the same.
     sign = -1.0 if (w, x, y, z) < (0.0, 0.0, 0.0, 0.0) else 1.0
     return (sign * x + 0.0, sign * y + 0.0, sign * z + 0.0, sign * w + 0.0)

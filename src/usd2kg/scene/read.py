@@ -12,15 +12,13 @@ from usd2kg.scene import evidence
 from usd2kg.scene.bounds import BoxReader, read_pose, union
 from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
 from usd2kg.scene.outline import Node, Outline, outline_stage
-from usd2kg.scene.selection import Selection, select_objects
-from usd2kg.scene.stage import OpenedStage, open_stage
+from usd2kg.scene.selection import ASKED_FOR, Selection, select_objects
+from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage
 
 __all__ = ["ASKED_FOR", "read_scene"]
 
 logger = logging.getLogger(__name__)
 
-ASKED_FOR = "asked for by path"
-"""`selected_by` of an object that the rules did not choose."""
 _MOST_PARTS = 64
 
 
@@ -36,13 +34,12 @@ def read_scene(source: Path | str, *, paths: Iterable[str] | None = None) -> Sce
         SceneError: the file cannot be read, or no object is on the stage.
     """
     opened = open_stage(Path(source))
-    time = Usd.TimeCode.EarliestTime() if opened.stage.HasAuthoredTimeCodeRange() else Usd.TimeCode.Default()
-    outline = outline_stage(opened, time)
-    selection = select_objects(outline)
-    wanted = list(dict.fromkeys(paths or ()))
-    nodes = {node.path: node for node in outline.root.walk()}
-    missing = _add_wanted(wanted, nodes, selection, opened)
-    objects, notes = _read_objects(opened, outline, selection, time)
+    # Where an attribute has no samples, its default value is what stands at the earliest time.
+    time = Usd.TimeCode.EarliestTime()
+    with captured_diagnostics() as openusd_notes:
+        outline = outline_stage(opened, time)
+        selection = select_objects(outline, tuple(dict.fromkeys(paths or ())))
+        objects, notes = _read_objects(opened, outline, selection, time)
     if not objects:
         raise SceneError(_no_object_message(str(source), outline, selection, opened))
     logger.info("%s: %d objects among %d prims", source, len(objects), outline.prim_count)
@@ -50,30 +47,13 @@ def read_scene(source: Path | str, *, paths: Iterable[str] | None = None) -> Sce
         source=str(source),
         content_hash=opened.content_hash,
         frame=opened.frame,
-        time=None if time.IsDefault() else opened.stage.GetStartTimeCode(),
+        time=opened.stage.GetStartTimeCode() if opened.stage.HasAuthoredTimeCodeRange() else None,
         prim_count=outline.prim_count,
         objects=tuple(objects),
         left_out=dict(sorted(selection.left_out.items())),
-        diagnostics=(*opened.diagnostics, *notes),
-        missing_paths=tuple(missing),
+        diagnostics=(*opened.diagnostics, *openusd_notes, *notes),
+        missing_paths=selection.missing,
     )
-
-
-def _add_wanted(wanted: list[str], nodes: dict[str, Node], selection: Selection, opened: OpenedStage) -> list[str]:
-    """Add the asked-for prims to the selection, in traversal order; return the paths that do not exist."""
-    missing = []
-    for path in wanted:
-        if path in selection.chosen:
-            continue
-        if path in nodes and path != "/":
-            selection.chosen[path] = ASKED_FOR
-        else:
-            missing.append(path)
-    if len(missing) < len(wanted):
-        in_order = {path: selection.chosen[path] for path in nodes if path in selection.chosen}
-        selection.chosen.clear()
-        selection.chosen.update(in_order)
-    return missing
 
 
 def _no_object_message(source: str, outline: Outline, selection: Selection, opened: OpenedStage) -> str:
@@ -135,41 +115,48 @@ class _ObjectReader:
             parts=evidence.part_names(nodes),
             display_color=evidence.display_color(nodes, self.time),
             instance_of=str(prim.GetPrototype().GetPath()) if prim.IsInstance() else None,
-            instances=_read_instances(prim) if node.is_instancer else None,
+            instances=self._instances(nodes),
         )
 
     def _boxes(self, node: Node, nodes: list[Node]) -> tuple[Box | None, Box | None, tuple[Box, ...]]:
         """Return the box of all below the prim, the box of its own geometry, and the boxes of its own parts."""
         try:
             box = self.boxes.read(node.prim)
-            gprims = [own for own in nodes if own.is_gprim and not own.is_hidden]
-            parts = [part for own in gprims if (part := self.boxes.read(own.prim))] if len(gprims) > 1 else []
-            is_whole = sum(own.is_gprim or own.is_instancer for own in nodes) == node.gprim_count
-            if is_whole or box is None:
-                own_box = box
-            elif parts:
-                own_box = union(parts)
-            else:
-                own_box = self.boxes.read(gprims[0].prim) if gprims else None
+            gprims = [own for own in nodes if (own.is_gprim or own.is_instancer) and not own.is_hidden]
+            is_whole = len(gprims) == node.gprim_count
+            is_single = is_whole and len(gprims) < 2
+            parts = [] if is_single else [part for own in gprims if (part := self.boxes.read(own.prim))]
+            own_box = box if is_whole or box is None else union(parts)
         except Tf.ErrorException as error:
             self._note("geometry", node, f"its box could not be computed ({error}); it has none in the graph")
             return None, None, ()
         if box is None:
             self._note("empty-box", node, "no geometry that can be measured; it has no size in the graph")
-        largest = sorted(parts, key=lambda part: -part.volume)[:_MOST_PARTS]
-        return box, own_box, tuple(part for part in parts if part in largest)
+        largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:_MOST_PARTS]
+        return box, own_box, tuple(parts[i] for i in sorted(largest)) if len(parts) > 1 else ()
 
     def _pose(self, node: Node) -> tuple[Any, Any]:
-        position, orientation = read_pose(self.xforms, node.prim, self.frame)
+        try:
+            position, orientation = read_pose(self.xforms, node.prim, self.frame)
+        except Tf.ErrorException:
+            position, orientation = None, None
         if position is None or orientation is None:
             self._note("transform", node, "its transform has no finite position or rotation; pose left out")
         return position, orientation
 
+    def _instances(self, nodes: list[Node]) -> Instances | None:
+        """Return the copies of the object's own point instancers; None if it has none."""
+        instancers = [UsdGeom.PointInstancer(own.prim) for own in nodes if own.is_instancer]
+        if not instancers:
+            return None
+        names = [target.name for i in instancers for target in i.GetPrototypesRel().GetTargets()]
+        return Instances(sum(self._copy_count(i) for i in instancers), tuple(dict.fromkeys(names)))
+
+    def _copy_count(self, instancer: Any) -> int:
+        count = len(instancer.GetProtoIndicesAttr().Get(self.time) or ())
+        # The mask leaves out copies that are inactive or invisible; it is empty where all are drawn.
+        mask = instancer.ComputeMaskAtTime(self.time)
+        return sum(mask) if mask else count
+
     def _note(self, code: str, node: Node, message: str) -> None:
         self.notes.append(Diagnostic(code, message, node.path))
-
-
-def _read_instances(prim: Any) -> Instances:
-    instancer = UsdGeom.PointInstancer(prim)
-    count = len(instancer.GetProtoIndicesAttr().Get() or ())
-    return Instances(count, tuple(target.name for target in instancer.GetPrototypesRel().GetTargets()))

@@ -6,13 +6,15 @@ The rules see outline nodes only, so each can be tried on a tree written by hand
 """
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from usd2kg.scene.outline import Node, Outline
 from usd2kg.words import split_identifier
 
-__all__ = ["Selection", "select_objects"]
+__all__ = ["ASKED_FOR", "Selection", "select_objects"]
 
+ASKED_FOR = "asked for by path"
+"""The reason of an object that the rules did not choose."""
 _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
 _GROUPING_WORDS = frozenset(
@@ -33,17 +35,27 @@ class Selection:
     """Prim path → why it is an object, in words."""
     left_out: Counter[str]
     """Reason → number of prims."""
+    missing: tuple[str, ...]
+    """Paths that were asked for and are not in the outline."""
 
 
-def select_objects(outline: Outline) -> Selection:
-    """Return the prims of `outline` that are objects, each with the reason."""
+def select_objects(outline: Outline, wanted: tuple[str, ...] = ()) -> Selection:
+    """Return the prims of `outline` that are objects, each with the reason.
+
+    Those at the paths `wanted` are objects whatever the rules say.
+    """
     candidates = _model_candidates(outline)
     _drop_whole_scene(outline.root, candidates)
     _merge_robot_arms(outline, candidates)
     _merge_wrappers(outline.root, candidates)
     candidates.update(_geometry_owners(outline.root, candidates))
+    there = {node.path for node in outline.root.walk()} - {outline.root.path}
+    for path in wanted:
+        if path in there:
+            candidates.setdefault(path, ASKED_FOR)
     chosen = {node.path: candidates[node.path] for node in outline.root.walk() if node.path in candidates}
-    return Selection(chosen, _count_left_out(outline, chosen))
+    missing = tuple(path for path in wanted if path not in there)
+    return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
 def _model_candidates(outline: Outline) -> dict[str, str]:
@@ -90,7 +102,8 @@ def _is_one_asset(node: Node) -> bool:
 def _drop_whole_scene(root: Node, candidates: dict[str, str]) -> None:
     """A converter's root prim is a component too (the whole room as one model): it is no object then."""
     for node in root.children:
-        if node.path in candidates and len(_nearest_below(node, candidates)) > 1:
+        is_all = node.gprim_count == root.gprim_count
+        if is_all and node.path in candidates and len(_nearest_below(node, candidates)) > 1:
             del candidates[node.path]
 
 
@@ -143,38 +156,57 @@ def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
             del candidates[node.path]
 
 
+@dataclass(slots=True)
+class _Cover:
+    """What is known of a node from the nodes below it."""
+
+    uncovered: int = 0
+    """Gprims at and below it that no candidate holds."""
+    holds_objects: bool = False
+    """Whether a candidate is below it."""
+    owners: list[Node] = field(default_factory=list)
+    """The owners of the uncovered gprims at and below it."""
+
+
 def _geometry_owners(root: Node, candidates: dict[str, str]) -> dict[str, str]:
-    owners: dict[str, str] = {}
-    for node in _owners_below(root, candidates):
-        owners[node.path] = "geometry without a model above it"
-    return owners
+    covers: dict[str, _Cover] = {}
+    # From the leaves up, without recursion: a stage may be nested deeper than Python's stack.
+    for node in reversed(list(root.walk())):
+        covers[node.path] = _cover(node, candidates, covers)
+    return {node.path: "geometry without a model above it" for node in covers[root.path].owners}
 
 
-def _uncovered(node: Node, candidates: dict[str, str]) -> int:
-    """Number of gprims at and below `node` that no candidate holds."""
+def _cover(node: Node, candidates: dict[str, str], covers: dict[str, _Cover]) -> _Cover:
+    below = [covers.pop(child.path) for child in node.children]
+    cover = _Cover(holds_objects=any(c.holds_objects for c in below))
     if node.path in candidates:
-        return 0
-    return node.gprim_count - sum(below.gprim_count for below in _nearest_below(node, candidates))
+        cover.holds_objects = True
+        return cover
+    is_own = node.is_gprim and not node.is_hidden
+    cover.uncovered = is_own + sum(c.uncovered for c in below)
+    if is_own:
+        cover.owners = [node]
+    elif cover.uncovered:
+        cover.owners = _owners_at(node, cover, below)
+    return cover
 
 
-def _owners_below(node: Node, candidates: dict[str, str]) -> list[Node]:
-    bare = [child for child in node.children if _uncovered(child, candidates)]
-    gprims = [child for child in bare if child.is_gprim]
-    is_grouping = _is_grouping(node, candidates)
-    if gprims and not is_grouping:
+def _owners_at(node: Node, cover: _Cover, below: list[_Cover]) -> list[Node]:
+    found = [owner for c in below for owner in c.owners]
+    has_gprims = any(child.is_gprim and c.uncovered for child, c in zip(node.children, below, strict=True))
+    is_grouping = _is_grouping(node, cover.holds_objects)
+    if has_gprims and not is_grouping:
         return [node]
-    found = [owner for child in bare if not child.is_gprim for owner in _owners_below(child, candidates)]
-    is_lone_root = _is_lone_root(node) and not _nearest_below(node, candidates)
-    if len(gprims) + len(found) == 1 and (is_lone_root or not is_grouping):
+    is_lone_root = _is_lone_root(node) and not cover.holds_objects
+    if len(found) == 1 and (is_lone_root or not is_grouping):
         return [node]
-    return [*gprims, *found]
+    return found
 
 
-def _is_grouping(node: Node, candidates: dict[str, str]) -> bool:
+def _is_grouping(node: Node, holds_objects: bool) -> bool:
     is_top = node.parent is None or node.parent.parent is None
-    last_words = [word for word in split_identifier(node.name.lower()) if word.isalpha()][-1:]
+    last_words = [word.lower() for word in split_identifier(node.name) if word.isalpha()][-1:]
     is_named_group = not _GROUPING_WORDS.isdisjoint(last_words)
-    holds_objects = bool(_nearest_below(node, candidates))
     return is_top or node.is_scope or node.kind in _STRUCTURE_KINDS or is_named_group or holds_objects
 
 

@@ -2,7 +2,8 @@
 
 import hashlib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 from usd2kg.errors import SceneError
 from usd2kg.scene.model import Diagnostic, StageFrame
 
-__all__ = ["OpenedStage", "open_stage"]
+__all__ = ["OpenedStage", "captured_diagnostics", "open_stage"]
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _USD_FALLBACK_METRES = 0.01
@@ -37,26 +38,43 @@ def open_stage(source: Path) -> OpenedStage:
         SceneError: the file is missing, is no USD file or is corrupt.
     """
     _check_file(source)
-    delegate = UsdUtils.CoalescingDiagnosticDelegate()
     try:
-        stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
+        with captured_diagnostics() as notes:
+            stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
     except Tf.ErrorException as error:
-        raise SceneError(_cannot_open(source, str(error))) from error
-    finally:
-        # The delegate is process-wide: take its notes at once, before anybody else's arrive.
-        notes = [note.commentary for note in delegate.TakeUncoalescedDiagnostics()]
-        del delegate
+        raise SceneError(_cannot_open(source, _text(error))) from error
     if stage is None:
-        raise SceneError(_cannot_open(source, "; ".join(notes)))
+        raise SceneError(_cannot_open(source, "; ".join(note.message for note in notes)))
     composition = [_composition_diagnostic(error, stage) for error in stage.GetCompositionErrors()]
     frame, frame_notes = _read_frame(stage)
     return OpenedStage(
         stage=stage,
         frame=frame,
         content_hash=_hash_layers(stage),
-        diagnostics=_distinct([*composition, *frame_notes, *_other_notes(notes, composition)]),
+        diagnostics=tuple(dict.fromkeys([*composition, *frame_notes, *_other_notes(notes, composition)])),
         unresolved=frozenset(note.prim_path for note in composition if note.prim_path not in {None, "/"}),
     )
+
+
+@contextmanager
+def captured_diagnostics() -> Iterator[list[Diagnostic]]:
+    """Keep OpenUSD from writing to the terminal; the list holds what it had to say once the block is left."""
+    # The delegate is process-wide: its notes are taken at once, before anybody else's arrive.
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    found: list[Diagnostic] = []
+    try:
+        yield found
+    finally:
+        notes = dict.fromkeys(note.commentary for note in delegate.TakeUncoalescedDiagnostics())
+        found.extend(Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in notes)
+
+
+def _text(error: Exception) -> str:
+    try:
+        return str(error)
+    except UnicodeDecodeError:
+        # OpenUSD quotes the bytes that it could not read.
+        return "it holds text that is not UTF-8"
 
 
 def _check_file(source: Path) -> None:
@@ -87,25 +105,22 @@ def _shorten(message: str, limit: int = 240) -> str:
 
 
 def _composition_diagnostic(error: Any, stage: Any) -> Diagnostic:
-    site = error.rootSite
-    layer = getattr(getattr(error, "layer", None), "identifier", None) or stage.GetRootLayer().identifier
-    return Diagnostic("composition", _shorten(str(error)), str(site.path), layer)
+    text = str(error)
+    # The error's own fields name the root layer only; its text names the layer that holds the broken arc.
+    introduced_by = re.search(r"introduced by @([^@]+)@", text)
+    layer = introduced_by.group(1) if introduced_by else stage.GetRootLayer().identifier
+    return Diagnostic("composition", _shorten(text), str(error.rootSite.path), layer)
 
 
-def _other_notes(notes: Iterable[str], composition: Iterable[Diagnostic]) -> list[Diagnostic]:
+def _other_notes(notes: Iterable[Diagnostic], composition: Iterable[Diagnostic]) -> list[Diagnostic]:
     # The stage repeats its composition errors as warnings; those are told already, with their prims.
     told = [diagnostic.message.rstrip("…") for diagnostic in composition]
-    new = (note for note in notes if not any(message in note for message in told))
-    return [Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in new]
+    return [note for note in notes if not any(message[:160] in note.message for message in told)]
 
 
 def _prim_in(note: str) -> str | None:
     found = re.search(r"<(/[^>]*)>", note)
     return found.group(1) if found else None
-
-
-def _distinct(notes: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    return tuple(dict.fromkeys(notes))
 
 
 def _read_frame(stage: Any) -> tuple[StageFrame, list[Diagnostic]]:
@@ -125,10 +140,14 @@ def _read_frame(stage: Any) -> tuple[StageFrame, list[Diagnostic]]:
     if up_axis not in {"Y", "Z", None}:
         notes.append(Diagnostic("units", f"upAxis is {str(up_axis)!r}, expected Y or Z; Y is used", None, layer))
     kilograms = _metadata(stage, UsdPhysics.Tokens.kilogramsPerUnit)
+    has_kilograms = isinstance(kilograms, int | float) and 0 < kilograms < float("inf")
+    if kilograms is not None and not has_kilograms:
+        message = f"kilogramsPerUnit is {kilograms!r}, expected a positive number; 1 is used"
+        notes.append(Diagnostic("units", message, None, layer))
     frame = StageFrame(
         up_axis="Z" if up_axis == "Z" else "Y",
         metres_per_unit=_as_double(metres) if is_authored else _USD_FALLBACK_METRES,
-        kilograms_per_unit=_as_double(kilograms) if isinstance(kilograms, int | float) and kilograms > 0 else 1.0,
+        kilograms_per_unit=_as_double(kilograms) if has_kilograms else 1.0,
         is_authored=is_authored,
     )
     return frame, notes

@@ -108,7 +108,7 @@ def abbreviate(name: str, length: int = ABBREVIATED_LENGTH) -> str:
     short = []
     for word in split_identifier(name):
         lower = word.lower()
-        if lower.isdigit():
+        if lower.isdecimal():
             short.append(str(int(lower)))
         else:
             short.append("".join(c for c in lower if c not in "aeiou")[:length] or lower[0])

@@ -146,13 +146,14 @@ def _anchor(
     """Align a term with its senses; those that fit much worse than the best are not meant."""
     above = {iri for iri in tbox.closure(term.class_iri) if iri != term.class_iri}
 
-    def fit(sense: Sense) -> float:
-        # A sense below a word that names a superclass is the one the ontologist meant.
+    def agrees(sense: Sense) -> bool:
         lemmas = {taxonomy.name(up).replace(" ", "") for up, hops in taxonomy.walk_up(sense.synset) if hops}
-        agreement = sum(1 for lemma in lemmas if lemma in terms and terms[lemma].class_iri in above)
-        return sense_weight(sense) * (1 + 0.5 * agreement)
+        return any(lemma in terms and terms[lemma].class_iri in above for lemma in lemmas)
 
-    fits = {sense.synset: fit(sense) for sense in taxonomy.senses(key)}
+    senses = taxonomy.senses(key)
+    # A sense below a word that names a superclass is the one the ontologist meant.
+    agreeing = [sense for sense in senses if agrees(sense)]
+    fits = {sense.synset: sense_weight(sense) for sense in agreeing or senses}
     for synset, value in fits.items():
         share = value / max(fits.values())
         known = anchors.get(synset)

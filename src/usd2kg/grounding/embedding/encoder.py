@@ -1,4 +1,7 @@
-"""The sentence encoder: all-MiniLM-L6-v2 with int8 weights, run by onnxruntime on the CPU."""
+"""The sentence encoder: all-MiniLM-L6-v2, run by onnxruntime on the CPU.
+
+The weights are int8, the arithmetic is float32: cosines differ from the published float32 model's by about 0.01.
+"""
 
 from collections.abc import Iterable
 from importlib import import_module
@@ -56,7 +59,8 @@ class MiniLMEncoder:
         (token_vectors,) = self._session.run(["last_hidden_state"], inputs)
         # The mask is all ones where nothing is padded, so the masked mean is the plain one.
         mean = token_vectors[0].mean(axis=0, dtype=np.float64)
-        return (mean / np.linalg.norm(mean)).astype(np.float32)
+        embedding: Vectors = (mean / np.linalg.norm(mean)).astype(np.float32)
+        return embedding
 
 
 def _load_session(threads: int) -> Any:

@@ -1,0 +1,80 @@
+"""Measure the offline grounders on every scene with gold labels, and keep or check the figures.
+
+Usage: python benchmarks/accuracy/run.py [--check]
+
+Without --check the figures are written to results.json beside this file and the report to build/accuracy. With it they
+are compared with results.json; scenes whose files are absent are left out of the comparison.
+"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from usd2kg.evaluation import SceneResult, read_matrix, run_matrix
+from usd2kg.evaluation.report import write_report
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results.json"
+BUILD = HERE.parents[1] / "build" / "accuracy"
+KEPT = ("n", "names", "answered", "ema", "ema_also", "ema_by_name", "hf1", "calibration_error", "accuracy_at_80")
+INTERVALS = ("ema_interval", "ema_name_interval", "hf1_interval")
+
+
+def figures(results: list[SceneResult]) -> dict[str, Any]:
+    """Return scene → grounder → condition → figures, with selection apart."""
+    table: dict[str, Any] = {}
+    for result in results:
+        scene = table.setdefault(
+            result.spec.name,
+            {
+                "note": result.spec.note,
+                "selection": {"recall": result.selection.recall, "precision": result.selection.precision},
+                "grounders": {},
+            },
+        )
+        for cell in result.cells:
+            data = cell.evaluation.summary.as_json()
+            kept = {key: round_off(data[key]) for key in (*KEPT, *INTERVALS)}
+            scene["grounders"].setdefault(cell.cell.grounder, {})[cell.cell.condition] = kept
+    return table
+
+
+def round_off(value: Any) -> Any:
+    """Return figures with six significant digits, so that platforms agree on the file."""
+    if isinstance(value, list):
+        return [round_off(item) for item in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
+
+
+def differences(kept: dict[str, Any], now: dict[str, Any]) -> list[str]:
+    """Return what differs between the kept figures and those of now, for the scenes that are here."""
+    found = []
+    for scene, data in now.items():
+        old = kept.get(scene, {}).get("grounders", {})
+        for grounder, conditions in data["grounders"].items():
+            for condition, values in conditions.items():
+                before = old.get(grounder, {}).get(condition)
+                if before != values:
+                    found.append(f"{scene}, {grounder}, {condition}: kept {before}, now {values}")
+    return found
+
+
+def main() -> None:
+    """Write or check."""
+    plan = read_matrix(HERE / "matrix.toml")
+    results = run_matrix(plan, BUILD)
+    now = figures(results)
+    if "--check" in sys.argv:
+        found = differences(json.loads(RESULTS.read_text("utf-8")), now)
+        if found:
+            raise SystemExit("\n".join([*found, "The kept figures are not those of the code; run make accuracy."]))
+        print(f"{len(now)} scenes: the kept figures are those of the code")
+        return
+    RESULTS.write_text(json.dumps(now, indent=1) + "\n", encoding="utf-8")
+    for path in write_report(results, plan.title, BUILD):
+        print(path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,213 @@
+"""The tables of accuracy, ablation, selection and time."""
+
+from collections.abc import Iterable, Sequence
+from pathlib import PurePath
+
+from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
+from usd2kg.evaluation.metrics.intervals import mean_spread
+from usd2kg.evaluation.report.analysis import REGIMES, methods_of, runs_of
+from usd2kg.evaluation.report.document import ABSENT, Table, interval_text, number_text, spread_text
+from usd2kg.evaluation.report.study import AS_PUBLISHED, StudyFigure, study_ablation, study_main
+from usd2kg.evaluation.reproduce import CellResult, SceneResult
+from usd2kg.evaluation.sample import distinct_name
+from usd2kg.evaluation.summary import Summary
+
+__all__ = [
+    "ablation_table",
+    "detail_table",
+    "main_table",
+    "missed_prims",
+    "own_ablation_table",
+    "published_table",
+    "scenes_table",
+    "selection_table",
+    "size_title",
+    "timing_table",
+]
+
+_MOST_MISSED = 10
+
+
+def scenes_table(results: Sequence[SceneResult]) -> Table:
+    """Return what was measured on: a row for each scene."""
+    columns = ("scene", "file", "objects", "distinct names", "classes", "superclass targets", "ontology", "note")
+    return Table("Scenes", columns, tuple(_scene_row(result) for result in results))
+
+
+def _scene_row(result: SceneResult) -> tuple[str, ...]:
+    targets = [label.target for label in result.gold]
+    names = {distinct_name(label.prim_path.rpartition("/")[2]) for label in result.gold}
+    above = sum(bool(result.tbox.children[target]) for target in targets)
+    return (
+        result.spec.name,
+        result.spec.path.name,
+        str(len(targets)),
+        str(len(names)),
+        f"{len(set(targets))} of {len(result.tbox.classes)}",
+        str(above),
+        # The file's name, not its folder: a report must read the same wherever it was made.
+        PurePath(result.tbox.source).name,
+        result.spec.note,
+    )
+
+
+def main_table(result: SceneResult) -> Table:
+    """Return method × regime in the study's format: `EMA % / HF1`."""
+    runs = runs_of(result)
+    rows = tuple(
+        (method, *(_ema_f1(runs.get((method, regime), ())) for regime in REGIMES)) for method in methods_of(result)
+    )
+    title = f"{size_title(result)}: EMA % / HF1 by naming regime"
+    return Table(title, ("method", *REGIMES), rows, _repeats_note(result))
+
+
+def published_table() -> Table:
+    """Return the study's main results, headed as what they are."""
+    rows = tuple(
+        (method, *(_published(figures.get(regime)) for regime in REGIMES)) for method, figures in study_main().items()
+    )
+    note = "The study's scene may not be redistributed and is not among ours: these are for orientation only."
+    return Table(f"EMA % / HF1 {AS_PUBLISHED}", ("method", *REGIMES), rows, note)
+
+
+def detail_table(result: SceneResult) -> Table:
+    """Return the further measures of each method and regime, with 95 % intervals."""
+    columns = (
+        "method",
+        "names",
+        "EMA %",
+        "95 % by object",
+        "95 % by distinct name",
+        "EMA % by distinct name",
+        "EMA % accept-also",
+        "HF1 95 %",
+        "calibration error",
+        "EMA % at 80 % coverage",
+    )
+    runs = runs_of(result)
+    keys = [(method, regime) for method in methods_of(result) for regime in REGIMES if (method, regime) in runs]
+    rows = tuple((*key, *_details([done.evaluation.summary for done in runs[key]])) for key in keys)
+    return Table(f"{size_title(result)}: intervals and further measures", columns, rows, _repeats_note(result))
+
+
+def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
+    first = summaries[0]
+    return (
+        spread_text([s.ema for s in summaries], 1),
+        interval_text(first.ema_interval, 1),
+        interval_text(first.ema_name_interval, 1),
+        spread_text([s.ema_by_name for s in summaries], 1),
+        spread_text([s.ema_also for s in summaries], 1),
+        interval_text(first.hf1_interval, 3),
+        number_text(first.calibration_error, 3),
+        number_text(first.accuracy_at_80, 1),
+    )
+
+
+def timing_table(results: Sequence[SceneResult]) -> Table:
+    """Return milliseconds per object of each method and regime: the one table that no two runs have alike."""
+    rows = []
+    for result in results:
+        runs = runs_of(result)
+        for method in methods_of(result):
+            cells = [runs.get((method, regime), ()) for regime in REGIMES]
+            rows.append((result.spec.name, method, str(len(result.gold)), *(_milliseconds(done) for done in cells)))
+    columns = ("scene", "method", "n", *REGIMES)
+    return Table("Milliseconds per object", columns, tuple(rows), "Without reading the scene and the ontology.")
+
+
+def _milliseconds(repeats: Sequence[CellResult]) -> str:
+    if not repeats:
+        return ABSENT
+    each = [1000 * done.evaluation.seconds / done.evaluation.summary.n for done in repeats]
+    return f"{mean_spread(each)[0]:.3g}"
+
+
+def ablation_table(result: SceneResult) -> Table | None:
+    """Return the study's conditions × methods, its own figures beside; None if none was run."""
+    if not _has_any(result, STUDY_ABLATION):
+        return None
+    published = study_ablation()
+    columns = ("condition", *methods_of(result), *(f"{method} (published)" for method in published))
+    rows = tuple(
+        (*_ablation_row(result, condition), *(_ema_alone(figures[condition]) for figures in published.values()))
+        for condition in STUDY_ABLATION
+    )
+    return Table(
+        f"{size_title(result)}: EMA % under the study's conditions", columns, rows, f"(published): {AS_PUBLISHED}."
+    )
+
+
+def own_ablation_table(result: SceneResult) -> Table | None:
+    """Return our own conditions × methods, under authored names; None if none was run."""
+    if not _has_any(result, OWN_ABLATION):
+        return None
+    rows = tuple(_ablation_row(result, condition) for condition in OWN_ABLATION)
+    return Table(f"{size_title(result)}: EMA % under our conditions", ("condition", *methods_of(result)), rows)
+
+
+def _has_any(result: SceneResult, conditions: Iterable[str]) -> bool:
+    return not {condition for _, condition in runs_of(result)}.isdisjoint(conditions)
+
+
+def _ablation_row(result: SceneResult, condition: str) -> tuple[str, ...]:
+    runs = runs_of(result)
+    found = [runs.get((method, condition), ()) for method in methods_of(result)]
+    return (condition, *(spread_text([d.evaluation.summary.ema for d in repeats], 0) for repeats in found))
+
+
+def selection_table(results: Sequence[SceneResult]) -> Table:
+    """Return recall and precision of object selection, a row for each scene."""
+    rows = tuple(
+        (
+            result.spec.name,
+            str(len(result.gold)),
+            number_text(result.selection.recall, 3),
+            number_text(result.selection.precision, 3),
+            str(len(result.selection.missed)),
+            str(len(result.selection.unlabelled)),
+        )
+        for result in results
+    )
+    columns = ("scene", "labelled", "recall", "precision", "missed", "selected without label")
+    note = "Precision is a lower bound where the gold labels do not cover the whole scene."
+    return Table("Selection of objects", columns, rows, note)
+
+
+def missed_prims(result: SceneResult) -> str:
+    """Return the labelled prims that selection missed, in a sentence; at most ten, then a count."""
+    missed = result.selection.missed
+    if not missed:
+        return f"{result.spec.name}: no labelled prim was missed."
+    more = f" and {len(missed) - _MOST_MISSED} more" if len(missed) > _MOST_MISSED else ""
+    return f"{result.spec.name}: missed {', '.join(missed[:_MOST_MISSED])}{more}."
+
+
+def size_title(result: SceneResult) -> str:
+    """Return the scene's name with its number of objects and of distinct names."""
+    names = {distinct_name(label.prim_path.rpartition("/")[2]) for label in result.gold}
+    return f"{result.spec.name} (n = {len(result.gold)} objects, {len(names)} distinct names)"
+
+
+def _repeats_note(result: SceneResult) -> str:
+    repeats = max((done.cell.repeat for done in result.cells), default=1)
+    return "" if repeats == 1 else f"Mean ± standard deviation of {repeats} repeats; intervals are the first repeat's."
+
+
+def _ema_f1(repeats: Sequence[CellResult]) -> str:
+    summaries = [done.evaluation.summary for done in repeats]
+    if not summaries:
+        return ABSENT
+    return f"{spread_text([s.ema for s in summaries], 0)} / {spread_text([s.hf1 for s in summaries], 2, '0')}"
+
+
+def _published(figure: StudyFigure | None) -> str:
+    if figure is None:
+        return ABSENT
+    if figure.ema is None or figure.hf1 is None:
+        return figure.note
+    return f"{figure.ema:.0f} / {number_text(figure.hf1, 2).removeprefix('0')}"
+
+
+def _ema_alone(figure: StudyFigure) -> str:
+    return figure.note if figure.ema is None else f"{figure.ema:.0f}"

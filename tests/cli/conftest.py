@@ -1,0 +1,79 @@
+"""A small stage, and the command line run in this process, as quickly as a function."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from usd2kg.cli.app import main
+
+Run = Callable[..., "Finished"]
+
+
+class Finished(NamedTuple):
+    """What a command left behind."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
+    """A function that runs `usd2kg` with arguments, in an empty folder; it sees what lands on the terminal."""
+    folder = tmp_path / "here"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+
+    def call(*arguments: object) -> Finished:
+        monkeypatch.setattr(sys, "argv", ["usd2kg", *map(str, arguments)])
+        capfd.readouterr()
+        code = 0
+        try:
+            main()
+        except SystemExit as stop:
+            code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
+        return Finished(code, *capfd.readouterr())
+
+    return call
+
+
+def _box(name: str, lower: tuple[float, ...], size: tuple[float, ...], extra: str = "") -> str:
+    (x0, y0, z0), (x1, y1, z1) = lower, tuple(a + b for a, b in zip(lower, size, strict=True))
+    return f"""
+    def Xform "{name}" ( kind = "component" {extra} )
+    {{
+        def Mesh "geo"
+        {{
+            float3[] extent = [({x0}, {y0}, {z0}), ({x1}, {y1}, {z1})]
+            point3f[] points = [({x0}, {y0}, {z0}), ({x1}, {y1}, {z0}), ({x1}, {y1}, {z1})]
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]
+        }}
+    }}"""
+
+
+ROOM = (
+    '( metersPerUnit = 1\n upAxis = "Z" )\ndef Xform "Room" ( kind = "group" )\n{'
+    + _box("Table_1", (0, 0, 0), (1.6, 0.8, 0.7))
+    + _box("coffee_mug", (1, 0.4, 0.7), (0.1, 0.1, 0.1))
+    + _box("FruitBowl", (0.1, 0.2, 0.7), (0.3, 0.3, 0.1))
+    + _box("Apple", (0.2, 0.3, 0.72), (0.08, 0.08, 0.08))
+    + '\n    def Camera "view" {}\n}\n'
+)
+
+
+@pytest.fixture
+def room(write_stage: Callable[..., Path]) -> Path:
+    """A table with a mug and a bowl on it, an apple in the bowl, and a camera."""
+    return write_stage(ROOM, "room.usda")
+
+
+@pytest.fixture
+def graph(run: Run, room: Path) -> Path:
+    """The graph of the room."""
+    path = room.parent / "room.ttl"
+    assert run("build", room, "-o", path).code == 0
+    return path

@@ -1,0 +1,317 @@
+"""What each command does on a small stage: data on stdout, talk on stderr."""
+
+import csv
+import io
+import json
+from pathlib import Path
+from typing import ClassVar
+
+import pyoxigraph as ox
+import pytest
+
+from tests.cli.conftest import Run
+from usd2kg.graph import load_graph
+from usd2kg.grounding import read_grounding
+
+PATHS = ["/Room/Table_1", "/Room/coffee_mug", "/Room/FruitBowl", "/Room/Apple"]
+SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
+DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
+
+LAB = """@prefix : <https://lab.example/onto#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+<https://lab.example/onto> a owl:Ontology .
+:Equipment a owl:Class .
+:Bench a owl:Class ; rdfs:subClassOf :Equipment ; rdfs:label "table"@en ; rdfs:comment "To work at."@en .
+:Vessel a owl:Class ; rdfs:subClassOf :Equipment ; rdfs:label "mug"@en .
+"""
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    path = tmp_path / "lab.ttl"
+    path.write_text(LAB, encoding="utf-8")
+    return path
+
+
+def rows_of(text: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+class TestBuild:
+    def test_it_writes_the_graph_beside_and_talks_on_stderr(self, run: Run, room: Path):
+        done = run("build", room)
+        assert (done.code, done.out) == (0, "")
+        assert [path.name for path in Path().iterdir()] == ["room.ttl"]
+        assert "4 objects" in done.err
+        assert "2 on, 1 inside" in done.err
+        assert "written to room.ttl" in done.err
+        assert load_graph(Path("room.ttl")).ask(["in", "bowl"]).rows[0][0] == "Apple"
+
+    @pytest.mark.parametrize(("name", "rdf_format"), [("g.ttl", ox.RdfFormat.TURTLE), ("g.nt", ox.RdfFormat.N_TRIPLES)])
+    def test_the_ending_chooses_the_format(self, run: Run, room: Path, name: str, rdf_format: ox.RdfFormat):
+        assert run("build", room, "-o", name).code == 0
+        triples = list(ox.parse(path=name, format=rdf_format))
+        assert any(quad.object == ox.NamedNode(f"{SOMA}Cup") for quad in triples)
+
+    def test_json(self, run: Run, room: Path):
+        done = run("build", room, "--json")
+        data = json.loads(done.out)
+        assert (data["scene"], data["objects"], data["output"]) == (str(room), 4, "room.ttl")
+        assert data["relations"] == {"on": 2, "inside": 1}
+        assert data["triples"] == len(load_graph(Path("room.ttl")))
+        assert sum(data["status"].values()) == sum(data["confidence"].values()) == 4
+        assert done.err == ""
+
+    def test_options(self, run: Run, room: Path, lab: Path):
+        base = "https://my.lab/k/"
+        assert run("build", room, "--ontology", lab, "--base", base, "--profile", "plain", "-o", "g.ttl").code == 0
+        store = load_graph(Path("g.ttl"))
+        found = store.sparql("SELECT ?o { ?o a <https://lab.example/onto#Bench> }")
+        assert found.rows == ((f"{base}Room.Table_1",),)
+        assert store.sparql("ASK { ?s u2k:hasObject ?o }").rows == (("true",),)
+        assert not [quad for quad in ox.parse(path="g.ttl") if "ease-crc" in str(quad)]
+
+    def test_dictionary_regime_and_evidence(self, run: Run, room: Path, tmp_path: Path):
+        table = tmp_path / "names.csv"
+        table.write_text("name,class\ncoffee_mug,Cup\n", encoding="utf-8")
+        done = run("build", room, "--grounder", "dictionary", "--dictionary", table, "--evidence", "name", "--json")
+        assert json.loads(done.out)["status"] == {"refused": 3, "grounded": 1}
+        done = run("build", room, "--regime", "opaque-anonymous", "--json")
+        assert json.loads(done.out)["status"] == {"superclass": 4}
+
+    def test_several_scenes_into_a_folder(self, run: Run, room: Path, tmp_path: Path):
+        second = room.with_name("hall.usda")
+        second.write_bytes(room.read_bytes())
+        folder = tmp_path / "graphs"
+        folder.mkdir()
+        done = run("build", room, second, "-o", folder, "--json")
+        assert done.code == 0
+        assert [item["output"] for item in json.loads(done.out)] == [str(folder / "room.ttl"), str(folder / "hall.ttl")]
+        assert sorted(path.name for path in folder.iterdir()) == ["hall.ttl", "room.ttl"]
+
+    def test_one_scene_into_a_folder(self, run: Run, room: Path, tmp_path: Path):
+        folder = tmp_path / "graphs"
+        folder.mkdir()
+        assert run("build", room, "-o", folder).code == 0
+        assert [path.name for path in folder.iterdir()] == ["room.ttl"]
+
+    @pytest.mark.parametrize("first", [True, False])
+    def test_one_bad_scene_does_not_cost_the_others(self, run: Run, room: Path, first: bool):
+        bad = room.with_name("bad.usda")
+        bad.write_text("#usda 1.0\nthis is no layer", encoding="utf-8")
+        scenes = [bad, room] if first else [room, bad]
+        done = run("build", *scenes, "--json")
+        assert done.code == 2
+        assert [item["scene"] for item in json.loads(done.out)] == [str(room)]
+        assert [path.name for path in Path().iterdir()] == ["room.ttl"]
+        assert [line for line in done.err.splitlines() if line.startswith("usd2kg: ")] == done.err.splitlines()
+        assert str(bad) in done.err
+        assert "Traceback" not in done.err
+
+    def test_two_scenes_of_the_same_name_are_an_error_before_any_work(self, run: Run, room: Path):
+        other = room.parent / "other" / "room.usda"
+        other.parent.mkdir()
+        other.write_bytes(room.read_bytes())
+        done = run("build", room, other)
+        assert done.code == 2
+        assert "same file name" in done.err
+        assert list(Path().iterdir()) == []
+
+    def test_the_same_scene_gives_the_same_bytes(self, run: Run, room: Path):
+        run("build", room, "-o", "first.ttl")
+        run("build", room, "-o", "second.ttl")
+        assert Path("first.ttl").read_bytes() == Path("second.ttl").read_bytes()
+
+    def test_the_source_is_not_touched(self, run: Run, room: Path):
+        before = room.read_bytes()
+        run("build", room)
+        assert room.read_bytes() == before
+        assert [path.name for path in room.parent.iterdir() if path.is_file()] == ["room.usda"]
+
+
+class TestInspect:
+    def test_objects_measures_and_what_was_left_out(self, run: Run, room: Path):
+        done = run("inspect", room)
+        assert (done.code, done.err) == (0, "")
+        assert all(path in done.out for path in PATHS)
+        assert "1.60 × 0.80 × 0.70" in done.out
+        assert "4 objects among" in done.out
+        assert "1 camera" in done.out
+
+    def test_json(self, run: Run, room: Path):
+        done = run("inspect", room, "--json")
+        data = json.loads(done.out)
+        assert [item["path"] for item in data["objects"]] == PATHS
+        assert data["objects"][0]["size"] == pytest.approx([1.6, 0.8, 0.7])
+        assert data["left_out"]["camera"] == 1
+        assert data["families"] == {"/Room": ["Table_1", "coffee_mug", "FruitBowl", "Apple"]}
+        assert data["frame"]["up_axis"] == "Z"
+
+    def test_names_on_a_stage_do_not_steer_a_terminal(self, run: Run, write_stage):
+        scene = write_stage('def Cube "cup" ( displayName = "a\\x1b[2Jb" \n doc = "\\x07" ) {}\n')
+        done = run("inspect", scene)
+        assert "\x1b" not in done.out
+        assert "\x07" not in done.out
+
+
+class TestGround:
+    HEADER: ClassVar = ["path", "class", "label", "confidence", "status", "grounder"]
+
+    def test_csv_of_all_objects_in_scene_order(self, run: Run, room: Path):
+        done = run("ground", room)
+        assert (done.code, done.err) == (0, "")
+        rows = rows_of(done.out)
+        assert done.out.splitlines()[0] == ",".join(self.HEADER)
+        assert [row["path"] for row in rows] == PATHS
+        assert [row["class"] for row in rows] == [
+            f"{SOMA}Table",
+            f"{SOMA}Cup",
+            f"{SOMA}Bowl",
+            f"{DUL}DesignedArtifact",
+        ]
+        assert {row["grounder"] for row in rows} == {"embedded"}
+        assert rows[1]["label"] == "cup"
+        assert all(0 <= float(row["confidence"]) <= 1 for row in rows)
+
+    @pytest.mark.parametrize("regime", ["semantic", "abbreviated", "opaque", "opaque-anonymous"])
+    def test_paths_are_the_authored_ones_under_every_regime(self, run: Run, room: Path, regime: str):
+        done = run("ground", room, "--regime", regime)
+        assert [row["path"] for row in rows_of(done.out)] == PATHS
+        assert all(row["class"].startswith("http") for row in rows_of(done.out))
+
+    def test_paths_limit_and_order_the_rows_and_a_missing_one_has_its_own(self, run: Run, room: Path, tmp_path: Path):
+        wanted = tmp_path / "paths.csv"
+        wanted.write_text("path\n/Room/Apple\n/Room/Ghost\n/Room/Table_1\n/Room/Apple\n", encoding="utf-8")
+        done = run("ground", room, "--paths", wanted)
+        assert done.code == 0
+        rows = rows_of(done.out)
+        assert [row["path"] for row in rows] == ["/Room/Apple", "/Room/Ghost", "/Room/Table_1"]
+        assert rows[1] == dict(zip(self.HEADER, ["/Room/Ghost", "", "", "", "missing", "embedded"], strict=True))
+        assert done.err == f"{room}: there is no prim /Room/Ghost; its row has the status missing\n"
+
+    def test_a_path_that_is_no_object_by_the_rules_is_answered_all_the_same(self, run: Run, room: Path, tmp_path: Path):
+        wanted = tmp_path / "paths.csv"
+        wanted.write_text("path\n/Room\n/Room/coffee_mug/geo\n", encoding="utf-8")
+        rows = rows_of(run("ground", room, "--paths", wanted).out)
+        assert [row["path"] for row in rows] == ["/Room", "/Room/coffee_mug/geo"]
+        assert "missing" not in {row["status"] for row in rows}
+
+    def test_the_rows_asked_for_say_the_same_as_among_all(self, run: Run, room: Path, tmp_path: Path):
+        wanted = tmp_path / "paths.csv"
+        wanted.write_text("path\n/Room/FruitBowl\n", encoding="utf-8")
+        (row,) = rows_of(run("ground", room, "--paths", wanted).out)
+        assert row in rows_of(run("ground", room).out)
+
+    def test_json_is_read_back(self, run: Run, room: Path):
+        assert run("ground", room, "--format", "json", "-o", "mapping.json").out == ""
+        grounding = read_grounding(Path("mapping.json"))
+        assert [p.prim_path for p in grounding.predictions] == PATHS
+        assert grounding.scene == str(room)
+        printed = run("ground", room, "--format", "json").out
+        assert printed == Path("mapping.json").read_text(encoding="utf-8")
+
+    def test_a_file_holds_what_stdout_would_have(self, run: Run, room: Path):
+        printed = run("ground", room).out
+        assert run("ground", room, "-o", "mapping.csv").out == ""
+        assert Path("mapping.csv").read_bytes() == printed.encode()
+
+    def test_the_users_own_ontology(self, run: Run, room: Path, lab: Path):
+        rows = rows_of(run("ground", room, "--ontology", lab).out)
+        assert [row["class"].rpartition("#")[2] for row in rows[:2]] == ["Bench", "Vessel"]
+
+    def test_the_dictionary(self, run: Run, room: Path):
+        rows = rows_of(run("ground", room, "--grounder", "dictionary").out)
+        assert {(row["class"], row["confidence"], row["status"], row["grounder"]) for row in rows} == {
+            ("", "", "refused", "dictionary")
+        }
+
+
+class TestQuery:
+    def test_a_table_with_a_count(self, run: Run, graph: Path):
+        done = run("query", graph, "what", "is", "on", "the", "table?")
+        assert (done.code, done.err) == (0, "")
+        head, *rows, count = done.out.splitlines()
+        assert head.split() == ["object", "class", "path", "anchor", "gap_m"]
+        assert [row.split()[0] for row in rows] == ["FruitBowl", "coffee_mug"]
+        assert count == "2 rows"
+
+    def test_one_argument_or_many_make_no_difference(self, run: Run, graph: Path):
+        assert run("query", graph, "in bowl").out == run("query", graph, "in", "bowl").out
+
+    def test_json(self, run: Run, graph: Path):
+        done = run("query", graph, "where", "is", "apple", "--json")
+        (row,) = json.loads(done.out)
+        assert (row["object"], row["inside"], row["on"]) == ("Apple", "FruitBowl", None)
+
+    def test_no_rows(self, run: Run, graph: Path):
+        assert run("query", graph, "on", "apple").out == "0 rows\n"
+        assert json.loads(run("query", graph, "on", "apple", "--json").out) == []
+
+    def test_sparql_as_text_and_from_a_file(self, run: Run, graph: Path):
+        query = "SELECT ?l { ?o a soma:Cup ; rdfs:label ?l }"
+        done = run("query", graph, "--sparql", query)
+        assert done.out == "l\ncoffee_mug\n1 row\n"
+        Path("cups.rq").write_text(query, encoding="utf-8")
+        assert run("query", graph, "--sparql", "@cups.rq") == done
+
+    @pytest.mark.parametrize("arguments", [[], ["on", "table", "--sparql", "ASK {}"]])
+    def test_either_a_question_or_a_query(self, run: Run, graph: Path, arguments: list[str]):
+        done = run("query", graph, *arguments)
+        assert (done.code, done.out) == (2, "")
+        assert done.err == "usd2kg: query: expected either a question, like 'on table', or --sparql with a query\n"
+
+
+class TestOntology:
+    def test_show_is_a_tree(self, run: Run, lab: Path):
+        done = run("ontology", "show", lab)
+        assert done.code == 0
+        lines = done.out.splitlines()
+        assert len(lines) == 3
+        assert "Equipment" in lines[0]
+        assert lines[1].startswith(" ")
+        assert "To work at." not in done.out
+        assert "3 classes in scope, 1 roots" in done.err
+        assert "To work at." in run("ontology", "show", lab, "--comments").out
+
+    def test_show_json(self, run: Run, lab: Path):
+        data = json.loads(run("ontology", "show", lab, "--json").out)
+        assert [item["iri"].rpartition("#")[2] for item in data["classes"]] == ["Bench", "Equipment", "Vessel"]
+        assert data["ontology"] == "https://lab.example/onto"
+
+    def test_scope(self, run: Run, lab: Path):
+        done = run("ontology", "scope", lab)
+        iris = [f"https://lab.example/onto#{name}" for name in ("Bench", "Equipment", "Vessel")]
+        assert done.out.splitlines() == iris
+        assert json.loads(run("ontology", "scope", lab, "--json").out) == iris
+
+    def test_roots_narrow_the_scope(self, run: Run, lab: Path):
+        done = run("ontology", "scope", lab, "--root", "https://lab.example/onto#Bench")
+        assert done.out == "https://lab.example/onto#Bench\n"
+
+    def test_linearize(self, run: Run, lab: Path):
+        flat = run("ontology", "linearize", lab).out
+        assert len(flat.splitlines()) == 3
+        tree = run("ontology", "linearize", lab, "--tree").out
+        assert len(tree.splitlines()) >= 3
+        assert tree != flat
+
+    def test_the_built_in_ontology_is_the_default(self, run: Run):
+        done = run("ontology", "scope")
+        assert len(done.out.splitlines()) == 102
+        assert f"{SOMA}Cup" in done.out.splitlines()
+
+
+class TestDemo:
+    def test_it_builds_and_asks(self, run: Run):
+        done = run("demo")
+        assert (done.code, done.err) == (0, "")
+        assert "written to kitchen.ttl" in done.out
+        assert done.out.count("$ usd2kg query kitchen.ttl ") == 3
+        assert len(load_graph(Path("kitchen.ttl"))) > 1000
+
+    def test_json(self, run: Run):
+        data = json.loads(run("demo", "-o", "demo.ttl", "--json").out)
+        assert data["output"] == "demo.ttl"
+        assert len(data["answers"]) == 3
+        assert all(data["answers"].values())

@@ -1,0 +1,129 @@
+"""The program as a process: help that answers at once, exit codes, pipes."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+
+# Exits with the names of the heavy modules that asking for help has loaded.
+HELP = """
+import sys
+from usd2kg.cli.app import main
+sys.argv = ["usd2kg", *sys.argv[1:], "--help"]
+try:
+    main()
+finally:
+    heavy = {"pxr", "pyhornedowl", "pyoxigraph", "numpy", "rapidfuzz", "usd2kg.scene", "usd2kg.ontology"}
+    print("LOADED", sorted(heavy & set(sys.modules)))
+"""
+
+
+def process(*arguments: object, code: str | None = None, **options: object) -> subprocess.CompletedProcess[str]:
+    start = ["-c", code] if code is not None else ["-m", "usd2kg.cli.app"]
+    return subprocess.run(
+        [sys.executable, *start, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+        **options,
+    )
+
+
+@pytest.mark.parametrize("command", [[], ["build"], ["ground"], ["ontology", "show"]])
+def test_help_loads_nothing_heavy(command: list[str]):
+    done = process(*command, code=HELP)
+    assert done.returncode == 0
+    assert "Usage: usd2kg" in done.stdout
+    assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
+def test_help_answers_at_once():
+    # Well under half a second where nothing else runs; two are allowed for a busy machine.
+    start = time.perf_counter()
+    done = process("--help")
+    assert time.perf_counter() - start < 2
+    assert done.returncode == 0
+    for command in ("build", "inspect", "ground", "query", "demo", "ontology"):
+        assert f"  {command} " in done.stdout
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["build"],
+        ["inspect"],
+        ["ground"],
+        ["query"],
+        ["demo"],
+        ["ontology"],
+        ["ontology", "show"],
+        ["ontology", "scope"],
+        ["ontology", "linearize"],
+    ],
+)
+def test_every_command_has_help(run: Run, command: list[str]):
+    done = run(*command, "--help")
+    assert (done.code, done.err) == (0, "")
+    assert f"usd2kg {' '.join(command)} " in done.out.splitlines()[0]
+    assert run(*command, "-h") == done
+
+
+def test_exit_codes_of_the_process(room: Path, tmp_path: Path):
+    good = process("build", room, "-o", tmp_path / "room.ttl")
+    assert (good.returncode, good.stdout) == (0, "")
+    assert (tmp_path / "room.ttl").is_file()
+    bad = process("build", tmp_path / "none.usda", "-o", tmp_path / "none.ttl")
+    assert (bad.returncode, bad.stdout) == (2, "")
+    assert len(bad.stderr.splitlines()) == 1
+    assert not (tmp_path / "none.ttl").exists()
+
+
+def test_openusd_does_not_write_on_the_terminal(write_stage, tmp_path: Path):
+    # A missing reference and an unknown schema: OpenUSD warns, and we say so in our own words.
+    scene = write_stage(
+        'def Xform "a" ( kind = "component"\n references = @none.usda@ )\n'
+        '{\n    def Cube "c" {}\n    def Nonsense "d" {}\n}\n'
+    )
+    done = process("build", scene, "-o", tmp_path / "a.ttl")
+    assert done.returncode == 0
+    assert "Warning:" not in done.stderr
+    assert "diagnostics" in done.stderr
+
+
+def test_a_reader_that_has_enough_is_no_error(room: Path):
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "wb") as closed:
+        done = subprocess.run(
+            [sys.executable, "-m", "usd2kg.cli.app", "ground", str(room)],
+            stdout=closed,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+    assert done.returncode == 0
+    assert done.stderr == ""
+
+
+def test_output_is_utf_8_whatever_the_locale(room: Path, tmp_path: Path):
+    scene = tmp_path / "küche.usda"
+    scene.write_bytes(room.read_bytes().replace(b"Room", "Küche".encode()))
+    # As on a bare server or in a container.
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG", "PYTHON"))}
+    environment["LC_ALL"] = "C"
+    done = subprocess.run(
+        [sys.executable, "-m", "usd2kg.cli.app", "ground", str(scene)],
+        capture_output=True,
+        check=False,
+        timeout=60,
+        env=environment,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "/Küche/coffee_mug" in done.stdout.decode("utf-8")

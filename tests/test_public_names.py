@@ -1,0 +1,85 @@
+"""The public names: few, listed, sorted, and all there."""
+
+import ast
+import importlib
+import pkgutil
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import usd2kg
+
+MODULES = ["usd2kg", *(found.name for found in pkgutil.walk_packages(usd2kg.__path__, "usd2kg."))]
+PACKAGES = [name for name in MODULES if hasattr(importlib.import_module(name), "__path__")]
+
+
+def as_sorted(names: list[str]) -> list[str]:
+    """Return names as import sorters do: CONSTANTS, Classes, functions."""
+    return sorted(names, key=lambda name: (0 if name.isupper() else 1 if name[0].isupper() else 2, name))
+
+
+def listed(module: ModuleType) -> list[str]:
+    return list(getattr(module, "__all__", []))
+
+
+def syntax(module: ModuleType) -> ast.Module:
+    assert module.__file__ is not None
+    return ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_list_is_sorted_without_repeats_and_resolves(name: str):
+    module = importlib.import_module(name)
+    names = listed(module)
+    assert names == as_sorted(names)
+    assert len(names) == len(set(names))
+    assert [public for public in names if not hasattr(module, public)] == []
+    assert [public for public in names if public.startswith("_")] == []
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_public_function_and_class_is_listed(name: str):
+    module = importlib.import_module(name)
+    kinds = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+    defined = {node.name for node in syntax(module).body if isinstance(node, kinds) and not is_command(node)}
+    assert {item for item in defined if not item.startswith("_")} <= set(listed(module))
+
+
+def is_command(node: ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) -> bool:
+    """Return whether a function is public by its name on the command line only."""
+    return any(ast.unparse(decorator).startswith("app.command(") for decorator in node.decorator_list)
+
+
+@pytest.mark.parametrize("name", [name for name in PACKAGES if name != "usd2kg"])
+def test_a_package_lists_what_it_gathers_from_its_modules(name: str):
+    module = importlib.import_module(name)
+    gathered = {
+        alias.asname or alias.name
+        for node in syntax(module).body
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{name}.")
+        for alias in node.names
+    }
+    defined = {node.name for node in syntax(module).body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    assert set(listed(module)) == gathered | {item for item in defined if not item.startswith("_")}
+
+
+def test_the_top_level_names_are_those_of_their_packages():
+    for public in usd2kg.__all__:
+        found = getattr(usd2kg, public)
+        home = importlib.import_module(found.__module__.rpartition(".")[0])
+        assert found.__module__.startswith("usd2kg.")
+        assert getattr(home, public, found) is found
+    assert as_sorted(usd2kg.__all__) == usd2kg.__all__
+
+
+def test_every_lazy_name_is_listed_and_every_listed_name_is_typed():
+    # Type checkers read the imports under TYPE_CHECKING, Python the table: they must not part.
+    (block,) = [node for node in syntax(usd2kg).body if isinstance(node, ast.If)]
+    typed = {alias.name for node in block.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    assert typed == set(usd2kg.__all__)
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="module 'usd2kg' has no attribute 'biuld'"):
+        usd2kg.biuld  # noqa: B018
