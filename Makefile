@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow lint types layers wheel lock scene data clean
+.PHONY: help setup demo test test-slow lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -35,6 +35,12 @@ types: $(READY) ## Check types
 
 layers: $(READY) ## Check that packages import only what lies below them
 	$(BIN)/lint-imports --no-logo
+
+accuracy: $(READY) ## Measure the offline grounders on all scenes with gold labels; keep the figures
+	$(BIN)/python benchmarks/accuracy/run.py
+
+accuracy-check: $(READY) ## Check that the kept figures are those of the code
+	$(BIN)/python benchmarks/accuracy/run.py --check
 
 wheel: $(READY) ## Build the wheel into dist/
 	@rm -rf dist

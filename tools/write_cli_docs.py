@@ -21,6 +21,13 @@ COMMANDS = (
     ("ontology", "show"),
     ("ontology", "linearize"),
     ("ontology", "scope"),
+    ("eval",),
+    ("eval", "run"),
+    ("eval", "reproduce"),
+    ("eval", "compare"),
+    ("eval", "annotate"),
+    ("eval", "agreement"),
+    ("eval", "kitchen-set"),
     ("demo",),
 )
 INTRODUCTION = """\

@@ -37,7 +37,7 @@ def split_identifier(identifier: str) -> tuple[str, ...]:
     start = 0
     for end in range(1, len(text) + 1):
         if end == len(text) or _is_border(text, end):
-            if text[start].isalnum():
+            if _is_word_character(text[start]):
                 parts.append(text[start:end])
             start = end
     return tuple(parts)
@@ -45,14 +45,19 @@ def split_identifier(identifier: str) -> tuple[str, ...]:
 
 def _is_border(text: str, at: int) -> bool:
     before, after = text[at - 1], text[at]
-    if before.isalnum() != after.isalnum() or before.isdigit() != after.isdigit():
+    if _is_word_character(before) != _is_word_character(after) or before.isdigit() != after.isdigit():
         return True
-    if not before.isalnum():
+    if not _is_word_character(before):
         return False
     if before.islower() and after.isupper():
         return True
     # The last capital of a run starts the next word: TVCabinet is TV + Cabinet.
     return before.isupper() and after.isupper() and at + 1 < len(text) and text[at + 1].islower()
+
+
+def _is_word_character(c: str) -> bool:
+    # Vowel signs (Devanagari, Thai…) are marks that belong to the letter before.
+    return c.isalnum() or unicodedata.category(c) in {"Mn", "Mc"}
 
 
 @lru_cache(maxsize=65536)

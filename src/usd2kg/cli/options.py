@@ -13,7 +13,8 @@ OntologyFile = Annotated[
     typer.Option("--ontology", help="An OWL file whose classes to use; default: the built-in home ontology."),
 ]
 GrounderName = Annotated[
-    str, typer.Option("--grounder", help="Who chooses the classes: embedded (offline, default) or dictionary.")
+    str,
+    typer.Option("--grounder", help="Who chooses the classes: embedded (default), dictionary, embedding or volume."),
 ]
 Dictionary = Annotated[
     Path | None,

@@ -1,5 +1,7 @@
 """The TBox as text: the study's flat list, and a tree that keeps the hierarchy."""
 
+from collections.abc import Iterable
+
 from usd2kg.ontology.model import OntologyClass, TBox
 
 __all__ = ["linearize_flat", "linearize_tree"]
@@ -23,19 +25,20 @@ def linearize_tree(tbox: TBox, *, with_comments: bool = False) -> str:
     A class with several superclasses stands under each; what is below it is written out once, and later
     occurrences end in `(see above)`.
     """
+
+    def by_name(iris: Iterable[str]) -> list[tuple[str, str]]:
+        return sorted((tbox.by_iri[iri].local_name, iri) for iri in iris)
+
     lines: list[str] = []
     written: set[str] = set()
-
-    def write(iri: str, depth: int) -> None:
+    pending = [(iri, 0) for _, iri in reversed(by_name(tbox.roots))]
+    while pending:
+        iri, depth = pending.pop()
         cls = tbox.by_iri[iri]
-        repeats = iri in written and bool(tbox.children[iri])
+        is_repeated = iri in written and bool(tbox.children[iri])
         comment = f" -- {cls.comment}" if with_comments and cls.comment and iri not in written else ""
-        lines.append("  " * depth + cls.local_name + comment + (" (see above)" if repeats else ""))
-        if not repeats:
+        lines.append("  " * depth + cls.local_name + comment + (" (see above)" if is_repeated else ""))
+        if not is_repeated:
             written.add(iri)
-            for child in sorted(tbox.children[iri], key=lambda key: tbox.by_iri[key].local_name):
-                write(child, depth + 1)
-
-    for root in sorted(tbox.roots, key=lambda key: tbox.by_iri[key].local_name):
-        write(root, 0)
+            pending.extend((child, depth + 1) for _, child in reversed(by_name(tbox.children[iri])))
     return "\n".join(lines) + "\n"

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from typing import Any, Literal
+from xml.etree import ElementTree
 
 import pyhornedowl
 
@@ -14,8 +15,11 @@ def read_owl_axioms(text: str, syntax: Literal["ofn", "omn", "owx"]) -> ClassAxi
     """Return the axioms of a document; `syntax` is `ofn`, `omn` or `owx`.
 
     Raises:
-        ValueError: the text does not parse.
+        ValueError, SyntaxError: the text does not parse.
     """
+    if syntax == "owx":
+        # The parser never returns from a document that ends within a literal.
+        ElementTree.fromstring(text)
     axioms = ClassAxioms()
     for item in pyhornedowl.open_ontology_from_string(text, serialization=syntax).get_components():
         handler = _HANDLERS.get(type(item.component).__name__)

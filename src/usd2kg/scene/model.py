@@ -90,7 +90,7 @@ class SceneObject:
     type_name: str
     """The prim's schema type (`Xform`, `Mesh`…), empty if untyped."""
     kind: str
-    """The authored model kind, empty if none."""
+    """The authored model kind, a studio's own by the standard one it derives from; empty if none."""
     selected_by: str
     """Why this prim is an object, in words."""
     parent_path: str | None

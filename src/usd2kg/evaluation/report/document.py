@@ -6,6 +6,8 @@ Text is plain throughout: each format escapes it for itself. Figures are rounded
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from usd2kg.evaluation.metrics.intervals import Interval, mean_spread
 from usd2kg.ontology import ClassIRI, TBox
 
@@ -18,6 +20,7 @@ __all__ = [
     "interval_text",
     "number_text",
     "p_value_text",
+    "plain_number",
     "printable",
     "spread_text",
 ]
@@ -102,6 +105,15 @@ def interval_text(interval: Interval, digits: int) -> str:
 def p_value_text(value: float) -> str:
     """Return a probability with four decimals, or that it is smaller."""
     return "< 0.0001" if value < 0.0001 else f"{value:.4f}"
+
+
+def plain_number(value: float, digits: int = 2) -> str:
+    """Return a figure with so many significant digits and no exponent.
+
+    >>> plain_number(0.0000134), plain_number(12.3)
+    ('0.000013', '12')
+    """
+    return np.format_float_positional(value, precision=digits, fractional=False, trim="-")
 
 
 def class_text(iri: ClassIRI | None, tbox: TBox) -> str:

@@ -49,7 +49,7 @@ def agreed_table(result: SceneResult) -> Table:
             agreed = agreed_objects(by_method)
             rows.append((regime, "all right", str(len(agreed.right)), _names(agreed.right)))
             rows.append((regime, "all wrong", str(len(agreed.wrong)), _names(agreed.wrong)))
-    columns = ("names", "methods", "objects", "distinct names (copies)")
+    columns = ("regime", "methods", "objects", "distinct names (copies)")
     note = "" if len(methods_of(result)) > 1 else "Only one method was run."
     return Table(f"{result.spec.name}: objects that all methods have right or wrong", columns, tuple(rows), note)
 
@@ -86,7 +86,7 @@ def misses_table(result: SceneResult) -> Table:
                 summary = done.evaluation.summary
                 right = sum(score.is_exact for score in done.evaluation.scores)
                 rows.append((method, regime, str(right), *(str(summary.misses.get(kind.value, 0)) for kind in Miss)))
-    columns = ("method", "names", "right", *(kind.value for kind in Miss))
+    columns = ("method", "regime", "right", *(kind.value for kind in Miss))
     return Table(f"{size_title(result)}: kinds of misses", columns, tuple(rows))
 
 
@@ -140,7 +140,7 @@ def name_quality_table(result: SceneResult) -> Table:
     named = sum(names_its_class(label.prim_path.rpartition("/")[2], label.target) for label in result.gold)
     columns = (
         "method",
-        "names",
+        "regime",
         f"EMA % where the name names its class (n = {named})",
         f"EMA % where it does not (n = {len(result.gold) - named})",
     )

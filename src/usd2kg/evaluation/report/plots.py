@@ -13,7 +13,7 @@ from usd2kg.errors import EvaluationError
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
 from usd2kg.evaluation.metrics.calibration import ReliabilityBin, reliability, risk_coverage
 from usd2kg.evaluation.report.analysis import REGIMES, hierarchy_order, methods_of, runs_of, scores_under
-from usd2kg.evaluation.report.document import Figure, class_text, printable
+from usd2kg.evaluation.report.document import Figure, class_text, plain_number, printable
 from usd2kg.evaluation.reproduce import CellResult, SceneResult
 from usd2kg.evaluation.sample import Score
 from usd2kg.ontology import ClassIRI
@@ -219,20 +219,19 @@ def plot_cost(results: Sequence[SceneResult], file: str) -> Figure | None:
     methods = list(dict.fromkeys(method for _, method, _ in timed))
     scenes = list(dict.fromkeys(result.spec.name for result, _, _ in timed))
     with _drawing(7.4, 4) as (canvas, [axes]):
-        for result, method, done in timed:
-            seconds = sum(d.evaluation.seconds / d.evaluation.summary.n for d in done) / len(done)
-            marker = _MARKERS[scenes.index(result.spec.name) % 8]
-            axes.scatter(
-                [seconds], [_mean_ema(done)], 70, color=_COLOURS[methods.index(method) % 8], marker=marker, alpha=0.8
-            )
+        each = [sum(d.evaluation.seconds / d.evaluation.summary.n for d in done) / len(done) for _, _, done in timed]
+        for (result, method, done), seconds in zip(timed, each, strict=True):
+            marker, colour = _MARKERS[scenes.index(result.spec.name) % 8], _COLOURS[methods.index(method) % 8]
+            axes.scatter([seconds], [_mean_ema(done)], 70, color=colour, marker=marker, alpha=0.8)
         for index, method in enumerate(methods):
             axes.scatter([], [], 70, color=_COLOURS[index % 8], marker="o", label=_label(method))
         for marker, name in zip(cycle(_MARKERS), scenes, strict=False):
             axes.scatter([], [], 70, facecolor="none", edgecolor="#333333", marker=marker, label=_label(name))
         axes.set_xscale("log")
-        # The usual 10^-3 would be a formula.
-        axes.xaxis.set_major_formatter("{x:g}")
+        # The usual 10^-3 would be a formula. Whole decades, so that there is always a labelled tick.
+        axes.xaxis.set_major_formatter(lambda seconds, _: plain_number(seconds))
         axes.xaxis.set_minor_formatter("")
+        axes.set_xlim(10 ** math.floor(math.log10(min(each)) - 0.1), 10 ** math.ceil(math.log10(max(each)) + 0.1))
         axes.set(xlabel="seconds per object", ylabel="EMA, %", ylim=(-4, 104))
         canvas.legend(*axes.get_legend_handles_labels(), loc="outside right upper")
         return _figure(canvas, file, "Cost against accuracy, authored names: colours are methods, shapes are scenes.")
@@ -256,9 +255,8 @@ def plot_confusion(result: SceneResult, file: str) -> Figure | None:
         axes.tick_params(axis="x", labelrotation=90)
         axes.set(xlabel=f"answer of {_label(method)}", ylabel="gold")
         note = f" {left_out} classes that are never confused are left out." if left_out else ""
-        caption = (
-            f"{result.spec.name}: classes taken for one another, authored names; blue is right, orange wrong.{note}"
-        )
+        what = "classes taken for one another, authored names; blue is right, orange wrong"
+        caption = f"{result.spec.name}: {what}.{note}"
         return _figure(canvas, file, caption)
 
 

@@ -6,7 +6,7 @@ from pathlib import PurePath
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
 from usd2kg.evaluation.metrics.intervals import mean_spread
 from usd2kg.evaluation.report.analysis import REGIMES, methods_of, runs_of
-from usd2kg.evaluation.report.document import ABSENT, Table, interval_text, number_text, spread_text
+from usd2kg.evaluation.report.document import ABSENT, Table, interval_text, number_text, plain_number, spread_text
 from usd2kg.evaluation.report.study import AS_PUBLISHED, StudyFigure, study_ablation, study_main
 from usd2kg.evaluation.reproduce import CellResult, SceneResult
 from usd2kg.evaluation.sample import distinct_name
@@ -66,7 +66,7 @@ def published_table() -> Table:
     rows = tuple(
         (method, *(_published(figures.get(regime)) for regime in REGIMES)) for method, figures in study_main().items()
     )
-    note = "The study's scene may not be redistributed and is not among ours: these are for orientation only."
+    note = "For orientation only: another scene, labelled by other people."
     return Table(f"EMA % / HF1 {AS_PUBLISHED}", ("method", *REGIMES), rows, note)
 
 
@@ -74,7 +74,7 @@ def detail_table(result: SceneResult) -> Table:
     """Return the further measures of each method and regime, with 95 % intervals."""
     columns = (
         "method",
-        "names",
+        "regime",
         "EMA %",
         "95 % by object",
         "95 % by distinct name",
@@ -105,22 +105,22 @@ def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
 
 
 def timing_table(results: Sequence[SceneResult]) -> Table:
-    """Return milliseconds per object of each method and regime: the one table that no two runs have alike."""
+    """Return seconds per object of each method and regime: the one table that no two runs have alike."""
     rows = []
     for result in results:
         runs = runs_of(result)
         for method in methods_of(result):
             cells = [runs.get((method, regime), ()) for regime in REGIMES]
-            rows.append((result.spec.name, method, str(len(result.gold)), *(_milliseconds(done) for done in cells)))
+            rows.append((result.spec.name, method, str(len(result.gold)), *(_seconds(done) for done in cells)))
     columns = ("scene", "method", "n", *REGIMES)
-    return Table("Milliseconds per object", columns, tuple(rows), "Without reading the scene and the ontology.")
+    return Table("Seconds per object", columns, tuple(rows), "Without reading the scene and the ontology.")
 
 
-def _milliseconds(repeats: Sequence[CellResult]) -> str:
+def _seconds(repeats: Sequence[CellResult]) -> str:
     if not repeats:
         return ABSENT
-    each = [1000 * done.evaluation.seconds / done.evaluation.summary.n for done in repeats]
-    return f"{mean_spread(each)[0]:.3g}"
+    each = [done.evaluation.seconds / done.evaluation.summary.n for done in repeats]
+    return plain_number(mean_spread(each)[0])
 
 
 def ablation_table(result: SceneResult) -> Table | None:

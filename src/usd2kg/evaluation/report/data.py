@@ -1,0 +1,115 @@
+"""The results behind a report, for programs: a row or an entry for each run."""
+
+import csv
+import io
+import json
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from usd2kg.evaluation.metrics.intervals import Interval
+from usd2kg.evaluation.report.analysis import (
+    REGIMES,
+    agreed_objects,
+    ema_by_name_quality,
+    name_counts,
+    scores_under,
+    size_distinctive,
+)
+from usd2kg.evaluation.reproduce import CellResult, SceneResult
+from usd2kg.evaluation.run import evaluation_json
+
+__all__ = ["format_csv", "format_json"]
+
+_FORMULA = ("=", "+", "-", "@")
+
+
+def format_csv(results: Sequence[SceneResult]) -> str:
+    """Return a row for each run. EMA is in percent and HF1 from 0 to 1, neither rounded; unknown is empty.
+
+    Text that a spreadsheet would take for a formula gets an apostrophe in front.
+    """
+    text = io.StringIO()
+    rows = [dict(_csv_row(result, done)) for result in results for done in result.cells]
+    writer = csv.DictWriter(text, list(dict.fromkeys(key for row in rows for key in row)), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _csv_row(result: SceneResult, done: CellResult) -> Iterator[tuple[str, Any]]:
+    cell, summary = done.cell, done.evaluation.summary
+    yield "scene", _safe(result.spec.name)
+    yield "method", _safe(cell.grounder)
+    yield "condition", _safe(cell.condition)
+    yield "regime", cell.regime.value
+    yield "evidence", _evidence(done)
+    yield "repeat", cell.repeat
+    for key, value in vars(summary).items():
+        if isinstance(value, Interval):
+            yield f"{key}_lower", value.lower
+            yield f"{key}_upper", value.upper
+        elif isinstance(value, dict):
+            yield from ((f"{key}: {kind}", count) for kind, count in value.items())
+        else:
+            yield key, value
+    yield "seconds", done.evaluation.seconds
+    yield "seconds_per_object", done.evaluation.seconds / summary.n
+
+
+def _safe(text: str) -> str:
+    return f"'{text}" if text.startswith(_FORMULA) else text
+
+
+def _evidence(done: CellResult) -> str:
+    return "all" if done.cell.evidence is None else ",".join(sorted(done.cell.evidence))
+
+
+def format_json(title: str, results: Sequence[SceneResult]) -> str:
+    """Return everything: scenes, selection, analysis, and each run with its settings and scores."""
+    data = {"title": title, "scenes": [_scene(result) for result in results]}
+    return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False) + "\n"
+
+
+def _scene(result: SceneResult) -> dict[str, Any]:
+    return {
+        "name": result.spec.name,
+        "note": result.spec.note,
+        "file": result.spec.path.name,
+        "scene_hash": result.scene.content_hash,
+        "ontology": result.tbox.ontology_iri,
+        "ontology_hash": result.tbox.content_hash,
+        "objects": len(result.gold),
+        "selection": result.selection._asdict(),
+        "analysis": _analysis(result),
+        "runs": [_run(result, done) for done in result.cells],
+    }
+
+
+def _analysis(result: SceneResult) -> dict[str, Any]:
+    size = size_distinctive(result)
+    agreed = {}
+    for regime in REGIMES:
+        if by_method := scores_under(result, regime):
+            found = agreed_objects(by_method)
+            agreed[regime] = {"all_right": dict(name_counts(found.right)), "all_wrong": dict(name_counts(found.wrong))}
+    return {
+        "distinct_names_agreed_on": agreed,
+        "size_distinctive": [score.id for score in size.found],
+        "ema_by_name_quality": {
+            regime: {
+                method: ema_by_name_quality(scores)._asdict() for method, scores in scores_under(result, regime).items()
+            }
+            for regime in agreed
+        },
+    }
+
+
+def _run(result: SceneResult, done: CellResult) -> dict[str, Any]:
+    return {
+        "method": done.cell.grounder,
+        "condition": done.cell.condition,
+        "repeat": done.cell.repeat,
+        **evaluation_json(done.evaluation),
+        # The folder is of no use elsewhere.
+        "scene": result.spec.path.name,
+    }
