@@ -13,6 +13,7 @@ from usd2kg.cli.query import answer_text
 
 __all__ = ["demo_command"]
 
+_SHOWN = 12
 _QUESTIONS = ("on dining table", "in refrigerator", "all of appliance")
 
 
@@ -40,4 +41,4 @@ def demo_command(
         return
     emit(summary_text(summary) + "\n", None)
     for question, answer in answers.items():
-        emit(f"\n$ usd2kg query {output} {question}\n{answer_text(answer)}", None)
+        emit(f"\n$ usd2kg query {output} {question}\n{answer_text(answer, _SHOWN)}", None)

@@ -48,7 +48,9 @@ def _query_text(sparql: str) -> str:
         raise GraphError(f"{sparql[1:]}: cannot be read as a query ({error})") from error
 
 
-def answer_text(answer: "Answer") -> str:
-    """Return an answer as a table with a last line that counts."""
+def answer_text(answer: "Answer", most: int | None = None) -> str:
+    """Return an answer as a table of at most `most` rows, with a last line that counts them all."""
     count = f"{len(answer.rows)} {'row' if len(answer.rows) == 1 else 'rows'}\n"
-    return (format_table(answer.columns, answer.rows) if answer.rows else "") + count
+    shown = answer.rows[:most]
+    rest = f"… {len(answer.rows) - len(shown)} more\n" if len(shown) < len(answer.rows) else ""
+    return (format_table(answer.columns, shown) if shown else "") + rest + count

@@ -84,7 +84,8 @@ def _table(table: Table) -> str:
     head = _row("th", table.columns, numeric)
     rows = "\n".join(_row("td", row, numeric) for row in table.rows)
     note = f'\n<p class="note">{escape_html(table.note)}</p>' if table.note else ""
-    grid = f'<div class="scroll"><table aria-label="{title}">\n<thead>{head}</thead>\n<tbody>\n{rows}\n</tbody></table></div>'
+    body = f'<table aria-label="{title}">\n<thead>{head}</thead>\n<tbody>\n{rows}\n</tbody></table>'
+    grid = f'<div class="scroll">{body}</div>'
     if table.is_long:
         grid = f"<details><summary>{title}, {len(table.rows)} rows</summary>\n{grid}\n</details>"
     else:

@@ -16,7 +16,7 @@ __all__ = [
     "ablation_table",
     "detail_table",
     "main_table",
-    "missed_prims",
+    "missed_table",
     "own_ablation_table",
     "published_table",
     "scenes_table",
@@ -171,16 +171,18 @@ def selection_table(results: Sequence[SceneResult]) -> Table:
     )
     columns = ("scene", "labelled", "recall", "precision", "missed", "selected without label")
     note = "Precision is a lower bound where the gold labels do not cover the whole scene."
-    return Table("Selection of objects", columns, rows, note)
+    return Table("Selected against labelled prims", columns, rows, note)
 
 
-def missed_prims(result: SceneResult) -> str:
-    """Return the labelled prims that selection missed, in a sentence; at most ten, then a count."""
+def missed_table(result: SceneResult) -> Table | None:
+    """Return the labelled prims that selection missed, at most ten, then a count; None if it missed none."""
     missed = result.selection.missed
-    if not missed:
-        return f"{result.spec.name}: no labelled prim was missed."
-    more = f" and {len(missed) - _MOST_MISSED} more" if len(missed) > _MOST_MISSED else ""
-    return f"{result.spec.name}: missed {', '.join(missed[:_MOST_MISSED])}{more}."
+    rows = [(path,) for path in missed[:_MOST_MISSED]]
+    if not rows:
+        return None
+    if len(missed) > _MOST_MISSED:
+        rows.append((f"and {len(missed) - _MOST_MISSED} more",))
+    return Table(f"{result.spec.name}: labelled prims that were not selected", ("prim path",), tuple(rows))
 
 
 def size_title(result: SceneResult) -> str:

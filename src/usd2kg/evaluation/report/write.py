@@ -108,7 +108,7 @@ def _sections(results: Sequence[SceneResult], figures: _Figures, remark: str) ->
     yield _section("What was measured", [_HOW_TO_READ, remark, tables.scenes_table(results)])
     yield _section("Accuracy by naming regime", _accuracy(results, figures))
     yield _section("Ablation", _ablation(results, figures))
-    yield _section("Selection of objects", [tables.selection_table(results), *map(tables.missed_prims, results)])
+    yield _section("Selection of objects", [tables.selection_table(results), *map(tables.missed_table, results)])
     yield _section("Errors", _errors(results, figures))
     yield _section("Quality of names", _name_quality(results))
     yield _section("Confidence", _confidence(results, figures))

@@ -24,7 +24,7 @@ __all__ = ["EmbeddedGrounder"]
 _SHARES = {"name": 1.0, "asset": 0.9, "documentation": 0.8, "hierarchy": 0.55, "parts": 0.5}
 """How far each source of words is trusted, as a share of what the name would be."""
 _SOURCES = {"asset": "asset", "documentation": "documentation", "hierarchy": "group", "parts": "parts"}
-_CLEAR = 0.5
+_CLEAR = 0.7
 """A name that scores this is believed before other evidence is asked."""
 _PRIMITIVES = frozenset(["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull"])
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
