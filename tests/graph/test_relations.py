@@ -116,12 +116,13 @@ class TestOn:
         cushion = (thing("/cushion", (0.02, 0.02, 0.45), (0.35, 0.3, 0.06)), "DesignedArtifact")
         assert related(relate(chair, cushion)) == {("cushion", "on", "chair")}
 
-    def test_a_thing_may_sink_below_a_rim_but_not_far(self):
-        # A tray whose box ends at its rim, 0.05 m above the table.
-        tray = (thing("/tray", (0.2, 0.2, 0.7), (0.4, 0.3, 0.05)), "DesignedArtifact")
-        sink = min(ON["sink_share"] * 0.05, ON["max_sink"])
-        little = cup((0.3, 0.3, 0.75 - sink + HAIR))
-        much = cup((0.3, 0.3, 0.75 - sink - HAIR))
+    @pytest.mark.parametrize("height", [0.02, 0.03, 0.05, 0.3])
+    def test_a_thing_may_sink_below_a_rim_but_not_far(self, height: float):
+        # A tray whose box ends at its rim: low rims are met by the share of their height, high ones by the bound.
+        tray = (thing("/tray", (0.2, 0.2, 0.7), (0.4, 0.3, height)), "DesignedArtifact")
+        sink = min(ON["sink_share"] * height, ON["max_sink"])
+        little = cup((0.3, 0.3, 0.7 + height - sink + HAIR))
+        much = cup((0.3, 0.3, 0.7 + height - sink - HAIR))
         assert ("cup", "on", "tray") in related(relate(tray, little))
         assert relate(tray, much) == ()
 

@@ -109,10 +109,11 @@ def test_of_two_equal_claims_the_general_class_keeps_the_word():
 
 def test_jargon_that_many_names_begin_with_is_dropped(home_tbox: TBox):
     # SOMA calls things DesignedTool, DesignedContainer… and nobody says "designed tool".
-    lexicon = lexicon_of(home_tbox)
-    assert named(lexicon, "tool") == "DesignedTool"
-    assert named(lexicon, "designedtool") == "DesignedTool"
-    assert named(lexicon, "container") == "DesignedContainer"
+    lexicon = lexicon_of(make_tbox(*(make_class(name) for name in ("DesignedTool", "DesignedBox", "DesignedRack"))))
+    assert named(lexicon, "designedtool") == named(lexicon, "tool") == "DesignedTool"
+    # As good as its label, and not only the last word of it.
+    assert lexicon.terms["tool"].weight == 1.0
+    assert named(lexicon_of(home_tbox), "container") == "DesignedContainer"
 
 
 @pytest.mark.parametrize(

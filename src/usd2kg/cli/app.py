@@ -3,6 +3,7 @@
 Exit codes: 0 done, 2 wrong usage or an input or output that cannot be used.
 """
 
+import io
 import logging
 import sys
 import traceback
@@ -47,6 +48,10 @@ def _options(
 
 def main() -> None:
     """Run the command line; an error that a user can mend becomes one line and exit code 2."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # A terminal that cannot show a name shows its code instead, and the run goes on.
+            stream.reconfigure(errors="backslashreplace")
     arguments = sys.argv[1:]
     is_verbose = "--verbose" in arguments
     if is_verbose:

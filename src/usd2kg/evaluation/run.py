@@ -73,14 +73,14 @@ def evaluation_json(evaluation: Evaluation, selection: SelectionScore | None = N
         "settings": dict(grounding.settings),
         "is_calibrated": grounding.is_calibrated,
         "tool_version": grounding.tool_version,
-        "scores": [score_json(score) for score in evaluation.scores],
+        "scores": [_score_json(score) for score in evaluation.scores],
     }
     if selection is not None:
         data["selection"] = selection._asdict()
     return data
 
 
-def score_json(score: Score) -> Mapping[str, Any]:
+def _score_json(score: Score) -> Mapping[str, Any]:
     """Return one score as plain data."""
     return {
         "path": score.id,

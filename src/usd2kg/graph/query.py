@@ -240,6 +240,8 @@ def load_graph(path: Path) -> GraphStore:
         GraphError: the file is missing, its ending names no RDF format, or it does not parse.
     """
     rdf_format = _INPUT_FORMATS.get(path.suffix.lower())
+    if path.is_dir():
+        raise GraphError(f"{path}: is a folder; expected a graph that usd2kg build wrote")
     if not path.is_file():
         raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
     if rdf_format is None:

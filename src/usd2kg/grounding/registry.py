@@ -22,6 +22,10 @@ def make_grounder(name: str, *, dictionary: Path | None = None, class_sizes: Pat
     Raises:
         GroundingError: there is no such grounder, or its file cannot be read.
     """
+    if dictionary is not None and name != "dictionary":
+        raise GroundingError(
+            f"grounder {name!r} takes no dictionary; choose the grounder dictionary to use {dictionary}"
+        )
     # Each is imported only when it is asked for: the embedded one reads a noun taxonomy.
     if name == "embedded":
         from usd2kg.grounding.embedded.grounder import EmbeddedGrounder  # noqa: PLC0415

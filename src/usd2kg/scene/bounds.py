@@ -39,14 +39,14 @@ class BoxReader:
 
 
 def _to_metres(lower: Vector, upper: Vector, frame: StageFrame) -> Box:
-    low = to_world(lower, frame)
-    high = to_world(upper, frame)
+    low = _to_world(lower, frame)
+    high = _to_world(upper, frame)
     pairs = [(min(a, b), max(a, b)) for a, b in zip(low, high, strict=True)]
     (x0, x1), (y0, y1), (z0, z1) = pairs
     return Box((x0, y0, z0), (x1, y1, z1))
 
 
-def to_world(point: Vector, frame: StageFrame) -> Vector:
+def _to_world(point: Vector, frame: StageFrame) -> Vector:
     """Return a point of the stage in metres, z-up: (x, y, z) of a y-up stage becomes (x, -z, y)."""
     x, y, z = (value * frame.metres_per_unit for value in point)
     return (x, y, z) if frame.up_axis == "Z" else (x, -z + 0.0, y)
@@ -70,7 +70,7 @@ def read_pose(cache: UsdGeom.XformCache, prim: Any, frame: StageFrame) -> tuple[
     translation = tuple(matrix.ExtractTranslation())
     if not all(math.isfinite(value) for row in matrix for value in row):
         return None, None
-    position = to_world((translation[0], translation[1], translation[2]), frame)
+    position = _to_world((translation[0], translation[1], translation[2]), frame)
     if _is_flat(matrix):
         return position, None
     rotation = matrix.RemoveScaleShear()
@@ -96,7 +96,7 @@ def _is_flat(matrix: Any) -> bool:
     """Return whether the matrix squeezes space to a plane, a line or a point, so that no rotation is left."""
     rows = [matrix.GetRow3(i) for i in range(3)]
     lengths = [row.GetLength() for row in rows]
-    return min(lengths) < 1e-12 or abs(Gf.Dot(Gf.Cross(rows[0], rows[1]), rows[2])) < 1e-9 * math.prod(lengths)
+    return bool(min(lengths) < 1e-12 or abs(Gf.Dot(Gf.Cross(rows[0], rows[1]), rows[2])) < 1e-9 * math.prod(lengths))
 
 
 def _canonical(quaternion: Any) -> Quaternion | None:

@@ -70,10 +70,10 @@ def size_text(result: SceneResult) -> str | None:
     if not scores_under(result, "geometry only") and not scores_under(result, "opaque").get("volume"):
         return None
     found = size_distinctive(result)
-    return (
-        f"{result.spec.name}: {len(found.found)} of {len(result.gold)} objects are found by their size alone. "
-        f"{found.by_default} more are right too, but would be without any evidence, by the method's standing answer."
-    )
+    text = f"{result.spec.name}: {len(found.found)} of {len(result.gold)} objects are found by their size alone."
+    if not found.by_default:
+        return text
+    return f"{text} {found.by_default} more are right too, but only because the method's answer without evidence is."
 
 
 def misses_table(result: SceneResult) -> Table:

@@ -15,9 +15,10 @@ _SPECIAL = str.maketrans(
         ">": r"\textgreater{}",
         "|": r"\textbar{}",
         '"': r"\textquotedbl{}",
-        # Bare, these would belong to the \\\\ of the row before.
+        # Bare, these would belong to the line break of the row before.
         "[": "{[}",
         "*": "{*}",
+        "\ufffd": "?",
         "–": "--",
         "…": r"\ldots{}",
         "±": r"$\pm$",
@@ -25,7 +26,11 @@ _SPECIAL = str.maketrans(
         **{c: "\\" + c for c in "{}$&#%_"},
     }
 )
-_HEAD = "% Needs \\usepackage[T1]{fontenc}, and \\usepackage{longtable} for tables longer than a page.\n"
+_HEAD = "% Needs \\usepackage[T1]{fontenc}.\n"
+_LONGEST = 40
+"""Rows that fit on a page; a tabular does not break by itself."""
+_WIDE = 60
+"""Characters beyond which a cell is set as a paragraph."""
 
 
 def escape_latex(text: str) -> str:
@@ -38,19 +43,23 @@ def escape_latex(text: str) -> str:
 
 
 def format_latex(title: str, sections: Sequence[Section]) -> str:
-    """Return all tables as `tabular`, each under its title; long ones as `longtable`."""
+    """Return all tables as `tabular`, each under its title; those longer than a page in several."""
     tables = [block for section in sections for block in section.blocks if isinstance(block, Table)]
     return f"% {escape_latex(title)}\n{_HEAD}\n" + "\n".join(_table(table) for table in tables)
 
 
 def _table(table: Table) -> str:
-    environment = "longtable" if table.is_long else "tabular"
-    columns = "l" * len(table.columns)
-    lines = [_row(table.columns) + r" \hline", *map(_row, table.rows)]
-    body = "\n".join(lines)
-    note = f"\n\n{escape_latex(table.note)}" if table.note else ""
-    heading = f"\\paragraph{{{escape_latex(table.title)}}}\n"
-    return f"{heading}\\begin{{{environment}}}{{{columns}}}\n\\hline\n{body}\n\\hline\n\\end{{{environment}}}{note}\n"
+    pages = [table.rows[at : at + _LONGEST] for at in range(0, len(table.rows), _LONGEST)] or [()]
+    grids = "\n".join(_tabular(table, rows) for rows in pages)
+    note = f"\n{escape_latex(table.note)}\n" if table.note else ""
+    return f"\\paragraph{{{escape_latex(table.title)}}}\n{grids}{note}"
+
+
+def _tabular(table: Table, rows: Sequence[Sequence[str]]) -> str:
+    wide = [any(len(row[at]) > _WIDE for row in table.rows) for at in range(len(table.columns))]
+    columns = "".join(r"p{0.5\linewidth}" if is_wide else "l" for is_wide in wide)
+    body = "\n".join([_row(table.columns) + r" \hline", *map(_row, rows)])
+    return f"\\begin{{tabular}}{{{columns}}}\n\\hline\n{body}\n\\hline\n\\end{{tabular}}\n"
 
 
 def _row(cells: Iterable[str]) -> str:

@@ -97,9 +97,10 @@ def _label(text: str, longest: int = 40) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
-def _legend(canvas: "Canvas", axes: "Axes") -> None:
-    handles, labels = axes.get_legend_handles_labels()
-    canvas.legend(handles, labels, loc="outside upper left", ncols=4)
+def _legend(canvas: "Canvas", *panels: "Axes") -> None:
+    entries = [zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels]
+    by_label = {label: handle for panel in entries for handle, label in panel}
+    canvas.legend([*by_label.values()], [*by_label], loc="outside upper left", ncols=4)
 
 
 def plot_accuracy(result: SceneResult, file: str) -> Figure:
@@ -108,7 +109,8 @@ def plot_accuracy(result: SceneResult, file: str) -> Figure:
     with _drawing(8, 3.6) as (canvas, [axes]):
         for index, method in enumerate(methods):
             shown = [(x, runs[method, regime]) for x, regime in enumerate(REGIMES) if (method, regime) in runs]
-            _bars(axes, [x for x, _ in shown], [done for _, done in shown], index, len(methods), method)
+            if shown:
+                _bars(axes, [x for x, _ in shown], [done for _, done in shown], index, len(methods), method)
         axes.set_xticks(range(len(REGIMES)), REGIMES)
         axes.grid(visible=False, axis="x")
         axes.set(ylim=(0, 100), ylabel="EMA, %")
@@ -148,17 +150,24 @@ def plot_ablation(result: SceneResult, file: str) -> Figure | None:
         for axes, (title, conditions) in zip(panels, kinds, strict=True):
             names = [name for name in conditions if name in run]
             for index, method in enumerate(methods):
-                places = [y + (index - (len(methods) - 1) / 2) * 0.8 / len(methods) for y in range(len(names))]
-                values = [_mean_ema(runs[method, name]) if (method, name) in runs else 0.0 for name in names]
-                axes.barh(places, values, 0.75 / len(methods), color=_COLOURS[index % 8], label=_label(method))
-                for y, value in zip(places, values, strict=True):
-                    axes.annotate(f"{value:.0f}", (value, y), (3, 0), textcoords="offset points", va="center", size=9)
+                shown = [(y, _mean_ema(runs[method, name])) for y, name in enumerate(names) if (method, name) in runs]
+                _lying_bars(axes, shown, index, len(methods), method)
             axes.set_yticks(range(len(names)), names)
             axes.invert_yaxis()
             axes.grid(visible=False, axis="y")
             axes.set(xlim=(0, 108), xlabel="EMA, %", title=title)
-        _legend(canvas, panels[0])
+        _legend(canvas, *panels)
         return _figure(canvas, file, f"{result.spec.name}: exact match by the evidence that may be used.")
+
+
+def _lying_bars(axes: "Axes", shown: Sequence[tuple[int, float]], index: int, total: int, method: str) -> None:
+    if not shown:
+        return
+    places = [y + (index - (total - 1) / 2) * 0.8 / total for y, _ in shown]
+    values = [value for _, value in shown]
+    axes.barh(places, values, 0.75 / total, color=_COLOURS[index % 8], label=_label(method))
+    for y, value in zip(places, values, strict=True):
+        axes.annotate(f"{value:.0f}", (value, y), (3, 0), textcoords="offset points", va="center", size=9)
 
 
 def plot_reliability(result: SceneResult, file: str) -> Figure | None:
@@ -238,12 +247,17 @@ def plot_cost(results: Sequence[SceneResult], file: str) -> Figure | None:
 
 
 def plot_confusion(result: SceneResult, file: str) -> Figure | None:
-    """Return which class the default grounder takes for which, under authored names; None if it was not run."""
+    """Return which class the default grounder takes for which, under authored names; None if there is nothing to show.
+
+    Up to 45 classes are drawn all; of more, those that were confused.
+    """
     by_method = scores_under(result, _SEMANTIC)
     if not by_method:
         return None
     method, scores = next(iter(by_method.items()))
     kept, left_out = _shown(scores)
+    if not kept:
+        return None
     classes = hierarchy_order({iri for score in kept for iri in (score.target, score.answer) if iri}, result.tbox)
     columns = [*classes, None] if any(score.answer is None for score in kept) else [*classes]
     counts = Counter((score.target, score.answer) for score in kept)

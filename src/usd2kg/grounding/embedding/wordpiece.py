@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from importlib.resources import files
 
-__all__ = ["WordPieceTokenizer", "load_tokenizer"]
+__all__ = ["WordPieceTokenizer", "load_tokenizer", "split_words"]
 
 _UNKNOWN, _START, _END = "[UNK]", "[CLS]", "[SEP]"
 _LONGEST_WORD = 100

@@ -1,0 +1,255 @@
+"""The files of a report: complete, escaped, self-contained and the same every time."""
+
+import csv
+import io
+import json
+import logging
+import re
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from tests.evaluation.test_report_records import FIRST, NS, SECOND, tiny
+from usd2kg.errors import EvaluationError
+from usd2kg.evaluation import SceneResult
+from usd2kg.evaluation.report import write_report
+from usd2kg.evaluation.report.document import Section, Table, printable
+from usd2kg.evaluation.report.html import format_html
+from usd2kg.evaluation.report.latex import escape_latex, format_latex
+from usd2kg.evaluation.report.markdown import escape_markdown, format_markdown
+from usd2kg.evaluation.report.plots import check_matplotlib
+
+EVIL = "<script>alert(1)</script>|\n"
+EVIL_CLASS = "a|`b`$x$<b>&amp;\\_%[c](d)\x1b"
+
+
+def evil() -> SceneResult:
+    gold = {f"/W/{EVIL}": EVIL_CLASS, "/W/Cup_1": "Cup"}
+    answers = {"/W/Cup_1": (EVIL_CLASS, 0.7)}
+    runs = {("=first|" + EVIL, "semantic"): answers, ("first", "geometry only"): {f"/W/{EVIL}": (EVIL_CLASS, 0.5)}}
+    hierarchy = {"Artifact": None, "Cup": "Artifact", EVIL_CLASS: "Artifact"}
+    return tiny(runs, name='=HYPERLINK("x")' + EVIL, gold=gold, hierarchy=hierarchy, missed=(f"/W/{EVIL}",))
+
+
+def markdown_tables(text: str) -> list[list[list[str]]]:
+    """Return tables as a reader of Markdown sees them: cells between pipes that are not escaped."""
+    found: list[list[list[str]]] = [[]]
+    for line in text.split("\n"):
+        if line.startswith("|"):
+            cells = re.split(r"(?<!\\)(?:\\\\)*\|", line)[1:-1]
+            found[-1].append([re.sub(r"\\(.)", r"\1", cell.strip()) for cell in cells])
+        elif found[-1]:
+            found.append([])
+    return [table for table in found if table]
+
+
+class Page(HTMLParser):
+    """Collects what a browser would act on."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.attributes: list[tuple[str, str | None]] = []
+        self.ids: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += attrs
+        self.ids += [value for key, value in attrs if key == "id" and value]
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def read_page(text: str) -> Page:
+    page = Page()
+    page.feed(text)
+    page.close()
+    return page
+
+
+class TestFiles:
+    def test_all_are_written_and_returned(self, tmp_path: Path):
+        paths = write_report([tiny()], "A title", tmp_path / "new" / "folder")
+        names = {path.name for path in paths}
+        assert names >= {"report.md", "report.html", "report.tex", "results.csv", "results.json"}
+        assert all(path.is_file() for path in paths)
+        assert {p for p in (tmp_path / "new" / "folder").rglob("*") if p.is_file()} == set(paths)
+
+    def test_the_same_results_give_the_same_bytes(self, tmp_path: Path):
+        runs = {("first", "semantic"): FIRST, ("first", "geometry only"): SECOND, ("first", "name only"): SECOND}
+        first = write_report([tiny(runs), tiny()], "A title", tmp_path / "a")
+        second = write_report([tiny(runs), tiny()], "A title", tmp_path / "b")
+        assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
+
+    def test_seconds_appear_only_where_they_are_the_matter(self, tmp_path: Path):
+        first = write_report([tiny(seconds=0.4)], "A title", tmp_path / "a")
+        second = write_report([tiny(seconds=44.0)], "A title", tmp_path / "b")
+        differing = {a.name for a, b in zip(first, second, strict=True) if a.read_bytes() != b.read_bytes()}
+        assert differing <= {"report.md", "report.html", "report.tex", "results.csv", "results.json", "cost.svg"}
+        ours, theirs = (folder.read_text("utf-8").split("\n") for folder in (first[0], second[0]))
+        assert [line for line, other in zip(ours, theirs, strict=True) if line != other] == [
+            "| Tiny | first | 4 | 0.1 | – | – | – |",
+            "| Tiny | second | 4 | 0.1 | – | – | – |",
+        ]
+
+    def test_no_results(self, tmp_path: Path):
+        with pytest.raises(EvaluationError, match="no results to report"):
+            write_report([], "A title", tmp_path)
+
+    def test_without_matplotlib_everything_else_is_there(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    ):
+        monkeypatch.setitem(sys.modules, "matplotlib", None)
+        monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+        with pytest.raises(EvaluationError, match=r"pip install 'usd2kg\[plots\]'"):
+            check_matplotlib()
+        with caplog.at_level(logging.WARNING):
+            paths = write_report([tiny()], "A title", tmp_path)
+        assert {path.name for path in paths} == {
+            "report.md",
+            "report.html",
+            "report.tex",
+            "results.csv",
+            "results.json",
+        }
+        assert "the report has no plots" in caplog.text
+        for name in ("report.md", "report.html"):
+            text = (tmp_path / name).read_text("utf-8")
+            assert "Plots are left out" in text
+            assert "usd2kg" in text
+            assert ".svg" not in text
+
+
+class TestMarkdown:
+    def test_it_reads_back(self, tmp_path: Path):
+        write_report([tiny()], "A title", tmp_path)
+        main = markdown_tables((tmp_path / "report.md").read_text("utf-8"))[1]
+        assert main[0] == ["method", "semantic", "abbreviated", "opaque", "opaque-anonymous"]
+        assert main[2] == ["first", "50 / .87", "–", "–", "–"]
+
+    def test_hostile_names_stay_in_their_cells(self, tmp_path: Path):
+        write_report([evil()], EVIL, tmp_path)
+        text = (tmp_path / "report.md").read_text("utf-8")
+        assert "<script" not in text
+        assert "\x1b" not in text
+        for table in markdown_tables(text):
+            assert {len(row) for row in table} == {len(table[0])}
+
+    def test_a_cell_reads_back_as_it_was(self):
+        text = format_markdown("t", [Section("s", (Table("t", ("a|b", "c"), (("`x` | \\", "*y*_z_"),)),))])
+        assert markdown_tables(text)[0][2] == ["`x` | \\", "*y*_z_"]
+
+    def test_backslash_before_a_pipe(self):
+        assert escape_markdown("\\|") == "\\\\\\|"
+
+
+class TestLatex:
+    def test_it_reads_back(self, tmp_path: Path):
+        write_report([tiny()], "A title", tmp_path)
+        text = (tmp_path / "report.tex").read_text("utf-8")
+        assert "\nfirst & 50 / .87 & -- & -- & -- \\\\\n" in text
+        assert text.count(r"\begin{tabular}") == text.count(r"\end{tabular}")
+
+    def test_hostile_names_stay_in_their_cells(self, tmp_path: Path):
+        write_report([evil()], EVIL, tmp_path)
+        text = (tmp_path / "report.tex").read_text("utf-8")
+        for columns, body in re.findall(r"\\begin\{tabular\}\{([^\n]*)\}\n(.*?)\\end\{tabular\}", text, re.DOTALL):
+            wanted = columns.replace(r"p{0.5\linewidth}", "l")
+            rows = [line for line in body.split("\n") if line not in {"", r"\hline"}]
+            assert {len(re.findall(r"(?<!\\)&", row)) for row in rows} == {len(wanted) - 1}
+            assert all(row.removesuffix(r" \hline").endswith(r" \\") for row in rows)
+        assert not re.search(r"(?<!\\)%(?! )", text), "a bare percent sign would hide the rest of the line"
+
+    @pytest.mark.parametrize(
+        ("text", "escaped"),
+        [
+            ("\\input{x}", r"\textbackslash{}input\{x\}"),
+            ("a_b^c~d", r"a\_b\textasciicircum{}c\textasciitilde{}d"),
+            ("$5 & #1 %", r"\$5 \& \#1 \%"),
+            ("[2em]*", "{[}2em]{*}"),
+            ("a\nb", "a b"),
+        ],
+    )
+    def test_special_characters(self, text: str, escaped: str):
+        assert escape_latex(text) == escaped
+
+    def test_long_tables_are_parted(self):
+        rows = tuple((str(i),) for i in range(90))
+        text = format_latex("t", [Section("s", (Table("t", ("n",), rows),))])
+        assert text.count(r"\begin{tabular}") == 3
+        assert re.findall(r"^(\d+) ", text, re.MULTILINE) == [str(i) for i in range(90)]
+
+
+class TestHtml:
+    @pytest.mark.parametrize("results", [[tiny()], [evil()]])
+    def test_it_needs_nothing_else(self, results: list[SceneResult], tmp_path: Path):
+        write_report(results, EVIL, tmp_path)
+        text = (tmp_path / "report.html").read_text("utf-8")
+        page = read_page(text)
+        assert not {"script", "link", "img", "image", "iframe", "object", "embed", "base"} & set(page.tags)
+        for key, value in page.attributes:
+            assert key not in {"src", "srcset", "data", "action"}
+            assert not key.startswith("on")
+            if key.endswith("href"):
+                assert (value or "").startswith("#")
+        assert "@import" not in text
+        assert not re.search(r"url\((?!#)", text)
+
+    def test_hostile_names_are_shown_as_they_are(self, tmp_path: Path):
+        write_report([evil()], EVIL, tmp_path)
+        page = read_page((tmp_path / "report.html").read_text("utf-8"))
+        assert printable(f"/W/{EVIL}") in page.text
+        assert "b" not in page.tags
+
+    def test_plots_do_not_share_ids(self, tmp_path: Path):
+        pytest.importorskip("matplotlib")
+        write_report([tiny(), tiny()], "A title", tmp_path)
+        page = read_page((tmp_path / "report.html").read_text("utf-8"))
+        assert len(page.ids) == len(set(page.ids))
+        targets = {value[1:] for key, value in page.attributes if key.endswith("href") and value}
+        assert targets <= set(page.ids)
+
+    def test_figures_are_set_flush_right_and_words_are_not(self):
+        table = Table("t", ("method", "EMA"), (("first", "50 / .87"), ("second", "fail")))
+        text = format_html("t", [Section("s", (table,))])
+        assert '<td>first</td><td class="number">50 / .87</td>' in text
+
+    def test_long_tables_are_folded(self):
+        text = format_html("t", [Section("s", (Table("long", ("a",), (("1",),), is_long=True),))])
+        assert "<summary>long, 1 rows</summary>" in text
+
+
+class TestData:
+    def test_csv_has_a_row_for_each_run(self, tmp_path: Path):
+        write_report([tiny({("first", "semantic"): FIRST, ("first", "hierarchy only"): SECOND})], "t", tmp_path)
+        rows = list(csv.DictReader(io.StringIO((tmp_path / "results.csv").read_text("utf-8"))))
+        assert [(row["method"], row["condition"], row["regime"], row["evidence"]) for row in rows] == [
+            ("first", "semantic", "semantic", "all"),
+            ("first", "hierarchy only", "opaque", "hierarchy"),
+        ]
+        assert float(rows[0]["ema"]) == 50.0
+        assert float(rows[0]["hf1"]) == pytest.approx((1 + 0.8 + 2 / 3 + 1) / 4, abs=1e-15)
+        assert rows[0]["misses: superclass collapse"] == "1"
+        assert float(rows[0]["seconds_per_object"]) == 0.1
+        assert rows[1]["accuracy_at_80"] == ""
+
+    def test_csv_holds_no_formula(self, tmp_path: Path):
+        write_report([evil()], "t", tmp_path)
+        text = (tmp_path / "results.csv").read_text("utf-8")
+        rows = list(csv.DictReader(io.StringIO(text, newline="")))
+        assert rows[0]["scene"] == '\'=HYPERLINK("x")' + EVIL
+        assert not any(cell.startswith(("=", "+", "-", "@")) for row in rows for cell in row.values())
+
+    def test_json_holds_everything_but_folders(self, tmp_path: Path):
+        write_report([tiny()], "t", tmp_path)
+        text = (tmp_path / "results.json").read_text("utf-8")
+        [scene] = json.loads(text)["scenes"]
+        assert "somewhere" not in text
+        assert scene["selection"]["unlabelled"] == ["/W/Lamp"]
+        assert scene["analysis"]["distinct_names_agreed_on"]["semantic"]["all_wrong"] == {"bowl": 1, "cup": 1}
+        assert [run["ema"] for run in scene["runs"]] == [50.0, 25.0]
+        assert scene["runs"][0]["scores"][2]["answer"] == NS + "Cup"
