@@ -2,7 +2,8 @@
 
 Usage: python benchmarks/accuracy/run.py [--check]
 
-Without --check the figures are written to results.json beside this file and the report to build/accuracy. With it they
+Without --check the figures are written to results.json and README.md beside this file, and the report to
+build/accuracy. With it they
 are compared with results.json; scenes whose files are absent are left out of the comparison.
 """
 
@@ -16,8 +17,10 @@ from usd2kg.evaluation.report import write_report
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results.json"
+TABLE = HERE / "README.md"
 BUILD = HERE.parents[1] / "build" / "accuracy"
 KEPT = ("n", "names", "answered", "ema", "ema_also", "ema_by_name", "hf1", "calibration_error", "accuracy_at_80")
+REGIMES = ("semantic", "abbreviated", "opaque", "opaque-anonymous")
 INTERVALS = ("ema_interval", "ema_name_interval", "hf1_interval")
 
 
@@ -47,6 +50,40 @@ def round_off(value: Any) -> Any:
     return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
+def table(now: dict[str, Any]) -> str:
+    """Return the figures by naming regime as Markdown."""
+    lines = [
+        "# Accuracy of the offline grounders",
+        "",
+        "Written by `make accuracy` from `matrix.toml`; `make accuracy-check` compares `results.json` with the code.",
+        "EMA % (95 % interval, whole distinct names drawn) / HF1; `also` accepts the gold's second labels.",
+        "",
+    ]
+    for scene, data in now.items():
+        first = next(iter(data["grounders"].values()))["semantic"]
+        selection = data["selection"]
+        precision = "–" if selection["precision"] is None else f"{selection['precision']:.2f}"
+        lines += [
+            f"## {scene}: {first['n']} objects, {first['names']} distinct names",
+            "",
+            f"Labels: {data['note']}. Object selection: recall {selection['recall']:.2f}, precision {precision}.",
+            "",
+            "| method | " + " | ".join([*REGIMES, "semantic, also"]) + " |",
+            "| --- |" + " --- |" * (len(REGIMES) + 1),
+        ]
+        for grounder, conditions in data["grounders"].items():
+            cells = [cell(conditions[regime]) for regime in REGIMES]
+            lines.append(f"| {grounder} | " + " | ".join([*cells, f"{conditions['semantic']['ema_also']:.1f}"]) + " |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def cell(values: dict[str, Any]) -> str:
+    """Return one cell of the table."""
+    lower, upper = values["ema_name_interval"]
+    return f"{values['ema']:.1f} ({lower:.0f}–{upper:.0f}) / {values['hf1']:.2f}"
+
+
 def differences(kept: dict[str, Any], now: dict[str, Any]) -> list[str]:
     """Return what differs between the kept figures and those of now, for the scenes that are here."""
     found = []
@@ -72,6 +109,7 @@ def main() -> None:
         print(f"{len(now)} scenes: the kept figures are those of the code")
         return
     RESULTS.write_text(json.dumps(now, indent=1) + "\n", encoding="utf-8")
+    TABLE.write_text(table(now), encoding="utf-8")
     for path in write_report(results, plan.title, BUILD):
         print(path)
 
