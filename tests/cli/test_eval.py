@@ -1,0 +1,148 @@
+"""usd2kg eval: the contract of its output, and its errors in one line."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+GOLD = "path,class,also\n/Room/Table_1,Table,\n/Room/coffee_mug,Bowl,Cup\n/Room/Nowhere,Sofa,\n"
+
+
+@pytest.fixture
+def gold(tmp_path: Path) -> Path:
+    path = tmp_path / "gold.csv"
+    path.write_text(GOLD, encoding="utf-8")
+    return path
+
+
+def test_run_prints_the_figures_in_the_study_s_units(run, room: Path, gold: Path) -> None:
+    done = run("eval", "run", room, "--gold", gold, "--json")
+    assert (done.code, done.err) == (0, "")
+    data = json.loads(done.out)
+    # Table is right, the cup's gold accepts Cup, the third prim does not exist and stays a miss.
+    assert (data["n"], data["answered"]) == (3, 2)
+    assert data["ema"] == pytest.approx(100 / 3)
+    assert data["ema_also"] == pytest.approx(200 / 3)
+    assert 0 < data["hf1"] < 1
+    for name in ("ema_interval", "ema_name_interval", "ema_also_interval", "hf1_interval"):
+        lower, upper = data[name]
+        assert lower <= upper
+    assert [score["status"] for score in data["scores"]] == ["grounded", "grounded", "missing"]
+    assert data["settings"]["regime"] == "semantic"
+
+
+def test_run_as_text_names_what_is_wrong_and_why(run, room: Path, gold: Path) -> None:
+    done = run("eval", "run", room, "--gold", gold)
+    assert done.code == 0
+    assert "exact match (EMA) %           33.3" in done.out
+    assert "/Room/coffee_mug" in done.out.partition("wrong")[2]
+    assert "is a name for Cup" in done.out
+
+
+@pytest.mark.parametrize("regime", ["abbreviated", "opaque", "opaque-anonymous"])
+@pytest.mark.parametrize("grounder", ["embedded", "dictionary", "embedding", "volume"])
+def test_every_grounder_runs_under_every_regime(run, room: Path, gold: Path, regime: str, grounder: str) -> None:
+    done = run("eval", "run", room, "--gold", gold, "--regime", regime, "--grounder", grounder, "--json")
+    assert done.code == 0
+    data = json.loads(done.out)
+    assert (data["n"], data["grounder"], data["settings"]["regime"]) == (3, grounder, regime)
+
+
+def test_compare_finds_what_differs(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    for name, grounder in (("a.json", "embedded"), ("b.json", "dictionary")):
+        assert run("eval", "run", room, "--gold", gold, "--grounder", grounder, "-o", tmp_path / name).code == 0
+    data = json.loads(run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json", "--json").out)
+    assert (data["n"], data["only_first"], data["only_second"]) == (3, 1, 0)
+    # One discordant pair: 2 * (1/2) = 1.
+    assert data["p_value"] == 1.0
+    assert [item["path"] for item in data["changed"]] == ["/Room/Table_1"]
+    text = run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json").out
+    assert "only A right: 1, only B right: 0" in text
+
+
+def test_compare_refuses_runs_on_other_ontologies(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "a.json")
+    data = json.loads((tmp_path / "a.json").read_text("utf-8"))
+    (tmp_path / "b.json").write_text(json.dumps({**data, "ontology_hash": "sha256:other"}))
+    done = run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json")
+    assert done.code == 2
+    assert "used different ontologies" in done.err
+
+
+def test_annotate_makes_a_template_that_reads_back_once_filled_in(run, room: Path, tmp_path: Path) -> None:
+    template = tmp_path / "new.csv"
+    assert run("eval", "annotate", room, "-o", template).code == 0
+    rows = list(csv.DictReader(template.read_text("utf-8").splitlines()))
+    assert {"path", "class", "also", "words", "size_m"} <= set(rows[0])
+    assert all(row["class"] == "" for row in rows)
+    assert run("eval", "run", room, "--gold", template).code == 2, "nothing is filled in yet"
+    assert run("eval", "annotate", room, "--suggest", "-o", template).code == 0
+    data = json.loads(run("eval", "run", room, "--gold", template, "--json").out)
+    assert data["ema"] == 100.0, "the suggestions are the grounder's own answers"
+
+
+def test_agreement_of_two_people(run, gold: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.csv"
+    other.write_text(GOLD.replace("Bowl,Cup", "Cup,"), encoding="utf-8")
+    data = json.loads(run("eval", "agreement", gold, other, "--json").out)
+    assert (data["n"], data["exact"], data["accepted"]) == (3, pytest.approx(2 / 3), 1.0)
+    assert [item["path"] for item in data["disagreements"]] == ["/Room/coffee_mug"]
+    text = run("eval", "agreement", gold, other).out
+    assert "Cohen's kappa" in text
+
+
+def test_reproduce_writes_every_report_and_resumes(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    matrix = tmp_path / "matrix.toml"
+    matrix.write_text(
+        f'title = "one room"\ngrounders = ["embedded", "dictionary"]\nregimes = ["semantic", "opaque"]\n'
+        f'[[scene]]\nname = "room"\npath = "{room}"\ngold = "{gold}"\n'
+    )
+    done = run("eval", "reproduce", matrix, "-o", tmp_path / "out")
+    assert done.code == 0
+    assert "[4/4] room, dictionary, opaque: EMA 0.0" in done.err
+    for name in ("report.md", "report.tex", "report.html", "results.csv", "results.json"):
+        assert str(tmp_path / "out" / name) in done.out
+        assert (tmp_path / "out" / name).stat().st_size > 0
+    again = run("eval", "reproduce", matrix, "-o", tmp_path / "out")
+    assert again.err.count("(stored)") == 4
+
+
+def test_kitchen_set_says_what_is_missing(run, tmp_path: Path) -> None:
+    done = run("eval", "kitchen-set", tmp_path)
+    assert (done.code, done.out) == (2, "")
+    assert "no Kitchen_set.usd in it" in done.err
+    assert done.err.count("\n") == 1
+
+
+def test_kitchen_set_lists_the_objects_of_a_readable_download(run, tmp_path: Path) -> None:
+    folder = tmp_path / "Kitchen_set"
+    folder.mkdir()
+    (folder / "Kitchen_set.usd").write_text(
+        '#usda 1.0\ndef Xform "Kitchen" (kind = "assembly")\n{\n  def Cube "a" (kind = "component")\n  {\n  }\n}\n'
+    )
+    done = run("eval", "kitchen-set", tmp_path)
+    assert (done.code, done.out) == (0, "/Kitchen/a\n")
+    assert "1 objects (the study has 125)" in done.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("eval", "run", "{room}", "--gold", "none.csv"), "none.csv: cannot be read as gold labels"),
+        (("eval", "run", "{room}", "--gold", "{gold}", "--regime", "fog"), "regime 'fog' is unknown"),
+        (("eval", "run", "{room}", "--gold", "{gold}", "--grounder", "oracle"), "grounder 'oracle' is unknown"),
+        (("eval", "run", "none.usda", "--gold", "{gold}"), "none.usda: no such file"),
+        (("eval", "reproduce", "none.toml"), "none.toml: cannot be read as a matrix"),
+        (("eval", "compare", "none.json", "none.json"), "none.json: cannot be read as a run"),
+        (("eval", "agreement", "{gold}", "none.csv"), "none.csv: cannot be read as gold labels"),
+    ],
+)
+def test_errors_are_one_line_and_exit_code_2(
+    run, room: Path, gold: Path, arguments: tuple[str, ...], said: str
+) -> None:
+    done = run(*(argument.format(room=room, gold=gold) for argument in arguments))
+    assert done.code == 2
+    assert said in done.err
+    assert done.err.count("\n") == 1
+    assert done.out == ""
