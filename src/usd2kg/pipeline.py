@@ -7,7 +7,7 @@ from pathlib import Path
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.grounding import Grounder, Grounding, ground, make_grounder
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
-from usd2kg.scene import NamingRegime, Scene, read_scene
+from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
 
 __all__ = ["BuildResult", "build", "open_tbox"]
 
@@ -32,6 +32,7 @@ def build(
     paths: Iterable[str] | None = None,
     base: str | None = None,
     profile: str = "auto",
+    options: ReadOptions | None = None,
 ) -> BuildResult:
     """Return the knowledge graph of a USD scene, and everything on the way to it.
 
@@ -44,11 +45,12 @@ def build(
         paths: prims that are objects whatever the rules of selection say.
         base: IRI under which individuals lie.
         profile: how objects are written: auto, soma or plain.
+        options: what is to be read differently from what the stage says.
 
     Raises:
         Usd2kgError: an input cannot be read; the message says which, and what to do.
     """
-    read = read_scene(scene, paths=paths)
+    read = read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
     chosen = make_grounder(grounder) if isinstance(grounder, str) else grounder
     grounding = ground(read, tbox, chosen, regime=regime, evidence=evidence)

@@ -6,7 +6,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from usd2kg.cli.options import Dictionary, Evidence, GrounderName, JsonOutput, OntologyFile, Regime
+from usd2kg.cli.options import (
+    Dictionary,
+    EveryPrim,
+    Evidence,
+    Exclude,
+    ExpandInstancers,
+    GrounderName,
+    Include,
+    JsonOutput,
+    Kinds,
+    MetresPerUnit,
+    ObjectList,
+    OntologyFile,
+    Regime,
+    TimeCode,
+    UpAxis,
+    read_options,
+)
 from usd2kg.cli.output import print_json, talk
 from usd2kg.errors import OutputError, Usd2kgError
 
@@ -25,6 +42,15 @@ def build_command(
     dictionary: Dictionary = None,
     regime: Regime = "semantic",
     evidence: Evidence = None,
+    metres_per_unit: MetresPerUnit = None,
+    up_axis: UpAxis = None,
+    time_code: TimeCode = None,
+    expand_instancers: ExpandInstancers = False,
+    include: Include = None,
+    exclude: Exclude = None,
+    kind: Kinds = None,
+    objects: ObjectList = None,
+    every_prim: EveryPrim = False,
     base: Annotated[
         str | None,
         typer.Option("--base", help="IRI under which the individuals lie, ending in / or #; default: by file name."),
@@ -48,6 +74,9 @@ def build_command(
     groups = grounding.parse_evidence(evidence) if evidence is not None else None
     naming_regime = grounding.parse_regime(regime)
     chosen = grounding.make_grounder(grounder, dictionary=dictionary)
+    options = read_options(
+        metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
+    )
     tbox = open_tbox(ontology)
     for note in tbox.notes:
         talk(f"{note.code}: {note.message}")
@@ -56,7 +85,14 @@ def build_command(
         start = time.perf_counter()
         try:
             result = build(
-                scene, tbox, grounder=chosen, regime=naming_regime, evidence=groups, base=base, profile=profile
+                scene,
+                tbox,
+                grounder=chosen,
+                regime=naming_regime,
+                evidence=groups,
+                base=base,
+                profile=profile,
+                options=options,
             )
             _write(result, target)
         except Usd2kgError as error:

@@ -5,7 +5,24 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli.options import Dictionary, Evidence, GrounderName, OntologyFile, Regime, SceneFile
+from usd2kg.cli.options import (
+    Dictionary,
+    EveryPrim,
+    Evidence,
+    Exclude,
+    ExpandInstancers,
+    GrounderName,
+    Include,
+    Kinds,
+    MetresPerUnit,
+    ObjectList,
+    OntologyFile,
+    Regime,
+    SceneFile,
+    TimeCode,
+    UpAxis,
+    read_options,
+)
 from usd2kg.cli.output import emit, talk
 
 __all__ = ["ground_command"]
@@ -21,6 +38,15 @@ def ground_command(
     paths: Annotated[
         Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
     ] = None,
+    metres_per_unit: MetresPerUnit = None,
+    up_axis: UpAxis = None,
+    time_code: TimeCode = None,
+    expand_instancers: ExpandInstancers = False,
+    include: Include = None,
+    exclude: Exclude = None,
+    kind: Kinds = None,
+    objects: ObjectList = None,
+    every_prim: EveryPrim = False,
     file_format: Annotated[str, typer.Option("--format", help="csv (default) or json.")] = "csv",
     output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write; default: stdout.")] = None,
 ) -> None:
@@ -38,7 +64,10 @@ def ground_command(
     chosen = grounding.make_grounder(grounder, dictionary=dictionary)
     wanted = grounding.read_paths(paths) if paths is not None else None
     tbox = open_tbox(ontology)
-    found = read_scene(scene, paths=wanted)
+    options = read_options(
+        metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
+    )
+    found = read_scene(scene, paths=wanted, options=options)
     result = grounding.ground(found, tbox, chosen, regime=naming_regime, evidence=groups, paths=wanted)
     emit(grounding.format_mapping(result, tbox, file_format), output)
     for path in found.missing_paths:

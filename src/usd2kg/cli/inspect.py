@@ -1,9 +1,24 @@
 """usd2kg inspect: what is on a stage."""
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from usd2kg.cli.options import JsonOutput, SceneFile
+import typer
+
+from usd2kg.cli.options import (
+    EveryPrim,
+    Exclude,
+    ExpandInstancers,
+    Include,
+    JsonOutput,
+    Kinds,
+    MetresPerUnit,
+    ObjectList,
+    SceneFile,
+    TimeCode,
+    UpAxis,
+    read_options,
+)
 from usd2kg.cli.output import emit, format_table, print_json
 
 if TYPE_CHECKING:
@@ -12,11 +27,32 @@ if TYPE_CHECKING:
 __all__ = ["inspect_command"]
 
 
-def inspect_command(scene: SceneFile, json: JsonOutput = False) -> None:
+def inspect_command(
+    scene: SceneFile,
+    why: Annotated[
+        str | None, typer.Option("--why", help="Say why the prim at this path is an object or none.")
+    ] = None,
+    metres_per_unit: MetresPerUnit = None,
+    up_axis: UpAxis = None,
+    time_code: TimeCode = None,
+    expand_instancers: ExpandInstancers = False,
+    include: Include = None,
+    exclude: Exclude = None,
+    kind: Kinds = None,
+    objects: ObjectList = None,
+    every_prim: EveryPrim = False,
+    json: JsonOutput = False,
+) -> None:
     """List the objects of a scene with their evidence, what was left out and why, and diagnostics."""
-    from usd2kg.scene import read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.scene import explain_choice, read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
-    found = read_scene(scene)
+    options = read_options(
+        metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
+    )
+    if why is not None:
+        emit(explain_choice(scene, why, options) + "\n", None)
+        return
+    found = read_scene(scene, options=options)
     if json:
         print_json(_as_json(found))
     else:

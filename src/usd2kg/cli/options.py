@@ -1,11 +1,32 @@
 """Arguments and options that several commands share."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-__all__ = ["Dictionary", "Evidence", "GrounderName", "JsonOutput", "OntologyFile", "Regime", "SceneFile"]
+if TYPE_CHECKING:
+    from usd2kg.scene import ReadOptions
+
+__all__ = [
+    "Dictionary",
+    "EveryPrim",
+    "Evidence",
+    "Exclude",
+    "ExpandInstancers",
+    "GrounderName",
+    "Include",
+    "JsonOutput",
+    "Kinds",
+    "MetresPerUnit",
+    "ObjectList",
+    "OntologyFile",
+    "Regime",
+    "SceneFile",
+    "TimeCode",
+    "UpAxis",
+    "read_options",
+]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A USD stage: .usd, .usda, .usdc or .usdz.")]
 OntologyFile = Annotated[
@@ -33,3 +54,60 @@ Evidence = Annotated[
     ),
 ]
 JsonOutput = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
+MetresPerUnit = Annotated[
+    float | None, typer.Option("--metres-per-unit", help="Length of a stage unit; default: what the stage says.")
+]
+UpAxis = Annotated[str | None, typer.Option("--up-axis", help="Y or Z; default: what the stage says.")]
+TimeCode = Annotated[
+    float | None, typer.Option("--time", help="Time code to read; default: the earliest sample of each attribute.")
+]
+ExpandInstancers = Annotated[
+    bool, typer.Option("--expand-instancers", help="Make an object of each copy of a point instancer.")
+]
+Include = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--include", help="Path pattern (* in a name, ** across): objects whatever the rules say. Repeatable."
+    ),
+]
+Exclude = Annotated[
+    list[str] | None,
+    typer.Option("--exclude", help="Path pattern: no objects, nor anything below. Repeatable."),
+]
+Kinds = Annotated[
+    list[str] | None, typer.Option("--kind", help="Model kind that makes an object, instead of component. Repeatable.")
+]
+ObjectList = Annotated[
+    Path | None, typer.Option("--objects", help="CSV file with a column path: just these prims are objects.")
+]
+EveryPrim = Annotated[bool, typer.Option("--every-prim", help="Every prim that is or holds geometry is an object.")]
+
+
+def read_options(
+    metres_per_unit: float | None,
+    up_axis: str | None,
+    time: float | None,
+    expand_instancers: bool,
+    include: list[str] | None,
+    exclude: list[str] | None,
+    kinds: list[str] | None,
+    objects: Path | None,
+    every_prim: bool,
+) -> "ReadOptions":
+    """Return how the stage is to be read, as the user says it on the command line."""
+    from usd2kg.grounding import read_paths  # noqa: PLC0415
+    from usd2kg.scene import ReadOptions, SelectionOverrides  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+
+    return ReadOptions(
+        metres_per_unit=metres_per_unit,
+        up_axis=up_axis,
+        time=time,
+        expand_instancers=expand_instancers,
+        selection=SelectionOverrides(
+            include=tuple(include or ()),
+            exclude=tuple(exclude or ()),
+            kinds=tuple(kinds or ()),
+            only=tuple(read_paths(objects)) if objects is not None else (),
+            is_every_prim=every_prim,
+        ),
+    )

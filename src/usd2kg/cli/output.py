@@ -44,14 +44,15 @@ def printable(text: str) -> str:
 
 
 def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:
-    """Return rows as aligned text; long cells are cut in the middle, where paths say least.
+    """Return rows as aligned text; long cells but the last are cut in the middle, where paths say least.
 
     >>> print(format_table(("name", "size"), [("mug", "0.09"), ("table", None)]), end="")
     name   size
     mug    0.09
     table
     """
-    cells = [[_shorten(printable(cell or "").replace("\n", " ")) for cell in row] for row in [columns, *rows]]
+    cells = [[" ".join(printable(cell or "").splitlines()) for cell in row] for row in [columns, *rows]]
+    cells = [[*map(_shorten, row[:-1]), row[-1]] for row in cells]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
     lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells)
     return "\n".join(lines) + "\n"

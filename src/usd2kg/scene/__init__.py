@@ -4,7 +4,8 @@ This package alone knows OpenUSD.
 """
 
 from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
-from usd2kg.scene.read import ASKED_FOR, read_scene
+from usd2kg.scene.options import ReadOptions, SelectionOverrides
+from usd2kg.scene.read import ASKED_FOR, explain_choice, read_scene
 from usd2kg.scene.views import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, abbreviate, view_objects
 
 __all__ = [
@@ -16,10 +17,13 @@ __all__ = [
     "Instances",
     "NamingRegime",
     "ObjectView",
+    "ReadOptions",
     "Scene",
     "SceneObject",
+    "SelectionOverrides",
     "StageFrame",
     "abbreviate",
+    "explain_choice",
     "read_scene",
     "view_objects",
 ]

@@ -1,6 +1,6 @@
 """The records that reading a stage gives: plain, immutable, without any open stage behind them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -124,6 +124,8 @@ class SceneObject:
     """Path of the prototype shared with other copies; None if the prim is not an instance."""
     instances: Instances | None = None
     """Set where the object stands for the copies of a point instancer."""
+    oriented_size: Vector | None = None
+    """Extent along the prim's own axes, where they are turned against the world's; None where `box` says as much."""
 
 
 @dataclass(frozen=True)
@@ -153,6 +155,15 @@ class Scene:
     def by_path(self) -> Mapping[str, SceneObject]:
         """Prim path → object."""
         return {obj.prim_path: obj for obj in self.objects}
+
+    def extent_without(self, left_out: Container[str]) -> Box | None:
+        """Return the box around all objects but those at the given paths; None if none has a box."""
+        boxes = [obj.box for obj in self.objects if obj.box and obj.prim_path not in left_out]
+        if not boxes:
+            return None
+        lower = [min(box.lower[axis] for box in boxes) for axis in range(3)]
+        upper = [max(box.upper[axis] for box in boxes) for axis in range(3)]
+        return Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
 
     def ancestors(self, obj: SceneObject) -> Iterator[SceneObject]:
         """Yield the objects above `obj`, nearest first."""

@@ -80,6 +80,8 @@ class Outline:
     """The pseudo-root."""
     left_out: Counter[str]
     """Reason → number of prims."""
+    pruned: dict[str, str]
+    """Path of a prim that was not entered → the reason."""
     prim_count: int
     joints: dict[str, str]
     """Path of the moved body → type of the joint that moves it."""
@@ -96,6 +98,7 @@ class _Outliner:
         self.time = time
         self.unresolved = opened.unresolved
         self.left_out: Counter[str] = Counter()
+        self.pruned: dict[str, str] = {}
         self.joints: dict[str, str] = {}
         self.prim_count = 0
         self.reason_by_type: dict[str, tuple[str | None, bool, bool]] = {}
@@ -112,6 +115,7 @@ class _Outliner:
             reason = self._reason_to_prune(prim)
             if reason is not None:
                 self.left_out[reason] += 1
+                self.pruned[path] = reason
                 prims.PruneChildren()
                 continue
             node = self._node(prim, path, entered[path.rpartition("/")[0] or "/"])
@@ -120,7 +124,7 @@ class _Outliner:
                 _count_geometry(node)
             if node.is_instancer:
                 prims.PruneChildren()
-        return Outline(root, self.left_out, self.prim_count, self.joints)
+        return Outline(root, self.left_out, self.pruned, self.prim_count, self.joints)
 
     def _reason_to_prune(self, prim: Any) -> str | None:
         if not prim.IsActive():

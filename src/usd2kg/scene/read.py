@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,51 +10,81 @@ from pxr import Tf, Usd, UsdGeom
 
 from usd2kg.errors import SceneError
 from usd2kg.scene import evidence
-from usd2kg.scene.bounds import BoxReader, read_pose, union
-from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
+from usd2kg.scene.bounds import BoxReader, is_measurable, read_pose, union
+from usd2kg.scene.instancers import count_copies, read_copies
+from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject, StageFrame
+from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Node, Outline, outline_stage
-from usd2kg.scene.selection import ASKED_FOR, Selection, select_objects
+from usd2kg.scene.plausibility import check_plausibility
+from usd2kg.scene.selection import ASKED_FOR, Selection, explain, select_objects
 from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage
 
-__all__ = ["ASKED_FOR", "read_scene"]
+__all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
 logger = logging.getLogger(__name__)
 
 _MOST_PARTS = 64
 
 
-def read_scene(source: Path | str, *, paths: Iterable[str] | None = None) -> Scene:
+def read_scene(
+    source: Path | str | Usd.Stage, *, paths: Iterable[str] | None = None, options: ReadOptions | None = None
+) -> Scene:
     """Return the objects of a USD stage with everything the stage says about them.
 
     Args:
-        source: the stage's root layer (.usd, .usda, .usdc, .usdz).
+        source: the stage's root layer (.usd, .usda, .usdc, .usdz), or a stage that is open already, with its session
+            layer and variants as they stand.
         paths: prim paths that are objects whatever the rules say, beside those the rules choose.
             Paths that do not exist are listed in `Scene.missing_paths`.
+        options: what is to be read differently from what the stage says.
 
     Raises:
         SceneError: the file cannot be read, or no object is on the stage.
     """
-    opened = open_stage(Path(source))
+    options = options or ReadOptions()
+    opened = open_stage(source, options)
     # Where an attribute has no samples, its default value is what stands at the earliest time.
-    time = Usd.TimeCode.EarliestTime()
+    time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
     with captured_diagnostics() as openusd_notes:
         outline = outline_stage(opened, time)
-        selection = select_objects(outline, tuple(dict.fromkeys(paths or ())))
-        objects, notes = _read_objects(opened, outline, selection, time)
+        selection = select_objects(outline, tuple(dict.fromkeys(paths or ())), options.selection)
+        objects, notes = _read_objects(opened, outline, selection, time, options.expand_instancers)
     if not objects:
-        raise SceneError(_no_object_message(str(source), outline, selection, opened))
-    logger.info("%s: %d objects among %d prims", source, len(objects), outline.prim_count)
-    return Scene(
-        source=str(source),
+        raise SceneError(_no_object_message(opened.source, outline, selection, opened))
+    logger.info("%s: %d objects among %d prims", opened.source, len(objects), outline.prim_count)
+    scene = Scene(
+        source=opened.source,
         content_hash=opened.content_hash,
         frame=opened.frame,
-        time=opened.stage.GetStartTimeCode() if opened.stage.HasAuthoredTimeCodeRange() else None,
+        time=_time_read(opened, options),
         prim_count=outline.prim_count,
         objects=tuple(objects),
         left_out=dict(sorted(selection.left_out.items())),
-        diagnostics=(*opened.diagnostics, *openusd_notes, *notes),
         missing_paths=selection.missing,
     )
+    return replace(scene, diagnostics=(*opened.diagnostics, *openusd_notes, *notes, *check_plausibility(scene)))
+
+
+def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptions | None = None) -> str:
+    """Return why a prim is an object or is none, in words.
+
+    Raises:
+        SceneError: the stage cannot be read, or has no such prim.
+    """
+    options = options or ReadOptions()
+    opened = open_stage(source, options)
+    with captured_diagnostics():
+        outline = outline_stage(opened, Usd.TimeCode.EarliestTime())
+        selection = select_objects(outline, (), options.selection)
+    if not opened.stage.GetPrimAtPath(path):
+        raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
+    return explain(path, outline, selection)
+
+
+def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
+    if options.time is not None:
+        return options.time
+    return float(opened.stage.GetStartTimeCode()) if opened.stage.HasAuthoredTimeCodeRange() else None
 
 
 def _no_object_message(source: str, outline: Outline, selection: Selection, opened: OpenedStage) -> str:
@@ -64,7 +95,7 @@ def _no_object_message(source: str, outline: Outline, selection: Selection, open
 
 
 def _read_objects(
-    opened: OpenedStage, outline: Outline, selection: Selection, time: Usd.TimeCode
+    opened: OpenedStage, outline: Outline, selection: Selection, time: Usd.TimeCode, expand_instancers: bool
 ) -> tuple[list[SceneObject], list[Diagnostic]]:
     reader = _ObjectReader(opened.frame, selection.chosen, time)
     objects: list[SceneObject] = []
@@ -73,8 +104,12 @@ def _read_objects(
     while pending:
         node, parent_path = pending.pop()
         if node.path in selection.chosen:
-            objects.append(reader.read(node, parent_path))
-            parent_path = node.path
+            instancers = reader.own_instancers(node) if expand_instancers else []
+            if not instancers or node.gprim_count > len(instancers):
+                objects.append(reader.read(node, parent_path))
+                parent_path = node.path
+            for instancer in instancers:
+                objects.extend(read_copies(instancer, parent_path, opened.frame, time, reader.boxes))
         pending.extend((child, parent_path) for child in reversed(node.children))
     return objects, reader.notes
 
@@ -105,6 +140,7 @@ class _ObjectReader:
             box=box,
             own_box=own_box,
             part_boxes=part_boxes,
+            oriented_size=self.boxes.read_oriented_size(prim) if box else None,
             position=position,
             orientation=orientation,
             mass_kg=evidence.mass_kg(nodes, self.frame),
@@ -115,18 +151,20 @@ class _ObjectReader:
             parts=evidence.part_names(nodes),
             display_color=evidence.display_color(nodes, self.time),
             instance_of=str(prim.GetPrototype().GetPath()) if prim.IsInstance() else None,
-            instances=self._instances(nodes),
+            instances=count_copies(nodes, self.time),
         )
+
+    def own_instancers(self, node: Node) -> list[Node]:
+        """Return the visible point instancers of an object, those of objects nested below it left out."""
+        return [own for own in evidence.own_nodes(node, self.chosen) if own.is_instancer and not own.is_hidden]
 
     def _boxes(self, node: Node, nodes: list[Node]) -> tuple[Box | None, Box | None, tuple[Box, ...]]:
         """Return the box of all below the prim, the box of its own geometry, and the boxes of its own parts."""
         try:
-            box = self.boxes.read(node.prim)
-            gprims = [own for own in nodes if (own.is_gprim or own.is_instancer) and not own.is_hidden]
-            is_whole = len(gprims) == node.gprim_count
-            is_single = is_whole and len(gprims) < 2
-            parts = [] if is_single else [part for own in gprims if (part := self.boxes.read(own.prim))]
-            own_box = box if is_whole or box is None else union(parts)
+            box = self.boxes.read_below(node)
+            gprims = [own for own in nodes if is_measurable(own)]
+            parts = [part for own in gprims if (part := self.boxes.read_own(own))]
+            own_box = box if len(gprims) == node.gprim_count else union(parts)
         except Tf.ErrorException as error:
             self._note("geometry", node, f"its box could not be computed ({error}); it has none in the graph")
             return None, None, ()
@@ -143,20 +181,6 @@ class _ObjectReader:
         if position is None or orientation is None:
             self._note("transform", node, "its transform has no finite position or rotation; pose left out")
         return position, orientation
-
-    def _instances(self, nodes: list[Node]) -> Instances | None:
-        """Return the copies of the object's own point instancers; None if it has none."""
-        instancers = [UsdGeom.PointInstancer(own.prim) for own in nodes if own.is_instancer]
-        if not instancers:
-            return None
-        names = [target.name for i in instancers for target in i.GetPrototypesRel().GetTargets()]
-        return Instances(sum(self._copy_count(i) for i in instancers), tuple(dict.fromkeys(names)))
-
-    def _copy_count(self, instancer: Any) -> int:
-        count = len(instancer.GetProtoIndicesAttr().Get(self.time) or ())
-        # The mask leaves out copies that are inactive or invisible; it is empty where all are drawn.
-        mask = instancer.ComputeMaskAtTime(self.time)
-        return sum(mask) if mask else count
 
     def _note(self, code: str, node: Node, message: str) -> None:
         self.notes.append(Diagnostic(code, message, node.path))

@@ -5,13 +5,16 @@ instances), and for geometry that none of these covers its nearest owner that is
 The rules see outline nodes only, so each can be tried on a tree written by hand.
 """
 
+import re
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from usd2kg.scene.options import SelectionOverrides
 from usd2kg.scene.outline import Node, Outline
 from usd2kg.words import split_identifier
 
-__all__ = ["ASKED_FOR", "Selection", "select_objects"]
+__all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"]
 
 ASKED_FOR = "asked for by path"
 """The reason of an object that the rules did not choose."""
@@ -39,16 +42,14 @@ class Selection:
     """Paths that were asked for and are not in the outline."""
 
 
-def select_objects(outline: Outline, wanted: tuple[str, ...] = ()) -> Selection:
+def select_objects(
+    outline: Outline, wanted: tuple[str, ...] = (), overrides: SelectionOverrides | None = None
+) -> Selection:
     """Return the prims of `outline` that are objects, each with the reason.
 
-    Those at the paths `wanted` are objects whatever the rules say.
+    Those at the paths `wanted` are objects whatever the rules or the overrides say.
     """
-    candidates = _model_candidates(outline)
-    _drop_whole_scene(outline.root, candidates)
-    _merge_robot_arms(outline, candidates)
-    _merge_wrappers(outline.root, candidates)
-    candidates.update(_geometry_owners(outline.root, candidates))
+    candidates = _overridden(outline, overrides or SelectionOverrides())
     there = {node.path for node in outline.root.walk()} - {outline.root.path}
     for path in wanted:
         if path in there:
@@ -58,15 +59,61 @@ def select_objects(outline: Outline, wanted: tuple[str, ...] = ()) -> Selection:
     return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
-def _model_candidates(outline: Outline) -> dict[str, str]:
+def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, str]:
+    nodes = [node for node in outline.root.walk() if node is not outline.root]
+    if overrides.only:
+        return {node.path: "listed by the user" for node in nodes if node.path in set(overrides.only)}
+    if overrides.is_every_prim:
+        candidates = {node.path: "every prim with geometry was asked for" for node in nodes if node.gprim_count}
+    else:
+        candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}))
+    included = [path_pattern(pattern) for pattern in overrides.include]
+    excluded = [path_pattern(pattern) for pattern in overrides.exclude]
+    for node in nodes:
+        if any(pattern.fullmatch(node.path) for pattern in included):
+            candidates[node.path] = "included by a pattern of the user"
+    # (node, below an excluded one)
+    pending = [(child, False) for child in outline.root.children]
+    while pending:
+        node, is_excluded = pending.pop()
+        is_excluded = is_excluded or any(pattern.fullmatch(node.path) for pattern in excluded)
+        if is_excluded:
+            candidates.pop(node.path, None)
+        pending.extend((child, is_excluded) for child in node.children)
+    return candidates
+
+
+def path_pattern(pattern: str) -> re.Pattern[str]:
+    """Return the expression for a path pattern: `*` and `?` stay within a name, `**` crosses names.
+
+    >>> bool(path_pattern("/World/**/Cup_*").fullmatch("/World/Table/Cup_1"))
+    True
+    >>> bool(path_pattern("/World/Cup_*").fullmatch("/World/Cup_1/mesh"))
+    False
+    """
+    pieces = {"**/": "(?:[^/]+/)*", "**": ".*", "*": "[^/]*", "?": "[^/]"}
+    parts = re.split(r"(\*\*/|\*\*|\*|\?)", pattern)
+    return re.compile("".join(pieces.get(part, re.escape(part)) for part in parts))
+
+
+def _by_rules(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
+    candidates = _model_candidates(outline, kinds)
+    _drop_whole_scene(outline.root, candidates)
+    _merge_robot_arms(outline, candidates)
+    _merge_wrappers(outline.root, candidates)
+    candidates.update(_geometry_owners(outline.root, candidates))
+    return candidates
+
+
+def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
     found: dict[str, str] = {}
     # (node, below a component or body, below an asset)
     pending = [(outline.root, False, False)]
     while pending:
         node, in_model, in_asset = pending.pop()
         is_there = node.gprim_count > 0 or _has_unresolved(node) or _has_missing_mesh(node)
-        if node.kind == _COMPONENT:
-            found[node.path] = "authored kind: component"
+        if node.kind in kinds:
+            found[node.path] = f"authored kind: {node.kind}"
             in_model = True
         elif node.is_body and is_there and not node.kind:
             found[node.path] = "rigid body"
@@ -152,7 +199,7 @@ def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
             continue
         if len(nested) == 1:
             del candidates[nested[0].path]
-        elif node.kind != _COMPONENT:
+        elif not candidates[node.path].startswith("authored kind"):
             del candidates[node.path]
 
 
@@ -233,3 +280,29 @@ def _reason(node: Node, in_object: bool, chosen: dict[str, str]) -> str:
     if node.gprim_count == 0:
         return "guide or proxy geometry" if node.hidden_gprim_count else "no geometry"
     return "part of an object" if in_object else "grouping of objects"
+
+
+def explain(path: str, outline: Outline, selection: Selection) -> str:
+    """Return why the prim at `path` is an object or is none, in words."""
+    if path in selection.chosen:
+        return f"{path} is an object: {selection.chosen[path]}"
+    for above in _paths_up(path):
+        if above in outline.pruned:
+            what = "it is" if above == path else f"it is below {above}, which is"
+            return f"{path} is no object: {what} left out ({outline.pruned[above]})"
+    node = next((node for node in outline.root.walk() if node.path == path), None)
+    if node is None:
+        return f"{path} is no object: it belongs to the prototypes of a point instancer"
+    holder = next((above for above in _paths_up(path) if above in selection.chosen), None)
+    reason = _reason(node, holder is not None, selection.chosen)
+    if holder is not None:
+        return f"{path} is no object: {reason}, {holder} ({selection.chosen[holder]})"
+    below = [found.path for found in _nearest_below(node, selection.chosen)]
+    some = ", ".join(below[:3]) + (f" and {len(below) - 3} more" if len(below) > 3 else "")
+    return f"{path} is no object: {reason}" + (f"; the objects are {some}" if below else "")
+
+
+def _paths_up(path: str) -> Iterator[str]:
+    while path and path != "/":
+        yield path
+        path = path.rpartition("/")[0]

@@ -12,6 +12,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from usd2kg.errors import SceneError
 from usd2kg.scene.model import Diagnostic, StageFrame
+from usd2kg.scene.options import ReadOptions
 
 __all__ = ["OpenedStage", "captured_diagnostics", "open_stage"]
 
@@ -24,6 +25,8 @@ class OpenedStage:
     """A composed stage and what opening it brought up."""
 
     stage: Any
+    source: str
+    """The file as the user named it; for a stage that was open already, its root layer."""
     frame: StageFrame
     content_hash: str
     diagnostics: tuple[Diagnostic, ...]
@@ -31,12 +34,15 @@ class OpenedStage:
     """Paths of prims below which a reference or payload could not be found."""
 
 
-def open_stage(source: Path) -> OpenedStage:
-    """Open `source` with all payloads loaded.
+def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedStage:
+    """Open `source` with all payloads loaded; a stage that is open already is taken as it stands.
 
     Raises:
         SceneError: the file is missing, is no USD file or is corrupt.
     """
+    if isinstance(source, Usd.Stage):
+        return _opened(source, source.GetRootLayer().identifier, [], options)
+    source = Path(source)
     _check_file(source)
     try:
         with captured_diagnostics() as notes:
@@ -45,10 +51,15 @@ def open_stage(source: Path) -> OpenedStage:
         raise SceneError(_cannot_open(source, _text(error))) from error
     if stage is None:
         raise SceneError(_cannot_open(source, "; ".join(note.message for note in notes)))
+    return _opened(stage, str(source), notes, options)
+
+
+def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptions) -> OpenedStage:
     composition = [_composition_diagnostic(error, stage) for error in stage.GetCompositionErrors()]
-    frame, frame_notes = _read_frame(stage)
+    frame, frame_notes = _read_frame(stage, options)
     return OpenedStage(
         stage=stage,
+        source=source,
         frame=frame,
         content_hash=_hash_layers(stage),
         diagnostics=tuple(dict.fromkeys([*composition, *frame_notes, *_other_notes(notes, composition)])),
@@ -123,10 +134,10 @@ def _prim_in(note: str) -> str | None:
     return found.group(1) if found else None
 
 
-def _read_frame(stage: Any) -> tuple[StageFrame, list[Diagnostic]]:
+def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diagnostic]]:
     notes: list[Diagnostic] = []
     layer = stage.GetRootLayer().identifier
-    metres = _metadata(stage, UsdGeom.Tokens.metersPerUnit)
+    metres = options.metres_per_unit or _metadata(stage, UsdGeom.Tokens.metersPerUnit)
     is_authored = isinstance(metres, int | float) and 0 < metres < float("inf")
     if metres is not None and not is_authored:
         notes.append(
@@ -136,7 +147,7 @@ def _read_frame(stage: Any) -> tuple[StageFrame, list[Diagnostic]]:
         notes.append(
             Diagnostic("units", "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used", None, layer)
         )
-    up_axis = _metadata(stage, UsdGeom.Tokens.upAxis)
+    up_axis = options.up_axis or _metadata(stage, UsdGeom.Tokens.upAxis)
     if up_axis not in {"Y", "Z", None}:
         notes.append(Diagnostic("units", f"upAxis is {str(up_axis)!r}, expected Y or Z; Y is used", None, layer))
     kilograms = _metadata(stage, UsdPhysics.Tokens.kilogramsPerUnit)
@@ -167,6 +178,9 @@ def _hash_layers(stage: Any) -> str:
     digests = []
     for layer in stage.GetUsedLayers():
         path = Path(layer.realPath) if layer.realPath else None
-        if path is not None and path.is_file():
+        if path is not None and path.is_file() and not layer.dirty:
             digests.append(hashlib.sha256(path.read_bytes()).hexdigest())
+        elif not layer.empty:
+            # What was changed in memory is in no file.
+            digests.append(hashlib.sha256(layer.ExportToString().encode()).hexdigest())
     return "sha256:" + hashlib.sha256("".join(sorted(digests)).encode()).hexdigest()
