@@ -1,0 +1,381 @@
+"""The triangles of a stage, in metres and z-up: for pictures and for the page that shows objects in 3D."""
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Sdf, Tf, Usd, UsdGeom, UsdShade
+
+from usd2kg.errors import SceneError
+from usd2kg.scene.model import Diagnostic, StageFrame, Vector
+from usd2kg.scene.stage import OpenedStage
+
+__all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes"]
+
+Points = NDArray[np.float64]
+Triangles = NDArray[np.int32]
+
+NEUTRAL_GREY: Vector = (0.4, 0.4, 0.4)
+"""Linear colour of geometry that says nothing about its colour."""
+
+_PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
+_COLOR_INPUTS = ("diffuseColor", "diffuse_color_constant", "base_color", "baseColor", "diffuse_reflection_color")
+_SEGMENTS = 32
+_MOST_LOOKS = 16
+"""A mesh coloured face by face is split by colour up to this many; past it the mean stands for all."""
+_MOST_COPIES = 4000
+_MOST_COPIED_TRIANGLES = 1_000_000
+_DEEPEST = 4
+"""Point instancers may scatter point instancers, but not without end."""
+_FARTHEST = 1e30
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectMesh:
+    """The triangles of one geometry prim, or those of its faces that share a material."""
+
+    prim_path: str
+    """The geometry prim; for the copies of a point instancer, the instancer."""
+    points: NDArray[np.float32]
+    """(n, 3), metres, z-up world frame."""
+    triangles: Triangles
+    """(m, 3), indices into `points`, counter-clockwise seen from outside."""
+    color: Vector
+    """Linear RGB from 0 to 1."""
+    opacity: float
+    """1 for solid, less for glass."""
+
+
+class _Look(NamedTuple):
+    color: Vector | None
+    opacity: float
+
+
+class _Shape(NamedTuple):
+    points: Points
+    triangles: Triangles
+    face_of: NDArray[np.int64]
+    """The mesh face that each triangle is cut from."""
+
+
+class _Piece(NamedTuple):
+    path: str
+    points: Points
+    triangles: Triangles
+    look: _Look
+
+
+def iterate_meshes(
+    opened: OpenedStage,
+    root_paths: Iterable[str] = ("/",),
+    time: Usd.TimeCode | None = None,
+    *,
+    diagnostics: list[Diagnostic] | None = None,
+) -> Iterator[ObjectMesh]:
+    """Yield what is drawn at and below `root_paths`, in traversal order: visible, of default or render purpose.
+
+    Polygons are cut into fans, subdivision and holes are ignored, instances are entered. A point instancer's copies
+    come as one mesh for each geometry prim of a prototype; where there are too many, an even selection is drawn.
+
+    Args:
+        opened: the stage.
+        root_paths: where to begin; a path below another is not drawn twice.
+        time: what to read; default: the earliest time.
+        diagnostics: gets a note for each geometry prim that is left out because its data are broken.
+
+    Raises:
+        SceneError: a path is not on the stage.
+    """
+    reader = _MeshReader(opened.stage, time or Usd.TimeCode.EarliestTime(), diagnostics)
+    for root in _roots(opened.stage, root_paths):
+        for piece in reader.below(root):
+            points = _to_metres(piece.points, opened.frame)
+            color = piece.look.color or NEUTRAL_GREY
+            yield ObjectMesh(piece.path, points, piece.triangles, color, piece.look.opacity)
+
+
+def _roots(stage: Any, root_paths: Iterable[str]) -> list[Any]:
+    paths = []
+    for text in root_paths:
+        is_path = bool(Sdf.Path.IsValidPathString(text)) and text.startswith("/")
+        if not is_path or not stage.GetPrimAtPath(text):
+            raise SceneError(f"{stage.GetRootLayer().identifier}: there is no prim {text}, expected a prim path")
+        paths.append(Sdf.Path(text))
+    return [stage.GetPrimAtPath(path) for path in Sdf.Path.RemoveDescendentPaths(paths)]
+
+
+def _to_metres(points: Points, frame: StageFrame) -> NDArray[np.float32]:
+    """Return points of the stage in metres, z-up: (x, y, z) of a y-up stage becomes (x, -z, y)."""
+    world = points * frame.metres_per_unit
+    if frame.up_axis != "Z":
+        world = np.stack([world[:, 0], -world[:, 2], world[:, 1]], axis=1)
+    return np.ascontiguousarray(world, dtype=np.float32)
+
+
+class _MeshReader:
+    """Reads one geometry prim at a time, sharing OpenUSD's caches and the shapes of instances."""
+
+    def __init__(self, stage: Any, time: Usd.TimeCode, notes: list[Diagnostic] | None) -> None:
+        self.stage = stage
+        self.time = time
+        self.notes = notes
+        self.xforms = UsdGeom.XformCache(time)
+        self.shapes: dict[Any, _Shape | None] = {}
+        self.looks: dict[Any, _Look] = {}
+
+    def below(self, root: Any, space: Any = None, depth: int = 0) -> Iterator[_Piece]:
+        """Yield the pieces at and below `root`: points in the frame of the prim `space`, of the world if None."""
+        above = root.GetParent()
+        while space is None and above:
+            if self._is_invisible(above):
+                return
+            above = above.GetParent()
+        predicate = Usd.PrimDefaultPredicate if space is None else Usd.PrimIsActive & Usd.PrimIsLoaded
+        prims = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies(predicate)))
+        for prim in prims:
+            is_instancer = prim.IsA(UsdGeom.PointInstancer)
+            if is_instancer or self._is_invisible(prim):
+                prims.PruneChildren()
+            if (is_instancer or prim.IsA(UsdGeom.Gprim)) and self._is_drawn(prim):
+                try:
+                    yield from self._copies(prim, space, depth) if is_instancer else self._pieces(prim, space)
+                except Tf.ErrorException as error:
+                    self._note(prim, f"OpenUSD cannot read it ({str(error).strip().splitlines()[-1]})")
+
+    def _is_invisible(self, prim: Any) -> bool:
+        visibility = prim.GetAttribute(UsdGeom.Tokens.visibility)
+        return visibility.HasAuthoredValue() and visibility.Get(self.time) == UsdGeom.Tokens.invisible
+
+    def _is_drawn(self, prim: Any) -> bool:
+        return not self._is_invisible(prim) and UsdGeom.Imageable(prim).ComputePurpose() in _PURPOSES
+
+    def _pieces(self, prim: Any, space: Any) -> Iterator[_Piece]:
+        shape = self._shape(prim)
+        matrix = self._matrix(prim, space)
+        if shape is None or not len(shape.triangles):
+            return
+        if not np.isfinite(matrix).all():
+            self._note(prim, "its transform is not finite", "transform")
+            return
+        points = shape.points @ matrix[:3, :3] + matrix[3, :3]
+        # A mirrored frame turns the faces inside out.
+        triangles = shape.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else shape.triangles
+        for look, chosen in self._looks_of(prim, shape):
+            yield _Piece(str(prim.GetPath()), points, triangles if chosen is None else triangles[chosen], look)
+
+    def _matrix(self, prim: Any, space: Any) -> Points:
+        if space is None:
+            return np.array(self.xforms.GetLocalToWorldTransform(prim))
+        return np.eye(4) if prim == space else np.array(self.xforms.ComputeRelativeTransform(prim, space)[0])
+
+    def _copies(self, prim: Any, space: Any, depth: int) -> Iterator[_Piece]:
+        if depth >= _DEEPEST:
+            self._note(prim, f"more than {_DEEPEST} point instancers inside each other")
+            return
+        instancer = UsdGeom.PointInstancer(prim)
+        prototype_of = _array(instancer.GetProtoIndicesAttr().Get(self.time), np.int64)
+        placed = instancer.ComputeInstanceTransformsAtTime(
+            self.time, self.time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
+        )
+        if len(placed) != len(prototype_of):
+            self._note(prim, f"{len(prototype_of)} copies, but {len(placed)} positions")
+            return
+        mask = instancer.ComputeMaskAtTime(self.time)
+        is_shown = _array(mask, np.bool_) if mask else np.ones(len(placed), np.bool_)
+        matrices = np.array(placed).reshape(-1, 4, 4) @ self._matrix(prim, space)
+        for i, target in enumerate(instancer.GetPrototypesRel().GetForwardedTargets()):
+            prototype = self.stage.GetPrimAtPath(target)
+            chosen = matrices[(prototype_of == i) & is_shown & np.isfinite(matrices).all(axis=(1, 2))]
+            if prototype and len(chosen):
+                for piece in self.below(prototype, prototype, depth + 1):
+                    yield self._scatter(prim, piece, chosen)
+
+    def _scatter(self, prim: Any, piece: _Piece, matrices: Points) -> _Piece:
+        most = min(_MOST_COPIES, max(1, _MOST_COPIED_TRIANGLES // max(1, len(piece.triangles))))
+        if len(matrices) > most:
+            self._note(prim, f"{len(matrices)} copies, more than can be drawn; an even selection of {most} is", "copies")
+            matrices = matrices[np.linspace(0, len(matrices) - 1, most).astype(np.int64)]
+        points = piece.points @ matrices[:, :3, :3] + matrices[:, 3, None, :3]
+        offsets = np.arange(len(matrices), dtype=np.int32)[:, None, None] * len(piece.points)
+        return _Piece(
+            str(prim.GetPath()), points.reshape(-1, 3), (piece.triangles + offsets).reshape(-1, 3), piece.look
+        )
+
+    def _shape(self, prim: Any) -> _Shape | None:
+        if not prim.IsInstanceProxy():
+            return self._read_shape(prim)
+        shared = prim.GetPrimInPrototype().GetPath()
+        if shared not in self.shapes:
+            self.shapes[shared] = self._read_shape(prim)
+        return self.shapes[shared]
+
+    def _read_shape(self, prim: Any) -> _Shape | None:
+        if prim.IsA(UsdGeom.Mesh):
+            shape, trouble = _read_mesh(UsdGeom.Mesh(prim), self.time)
+        else:
+            shape, trouble = _tessellate(prim, self.time)
+        if shape is not None and not (np.abs(shape.points) < _FARTHEST).all():
+            shape, trouble = None, "its points are not all finite"
+        if trouble:
+            self._note(prim, trouble)
+        return shape
+
+    def _looks_of(self, prim: Any, shape: _Shape) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
+        """Yield the looks of a prim, each with the triangles that have it; None for all of them."""
+        whole = self._material_look(prim)
+        colors = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(UsdGeom.Tokens.primvarsDisplayColor)
+        values = _array(colors.ComputeFlattened(self.time), np.float64) if colors and colors.HasValue() else None
+        if values is not None and len(values) and values.ndim == 2 and np.isfinite(values).all():
+            face_count = int(shape.face_of[-1]) + 1
+            if colors.GetInterpolation() == UsdGeom.Tokens.uniform and 1 < len(values) >= face_count:
+                distinct, which = np.unique(values, axis=0, return_inverse=True)
+                if len(distinct) <= _MOST_LOOKS:
+                    for i, color in enumerate(distinct):
+                        yield _Look(_rgb(color), whole.opacity), which.reshape(-1)[shape.face_of] == i
+                    return
+            whole = _Look(_rgb(values.mean(axis=0)), whole.opacity)
+        rest = np.ones(len(shape.triangles), np.bool_)
+        for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)):
+            look = self._material_look(subset.GetPrim())
+            chosen = rest & np.isin(shape.face_of, _array(subset.GetIndicesAttr().Get(self.time), np.int64))
+            if look.color is not None and subset.GetElementTypeAttr().Get() == "face" and chosen.any():
+                yield look, chosen
+                rest &= ~chosen
+        if rest.any():
+            yield whole, None if rest.all() else rest
+
+    def _material_look(self, prim: Any) -> _Look:
+        material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
+        if not material:
+            return _Look(None, 1.0)
+        path = material.GetPath()
+        if path not in self.looks:
+            self.looks[path] = self._read_material(material)
+        return self.looks[path]
+
+    def _read_material(self, material: Any) -> _Look:
+        shader = material.ComputeSurfaceSource()[0] or material.ComputeSurfaceSource("mdl")[0]
+        if not shader:
+            return _Look(None, 1.0)
+        colors = (self._constant(shader, name) for name in _COLOR_INPUTS)
+        color = next((value for value in colors if value is not None and hasattr(value, "__len__")), None)
+        opacity = self._constant(shader, "opacity")
+        is_number = isinstance(opacity, int | float) and 0 <= opacity <= 1
+        return _Look(_rgb(color) if color is not None else None, float(opacity) if is_number else 1.0)
+
+    def _constant(self, shader: Any, name: str) -> Any:
+        """Return the value of a shader input; None if it has none or a texture gives it."""
+        source = shader.GetInput(name)
+        if not source:
+            return None
+        inputs = [
+            attribute
+            for attribute in source.GetValueProducingAttributes()
+            if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input
+        ]
+        return inputs[0].Get(self.time) if inputs else None
+
+    def _note(self, prim: Any, trouble: str, code: str = "mesh") -> None:
+        if self.notes is not None:
+            self.notes.append(Diagnostic(code, f"{trouble}; not in pictures", str(prim.GetPath())))
+
+
+def _array(values: Any, dtype: Any) -> NDArray[Any]:
+    return np.asarray(values if values is not None else (), dtype=dtype)
+
+
+def _rgb(color: Any) -> Vector:
+    red, green, blue = (min(max(float(value), 0.0), 1.0) for value in tuple(color)[:3])
+    return (red, green, blue)
+
+
+def _read_mesh(mesh: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
+    """Return the mesh cut into triangles, or None and what is wrong with it."""
+    points = _array(mesh.GetPointsAttr().Get(time), np.float64)
+    counts = _array(mesh.GetFaceVertexCountsAttr().Get(time), np.int64)
+    indices = _array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64)
+    if not len(points) or not len(counts):
+        return None, ""
+    if counts.min() < 0 or counts.sum() != len(indices):
+        return None, f"its faces count {int(counts.sum())} corners, but {len(indices)} are listed"
+    if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):
+        return None, f"its faces name points that do not exist ({len(points)} do)"
+    fan = np.maximum(counts - 2, 0)
+    face_of = np.repeat(np.arange(len(counts)), fan)
+    first = np.repeat(np.cumsum(counts) - counts, fan)
+    nth = np.arange(len(face_of)) - np.repeat(np.cumsum(fan) - fan, fan)
+    corners = np.stack([first, first + nth + 1, first + nth + 2], axis=1)
+    if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+        corners = corners[:, ::-1]
+    return _Shape(points, indices[corners].astype(np.int32), face_of), ""
+
+
+def _tessellate(prim: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
+    def number(name: str) -> float:
+        value = prim.GetAttribute(name).Get(time) if prim.HasAttribute(name) else None
+        return math.nan if value is None else float(value)
+
+    type_name = str(prim.GetTypeName())
+    solid = _solid(type_name, number)
+    if solid is None:
+        return None, f"a {type_name or 'prim without type'} has no triangles"
+    points, triangles = solid
+    axis = prim.GetAttribute("axis").Get(time) if prim.HasAttribute("axis") else "Z"
+    # Axes change places in a ring, so that nothing is mirrored.
+    order = {"X": [2, 0, 1], "Y": [1, 2, 0]}.get(str(axis), [0, 1, 2])
+    return _Shape(points[:, order], triangles, np.zeros(len(triangles), np.int64)), ""
+
+
+def _solid(type_name: str, number: Callable[[str], float]) -> tuple[Points, Triangles] | None:
+    """Return a UsdGeom solid about the z axis; None if the type has no such shape."""
+    half, radius = number("height") / 2, number("radius")
+    # Cylinder_1 and Capsule_1 have a radius at either end.
+    low, high = (radius, radius) if math.isfinite(radius) else (number("radiusBottom"), number("radiusTop"))
+    match type_name.removesuffix("_1"):
+        case "Cube":
+            side = number("size") / 2
+            return _CUBE_CORNERS * side, _CUBE_TRIANGLES
+        case "Plane":
+            x, y = number("width") / 2, number("length") / 2
+            return np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]]), np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+        case "Sphere":
+            return _turn([*_arc(radius, 0.0, -90, 90)])
+        case "Cylinder":
+            return _turn([(0, -half), (low, -half), (high, half), (0, half)])
+        case "Cone":
+            return _turn([(0, -half), (radius, -half), (0, half)])
+        case "Capsule":
+            return _turn([*_arc(low, -half, -90, 0), *_arc(high, half, 0, 90)])
+    return None
+
+
+_CUBE_CORNERS = np.array([[x, y, z] for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)])
+_CUBE_QUADS = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]], np.int32)
+_CUBE_TRIANGLES = np.concatenate([_CUBE_QUADS[:, [0, 1, 2]], _CUBE_QUADS[:, [0, 2, 3]]])
+
+
+def _arc(radius: float, middle: float, start: int, end: int) -> Iterator[tuple[float, float]]:
+    for degrees in np.linspace(start, end, 1 + (end - start) // 10):
+        # Exactly 0 at the poles, so that they are recognised as such.
+        distance = 0.0 if abs(degrees) == 90 else radius * math.cos(math.radians(degrees))
+        yield distance, middle + radius * math.sin(math.radians(degrees))
+
+
+def _turn(profile: list[tuple[float, float]]) -> tuple[Points, Triangles]:
+    """Return the solid that a profile of (distance from the axis, height), from the bottom up, makes about z."""
+    angles = np.arange(_SEGMENTS) * (2 * math.pi / _SEGMENTS)
+    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    rings = [np.column_stack([circle * distance, np.full(_SEGMENTS, height)]) for distance, height in profile]
+    here = np.arange(_SEGMENTS, dtype=np.int32)
+    after = (here + 1) % _SEGMENTS
+    triangles = []
+    for i, ((low, _), (high, _)) in enumerate(zip(profile, profile[1:], strict=False)):
+        below, above = i * _SEGMENTS, (i + 1) * _SEGMENTS
+        if low != 0:
+            triangles.append(np.stack([below + here, below + after, above + after], axis=1))
+        if high != 0:
+            triangles.append(np.stack([below + here, above + after, above + here], axis=1))
+    return np.concatenate(rings), np.concatenate(triangles).astype(np.int32)
