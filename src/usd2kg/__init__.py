@@ -52,7 +52,15 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])
+
+
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version  # noqa: PLC0415
+
+        return version("usd2kg")
     # Names load when they are used: `usd2kg --help` must not wait for OpenUSD.
     if name not in _HOMES:
         raise AttributeError(f"module 'usd2kg' has no attribute {name!r}")

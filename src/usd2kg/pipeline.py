@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from usd2kg.graph import KnowledgeGraph, instantiate
-from usd2kg.grounding import Grounder, Grounding, ground, make_grounder
+from usd2kg.grounding import Grounder, Grounding, ground
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
 
@@ -52,8 +52,7 @@ def build(
     """
     read = read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
-    chosen = make_grounder(grounder) if isinstance(grounder, str) else grounder
-    grounding = ground(read, tbox, chosen, regime=regime, evidence=evidence)
+    grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence)
     graph = instantiate(read, tbox, grounding, base=base, profile=profile)
     return BuildResult(read, tbox, grounding, graph)
 

@@ -49,6 +49,14 @@ def test_every_grounder_runs_under_every_regime(run, room: Path, gold: Path, reg
     assert (data["n"], data["grounder"], data["settings"]["regime"]) == (3, grounder, regime)
 
 
+def test_gold_of_another_scene_is_refused(run, room: Path, tmp_path: Path) -> None:
+    gold = tmp_path / "other.csv"
+    gold.write_text("path,class\n/Flat/Sofa,Sofa\n/Flat/Bed,DesignedFurniture\n", encoding="utf-8")
+    done = run("eval", "run", room, "--gold", gold)
+    assert (done.code, done.out) == (2, "")
+    assert "none of its 2 paths is on" in done.err
+
+
 def test_compare_finds_what_differs(run, room: Path, gold: Path, tmp_path: Path) -> None:
     for name, grounder in (("a.json", "embedded"), ("b.json", "dictionary")):
         assert run("eval", "run", room, "--gold", gold, "--grounder", grounder, "-o", tmp_path / name).code == 0
@@ -77,7 +85,9 @@ def test_annotate_makes_a_template_that_reads_back_once_filled_in(run, room: Pat
     assert {"path", "class", "also", "words", "size_m"} <= set(rows[0])
     assert all(row["class"] == "" for row in rows)
     assert run("eval", "run", room, "--gold", template).code == 2, "nothing is filled in yet"
-    assert run("eval", "annotate", room, "--suggest", "-o", template).code == 0
+    refused = run("eval", "annotate", room, "--suggest", "-o", template)
+    assert (refused.code, "may hold labels" in refused.err) == (2, True)
+    assert run("eval", "annotate", room, "--suggest", "--force", "-o", template).code == 0
     data = json.loads(run("eval", "run", room, "--gold", template, "--json").out)
     assert data["ema"] == 100.0, "the suggestions are the grounder's own answers"
 

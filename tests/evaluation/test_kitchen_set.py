@@ -46,7 +46,7 @@ def test_a_folder_without_it_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_readable_download_gives_the_study_s_matrix(tmp_path: Path) -> None:
-    root = tmp_path / "deep" / "Kitchen_set.usd"
+    root = tmp_path / "Kitchen_set" / "Kitchen_set.usd"
     _crate(root.parent / "asset.usdc")
     root.write_text("#usda 1.0\n")
     found = check_kitchen_set(tmp_path)

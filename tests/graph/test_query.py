@@ -221,7 +221,14 @@ class TestQuestions:
 class TestSparql:
     def test_select_keeps_the_order_of_its_columns_and_rows(self, store: GraphStore):
         answer = store.sparql("SELECT ?l ?o { ?o a soma:Cup ; rdfs:label ?l }")
-        assert answer == Answer(("l", "o"), (("mug_red", f"{BASE}Room.mug_red"),), answer.sparql)
+        row = ("mug_red", f"{BASE}Room.mug_red")
+        assert answer == Answer(("l", "o"), (row,), (row,), answer.sparql)
+
+    def test_numbers_are_numbers_in_the_values_and_text_in_the_rows(self, store: GraphStore):
+        query = "SELECT (1 AS ?i) (2.5e0 AS ?d) (true AS ?b) ('07' AS ?t) ?none WHERE {}"
+        answer = store.sparql(query)
+        assert answer.values == ((1, 2.5, True, "07", None),)
+        assert answer.rows[0][0] == "1"
         down = store.sparql("SELECT ?p { ?o u2k:primPath ?p } ORDER BY DESC(?p)")
         assert column(down, "p") == sorted(column(down, "p"), reverse=True)
 

@@ -74,17 +74,6 @@ def test_the_last_word_of_a_mere_synonym_stands_for_nothing():
     assert named(lexicon_of(LABORATORY), "glass") is None
 
 
-def test_a_first_word_stands_for_the_class_only_if_no_other_label_begins_with_it():
-    assert lexicon_of(LABORATORY).first_words["bunsen"].class_iri == LAB + "BunsenBurner"
-    with_stand = make_tbox(*LABORATORY.classes, make_class("BunsenStand", "Equipment"))
-    assert "bunsen" not in lexicon_of(with_stand).first_words
-
-
-def test_a_word_that_is_a_term_is_no_first_word():
-    tbox = make_tbox(make_class("Beaker"), make_class("BeakerTongs", label="beaker tongs"))
-    assert "beaker" not in lexicon_of(tbox).first_words
-
-
 def test_synonyms_from_elsewhere_are_added_by_class():
     lexicon = lexicon_of(LABORATORY, {LAB + "Beaker": ("griffin cup",), LAB + "NoSuchClass": ("ghost",)})
     assert named(lexicon, "griffincup") == "Beaker"

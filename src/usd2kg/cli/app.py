@@ -12,7 +12,7 @@ from typing import Annotated
 import typer
 
 from usd2kg.cli import build, demo, evaluate, ground, inspect, ontology, query
-from usd2kg.cli.output import talk
+from usd2kg.cli.output import emit, talk
 from usd2kg.errors import Usd2kgError
 
 __all__ = ["app", "main"]
@@ -35,8 +35,19 @@ app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")
 
 
+def _print_version(is_wanted: bool) -> None:
+    if is_wanted:
+        from importlib.metadata import version  # noqa: PLC0415
+
+        emit(f"usd2kg {version('usd2kg')}\n", None)
+        raise typer.Exit
+
+
 @app.callback()
 def _options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and stop.", is_eager=True, callback=_print_version)
+    ] = False,
     verbose: Annotated[
         bool,
         typer.Option("--verbose", help="Say what is done, and show the traceback of an error; may stand anywhere."),

@@ -121,8 +121,9 @@ def _targets(scenes: list[Path], output: Path | None) -> list[Path]:
         targets = [output if output is not None else Path(f"{scenes[0].stem}.ttl")]
     else:
         folder = output if output is not None else Path()
-        if not folder.is_dir():
+        if folder.suffix or (folder.exists() and not folder.is_dir()):
             raise OutputError(f"{folder}: is not a folder; expected one for the graphs of {len(scenes)} scenes")
+        folder.mkdir(parents=True, exist_ok=True)
         targets = [folder / f"{scene.stem}.ttl" for scene in scenes]
     if len(set(targets)) < len(targets):
         raise OutputError(

@@ -37,7 +37,7 @@ def demo_command(
     store = load_graph(output)
     answers = {question: store.ask(question.split()) for question in _QUESTIONS}
     if json:
-        rows = {q: [dict(zip(a.columns, row, strict=True)) for row in a.rows] for q, a in answers.items()}
+        rows = {q: [dict(zip(a.columns, row, strict=True)) for row in a.values] for q, a in answers.items()}
         print_json({**summary, "answers": rows})
         return
     emit(summary_text(summary) + "\n", None)

@@ -49,6 +49,10 @@ def run(
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)
     found = read_scene(scene, paths=[label.prim_path for label in labels])
+    if len(found.missing_paths) == len(labels):
+        raise EvaluationError(
+            f"{gold}: none of its {len(labels)} paths is on {scene}; is it the gold of another scene?"
+        )
     result = evaluation.evaluate(found, labels, tbox, chosen, regime=naming_regime, evidence=groups)
     selection = evaluation.selection_of(found, labels)
     data = evaluation.evaluation_json(result, selection)
@@ -168,10 +172,14 @@ def compare(
     head = (
         f"A  {data['first']['ema']:.1f} %  {a.description}\nB  {data['second']['ema']:.1f} %  {b.description}\n"
         f"{data['n']} objects; only A right: {test.only_first}, only B right: {test.only_second}; "
-        f"McNemar's exact p = {test.p_value:.4f}\n"
+        f"McNemar's exact p {_p_value(test.p_value)}\n"
     )
     rows = [(x.id, _short(x.target), _short(x.answer), _short(y.answer)) for x, y in changed]
     emit(head + (format_table(("differs", "gold", "A", "B"), rows) if rows else ""), None)
+
+
+def _p_value(p: float) -> str:
+    return "< 0.0001" if p < 0.0001 else f"= {p:.4f}"
 
 
 def _short(iri: str | None) -> str | None:
@@ -182,6 +190,7 @@ def _short(iri: str | None) -> str | None:
 def annotate(
     scene: SceneFile,
     output: _Output = None,
+    force: Annotated[bool, typer.Option("--force", help="Write over an existing file, labels and all.")] = False,
     suggest: Annotated[bool, typer.Option("--suggest", help="Fill in the default grounder's answers.")] = False,
     ontology: OntologyFile = None,
 ) -> None:
@@ -191,6 +200,10 @@ def annotate(
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
+    if output is not None and output.exists() and not force:
+        raise EvaluationError(
+            f"{output}: exists, and may hold labels that took a person hours; choose another or --force"
+        )
     found = read_scene(scene)
     tbox = open_tbox(ontology)
     suggestions = grounding.ground(found, tbox, grounding.make_grounder("embedded")) if suggest else None

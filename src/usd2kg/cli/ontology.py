@@ -59,7 +59,8 @@ def scope(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> 
 def _load(file: Path | None, roots: list[str] | None) -> "TBox":
     from usd2kg.ontology import load_home_tbox, load_tbox  # noqa: PLC0415 - loads the OWL parser
 
-    tbox = load_tbox(file, roots=roots) if file is not None else load_home_tbox()
+    root_iris = roots or None
+    tbox = load_tbox(file, roots=root_iris) if file is not None else load_home_tbox(roots=root_iris)
     for note in tbox.notes:
         talk(f"{note.code}: {note.message}")
     talk(f"{tbox.source}: {len(tbox.classes)} classes in scope, {len(tbox.roots)} roots")

@@ -44,7 +44,9 @@ def printable(text: str) -> str:
 
 
 def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:
-    """Return rows as aligned text; long cells but the last are cut in the middle, where paths say least.
+    """Return rows as aligned text.
+
+    On a terminal, long cells but the last are cut in the middle, where paths say least; what is piped is whole.
 
     >>> print(format_table(("name", "size"), [("mug", "0.09"), ("table", None)]), end="")
     name   size
@@ -52,7 +54,8 @@ def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -
     table
     """
     cells = [[" ".join(printable(cell or "").splitlines()) for cell in row] for row in [columns, *rows]]
-    cells = [[*map(_shorten, row[:-1]), row[-1]] for row in cells]
+    if sys.stdout.isatty():
+        cells = [[*map(_shorten, row[:-1]), row[-1]] for row in cells]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
     lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells)
     return "\n".join(lines) + "\n"

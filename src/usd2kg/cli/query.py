@@ -34,7 +34,7 @@ def query_command(
     store = load_graph(graph)
     answer = store.sparql(_query_text(sparql)) if sparql is not None else store.ask(question or [])
     if json:
-        print_json([dict(zip(answer.columns, row, strict=True)) for row in answer.rows])
+        print_json([dict(zip(answer.columns, row, strict=True)) for row in answer.values])
     else:
         emit(answer_text(answer), None)
 

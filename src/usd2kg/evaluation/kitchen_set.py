@@ -51,7 +51,8 @@ def check_kitchen_set(folder: Path) -> KitchenSet:
     Raises:
         EvaluationError: it is not there, or its layers are too old for the installed OpenUSD.
     """
-    root = next((path for name in _ROOT_LAYERS for path in sorted(folder.rglob(name))), None)
+    places = [folder, folder / "Kitchen_set", *sorted(path for path in folder.glob("*/Kitchen_set") if path.is_dir())]
+    root = next((p / name for p in places for name in _ROOT_LAYERS if (p / name).is_file()), None)
     if root is None:
         raise EvaluationError(
             f"{folder}: no {_ROOT_LAYERS[0]} in it; expected the unpacked Kitchen Set, "

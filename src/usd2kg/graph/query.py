@@ -1,8 +1,9 @@
 """Asking a graph: SPARQL, and ready questions in plain words."""
 
+import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.ontology import expand_curie
 from usd2kg.words import split_identifier
 
 __all__ = ["Answer", "GraphStore", "load_graph"]
@@ -63,6 +65,9 @@ SELECT DISTINCT ?o ?p WHERE {{
 }} ORDER BY ?p"""
 
 
+Value = str | float | int | bool | None
+
+
 @dataclass(frozen=True)
 class Answer:
     """A table of results."""
@@ -70,6 +75,8 @@ class Answer:
     columns: tuple[str, ...]
     rows: tuple[tuple[str | None, ...], ...]
     """Values as text; None where a row has none."""
+    values: tuple[tuple[Value, ...], ...]
+    """The same with numbers and truth values as such."""
     sparql: str
     """The query that was run."""
 
@@ -100,12 +107,12 @@ class GraphStore:
                 f"query: not valid SPARQL ({reason}); only SELECT, ASK, CONSTRUCT and DESCRIBE run here"
             ) from error
         if isinstance(found, ox.QueryBoolean):
-            return Answer(("answer",), ((str(bool(found)).lower(),),), query)
+            return Answer(("answer",), ((str(bool(found)).lower(),),), ((bool(found),),), query)
         if isinstance(found, ox.QueryTriples):
-            rows = tuple(tuple(_plain(term) for term in triple) for triple in found)
-            return Answer(("subject", "predicate", "object"), tuple(sorted(rows)), query)
+            triples = sorted((tuple(triple) for triple in found), key=lambda triple: [str(term) for term in triple])
+            return _answer(("subject", "predicate", "object"), triples, query)
         columns = tuple(variable.value for variable in found.variables)
-        return Answer(columns, tuple(tuple(_plain(s[c]) for c in columns) for s in found), query)
+        return _answer(columns, [tuple(solution[c] for c in columns) for solution in found], query)
 
     def on(self, thing: str) -> Answer:
         """Return what stands or lies on a thing, named by label, class, words or prim path."""
@@ -177,7 +184,7 @@ class GraphStore:
 
     def _named(self, query: str, names: dict[str, str]) -> Answer:
         answer = self.sparql(query)
-        return Answer(tuple(names.get(column, column) for column in answer.columns), answer.rows, query)
+        return replace(answer, columns=tuple(names.get(column, column) for column in answer.columns))
 
     def _labels(self) -> list[tuple[ox.NamedNode, str, str]]:
         rows = self._select("SELECT ?o ?p ?l WHERE { ?o u2k:primPath ?p ; rdfs:label ?l } ORDER BY ?p")
@@ -191,10 +198,11 @@ class GraphStore:
     def _find_classes(self, name: str) -> list[ox.NamedNode]:
         rows = self._select("SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }")
         wanted = _words(name)
+        iri = expand_curie(name)
         found = {
             row["c"]
             for row in rows
-            if row["c"].value == name
+            if row["c"].value in {name, iri}
             or _words(re.split(r"[#/]", row["c"].value)[-1]) == wanted
             or (row["l"] is not None and _words(row["l"].value) == wanted)
         }
@@ -219,12 +227,38 @@ _QUESTIONS = (
 
 
 def _words(text: str) -> frozenset[str]:
-    return frozenset(word.lower() for word in split_identifier(text))
+    return frozenset(_singular(word.lower()) for word in split_identifier(text))
+
+
+def _singular(word: str) -> str:
+    """Return a word without its plural ending, roughly: both sides of a comparison are treated alike."""
+    for ending, singular in (("ves", "f"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("fe", "f"), ("s", "")):
+        if word.endswith(ending) and len(word) > len(ending) + 2 and not word.endswith("ss"):
+            return word.removesuffix(ending) + singular
+    return word
 
 
 def _values(nodes: Iterable[ox.NamedNode]) -> str:
     # Terms come from the store and print themselves escaped: no text of a user or a stage enters a query.
     return " ".join(str(node) for node in nodes)
+
+
+def _answer(columns: tuple[str, ...], rows: Sequence[tuple[Any, ...]], query: str) -> Answer:
+    texts = tuple(tuple(_plain(term) for term in row) for row in rows)
+    values = tuple(tuple(_value(term) for term in row) for row in rows)
+    return Answer(columns, texts, values, query)
+
+
+def _value(term: Any) -> Value:
+    """Return a term as a JSON value: numbers and truth values as such, all else as text."""
+    datatype = term.datatype.value.rpartition("#")[2] if isinstance(term, ox.Literal) else ""
+    if datatype in {"double", "float", "decimal"} and math.isfinite(float(term.value)):
+        return float(term.value)
+    if datatype in {"integer", "int", "long", "nonNegativeInteger"}:
+        return int(term.value)
+    if datatype == "boolean":
+        return str(term.value) in {"true", "1"}
+    return _plain(term)
 
 
 def _plain(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple | None) -> str | None:
@@ -233,12 +267,13 @@ def _plain(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple | None) ->
     return str(term) if isinstance(term, ox.Triple) else term.value
 
 
-def load_graph(path: Path) -> GraphStore:
+def load_graph(path: Path | str) -> GraphStore:
     """Return the graph in a file, ready to be asked.
 
     Raises:
         GraphError: the file is missing, its ending names no RDF format, or it does not parse.
     """
+    path = Path(path)
     rdf_format = _INPUT_FORMATS.get(path.suffix.lower())
     if path.is_dir():
         raise GraphError(f"{path}: is a folder; expected a graph that usd2kg build wrote")

@@ -42,11 +42,12 @@ def _bytes(data: bytes | None) -> bytes:
     return data
 
 
-def write_graph(graph: KnowledgeGraph, path: Path) -> None:
+def write_graph(graph: KnowledgeGraph, path: Path | str) -> None:
     """Write the graph to `path`, in the format of its ending, whole or not at all.
 
     Raises:
         GraphError: the ending is not known.
         OutputError: the file cannot be written.
     """
+    path = Path(path)
     write_whole(path, serialize_graph(graph, graph_format(path)))

@@ -37,7 +37,7 @@ class Grounder(Protocol):
 def ground(
     scene: Scene,
     tbox: TBox,
-    grounder: Grounder,
+    grounder: Grounder | str = "embedded",
     *,
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
@@ -48,11 +48,16 @@ def ground(
     Args:
         scene: the objects; all of them are context for each other, whatever is asked for.
         tbox: the classes to choose from.
-        grounder: who chooses.
+        grounder: who chooses: a grounder, or the name of one.
         regime: how the names are masked.
         evidence: names of the evidence groups that may be used; all by default.
         paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
     """
+    if isinstance(grounder, str):
+        # The registry imports this module for its types.
+        from usd2kg.grounding.registry import make_grounder  # noqa: PLC0415
+
+        grounder = make_grounder(grounder)
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
     found = [(path, views[path]) for path in wanted if path in views]

@@ -34,11 +34,14 @@ def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes
     return _load(Path(source), str(source), roots, classes)
 
 
-def load_home_tbox() -> TBox:
-    """Return the TBox that ships with usd2kg: SOMA-HOME's classes with labels and synonyms of our own."""
+def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
+    """Return the TBox that ships with usd2kg: SOMA-HOME's classes with labels and synonyms of our own.
+
+    With `roots`, only these classes and those below them.
+    """
     with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
         # The classes are SOMA-HOME's own, so that is what a graph over them imports.
-        return replace(_load(path, _HOME, None, None), ontology_iri=_SOMA_HOME)
+        return replace(_load(path, _HOME, roots, None), ontology_iri=_SOMA_HOME)
 
 
 def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[str] | None) -> TBox:

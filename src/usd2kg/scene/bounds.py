@@ -19,6 +19,8 @@ _EMPTY_EXTENT = 1e30
 _ALIGNED = 1e-6
 _FEWEST_POINTS = 3
 
+_Matrix = NDArray[np.float64]
+
 
 class BoxReader:
     """Reads world boxes from one shared cache, of default and render purpose.
@@ -50,23 +52,33 @@ class BoxReader:
         return self._read[node.path]
 
     def _measure(self, node: Node) -> Box | None:
-        if node.prim.IsA(UsdGeom.PointBased):
-            matrix = self._xforms.GetLocalToWorldTransform(node.prim)
-            box = None if _is_aligned(matrix) else self._box_of_points(node.prim, matrix)
-            # An extent that is authored inside out reads as empty: the points know better.
-            return box or self._box(self._geometry, node.prim) or self._box_of_points(node.prim, matrix)
-        return self._box(self._geometry, node.prim)
+        if not node.prim.IsA(UsdGeom.PointBased):
+            return self._box(self._geometry, node.prim)
+        matrix = np.asarray(self._xforms.GetLocalToWorldTransform(node.prim))
+        box = self._box_of_extent(node.prim, matrix) if _is_aligned(matrix) else self._box_of_points(node.prim, matrix)
+        # An extent that is authored inside out reads as empty: the points know better.
+        return box or self._box(self._geometry, node.prim) or self._box_of_points(node.prim, matrix)
 
-    def _box_of_points(self, prim: Any, matrix: Any) -> Box | None:
+    def _box_of_extent(self, prim: Any, matrix: _Matrix) -> Box | None:
+        """Return the box of the authored extent; None if there is none, or it is empty or not finite."""
+        extent = prim.GetAttribute(UsdGeom.Tokens.extent).Get(self._time)
+        if extent is None or len(extent) != 2:
+            return None
+        corners = np.asarray(extent, dtype=float)
+        if not (np.abs(corners) < _EMPTY_EXTENT).all() or (corners[0] > corners[1]).any():
+            return None
+        world = corners @ matrix[:3, :3] + matrix[3, :3]
+        return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
+
+    def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
         points = np.array(UsdGeom.PointBased(prim).GetPointsAttr().Get(self._time) or (), dtype=float).reshape(-1, 3)
-        transform = np.array(matrix)
         with np.errstate(invalid="ignore", over="ignore"):
-            world: NDArray[np.float64] = points @ transform[:3, :3] + transform[3, :3]
+            world: NDArray[np.float64] = points @ matrix[:3, :3] + matrix[3, :3]
         world = world[np.isfinite(world).all(axis=1) & (np.abs(world) < _EMPTY_EXTENT).all(axis=1)]
         if len(world) < min(len(points), _FEWEST_POINTS) or not len(world):
             # What is left of it says nothing of its size.
             return None
-        return _to_box(tuple(world.min(axis=0).tolist()), tuple(world.max(axis=0).tolist()), self._frame)
+        return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
 
     def _box(self, cache: Any, prim: Any) -> Box | None:
         aligned = cache.ComputeWorldBound(prim).ComputeAlignedRange()
@@ -92,7 +104,7 @@ class BoxReader:
     def read_oriented_size(self, prim: Any) -> Vector | None:
         """Return the extent in metres along the prim's own axes, where they are turned against the world's."""
         matrix = self._xforms.GetLocalToWorldTransform(prim)
-        if _is_aligned(matrix):
+        if _is_aligned(np.asarray(matrix)):
             return None
         local = self._geometry.ComputeUntransformedBound(prim).ComputeAlignedRange()
         if local.IsEmpty():
@@ -107,13 +119,10 @@ def is_measurable(node: Node) -> bool:
     return (node.is_gprim or node.is_instancer) and not node.is_hidden
 
 
-def _is_aligned(matrix: Any) -> bool:
+def _is_aligned(matrix: _Matrix) -> bool:
     """Return whether a matrix takes each axis to an axis, so that a turned box is as tight as what it holds."""
-    for row in (matrix.GetRow3(axis) for axis in range(3)):
-        length = row.GetLength()
-        if sum(abs(value) > _ALIGNED * length for value in row) > 1:
-            return False
-    return True
+    sizes = np.abs(matrix[:3, :3])
+    return bool(((sizes > _ALIGNED * sizes.max(axis=1, keepdims=True)).sum(axis=1) <= 1).all())
 
 
 def _to_box(lower: Any, upper: Any, frame: StageFrame) -> Box:
@@ -150,13 +159,13 @@ def read_pose(cache: UsdGeom.XformCache, prim: Any, frame: StageFrame) -> tuple[
 
 def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion | None]:
     """Return position (metres) and rotation (x, y, z, w) of a stage's 4 × 4 matrix, z-up."""
-    if not all(math.isfinite(value) for row in matrix for value in row):
+    if not np.isfinite(np.asarray(matrix)).all():
         return None, None
     position = to_metres(matrix.ExtractTranslation(), frame)
     if _is_flat(matrix):
         return position, None
     rotation = matrix.RemoveScaleShear()
-    if not all(math.isfinite(value) for row in rotation for value in row):
+    if not np.isfinite(np.asarray(rotation)).all():
         return position, None
     quaternion = rotation.ExtractRotationQuat()
     if frame.up_axis == "Y":

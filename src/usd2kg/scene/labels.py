@@ -22,13 +22,14 @@ from usd2kg.words import split_identifier, words_of
 __all__ = ["Label", "LabelReader", "ObjectLabels", "lint_labels", "read_labels"]
 
 Encoding = Literal["UsdSemantics", "Isaac", "Multiverse"]
+Strength = Literal["label", "report"]
 
 _LONGEST = 200
 _MOST_PARTS = 64
 _USD = "semantics:labels:"
-_TAGS = "semanticTag:"
-_ISAAC = re.compile(r"semantic:(.+):params:semantic(Type|Data)")
-_SCHEMA_OF = {"UsdSemantics": "SemanticsLabelsAPI:", "Isaac": "SemanticsAPI:", "Multiverse": "SemanticTagAPI"}
+_ISAAC = re.compile(r"semantic:(.+):params:semantic(?:Type|Data)")
+_TAGS: dict[str, Strength] = {"semanticTag:semanticLabels": "label", "semanticTag:semanticReports": "report"}
+_SCHEMAS = ("SemanticsLabelsAPI:", "SemanticsAPI:", "SemanticTagAPI")
 _PLACEHOLDERS = frozenset(
     """
     class wikidata_class qcode wikidata_qcode hierarchy iri semanticType semanticData semantics labels
@@ -37,7 +38,8 @@ _PLACEHOLDERS = frozenset(
 )
 """Names of taxonomies and schemas that turn up where a label should stand."""
 _CLASS_TAXONOMIES = frozenset({"class", "wikidata_class", "iri"})
-_SAME_TAXONOMY = {"qcode": "wikidata_qcode"}
+_OLDER_NAMES = {"wikidata_qcode": "qcode"}
+_QCODE = re.compile("Q[0-9]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +57,7 @@ class Label:
     """The label: a class name, a Wikidata item, a path of classes, whatever was authored."""
     is_inherited: bool = False
     """Whether it stands on a prim above the one asked for; UsdSemantics lets labels inherit down the namespace."""
-    strength: Literal["label", "report"] = "label"
+    strength: Strength = "label"
     """`report` for Multiverse's semanticReports: candidates that a tool brought up, weaker than labels."""
 
     @property
@@ -87,19 +89,20 @@ class LabelReader:
     def read(self, nodes: list[Node]) -> ObjectLabels:
         """Return the labels of the object whose own nodes are `nodes`, its prim first."""
         own = read_labels(nodes[0].prim, self._time)
-        told = {_key(label) for label in own}
-        inherited = [label for label in self._inherited(nodes[0].prim.GetParent()) if _key(label) not in told]
+        inherited = _distinct([*own, *self._inherited(nodes[0].prim.GetParent())])[len(own) :]
         below = (label for prim in _parts(nodes) for label in read_labels(prim, self._time))
-        return ObjectLabels(own, tuple(inherited), _distinct(below)[:_MOST_PARTS])
+        return ObjectLabels(own, inherited, _distinct(below)[:_MOST_PARTS])
 
-    def _inherited(self, prim: Any) -> tuple[Label, ...]:
-        if not prim or prim.IsPseudoRoot():
-            return ()
-        path = str(prim.GetPath())
-        if path not in self._above:
-            here = (replace(label, is_inherited=True) for label in read_labels(prim, self._time))
-            self._above[path] = _distinct([*here, *self._inherited(prim.GetParent())])
-        return self._above[path]
+    def _inherited(self, prim: Any) -> list[Label]:
+        found: list[Label] = []
+        while prim and not prim.IsPseudoRoot():
+            path = str(prim.GetPath())
+            if path not in self._above:
+                here = read_labels(prim, self._time)
+                self._above[path] = tuple(replace(label, is_inherited=True) for label in here)
+            found += self._above[path]
+            prim = prim.GetParent()
+        return found
 
 
 def _parts(nodes: list[Node]) -> Iterator[Any]:
@@ -110,14 +113,10 @@ def _parts(nodes: list[Node]) -> Iterator[Any]:
             yield from (subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(node.prim)))
 
 
-def _key(label: Label) -> tuple[str, str, str]:
-    return (label.encoding, label.taxonomy, label.value)
-
-
 def _distinct(labels: Iterable[Label]) -> tuple[Label, ...]:
     first: dict[tuple[str, str, str], Label] = {}
     for label in labels:
-        first.setdefault(_key(label), label)
+        first.setdefault((label.encoding, label.taxonomy, label.value), label)
     return tuple(first.values())
 
 
@@ -128,28 +127,23 @@ def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
     that does not exist still gives the name in its path.
     """
     names = _semantic_names(prim)
-    return _labels(str(prim.GetPath()), _find(prim, names, time)) if names else ()
-
-
-def _labels(path: str, found: list["_Found"]) -> tuple[Label, ...]:
+    path = str(prim.GetPath())
     return _distinct(
         Label(path, entry.encoding, entry.taxonomy, value, strength=entry.strength)
-        for entry in found
-        for value in map(clean_text, entry.values)
-        if value and len(value) <= _LONGEST and entry.taxonomy
+        for entry in (_find(prim, names, time) if names else ())
+        for value in entry.values
+        if value and len(value) <= _LONGEST and (entry.taxonomy or entry.encoding != "Isaac")
     )
 
 
 class _Found(NamedTuple):
-    """What one property says, as authored."""
+    """What one property says, its texts cleaned up."""
 
+    property_name: str
     encoding: Encoding
     taxonomy: str
     values: tuple[str, ...]
-    property_name: str
-    instance: str = ""
-    """Instance of the schema that the property belongs to; empty for Multiverse."""
-    strength: Literal["label", "report"] = "label"
+    strength: Strength = "label"
 
 
 def _semantic_names(prim: Any) -> list[str]:
@@ -160,31 +154,30 @@ def _find(prim: Any, names: list[str], time: Any) -> list[_Found]:
     found = []
     for name in names:
         if name.startswith(_USD):
-            taxonomy = name.removeprefix(_USD)
-            found.append(_Found("UsdSemantics", taxonomy, texts_of(prim, name, time), name, taxonomy))
+            found.append(_Found(name, "UsdSemantics", name.removeprefix(_USD), _clean(prim, name, time)))
     for instance in dict.fromkeys(match[1] for name in names if (match := _ISAAC.fullmatch(name))):
         stem = f"semantic:{instance}:params:semantic"
-        kinds, values = texts_of(prim, f"{stem}Type", time), texts_of(prim, f"{stem}Data", time)
-        taxonomy = clean_text(kinds[0]) if kinds else ""
-        found.append(_Found("Isaac", taxonomy, values, f"{stem}Data", instance))
-    found += [_tag(prim, target, "Labels", "label") for target in _targets(prim, "Labels")]
+        taxonomy = next(iter(_clean(prim, f"{stem}Type", time)), "")
+        found.append(_Found(f"{stem}Data", "Isaac", taxonomy, _clean(prim, f"{stem}Data", time)))
     # Multiverse repeats its labels among the reports; _distinct keeps the stronger one, which comes first.
-    return found + [_tag(prim, target, "Reports", "report") for target in _targets(prim, "Reports")]
+    return found + [_tag(prim, name, target) for name in _TAGS for target in _targets(prim, name)]
 
 
-def _targets(prim: Any, kind: str) -> list[Any]:
-    relationship = prim.GetRelationship(f"{_TAGS}semantic{kind}")
-    return list(relationship.GetTargets()) if relationship else []
+def _clean(prim: Any, name: str, time: Any) -> tuple[str, ...]:
+    return tuple(map(clean_text, texts_of(prim, name, time)))
 
 
-def _tag(prim: Any, target: Any, kind: str, strength: Literal["label", "report"]) -> _Found:
-    path = target.GetPrimPath()
-    tagged = prim.GetStage().GetPrimAtPath(path)
-    concept = texts_of(tagged, "rdf:conceptName", None) if tagged else ()
-    namespace = texts_of(tagged, "rdf:namespace", None) if tagged else ()
-    taxonomy = clean_text(namespace[0]) if namespace else path.GetParentPath().name
-    value = concept or (path.name.removeprefix("_class_"),)
-    return _Found("Multiverse", taxonomy or "unknown", value, f"{_TAGS}semantic{kind}", strength=strength)
+def _targets(prim: Any, name: str) -> list[Any]:
+    relationship = prim.GetRelationship(name)
+    return [target.GetPrimPath() for target in relationship.GetTargets()] if relationship else []
+
+
+def _tag(prim: Any, name: str, target: Any) -> _Found:
+    tagged = prim.GetStage().GetPrimAtPath(target)
+    concepts, namespaces = (_clean(tagged, rdf, None) if tagged else () for rdf in ("rdf:conceptName", "rdf:namespace"))
+    taxonomy = next(filter(None, namespaces), target.GetParentPath().name)
+    value = next(filter(None, concepts), target.name.removeprefix("_class_"))
+    return _Found(name, "Multiverse", taxonomy, (value,), _TAGS[name])
 
 
 def lint_labels(source: Any, time: Any = None) -> list[Diagnostic]:
@@ -202,130 +195,115 @@ def lint_labels(source: Any, time: Any = None) -> list[Diagnostic]:
 def _stage_prims(stage: Any) -> Iterator[Any]:
     seen = set()
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
-        if prim.IsInstanceProxy():
-            shared = prim.GetPrimInPrototype().GetPath()
-            if shared in seen:
-                continue
+        shared = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
+        if shared not in seen:
             seen.add(shared)
-        yield prim
+            yield prim
 
 
 def _lint_prim(prim: Any, time: Any) -> Iterator[Diagnostic]:
     names = _semantic_names(prim)
     # Not GetAppliedSchemas: it leaves out the schemas that OpenUSD does not know, Isaac's and Multiverse's.
-    schemas = [schema for schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas() if schema.startswith("Semantic")]
+    schemas = [schema for schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas() if schema.startswith(_SCHEMAS)]
     if not names and not schemas:
         return
     found = _find(prim, names, time)
+    taxonomies = {entry.taxonomy for entry in found}
     problems = [
-        *(problem for entry in found for problem in _lint_values(entry, {other.taxonomy for other in found})),
-        *_lint_pairs(found, names),
-        *_lint_targets(prim),
+        *(problem for entry in found for problem in _lint_values(entry, taxonomies)),
+        *(problem for entry in found if entry.encoding == "Isaac" for problem in _lint_pair(entry)),
+        *(problem for name in _TAGS for target in _targets(prim, name) for problem in _lint_target(prim, name, target)),
         *_lint_schemas(names, schemas),
         *_lint_contradictions(found),
     ]
     for property_name, message in problems:
-        yield Diagnostic("label", message, str(prim.GetPath()), _layer(prim, property_name, time))
-
-
-def _layer(prim: Any, property_name: str, time: Any) -> str | None:
-    prop = prim.GetProperty(property_name)
-    specs = prop.GetPropertyStack(time) if prop else prim.GetPrimStack()
-    return str(specs[0].layer.identifier) if specs else None
+        prop = prim.GetProperty(property_name) if property_name else None
+        specs = prop.GetPropertyStack(time) if prop else prim.GetPrimStack()
+        layer = str(specs[0].layer.identifier) if specs else None
+        yield Diagnostic("label", message, str(prim.GetPath()), layer)
 
 
 _Problem = tuple[str, str]
-"""Name of the property it is about, message."""
+"""Name of the property it is about, empty for the prim; message."""
 
 
 def _lint_values(entry: _Found, taxonomies: set[str]) -> Iterator[_Problem]:
-    where, values = entry.property_name, [clean_text(value) for value in entry.values]
-    if entry.encoding != "Multiverse" and not any(values):
-        if entry.encoding == "UsdSemantics" or entry.values:
+    where, values = entry.property_name, entry.values
+    if not any(values):
+        if values or entry.encoding == "UsdSemantics":
             yield where, f"{where} holds no label (empty, blank or not text), expected one; author it or remove it"
         return
-    if not all(values):
-        yield where, f"{where} has a blank value among {len(values)}; remove it"
-    for value in sorted({value for value in values if value and values.count(value) > 1}):
-        yield where, f"{where} lists {_quote(value)} {values.count(value)} times; keep one"
     is_qcode = split_identifier(entry.taxonomy.lower())[-1:] == ("qcode",)
     for value in dict.fromkeys(values):
-        if len(value) > _LONGEST:
+        quoted = _quote([value])
+        if not value:
+            yield where, f"{where} has a blank value among {len(values)}; remove it"
+        elif len(value) > _LONGEST:
             yield where, f"{where} has a value of {len(value)} characters, expected at most {_LONGEST}; shorten it"
-        elif value and entry.encoding != "Multiverse" and value in _PLACEHOLDERS | taxonomies:
-            yield where, f"{where} is {_quote(value)}, a name of a taxonomy or schema and no label; author the label"
-        elif value and is_qcode and not re.fullmatch("Q[0-9]+", value):
-            yield where, f"{where} is {_quote(value)}, expected a Wikidata item such as Q11422; correct or remove it"
+        elif entry.encoding != "Multiverse" and (value in _PLACEHOLDERS or value in taxonomies):
+            yield where, f"{where} is {quoted}, a name of a taxonomy or schema and no label; author the label"
+        elif is_qcode and not _QCODE.fullmatch(value):
+            yield where, f"{where} is {quoted}, expected a Wikidata item such as Q11422; correct it or remove it"
+        if value and values.count(value) > 1:
+            yield where, f"{where} lists {quoted} {values.count(value)} times; keep one"
 
 
-def _lint_pairs(found: list[_Found], names: list[str]) -> Iterator[_Problem]:
-    for entry in found:
-        if entry.encoding == "Isaac":
-            type_name = entry.property_name.removesuffix("Data") + "Type"
-            if not entry.taxonomy:
-                what = "has no semanticType" if type_name not in names else "has a semanticType without text"
-                yield entry.property_name, f"{entry.property_name} {what} beside it; author both or remove both"
-            if entry.property_name not in names or not entry.values:
-                yield type_name, f"{type_name} has no semanticData beside it; author both or remove both"
+def _lint_pair(entry: _Found) -> Iterator[_Problem]:
+    data, kind = entry.property_name, entry.property_name.removesuffix("Data") + "Type"
+    for name, has_other, other in ((data, entry.taxonomy, "semanticType"), (kind, entry.values, "semanticData")):
+        if not has_other:
+            yield name, f"{name} has no {other} with text beside it; author both or remove both"
 
 
-def _lint_targets(prim: Any) -> Iterator[_Problem]:
-    for kind in ("Labels", "Reports"):
-        where = f"{_TAGS}semantic{kind}"
-        for target in _targets(prim, kind):
-            tagged = prim.GetStage().GetPrimAtPath(target.GetPrimPath())
-            if not tagged:
-                yield where, f"{where} points to <{target}>, which is not on the stage; add the ontology's layer"
-            elif not texts_of(tagged, "rdf:conceptName", None):
-                yield where, f"{where} points to <{target}>, which has no rdf:conceptName; point it to a class prim"
+def _lint_target(prim: Any, name: str, target: Any) -> Iterator[_Problem]:
+    tagged = prim.GetStage().GetPrimAtPath(target)
+    if not tagged:
+        yield name, f"{name} points to <{target}>, which is not on the stage; add the ontology's layer"
+    elif not any(_clean(tagged, "rdf:conceptName", None)):
+        yield name, f"{name} points to <{target}>, which has no rdf:conceptName; point it to a class prim"
 
 
 def _lint_schemas(names: list[str], schemas: list[str]) -> Iterator[_Problem]:
     """Yield schemas without their properties, and properties without their schema, which tools then do not see."""
-    expected: dict[str, str] = {}
-    for name in names:
-        isaac = _ISAAC.fullmatch(name)
-        if name.startswith(_USD):
-            expected[_SCHEMA_OF["UsdSemantics"] + name.removeprefix(_USD)] = name
-        elif isaac:
-            expected.setdefault(_SCHEMA_OF["Isaac"] + isaac[1], name)
-        elif name.startswith(_TAGS):
-            expected.setdefault(_SCHEMA_OF["Multiverse"], name)
+    expected = {schema: name for name in reversed(names) if (schema := _schema_of(name))}
     for schema in schemas:
-        if schema.startswith(tuple(_SCHEMA_OF.values())) and schema not in expected:
+        if schema not in expected:
             yield "", f"{schema} is applied, but no label of it is authored; author the label or remove the schema"
-    for schema, name in expected.items():
+    for schema, name in sorted(expected.items()):
         if schema not in schemas:
             yield name, f"{name} is authored, but {schema} is not applied, so that tools may not see it; apply it"
 
 
+def _schema_of(property_name: str) -> str | None:
+    if property_name.startswith(_USD):
+        return "SemanticsLabelsAPI:" + property_name.removeprefix(_USD)
+    isaac = _ISAAC.fullmatch(property_name)
+    return f"SemanticsAPI:{isaac[1]}" if isaac else "SemanticTagAPI" if property_name in _TAGS else None
+
+
 def _lint_contradictions(found: list[_Found]) -> Iterator[_Problem]:
-    usd = _by_taxonomy(found, "UsdSemantics")
-    isaac = _by_taxonomy(found, "Isaac")
-    for taxonomy in sorted(usd.keys() & isaac.keys()):
-        new, old = usd[taxonomy], isaac[taxonomy]
-        if {_normalized(value) for value in new}.isdisjoint(map(_normalized, old)):
-            message = f"{_USD}{taxonomy} says {_list(new)}, the older semantic:*:params says {_list(old)}"
-            yield _USD + taxonomy, f"{message}; keep the right one and remove the other"
-    tags = [value for entry in found if (entry.encoding, entry.strength) == ("Multiverse", "label") for value in entry.values]
+    usd, isaac = _by_taxonomy(found, "UsdSemantics"), _by_taxonomy(found, "Isaac")
+    pairs = []
+    for taxonomy, values in sorted(usd.items()):
+        older = taxonomy if taxonomy in isaac else _OLDER_NAMES.get(taxonomy, "")
+        pairs.append((_USD + taxonomy, values, f"the older {older} in semantic:*:params", isaac.get(older, [])))
+    name = "semanticTag:semanticLabels"
+    tags = [value for entry in found if entry.property_name == name for value in entry.values]
     for encoding, labels in (("UsdSemantics", usd), ("Isaac", isaac)):
         classes = [value for taxonomy in sorted(_CLASS_TAXONOMIES & labels.keys()) for value in labels[taxonomy]]
-        if tags and classes and _words(tags).isdisjoint(_words(classes)):
-            message = f"{_TAGS}semanticLabels says {_list(tags)}, the {encoding} class is {_list(classes)}"
-            yield f"{_TAGS}semanticLabels", f"{message}; check which is right"
+        pairs.append((name, tags, f"the {encoding} class", [c for c in classes if not _QCODE.fullmatch(c)]))
+    for name, values, other, other_values in pairs:
+        if values and other_values and _words(values).isdisjoint(_words(other_values)):
+            message = f"{name} says {_quote(values)}, but {other} says {_quote(other_values)}"
+            yield name, f"{message}; keep the right one and remove the other"
 
 
 def _by_taxonomy(found: list[_Found], encoding: Encoding) -> dict[str, list[str]]:
     grouped: dict[str, list[str]] = {}
     for entry in found:
-        values = [value for value in map(clean_text, entry.values) if value]
-        if entry.encoding == encoding and values and entry.taxonomy:
-            grouped.setdefault(_SAME_TAXONOMY.get(entry.taxonomy, entry.taxonomy), []).extend(values)
+        if entry.encoding == encoding and entry.taxonomy and any(entry.values):
+            grouped.setdefault(entry.taxonomy, []).extend(filter(None, entry.values))
     return grouped
-
-
-def _normalized(value: str) -> tuple[str, ...]:
-    return tuple(part.lower() for part in split_identifier(value)) or (value,)
 
 
 def _words(values: list[str]) -> set[str]:
@@ -334,9 +312,6 @@ def _words(values: list[str]) -> set[str]:
     return {word for lemma in lemmas for word in words_of(lemma) or (lemma.lower(),)}
 
 
-def _list(values: list[str]) -> str:
-    return ", ".join(map(_quote, dict.fromkeys(values[:4])))
-
-
-def _quote(value: str) -> str:
-    return repr(value if len(value) <= 60 else value[:59] + "…")
+def _quote(values: list[str]) -> str:
+    shown = (value if len(value) <= 60 else value[:59] + "…" for value in dict.fromkeys(values))
+    return ", ".join(map(repr, list(shown)[:4]))

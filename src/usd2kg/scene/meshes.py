@@ -18,7 +18,7 @@ __all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes"]
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
 
-NEUTRAL_GREY: Vector = (0.4, 0.4, 0.4)
+NEUTRAL_GREY: Vector = (0.5, 0.5, 0.5)
 """Linear colour of geometry that says nothing about its colour."""
 
 _PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
@@ -27,7 +27,7 @@ _SEGMENTS = 32
 _MOST_LOOKS = 16
 """A mesh coloured face by face is split by colour up to this many; past it the mean stands for all."""
 _MOST_COPIES = 4000
-_MOST_COPIED_TRIANGLES = 1_000_000
+_MOST_COPIED_TRIANGLES = 3_000_000
 _DEEPEST = 4
 """Point instancers may scatter point instancers, but not without end."""
 _FARTHEST = 1e30
@@ -90,21 +90,27 @@ def iterate_meshes(
         SceneError: a path is not on the stage.
     """
     reader = _MeshReader(opened.stage, time or Usd.TimeCode.EarliestTime(), diagnostics)
-    for root in _roots(opened.stage, root_paths):
-        for piece in reader.below(root):
+    for root, copy in _roots(opened.stage, root_paths):
+        for piece in reader.below(root, copy=copy):
             points = _to_metres(piece.points, opened.frame)
             color = piece.look.color or NEUTRAL_GREY
             yield ObjectMesh(piece.path, points, piece.triangles, color, piece.look.opacity)
 
 
-def _roots(stage: Any, root_paths: Iterable[str]) -> list[Any]:
-    paths = []
+def _roots(stage: Any, root_paths: Iterable[str]) -> list[tuple[Any, int | None]]:
+    """Return prims, each with the number of the copy that is meant where a path ends in `[number]`."""
+    paths: list[Any] = []
+    copies: list[tuple[Any, int | None]] = []
     for text in root_paths:
-        is_path = bool(Sdf.Path.IsValidPathString(text)) and text.startswith("/")
-        if not is_path or not stage.GetPrimAtPath(text):
+        name, _, number = text.removesuffix("]").partition("[")
+        is_path = bool(Sdf.Path.IsValidPathString(name)) and name.startswith("/")
+        if not is_path or not stage.GetPrimAtPath(name):
             raise SceneError(f"{stage.GetRootLayer().identifier}: there is no prim {text}, expected a prim path")
-        paths.append(Sdf.Path(text))
-    return [stage.GetPrimAtPath(path) for path in Sdf.Path.RemoveDescendentPaths(paths)]
+        if number.isdecimal():
+            copies.append((stage.GetPrimAtPath(name), int(number)))
+        else:
+            paths.append(Sdf.Path(name))
+    return [*((stage.GetPrimAtPath(path), None) for path in Sdf.Path.RemoveDescendentPaths(paths)), *copies]
 
 
 def _to_metres(points: Points, frame: StageFrame) -> NDArray[np.float32]:
@@ -125,8 +131,9 @@ class _MeshReader:
         self.xforms = UsdGeom.XformCache(time)
         self.shapes: dict[Any, _Shape | None] = {}
         self.looks: dict[Any, _Look] = {}
+        self.copied_triangles_left = _MOST_COPIED_TRIANGLES
 
-    def below(self, root: Any, space: Any = None, depth: int = 0) -> Iterator[_Piece]:
+    def below(self, root: Any, space: Any = None, depth: int = 0, copy: int | None = None) -> Iterator[_Piece]:
         """Yield the pieces at and below `root`: points in the frame of the prim `space`, of the world if None."""
         above = root.GetParent()
         while space is None and above:
@@ -141,11 +148,13 @@ class _MeshReader:
                 prims.PruneChildren()
             if (is_instancer or prim.IsA(UsdGeom.Gprim)) and self._is_drawn(prim):
                 try:
-                    yield from self._copies(prim, space, depth) if is_instancer else self._pieces(prim, space)
+                    yield from self._copies(prim, space, depth, copy) if is_instancer else self._pieces(prim, space)
                 except Tf.ErrorException as error:
                     self._note(prim, f"OpenUSD cannot read it ({str(error).strip().splitlines()[-1]})")
 
     def _is_invisible(self, prim: Any) -> bool:
+        if prim.IsPseudoRoot():
+            return False
         visibility = prim.GetAttribute(UsdGeom.Tokens.visibility)
         return visibility.HasAuthoredValue() and visibility.Get(self.time) == UsdGeom.Tokens.invisible
 
@@ -171,7 +180,7 @@ class _MeshReader:
             return np.array(self.xforms.GetLocalToWorldTransform(prim))
         return np.eye(4) if prim == space else np.array(self.xforms.ComputeRelativeTransform(prim, space)[0])
 
-    def _copies(self, prim: Any, space: Any, depth: int) -> Iterator[_Piece]:
+    def _copies(self, prim: Any, space: Any, depth: int, copy: int | None) -> Iterator[_Piece]:
         if depth >= _DEEPEST:
             self._note(prim, f"more than {_DEEPEST} point instancers inside each other")
             return
@@ -183,26 +192,29 @@ class _MeshReader:
         if len(placed) != len(prototype_of):
             self._note(prim, f"{len(prototype_of)} copies, but {len(placed)} positions")
             return
-        mask = instancer.ComputeMaskAtTime(self.time)
-        is_shown = _array(mask, np.bool_) if mask else np.ones(len(placed), np.bool_)
         matrices = np.array(placed).reshape(-1, 4, 4) @ self._matrix(prim, space)
+        is_shown = np.isfinite(matrices).all(axis=(1, 2))
+        if mask := instancer.ComputeMaskAtTime(self.time):
+            is_shown &= _array(mask, np.bool_)
+        if copy is not None:
+            ids = _array(instancer.GetIdsAttr().Get(self.time), np.int64)
+            is_shown &= (ids if len(ids) == len(placed) else np.arange(len(placed))) == copy
         for i, target in enumerate(instancer.GetPrototypesRel().GetForwardedTargets()):
             prototype = self.stage.GetPrimAtPath(target)
-            chosen = matrices[(prototype_of == i) & is_shown & np.isfinite(matrices).all(axis=(1, 2))]
+            chosen = matrices[(prototype_of == i) & is_shown]
             if prototype and len(chosen):
-                for piece in self.below(prototype, prototype, depth + 1):
-                    yield self._scatter(prim, piece, chosen)
+                pieces = list(self.below(prototype, prototype, depth + 1))
+                drawn = self._even_selection(prim, chosen, sum(len(piece.triangles) for piece in pieces))
+                for piece in pieces:
+                    yield _scatter(str(prim.GetPath()), piece, drawn)
 
-    def _scatter(self, prim: Any, piece: _Piece, matrices: Points) -> _Piece:
-        most = min(_MOST_COPIES, max(1, _MOST_COPIED_TRIANGLES // max(1, len(piece.triangles))))
+    def _even_selection(self, prim: Any, matrices: Points, triangle_count: int) -> Points:
+        most = min(_MOST_COPIES, max(1, self.copied_triangles_left // max(1, triangle_count)))
         if len(matrices) > most:
-            self._note(prim, f"{len(matrices)} copies, more than can be drawn; an even selection of {most} is", "copies")
+            self._note(prim, f"{len(matrices)} copies, an even selection of {most} is drawn; the others are", "copies")
             matrices = matrices[np.linspace(0, len(matrices) - 1, most).astype(np.int64)]
-        points = piece.points @ matrices[:, :3, :3] + matrices[:, 3, None, :3]
-        offsets = np.arange(len(matrices), dtype=np.int32)[:, None, None] * len(piece.points)
-        return _Piece(
-            str(prim.GetPath()), points.reshape(-1, 3), (piece.triangles + offsets).reshape(-1, 3), piece.look
-        )
+        self.copied_triangles_left -= len(matrices) * triangle_count
+        return matrices
 
     def _shape(self, prim: Any) -> _Shape | None:
         if not prim.IsInstanceProxy():
@@ -224,19 +236,10 @@ class _MeshReader:
         return shape
 
     def _looks_of(self, prim: Any, shape: _Shape) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
-        """Yield the looks of a prim, each with the triangles that have it; None for all of them."""
-        whole = self._material_look(prim)
-        colors = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(UsdGeom.Tokens.primvarsDisplayColor)
-        values = _array(colors.ComputeFlattened(self.time), np.float64) if colors and colors.HasValue() else None
-        if values is not None and len(values) and values.ndim == 2 and np.isfinite(values).all():
-            face_count = int(shape.face_of[-1]) + 1
-            if colors.GetInterpolation() == UsdGeom.Tokens.uniform and 1 < len(values) >= face_count:
-                distinct, which = np.unique(values, axis=0, return_inverse=True)
-                if len(distinct) <= _MOST_LOOKS:
-                    for i, color in enumerate(distinct):
-                        yield _Look(_rgb(color), whole.opacity), which.reshape(-1)[shape.face_of] == i
-                    return
-            whole = _Look(_rgb(values.mean(axis=0)), whole.opacity)
+        """Yield the looks of a prim, each with the triangles that have it; None for all of them.
+
+        A material's own colour wins, as in a renderer: exporters write a grey display colour beside it.
+        """
         rest = np.ones(len(shape.triangles), np.bool_)
         for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)):
             look = self._material_look(subset.GetPrim())
@@ -244,8 +247,26 @@ class _MeshReader:
             if look.color is not None and subset.GetElementTypeAttr().Get() == "face" and chosen.any():
                 yield look, chosen
                 rest &= ~chosen
-        if rest.any():
+        whole = self._material_look(prim)
+        if whole.color is None:
+            for color, faces in self._display_colors(prim, int(shape.face_of[-1]) + 1):
+                chosen = rest if faces is None else rest & faces[shape.face_of]
+                if chosen.any():
+                    yield _Look(color, whole.opacity), None if chosen.all() else chosen
+        elif rest.any():
             yield whole, None if rest.all() else rest
+
+    def _display_colors(self, prim: Any, face_count: int) -> list[tuple[Vector | None, NDArray[np.bool_] | None]]:
+        """Return colours, each with the faces that have it; None for all of them."""
+        primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(UsdGeom.Tokens.primvarsDisplayColor)
+        colors = _array(primvar.ComputeFlattened(self.time), np.float64) if primvar and primvar.HasValue() else None
+        if colors is None or not len(colors) or colors.ndim != 2 or not np.isfinite(colors).all():
+            return [(None, None)]
+        if primvar.GetInterpolation() == UsdGeom.Tokens.uniform and len(colors) >= face_count:
+            distinct, which = np.unique(colors, axis=0, return_inverse=True)
+            if len(distinct) <= _MOST_LOOKS:
+                return [(_rgb(color), which.reshape(-1) == i) for i, color in enumerate(distinct)]
+        return [(_rgb(colors.mean(axis=0)), None)]
 
     def _material_look(self, prim: Any) -> _Look:
         material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
@@ -281,6 +302,15 @@ class _MeshReader:
     def _note(self, prim: Any, trouble: str, code: str = "mesh") -> None:
         if self.notes is not None:
             self.notes.append(Diagnostic(code, f"{trouble}; not in pictures", str(prim.GetPath())))
+
+
+def _scatter(path: str, piece: _Piece, matrices: Points) -> _Piece:
+    points = piece.points @ matrices[:, :3, :3] + matrices[:, 3, None, :3]
+    offsets = np.arange(len(matrices), dtype=np.int32)[:, None, None] * len(piece.points)
+    triangles = np.where(
+        (np.linalg.det(matrices[:, :3, :3]) < 0)[:, None, None], piece.triangles[:, ::-1], piece.triangles
+    )
+    return _Piece(path, points.reshape(-1, 3), (triangles + offsets).reshape(-1, 3), piece.look)
 
 
 def _array(values: Any, dtype: Any) -> NDArray[Any]:
@@ -340,7 +370,9 @@ def _solid(type_name: str, number: Callable[[str], float]) -> tuple[Points, Tria
             return _CUBE_CORNERS * side, _CUBE_TRIANGLES
         case "Plane":
             x, y = number("width") / 2, number("length") / 2
-            return np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]]), np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+            return np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]]), np.array(
+                [[0, 1, 2], [0, 2, 3]], np.int32
+            )
         case "Sphere":
             return _turn([*_arc(radius, 0.0, -90, 90)])
         case "Cylinder":

@@ -108,6 +108,9 @@ class _Run:
         """Return what the words say, best first; other sources are asked only if the name is not clear."""
         findings: list[_Finding] = []
         for group, text in _texts(view):
+            if group in {"hierarchy", "parts"} and self._says_what_it_is(view.name):
+                # A tulip is no class of the TBox; that it has a stem does not make it a tube.
+                break
             for match in self._match(text, view.parents if group == "name" else ()):
                 said = match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
                 findings.append(_Finding(group, Match(match.class_iri, match.score * _SHARES[group], said)))
@@ -115,6 +118,10 @@ class _Run:
             if findings and findings[0].match.score >= _CLEAR:
                 break
         return findings
+
+    def _says_what_it_is(self, name: str) -> bool:
+        words = self._reader.read(name).words
+        return bool(words) and not self._reader.is_modifier(words[-1]) and self._reader.is_noun(words[-1])
 
     def _match_text(self, text: str, parents: tuple[str, ...]) -> tuple[Match, ...]:
         return tuple(self._matcher.match(self._reader.read(text, parents), parents))

@@ -15,6 +15,7 @@ _LABEL, _SYNONYM, _HEAD = 1.0, 0.92, 0.6
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
+_GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
 _PLAUSIBLE = 0.7
 """A sense that fits this share as well as the best one may be meant too."""
 
@@ -45,8 +46,6 @@ class Lexicon:
     """Term without spaces → the class it names."""
     anchors: Mapping[int, Anchor]
     """Synset → the class aligned with it."""
-    first_words: Mapping[str, Term]
-    """First word of a label → that class, where no other label begins with it (`trash` of trash container)."""
     vocabulary: frozenset[str]
     """All single words of the terms."""
     default: ClassIRI
@@ -76,14 +75,12 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
                 _keep_best(terms, "".join(words), Term(cls.iri, " ".join(words), weight))
     for key, term in list(terms.items()):
         _anchor(key, term, tbox, terms, taxonomy, anchors)
-    for term in list(terms.values()):
-        _add_head(term, terms, taxonomy)
+    _add_heads(terms)
     return Lexicon(
         terms=terms,
         anchors=anchors,
-        first_words=_first_words(terms),
         vocabulary=frozenset(word for term in terms.values() for word in term.text.split()),
-        default=max(tbox.roots, key=lambda root: (sum(tbox.is_subclass(c.iri, root) for c in tbox.classes), root)),
+        default=_default_class(tbox, taxonomy),
     )
 
 
@@ -121,23 +118,33 @@ def _keep_best(terms: dict[str, Term], key: str, term: Term) -> None:
         terms[key] = term
 
 
-def _add_head(term: Term, terms: dict[str, Term], taxonomy: Taxonomy) -> None:
-    """Let the last word of a label stand for the class where no class goes by that word alone."""
-    head = term.text.split()[-1]
-    if term.weight == _LABEL and " " in term.text and head not in terms:
-        terms[head] = Term(term.class_iri, head, _HEAD)
-
-
-def _first_words(terms: Mapping[str, Term]) -> dict[str, Term]:
-    found: dict[str, list[Term]] = {}
+def _add_heads(terms: dict[str, Term]) -> None:
+    """Let the last word of a two-word label stand for the class, where no other label ends with it."""
+    by_head: dict[str, list[Term]] = {}
     for term in terms.values():
-        if " " in term.text and term.weight == _LABEL:
-            found.setdefault(term.text.split()[0], []).append(term)
-    return {
-        word: Term(named[0].class_iri, named[0].text, _HEAD)
-        for word, named in found.items()
-        if len({term.class_iri for term in named}) == 1 and word not in terms
-    }
+        if term.weight == _LABEL and " " in term.text:
+            by_head.setdefault(term.text.split()[-1], []).append(term)
+    for head, named in by_head.items():
+        is_unique = len({term.class_iri for term in named}) == 1
+        if is_unique and head not in terms and len(named[0].text.split()) == 2:
+            terms[head] = Term(named[0].class_iri, head, _HEAD)
+
+
+def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
+    """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
+
+    An ontology's largest root may be of activities or spaces, and no thing is one of those.
+    """
+
+    def rank(root: ClassIRI) -> tuple[int, int, str]:
+        words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or ("",)
+        head = taxonomy.singular(words[-1])
+        senses = taxonomy.senses(head)
+        is_made = bool(senses) and senses[0].domain == "artifact"
+        kind = 0 if head in _GENERAL else 1 if is_made else 2
+        return (kind, -sum(tbox.is_subclass(cls.iri, root) for cls in tbox.classes), root)
+
+    return min(tbox.roots, key=rank)
 
 
 def _anchor(

@@ -66,10 +66,6 @@ class Matcher:
             elif not self._reader.is_modifier(phrase.words[head - 1]):
                 # The word that should say what it is means nothing here: what stands before it says less.
                 share *= _FORMER_HEAD
-        for word in reversed(phrase.words):
-            term = self._lexicon.first_words.get(word)
-            if term is not None:
-                yield Match(term.class_iri, _TERM * term.weight, f"“{word}” is the beginning of “{term.text}”{note}")
 
     def _names_contents(self, words: tuple[str, ...]) -> bool:
         """Return whether the last word says what a thing before it is made of or holds: `can_tomato`, `sink_steel`.

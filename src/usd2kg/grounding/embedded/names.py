@@ -89,6 +89,10 @@ class NameReader:
         senses = self._taxonomy.senses(word)
         return bool(senses) and all(sense.domain in _STUFF_DOMAINS for sense in senses)
 
+    def is_noun(self, word: str) -> bool:
+        """Return whether the taxonomy knows a word as a noun for something physical."""
+        return word in self._taxonomy
+
     def is_stuff(self, word: str) -> bool:
         """Return whether a word is first of all something that a thing is made of or holds: steel, glass, tomato."""
         senses = self._taxonomy.senses(word)
