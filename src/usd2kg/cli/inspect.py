@@ -72,13 +72,16 @@ def _as_json(scene: "Scene") -> dict[str, Any]:
         "objects": [_object_as_json(obj) for obj in scene.objects],
         "families": families,
         "left_out": dict(scene.left_out),
+        "joints": [asdict(joint) for joint in scene.joints],
         "diagnostics": [asdict(diagnostic) for diagnostic in scene.diagnostics],
     }
 
 
 def _object_as_json(obj: "SceneObject") -> dict[str, Any]:
     data = asdict(obj)
-    return {"path": data.pop("prim_path"), **data, "size": obj.box.size if obj.box else None}
+    labels = data.pop("labels")._asdict()
+    size = obj.box.size if obj.box else None
+    return {"path": data.pop("prim_path"), **data, "labels": labels, "words": obj.words, "size": size}
 
 
 def _as_text(scene: "Scene") -> str:

@@ -3,7 +3,18 @@
 This package alone knows OpenUSD.
 """
 
-from usd2kg.scene.model import Box, Diagnostic, Instances, Scene, SceneObject, StageFrame
+from usd2kg.scene.model import (
+    Box,
+    Diagnostic,
+    Instances,
+    Joint,
+    Label,
+    MaterialDetails,
+    ObjectLabels,
+    Scene,
+    SceneObject,
+    StageFrame,
+)
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
 from usd2kg.scene.read import ASKED_FOR, explain_choice, read_scene
 from usd2kg.scene.views import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, abbreviate, view_objects
@@ -15,7 +26,11 @@ __all__ = [
     "Box",
     "Diagnostic",
     "Instances",
+    "Joint",
+    "Label",
+    "MaterialDetails",
     "NamingRegime",
+    "ObjectLabels",
     "ObjectView",
     "ReadOptions",
     "Scene",

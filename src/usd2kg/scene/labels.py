@@ -9,20 +9,17 @@ Labels are evidence, not truth: shipped assets carry placeholders and leftovers,
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
-from typing import Any, Literal, NamedTuple
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from pxr import Usd, UsdGeom
 
 from usd2kg.scene.metadata import clean_text, texts_of
-from usd2kg.scene.model import Diagnostic
+from usd2kg.scene.model import Diagnostic, Encoding, Label, ObjectLabels, Strength
 from usd2kg.scene.outline import Node
 from usd2kg.words import split_identifier, words_of
 
-__all__ = ["Label", "LabelReader", "ObjectLabels", "lint_labels", "read_labels"]
-
-Encoding = Literal["UsdSemantics", "Isaac", "Multiverse"]
-Strength = Literal["label", "report"]
+__all__ = ["LabelReader", "lint_labels", "read_labels"]
 
 _LONGEST = 200
 _MOST_PARTS = 64
@@ -40,43 +37,6 @@ _PLACEHOLDERS = frozenset(
 _CLASS_TAXONOMIES = frozenset({"class", "wikidata_class", "iri"})
 _OLDER_NAMES = {"wikidata_qcode": "qcode"}
 _QCODE = re.compile("Q[0-9]+")
-
-
-@dataclass(frozen=True, slots=True)
-class Label:
-    """One label as the stage has it, white space and unprintable characters cleaned up."""
-
-    prim_path: str
-    """The prim that carries the label: for an inherited one, the prim above."""
-    encoding: Encoding
-    """How it is written on the stage."""
-    taxonomy: str
-    """What the value is a word of: `class`, `wikidata_qcode`… For Multiverse the ontology's namespace IRI, or the
-    name of the ontology's prim where the namespace is not authored."""
-    value: str
-    """The label: a class name, a Wikidata item, a path of classes, whatever was authored."""
-    is_inherited: bool = False
-    """Whether it stands on a prim above the one asked for; UsdSemantics lets labels inherit down the namespace."""
-    strength: Strength = "label"
-    """`report` for Multiverse's semanticReports: candidates that a tool brought up, weaker than labels."""
-
-    @property
-    def iri(self) -> str | None:
-        """IRI of the class where the label states one, else None."""
-        if self.encoding == "Multiverse" and self.taxonomy.endswith(("#", "/")):
-            return self.taxonomy + self.value
-        return self.value if self.taxonomy == "iri" else None
-
-
-class ObjectLabels(NamedTuple):
-    """The labels of one object, kept apart by where they stand; each set without repetitions."""
-
-    own: tuple[Label, ...]
-    """On the object's prim."""
-    inherited: tuple[Label, ...]
-    """On prims above it, nearest first, without those it has itself."""
-    of_parts: tuple[Label, ...]
-    """On prims and geometry subsets below it, nested objects left out; at most 64."""
 
 
 class LabelReader:
@@ -127,10 +87,12 @@ def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
     that does not exist still gives the name in its path.
     """
     names = _semantic_names(prim)
+    if not names:
+        return ()
     path = str(prim.GetPath())
     return _distinct(
         Label(path, entry.encoding, entry.taxonomy, value, strength=entry.strength)
-        for entry in (_find(prim, names, time) if names else ())
+        for entry in _find(prim, names, time)
         for value in entry.values
         if value and len(value) <= _LONGEST and (entry.taxonomy or entry.encoding != "Isaac")
     )
@@ -195,10 +157,12 @@ def lint_labels(source: Any, time: Any = None) -> list[Diagnostic]:
 def _stage_prims(stage: Any) -> Iterator[Any]:
     seen = set()
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
-        shared = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
-        if shared not in seen:
+        if prim.IsInstanceProxy():
+            shared = prim.GetPrimInPrototype().GetPath()
+            if shared in seen:
+                continue
             seen.add(shared)
-            yield prim
+        yield prim
 
 
 def _lint_prim(prim: Any, time: Any) -> Iterator[Diagnostic]:

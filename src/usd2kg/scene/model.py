@@ -1,13 +1,31 @@
 """The records that reading a stage gives: plain, immutable, without any open stage behind them."""
 
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal, NamedTuple
 
-__all__ = ["Box", "Diagnostic", "Instances", "Scene", "SceneObject", "StageFrame"]
+from usd2kg.words import words_of
+
+__all__ = [
+    "Box",
+    "Diagnostic",
+    "Instances",
+    "Joint",
+    "Label",
+    "MaterialDetails",
+    "ObjectLabels",
+    "Scene",
+    "SceneObject",
+    "StageFrame",
+]
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
+Encoding = Literal["UsdSemantics", "Isaac", "Multiverse"]
+Strength = Literal["label", "report"]
+JointType = Literal["revolute", "prismatic", "fixed", "spherical", "distance", "other"]
+Direction = Literal["vertical", "horizontal", "oblique"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +95,101 @@ class Instances:
 
 
 @dataclass(frozen=True, slots=True)
+class Label:
+    """One label as the stage has it, white space and unprintable characters cleaned up."""
+
+    prim_path: str
+    """The prim that carries the label: for an inherited one, the prim above."""
+    encoding: Encoding
+    """How it is written on the stage."""
+    taxonomy: str
+    """What the value is a word of: `class`, `wikidata_qcode`… For Multiverse the ontology's namespace IRI, or the
+    name of the ontology's prim where the namespace is not authored."""
+    value: str
+    """The label: a class name, a Wikidata item, a path of classes, whatever was authored."""
+    is_inherited: bool = False
+    """Whether it stands on a prim above the one asked for; UsdSemantics lets labels inherit down the namespace."""
+    strength: Strength = "label"
+    """`report` for Multiverse's semanticReports: candidates that a tool brought up, weaker than labels."""
+
+    @property
+    def iri(self) -> str | None:
+        """IRI of the class where the label states one, else None."""
+        if self.encoding == "Multiverse" and self.taxonomy.endswith(("#", "/")):
+            return self.taxonomy + self.value
+        return self.value if self.taxonomy == "iri" else None
+
+
+class ObjectLabels(NamedTuple):
+    """The labels of one object, kept apart by where they stand; each set without repetitions."""
+
+    own: tuple[Label, ...]
+    """On the object's prim."""
+    inherited: tuple[Label, ...]
+    """On prims above it, nearest first, without those it has itself."""
+    of_parts: tuple[Label, ...]
+    """On prims and geometry subsets below it, nested objects left out; at most 64."""
+
+
+_NO_LABELS = ObjectLabels((), (), ())
+
+
+@dataclass(frozen=True, slots=True)
+class MaterialDetails:
+    """A material and its surface, where that is one constant.
+
+    None means that a texture or a network decides, or that nothing is authored.
+    """
+
+    name: str
+    """Name of the material prim."""
+    prim_path: str
+    """Path of the material prim, also where it does not exist."""
+    base_color: Vector | None = None
+    """Diffuse or base colour, linear RGB."""
+    roughness: float | None = None
+    """0 is a mirror, 1 is matt."""
+    metallic: float | None = None
+    """0 is a dielectric, 1 a metal."""
+    opacity: float | None = None
+    """0 is clear, 1 is solid."""
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """One joint: what moves against what, which way and how far.
+
+    Angles are radians, lengths metres, vectors in the z-up world frame; None means that the stage does not say.
+    """
+
+    prim_path: str
+    """The joint's prim."""
+    type: JointType
+    """`other` for joints with free choice of axes (`PhysicsJoint`) and for types of vendors."""
+    body0: str | None
+    """The prim it hangs on; None for the world. Where the authored one does not exist, the nearest above it."""
+    body1: str | None
+    """The prim that it moves, found in the same way."""
+    axis: str | None
+    """The authored axis in the joint's own frame: X, Y or Z; None for joints without one."""
+    axis_vector: Vector | None
+    """The same as unit vector in the world at the time that was read: hinge line, slide direction. For a slide it
+    points where positive values move body1, for a hinge positive angles turn right-handed about it."""
+    direction: Direction | None
+    """`vertical` or `horizontal` within 10 degrees, else `oblique`."""
+    lower: float | None
+    """Lower limit: radians for revolute, metres for prismatic and distance joints; None if unlimited."""
+    upper: float | None
+    """Upper limit, in the same way."""
+    value: float | None
+    """Joint position where a joint state is authored: radians for revolute, metres for prismatic joints."""
+    is_enabled: bool
+    """Whether the simulation heeds the joint."""
+    is_excluded_from_articulation: bool
+    """Whether it closes a loop, so that it is no part of the tree of links."""
+
+
+@dataclass(frozen=True, slots=True)
 class SceneObject:
     """One thing a person would point at and name, with all that the stage says about it.
 
@@ -126,6 +239,19 @@ class SceneObject:
     """Set where the object stands for the copies of a point instancer."""
     oriented_size: Vector | None = None
     """Extent along the prim's own axes, where they are turned against the world's; None where `box` says as much."""
+    labels: ObjectLabels = _NO_LABELS
+    """Semantic labels that the stage carries already, in whatever encoding; evidence, not truth."""
+    variants: tuple[tuple[str, str], ...] = ()
+    """(variant set, selected variant), by name of the set."""
+    texts: tuple[tuple[str, str], ...] = ()
+    """(name, text) of custom attributes and metadata that carry words."""
+    material_details: tuple[MaterialDetails, ...] = ()
+    """The bound materials with base colour and finish, where those are constant."""
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The telling words of the display name or, without one, of the prim's name."""
+        return words_of(self.display_name or self.name)
 
 
 @dataclass(frozen=True)
@@ -148,8 +274,10 @@ class Scene:
     """Reason → number of prims that are not objects for that reason."""
     diagnostics: tuple[Diagnostic, ...] = ()
     """What was odd on the stage."""
-    missing_paths: tuple[str, ...] = field(default=())
+    missing_paths: tuple[str, ...] = ()
     """Paths that were asked for and do not exist on the stage."""
+    joints: tuple[Joint, ...] = ()
+    """How things move, in traversal order."""
 
     @cached_property
     def by_path(self) -> Mapping[str, SceneObject]:

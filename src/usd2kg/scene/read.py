@@ -12,6 +12,9 @@ from usd2kg.errors import SceneError
 from usd2kg.scene import evidence
 from usd2kg.scene.bounds import BoxReader, is_measurable, read_pose, union
 from usd2kg.scene.instancers import count_copies, read_copies
+from usd2kg.scene.joints import read_joints
+from usd2kg.scene.labels import LabelReader, lint_labels
+from usd2kg.scene.metadata import MaterialReader, text_attributes, variant_selections
 from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject, StageFrame
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Node, Outline, outline_stage
@@ -49,6 +52,8 @@ def read_scene(
         outline = outline_stage(opened, time)
         selection = select_objects(outline, tuple(dict.fromkeys(paths or ())), options.selection)
         objects, notes = _read_objects(opened, outline, selection, time, options.expand_instancers)
+        joints = read_joints(opened.stage, opened.frame, time)
+        label_notes = lint_labels(opened.stage, time)
     if not objects:
         raise SceneError(_no_object_message(opened.source, outline, selection, opened))
     logger.info("%s: %d objects among %d prims", opened.source, len(objects), outline.prim_count)
@@ -61,8 +66,10 @@ def read_scene(
         objects=tuple(objects),
         left_out=dict(sorted(selection.left_out.items())),
         missing_paths=selection.missing,
+        joints=joints.joints,
     )
-    return replace(scene, diagnostics=(*opened.diagnostics, *openusd_notes, *notes, *check_plausibility(scene)))
+    found = (*notes, *joints.diagnostics, *label_notes, *check_plausibility(scene))
+    return replace(scene, diagnostics=(*opened.diagnostics, *openusd_notes, *found))
 
 
 def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptions | None = None) -> str:
@@ -123,6 +130,8 @@ class _ObjectReader:
         self.time = time
         self.boxes = BoxReader(frame, time)
         self.xforms = UsdGeom.XformCache(time)
+        self.labels = LabelReader(time)
+        self.materials = MaterialReader(time)
         self.notes: list[Diagnostic] = []
 
     def read(self, node: Node, parent_path: str | None) -> SceneObject:
@@ -152,6 +161,10 @@ class _ObjectReader:
             display_color=evidence.display_color(nodes, self.time),
             instance_of=str(prim.GetPrototype().GetPath()) if prim.IsInstance() else None,
             instances=count_copies(nodes, self.time),
+            labels=self.labels.read(nodes),
+            variants=variant_selections(prim),
+            texts=text_attributes(prim, self.time),
+            material_details=self.materials.read(nodes),
         )
 
     def own_instancers(self, node: Node) -> list[Node]:

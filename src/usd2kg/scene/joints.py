@@ -1,0 +1,211 @@
+"""How things move: the physics joints of a stage, in radians, metres and the z-up world frame."""
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
+
+from usd2kg.scene.metadata import texts_of
+from usd2kg.scene.model import Diagnostic, Direction, Joint, JointType, StageFrame, Vector
+
+__all__ = ["JointReading", "read_joints"]
+
+_TYPES: dict[str, JointType] = {
+    "PhysicsRevoluteJoint": "revolute",
+    "PhysicsPrismaticJoint": "prismatic",
+    "PhysicsFixedJoint": "fixed",
+    "PhysicsSphericalJoint": "spherical",
+    "PhysicsDistanceJoint": "distance",
+}
+_LIMITS: dict[str, tuple[str, str]] = {
+    "revolute": ("physics:lowerLimit", "physics:upperLimit"),
+    "prismatic": ("physics:lowerLimit", "physics:upperLimit"),
+    "distance": ("physics:minDistance", "physics:maxDistance"),
+}
+_STATES = {"revolute": "state:angular:physics:position", "prismatic": "state:linear:physics:position"}
+_AXES = {"X": Gf.Vec3d(1, 0, 0), "Y": Gf.Vec3d(0, 1, 0), "Z": Gf.Vec3d(0, 0, 1)}
+_WITH_AXIS = frozenset({"revolute", "prismatic", "spherical"})
+_UNLIMITED = 1e30
+"""Exporters write infinity, or the largest 32-bit number, where there is no limit."""
+_NEARLY = math.cos(math.radians(10))
+
+
+class JointReading(NamedTuple):
+    """The joints in traversal order, and what was odd about them."""
+
+    joints: tuple[Joint, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    """Code `joint`."""
+
+
+def read_joints(source: Any, frame: StageFrame, time: Any) -> JointReading:
+    """Return the joints of a stage, those within instances too.
+
+    Units and axes are UsdPhysics': limits and states in degrees or stage units, frames by localRot0 in body0.
+
+    Args:
+        source: a stage, or joint prims.
+        frame: the stage's measures.
+        time: time code at which bodies and values are read.
+    """
+    prims = _joint_prims(source) if hasattr(source, "GetPseudoRoot") else source
+    reader = _JointReader(frame, time)
+    return JointReading(tuple(reader.read(prim) for prim in prims), tuple(reader.notes))
+
+
+def _joint_prims(stage: Any) -> Iterator[Any]:
+    is_joint: dict[str, bool] = {}
+    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
+        type_name = str(prim.GetTypeName())
+        if type_name not in is_joint:
+            # Vendors' joints (PhysxPhysicsGearJoint) are unknown to plain OpenUSD; their names tell.
+            is_joint[type_name] = prim.IsA(UsdPhysics.Joint) or type_name.endswith("Joint")
+        if is_joint[type_name] and (prim.IsA(UsdPhysics.Joint) or prim.HasRelationship("physics:body1")):
+            yield prim
+
+
+class _JointReader:
+    def __init__(self, frame: StageFrame, time: Any) -> None:
+        self.frame = frame
+        self.time = time
+        self.xforms = UsdGeom.XformCache(time)
+        self.notes: list[Diagnostic] = []
+
+    def read(self, prim: Any) -> Joint:
+        kind = _TYPES.get(str(prim.GetTypeName()), "other")
+        bodies = [self._body(prim, side) for side in (0, 1)]
+        if not any(path for path, _ in bodies):
+            self._note(prim, "it joins no body that is on the stage; expected physics:body0 and body1")
+        axis = self._axis(prim) if kind in _WITH_AXIS else None
+        vector = self._axis_vector(prim, axis, [body for _, body in bodies]) if axis else None
+        lower, upper = self._limits(prim, kind)
+        return Joint(
+            prim_path=str(prim.GetPath()),
+            type=kind,
+            body0=bodies[0][0],
+            body1=bodies[1][0],
+            axis=axis,
+            axis_vector=vector,
+            direction=_direction(vector) if vector else None,
+            lower=lower,
+            upper=upper,
+            value=self._value(prim, kind),
+            is_enabled=self._flag(prim, "physics:jointEnabled", default=True),
+            is_excluded_from_articulation=self._flag(prim, "physics:excludeFromArticulation", default=False),
+        )
+
+    def _body(self, prim: Any, side: int) -> tuple[str | None, Any]:
+        """Return the path of a body, and its prim: None for the world, an invalid prim if the target is broken."""
+        relationship = prim.GetRelationship(f"physics:body{side}")
+        targets = relationship.GetTargets() if relationship else []
+        if not targets:
+            return None, None
+        if len(targets) > 1:
+            self._note(prim, f"physics:body{side} has {len(targets)} targets, expected one; <{targets[0]}> is used")
+        path = targets[0].GetPrimPath()
+        body = prim.GetStage().GetPrimAtPath(path)
+        if body and body.IsActive():
+            return str(path), body
+        above = _nearest_above(prim.GetStage(), path)
+        state = "is inactive" if body else "is not on the stage"
+        instead = f"<{above}> is used" if above else "it is left out"
+        self._note(prim, f"physics:body{side} is <{path}>, which {state}; {instead}")
+        return above, Usd.Prim()
+
+    def _axis(self, prim: Any) -> str | None:
+        # UsdPhysics: the axis is X where none is authored.
+        axis = next(iter(texts_of(prim, "physics:axis", self.time)), "X")
+        if axis not in _AXES:
+            self._note(prim, f"physics:axis is {axis!r}, expected X, Y or Z; it has no axis")
+            return None
+        return axis
+
+    def _axis_vector(self, prim: Any, axis: str, bodies: list[Any]) -> Vector | None:
+        # Both sides describe the same line. Side 0 stands still; the world (None) has only an axis to offer where
+        # no side names a body.
+        sides = [side for side in (0, 1) if bodies[side]] or [side for side in (0, 1) if bodies[side] is None]
+        if not sides:
+            return None
+        side = sides[0]
+        direction = _AXES[axis]
+        local = self._get(prim, f"physics:localRot{side}")
+        # An all-zero rotation is an unset one.
+        if isinstance(local, Gf.Quatf | Gf.Quatd | Gf.Quath) and not local.GetLength() < 1e-9:
+            direction = Gf.Rotation(Gf.Quatd(local).GetNormalized()).TransformDir(direction)
+        if bodies[side]:
+            try:
+                # Bodies are rigid: their scale does not tilt the axis.
+                pose = self.xforms.GetLocalToWorldTransform(bodies[side]).RemoveScaleShear()
+            except Tf.ErrorException:
+                return None
+            direction = pose.TransformDir(direction)
+        return _unit(direction, self.frame)
+
+    def _limits(self, prim: Any, kind: JointType) -> tuple[float | None, float | None]:
+        if kind not in _LIMITS:
+            return None, None
+        lower, upper = (self._number(prim, name) for name in _LIMITS[kind])
+        if kind == "distance":
+            # UsdPhysics: a negative distance means that there is no limit.
+            lower, upper = (None if value is None or value < 0 else value for value in (lower, upper))
+        if lower is not None and upper is not None and lower > upper:
+            self._note(prim, f"its lower limit {lower:g} is above its upper limit {upper:g}; both are kept as authored")
+        return self._convert(lower, kind), self._convert(upper, kind)
+
+    def _value(self, prim: Any, kind: JointType) -> float | None:
+        return self._convert(self._number(prim, _STATES[kind]), kind) if kind in _STATES else None
+
+    def _convert(self, value: float | None, kind: JointType) -> float | None:
+        if value is None:
+            return None
+        return math.radians(value) if kind == "revolute" else value * self.frame.metres_per_unit
+
+    def _number(self, prim: Any, name: str) -> float | None:
+        """Return an authored number in the stage's units; None if there is none, or it stands for infinity."""
+        value = self._get(prim, name)
+        if value is None:
+            return None
+        if not isinstance(value, int | float) or math.isnan(value):
+            self._note(prim, f"{name} is {value!r}, expected a number; it is left out")
+            return None
+        # A 32-bit 0.4 (0.4000000059604645) means the number that was typed.
+        return float(f"{value:.7g}") if abs(value) < _UNLIMITED else None
+
+    def _flag(self, prim: Any, name: str, *, default: bool) -> bool:
+        value = self._get(prim, name)
+        return value if isinstance(value, bool) else default
+
+    def _get(self, prim: Any, name: str) -> Any:
+        attribute = prim.GetAttribute(name)
+        return attribute.Get(self.time) if attribute else None
+
+    def _note(self, prim: Any, message: str) -> None:
+        self.notes.append(Diagnostic("joint", message, str(prim.GetPath())))
+
+
+def _nearest_above(stage: Any, path: Any) -> str | None:
+    for above in path.GetPrefixes()[-2::-1]:
+        prim = stage.GetPrimAtPath(above)
+        if prim and prim.IsActive():
+            return str(above)
+    return None
+
+
+def _unit(direction: Any, frame: StageFrame) -> Vector | None:
+    """Return a direction of the stage as unit vector, z-up; None if it has no finite length."""
+    x, y, z = (direction[0], direction[1], direction[2])
+    if frame.up_axis == "Y":
+        y, z = -z, y
+    length = math.hypot(x, y, z)
+    if not math.isfinite(length) or length < 1e-9:
+        return None
+    # Noise of 32-bit rotations: 6e-8 where 0 is meant.
+    unit = [0.0 if abs(value) < 1e-6 * length else value / length for value in (x, y, z)]
+    return (unit[0], unit[1], unit[2])
+
+
+def _direction(vector: Vector) -> Direction:
+    if abs(vector[2]) >= _NEARLY:
+        return "vertical"
+    return "horizontal" if math.hypot(vector[0], vector[1]) >= _NEARLY else "oblique"

@@ -1,0 +1,276 @@
+"""What people wrote and chose on a prim: variants, custom texts that carry words, materials in detail."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, TypeVar
+
+from pxr import Sdf, Usd, UsdGeom, UsdShade
+
+from usd2kg.scene.model import MaterialDetails, Vector
+from usd2kg.scene.outline import Node
+from usd2kg.words import split_identifier, words_of
+
+__all__ = [
+    "MaterialReader",
+    "clean_text",
+    "material_details",
+    "text_attributes",
+    "texts_of",
+    "variant_selections",
+]
+
+_T = TypeVar("_T")
+
+_MOST_TEXTS = 20
+_LONGEST_TEXT = 200
+_TEXT_TYPES = ("string", "token", "string[]", "token[]")
+_TECHNICAL_NAMESPACES = frozenset(
+    """
+    arnold collection info inputs karma material mjc newton omni outputs physics primvars rdf ri rtx semantic
+    semanticTag semantics skel state ui urdf xformOp
+    """.split()
+)
+"""First parts of property names that steer a tool; labels have a reader of their own."""
+_TECHNICAL_KEYS = frozenset("name identifier version payloadAssetDependencies userDocBrief schemaUserDocBrief".split())
+"""Keys of assetInfo that are told already or say nothing; the schemas' own documentation."""
+_SWITCHES = frozenset("true false yes no on off none null default auto unknown undefined nan inf".split())
+
+_HEX = re.compile(r"(?:[a-z0-9]+:)?(?:0x)?(?=[a-f-]*[0-9])[0-9a-f-]{8,}|[0-9a-f]{16,}", re.IGNORECASE)
+"""Hashes, UUIDs, colours and addresses, with or without a prefix such as `sha256:`."""
+_BASE64 = re.compile(r"[A-Za-z0-9+/]{15,}={0,2}")
+_PATH = re.compile(r"(?:[~.]{0,2}[/\\]|[A-Za-z]:[\\/]|@).*|\S*\\\S*|\S+/\S+/\S*|\S+\.[A-Za-z][A-Za-z0-9]{1,4}")
+_URL = re.compile(r"(?:[a-z][a-z0-9+.-]*:/|www\.|mailto:|urn:|data:)\S*", re.IGNORECASE)
+
+_BASE_COLOR = ("diffuseColor", "base_color", "baseColor", "diffuse_color_constant", "diffuse_reflection_color")
+_ROUGHNESS = ("roughness", "specular_roughness", "reflection_roughness_constant", "specular_reflection_roughness")
+_METALLIC = ("metallic", "metalness", "base_metalness", "metallic_constant")
+_OPACITY = ("opacity", "geometry_opacity", "alpha", "opacity_constant")
+"""Inputs of UsdPreviewSurface; standard_surface, open_pbr_surface, gltf_pbr (MaterialX); OmniPBR, OmniSurface (MDL)."""
+_RENDER_CONTEXTS = ("", "mtlx", "mdl")
+
+
+def variant_selections(prim: Any) -> tuple[tuple[str, str], ...]:
+    """Return (variant set, selected variant) of a prim, by name of the set; sets without a selection are left out."""
+    if not prim.HasVariantSets():
+        return ()
+    sets = prim.GetVariantSets()
+    pairs = ((str(name), str(sets.GetVariantSelection(name))) for name in sorted(sets.GetNames()))
+    return tuple((name, selection) for name, selection in pairs if selection)
+
+
+def text_attributes(prim: Any, time: Any = None) -> tuple[tuple[str, str], ...]:
+    """Return (name, text) of what somebody wrote on a prim beyond the schemas: at most 20, each text once.
+
+    Attributes of type string or token (lists are joined) by name, then `customData:<key>`, then `assetInfo:<key>`.
+    Kept are texts of 2 to 200 characters with words; paths, URLs, numbers, switches, hashes and encoded data are not.
+
+    Args:
+        prim: the prim, an instance proxy too.
+        time: time code; None for the earliest.
+    """
+    texts: dict[str, str] = {}
+    for name, text in _texts(prim, Usd.TimeCode.EarliestTime() if time is None else time):
+        cleaned = clean_text(text)
+        if _carries_words(cleaned):
+            texts.setdefault(cleaned, name)
+    return tuple((name, text) for text, name in list(texts.items())[:_MOST_TEXTS])
+
+
+def _texts(prim: Any, time: Any) -> Iterator[tuple[str, str]]:
+    for name in prim.GetAuthoredPropertyNames():
+        # Of the schemas' own attributes none is free text: purpose, visibility, orientation…
+        if not _is_technical(name) and not prim.GetPrimDefinition().GetPropertyDefinition(name):
+            yield name, ", ".join(texts_of(prim, name, time))
+    if prim.HasAuthoredCustomData():
+        # Every typed prim has its schema's documentation in customData; that is not authored.
+        data = {key: value for key, value in prim.GetCustomData().items() if prim.HasAuthoredCustomDataKey(key)}
+        yield from _flatten("customData", data)
+    if prim.HasAuthoredAssetInfo():
+        yield from _flatten("assetInfo", prim.GetAssetInfo())
+
+
+def _is_technical(property_name: str) -> bool:
+    namespace, colon, _ = property_name.partition(":")
+    return bool(colon) and (namespace in _TECHNICAL_NAMESPACES or namespace.startswith("physx"))
+
+
+def _flatten(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    for key in sorted(values.keys() - _TECHNICAL_KEYS):
+        value = values[key]
+        if isinstance(value, Mapping):
+            yield from _flatten(f"{prefix}:{key}", value)
+        else:
+            yield f"{prefix}:{key}", ", ".join(_as_texts(value))
+
+
+def texts_of(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
+    """Return the texts of a string or token attribute, one or a list, as authored.
+
+    Empty where there is no such attribute, no value, another type, or text that is not UTF-8. `time` None is the
+    default time.
+    """
+    attribute = prim.GetAttribute(attribute_name)
+    if not attribute or attribute.GetTypeName() not in _TEXT_TYPES:
+        return ()
+    try:
+        return _as_texts(attribute.Get() if time is None else attribute.Get(time))
+    except UnicodeDecodeError:
+        return ()
+
+
+def _as_texts(value: Any) -> tuple[str, ...]:
+    if isinstance(value, str):
+        return (value,)
+    is_list = value is not None and hasattr(value, "__len__") and not isinstance(value, bytes | Mapping)
+    return tuple(item for item in value if isinstance(item, str)) if is_list else ()
+
+
+def clean_text(text: str) -> str:
+    """Return the text on one line, without characters that do not print (controls, changes of direction)."""
+    return " ".join("".join(c for c in text if c.isprintable() or c.isspace()).split())
+
+
+def _carries_words(text: str) -> bool:
+    if not 2 <= len(text) <= _LONGEST_TEXT or text[0] in "{[<" or text.lower() in _SWITCHES:
+        return False
+    if any(pattern.fullmatch(text) for pattern in (_HEX, _PATH, _URL)) or _is_base64(text):
+        return False
+    return bool(words_of(text))
+
+
+def _is_base64(text: str) -> bool:
+    if not _BASE64.fullmatch(text):
+        return False
+    # Names split into words, encoded bytes into crumbs: of 2,000 random ones 95 in 100 stay below 0.4.
+    parts = [part for part in split_identifier(text) if len(part) > 3 and part.isalpha()]
+    return text.endswith("=") or sum(map(len, parts)) < 0.4 * len(text)
+
+
+class MaterialReader:
+    """Reads the materials of objects at one time; each material is looked into once."""
+
+    def __init__(self, time: Any) -> None:
+        self._time = time
+        self._details: dict[str, MaterialDetails] = {}
+        self._unbound: set[Any] = set()
+        """Paths that no binding stands at or above."""
+
+    def read(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
+        """Return the materials that the geometry among `nodes` is shown with, in order of appearance.
+
+        Bindings are resolved as UsdShade does (direct, inherited, by collection, by strength), for the purposes
+        `full` and `preview`; geometry subsets are asked too. A binding to a material that does not exist gives its
+        name.
+        """
+        prims = [prim for node in nodes if node.is_gprim and not node.is_hidden for prim in _bindable(node.prim)]
+        found: dict[str, MaterialDetails] = {}
+        by_purpose = [_bound_materials(prims, purpose) for purpose in ("full", "preview")]
+        for prim, *materials in zip(prims, *by_purpose, strict=True):
+            for material in materials:
+                if material:
+                    found.setdefault(str(material.GetPath()), self._read(material))
+            target = None if any(materials) else self._authored_target(prim)
+            if target is not None:
+                found.setdefault(str(target), MaterialDetails(target.name, str(target)))
+        return tuple(found.values())
+
+    def _authored_target(self, prim: Any) -> Any:
+        """Return the path that the nearest binding at or above `prim` names; None if there is none."""
+        passed = []
+        target = None
+        while target is None and not prim.IsPseudoRoot() and prim.GetPath() not in self._unbound:
+            passed.append(prim.GetPath())
+            relationship = prim.GetRelationship("material:binding")
+            targets = relationship.GetTargets() if relationship else []
+            target = targets[0].GetPrimPath() if targets else None
+            prim = prim.GetParent()
+        if target is None:
+            self._unbound.update(passed)
+        return target
+
+    def _read(self, material: Any) -> MaterialDetails:
+        prim = material.GetPrim()
+        path = str(prim.GetPath())
+        # The copies of an instance share their materials.
+        shared = str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else path
+        if shared not in self._details:
+            self._details[shared] = _read_details(material, path, self._time)
+        return replace(self._details[shared], prim_path=path)
+
+
+def material_details(prim_nodes: list[Node], time: Any = None) -> tuple[MaterialDetails, ...]:
+    """Return the materials of one object as `MaterialReader` does; `time` None is the earliest."""
+    return MaterialReader(Usd.TimeCode.EarliestTime() if time is None else time).read(prim_nodes)
+
+
+def _bindable(prim: Any) -> list[Any]:
+    imageable = UsdGeom.Imageable(prim)
+    subsets = [subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(imageable)]
+    # Subsets that partition the mesh leave nothing of its own material to be seen.
+    family = UsdShade.Tokens.materialBind
+    is_covered = subsets and UsdGeom.Subset.GetFamilyType(imageable, family) == UsdGeom.Tokens.partition
+    return subsets if is_covered else [prim, *subsets]
+
+
+def _bound_materials(prims: list[Any], purpose: str) -> list[Any]:
+    return list(UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)[0]) if prims else []
+
+
+def _read_details(material: Any, path: str, time: Any) -> MaterialDetails:
+    sources = [material.ComputeSurfaceSource(context)[0] for context in _RENDER_CONTEXTS]
+    shaders = list({source.GetPath(): source for source in sources if source}.values())
+    colors = [_color(_constant(shader, _BASE_COLOR, time)) for shader in shaders if not _is_mapped(shader)]
+    roughness, metallic, opacity = (
+        _first([_number(_constant(shader, names, time)) for shader in shaders])
+        for names in (_ROUGHNESS, _METALLIC, _OPACITY)
+    )
+    return MaterialDetails(material.GetPrim().GetName(), path, _first(colors), roughness, metallic, opacity)
+
+
+def _first(values: list[_T | None]) -> _T | None:
+    return next((value for value in values if value is not None), None)
+
+
+def _is_mapped(shader: Any) -> bool:
+    """Return whether an MDL texture stands before the constant: OmniPBR takes the texture where there is one."""
+    texture = shader.GetInput("diffuse_texture")
+    value = texture.Get() if texture else None
+    return isinstance(value, Sdf.AssetPath) and bool(value.path)
+
+
+def _constant(shader: Any, names: tuple[str, ...], time: Any) -> Any:
+    """Return the value of the first authored input among `names`; None if it is computed, from a texture say."""
+    for name in names:
+        source = shader.GetInput(name)
+        attributes = UsdShade.Utils.GetValueProducingAttributes(source) if source else []
+        if len(attributes) == 1:
+            return _value(attributes[0], time)
+    return None
+
+
+def _value(attribute: Any, time: Any) -> Any:
+    if not UsdShade.Output.IsOutput(attribute):
+        return attribute.Get(time)
+    shader = UsdShade.Shader(attribute.GetPrim())
+    value = shader.GetInput("value") if shader else None
+    # MaterialX writes constants as nodes: ND_constant_color3, ND_constant_float.
+    if not value or value.HasConnectedSource() or not str(shader.GetShaderId()).startswith("ND_constant"):
+        return None
+    return value.Get(time)
+
+
+def _color(value: Any) -> Vector | None:
+    parts = list(value) if hasattr(value, "__len__") else []
+    if len(parts) != 3 or not all(isinstance(part, int | float) for part in parts):
+        return None
+    red, green, blue = (float(f"{part:.6g}") for part in parts)
+    return (red, green, blue) if all(map(math.isfinite, (red, green, blue))) else None
+
+
+def _number(value: Any) -> float | None:
+    # MaterialX has opacity as a colour; a grey one is a number.
+    parts = [value] if isinstance(value, int | float) else list(_color(value) or ())
+    is_one = len(set(parts)) == 1 and math.isfinite(parts[0])
+    return float(f"{parts[0]:.6g}") if is_one else None
