@@ -17,6 +17,7 @@ COMMANDS = (
     ("inspect",),
     ("ground",),
     ("query",),
+    ("render",),
     ("ontology",),
     ("ontology", "show"),
     ("ontology", "linearize"),

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -156,7 +157,7 @@ class _MeshReader:
         if prim.IsPseudoRoot():
             return False
         visibility = prim.GetAttribute(UsdGeom.Tokens.visibility)
-        return visibility.HasAuthoredValue() and visibility.Get(self.time) == UsdGeom.Tokens.invisible
+        return bool(visibility.HasAuthoredValue() and visibility.Get(self.time) == UsdGeom.Tokens.invisible)
 
     def _is_drawn(self, prim: Any) -> bool:
         return not self._is_invisible(prim) and UsdGeom.Imageable(prim).ComputePurpose() in _PURPOSES
@@ -211,7 +212,7 @@ class _MeshReader:
     def _even_selection(self, prim: Any, matrices: Points, triangle_count: int) -> Points:
         most = min(_MOST_COPIES, max(1, self.copied_triangles_left // max(1, triangle_count)))
         if len(matrices) > most:
-            self._note(prim, f"{len(matrices)} copies, an even selection of {most} is drawn; the others are", "copies")
+            self._note(prim, f"{len(matrices)} copies, of which {most} are drawn; the others are", "copies")
             matrices = matrices[np.linspace(0, len(matrices) - 1, most).astype(np.int64)]
         self.copied_triangles_left -= len(matrices) * triangle_count
         return matrices
@@ -366,24 +367,24 @@ def _solid(type_name: str, number: Callable[[str], float]) -> tuple[Points, Tria
     low, high = (radius, radius) if math.isfinite(radius) else (number("radiusBottom"), number("radiusTop"))
     match type_name.removesuffix("_1"):
         case "Cube":
-            side = number("size") / 2
-            return _CUBE_CORNERS * side, _CUBE_TRIANGLES
+            return _CUBE_CORNERS * (number("size") / 2), _CUBE_TRIANGLES
         case "Plane":
-            x, y = number("width") / 2, number("length") / 2
-            return np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]]), np.array(
-                [[0, 1, 2], [0, 2, 3]], np.int32
-            )
+            return _SQUARE_CORNERS * np.array([number("width") / 2, number("length") / 2, 0]), _SQUARE_TRIANGLES
         case "Sphere":
-            return _turn([*_arc(radius, 0.0, -90, 90)])
+            profile = [*_arc(radius, 0.0, -90, 90)]
         case "Cylinder":
-            return _turn([(0, -half), (low, -half), (high, half), (0, half)])
+            profile = [(0, -half), (low, -half), (high, half), (0, half)]
         case "Cone":
-            return _turn([(0, -half), (radius, -half), (0, half)])
+            profile = [(0, -half), (radius, -half), (0, half)]
         case "Capsule":
-            return _turn([*_arc(low, -half, -90, 0), *_arc(high, half, 0, 90)])
-    return None
+            profile = [*_arc(low, -half, -90, 0), *_arc(high, half, 0, 90)]
+        case _:
+            return None
+    return _turn(profile)
 
 
+_SQUARE_CORNERS = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
+_SQUARE_TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
 _CUBE_CORNERS = np.array([[x, y, z] for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)])
 _CUBE_QUADS = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]], np.int32)
 _CUBE_TRIANGLES = np.concatenate([_CUBE_QUADS[:, [0, 1, 2]], _CUBE_QUADS[:, [0, 2, 3]]])
@@ -404,7 +405,7 @@ def _turn(profile: list[tuple[float, float]]) -> tuple[Points, Triangles]:
     here = np.arange(_SEGMENTS, dtype=np.int32)
     after = (here + 1) % _SEGMENTS
     triangles = []
-    for i, ((low, _), (high, _)) in enumerate(zip(profile, profile[1:], strict=False)):
+    for i, ((low, _), (high, _)) in enumerate(pairwise(profile)):
         below, above = i * _SEGMENTS, (i + 1) * _SEGMENTS
         if low != 0:
             triangles.append(np.stack([below + here, below + after, above + after], axis=1))

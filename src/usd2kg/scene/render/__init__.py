@@ -1,0 +1,5 @@
+"""Pictures of objects and scenes, drawn on the processor: the same stage gives the same bytes everywhere."""
+
+from usd2kg.scene.render.renderer import Renderer, render_object, render_objects, render_scene
+
+__all__ = ["Renderer", "render_object", "render_objects", "render_scene"]

@@ -1,0 +1,100 @@
+"""Where a picture is taken from, and where points of the world fall in it."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Camera", "aim"]
+
+Array = NDArray[np.float64]
+
+_VIEW_ANGLE = math.radians(28)
+"""Vertical: a long lens, which keeps what is upright upright."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole camera; lengths in metres in the z-up world."""
+
+    eye: Array
+    axes: Array
+    """(3, 3): rows are the directions to the right, up and forward."""
+    width: int
+    """Pixels."""
+    height: int
+    focal: float
+    """Pixels."""
+    near: float
+    """What is nearer than this, in metres along the view, is cut off."""
+
+    def to_view(self, points: NDArray[np.floating]) -> Array:
+        """Return world points as (right, up, forward) of the eye."""
+        return (points.astype(np.float64) - self.eye) @ self.axes.T
+
+    def to_pixels(self, view: Array) -> Array:
+        """Return points in front of the eye as (x, y, 1 / forward), x and y in pixels from the top left corner."""
+        inverse = 1.0 / view[..., 2]
+        x = self.width / 2 + view[..., 0] * inverse * self.focal
+        y = self.height / 2 - view[..., 1] * inverse * self.focal
+        return np.stack([x, y, inverse], axis=-1)
+
+    def rays(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> Array:
+        """Return the (right, up, 1) direction that each point of the picture looks along, in the eye's axes."""
+        right = (x - self.width / 2) / self.focal
+        up = (self.height / 2 - y) / self.focal
+        rays: Array = np.stack([right, up, np.ones_like(right)], axis=-1)
+        return rays
+
+    def cut_before(self, points: NDArray[np.floating]) -> "Camera":
+        """Return the same view with all that is nearer than the nearest of `points` cut off."""
+        return replace(self, near=max(self.near, float(self.to_view(points)[:, 2].min())))
+
+    def scaled(self, factor: float) -> "Camera":
+        """Return the same view with `factor` times the pixels each way."""
+        width, height = max(1, round(self.width * factor)), max(1, round(self.height * factor))
+        return Camera(self.eye, self.axes, width, height, self.focal * height / self.height, self.near)
+
+
+def aim(
+    points: NDArray[np.floating], azimuth: float, elevation: float, size: tuple[int, int], margin: float = 0.08
+) -> Camera:
+    """Return a camera that sees all `points`, framed, from a direction.
+
+    Args:
+        points: (n, 3), world, at least one.
+        azimuth: degrees from the x axis, counter-clockwise seen from above: where the camera stands.
+        elevation: degrees above the horizon.
+        size: width and height of the picture in pixels.
+        margin: empty border, as a part of the picture's shorter side.
+    """
+    width, height = size
+    axes = _axes(math.radians(azimuth), math.radians(elevation))
+    local = points.astype(np.float64) @ axes.T
+    middle = (local.min(axis=0) + local.max(axis=0)) / 2
+    extent = max(float(np.ptp(local, axis=0).max()), 1e-6)
+    # A width of view that fits both ways; the border is the same in pixels on all sides.
+    border = margin * min(width, height)
+    up = math.tan(_VIEW_ANGLE / 2) * (1 - 2 * border / height)
+    right = math.tan(_VIEW_ANGLE / 2) * (width - 2 * border) / height
+    distance = 0.0
+    for _ in range(3):
+        offset = local - middle
+        # |x| ≤ right · (distance + z) and |y| ≤ up · (distance + z) for all points.
+        distance = float((np.maximum(np.abs(offset[:, 0]) / right, np.abs(offset[:, 1]) / up) - offset[:, 2]).max())
+        distance = max(distance, extent * 0.05)
+        # Perspective shifts the middle of what is seen: move the camera so that the borders are even.
+        seen = offset[:, :2] / (distance + offset[:, 2:])
+        middle[:2] += (seen.min(axis=0) + seen.max(axis=0)) / 2 * distance
+    eye = (middle - np.array([0.0, 0.0, distance])) @ axes
+    focal = height / 2 / math.tan(_VIEW_ANGLE / 2)
+    return Camera(eye, axes, width, height, focal, near=max(extent, distance) * 1e-3)
+
+
+def _axes(azimuth: float, elevation: float) -> Array:
+    forward = -np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
+    right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+    return np.stack([right, np.cross(right, forward), forward])

@@ -1,0 +1,105 @@
+"""All triangles of a picture in one set of arrays, and the normals that make round things look round."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.scene.meshes import ObjectMesh
+
+__all__ = ["Soup", "corner_normals", "gather"]
+
+Array = NDArray[np.float64]
+
+_SMOOTH = math.cos(math.radians(42))
+"""Faces that meet at less than this angle are one round surface."""
+_MOST_AROUND = 64
+"""A point shared by more faces than this keeps the faces' own normals."""
+
+
+@dataclass(frozen=True)
+class Soup:
+    """Triangles of several meshes."""
+
+    points: NDArray[np.float32]
+    """(n, 3), metres, z-up world."""
+    triangles: NDArray[np.int64]
+    """(m, 3), indices into `points`."""
+    colors: NDArray[np.float32]
+    """(m, 3), linear RGB."""
+    opacity: NDArray[np.float32]
+    """(m,), 1 for solid."""
+    mesh: NDArray[np.int32]
+    """(m,), the number of the mesh that each triangle is from, in ascending order."""
+
+    def used_points(self) -> NDArray[np.float32]:
+        """Return the points that belong to a triangle (k, 3)."""
+        is_used = np.zeros(len(self.points), np.bool_)
+        is_used[self.triangles] = True
+        return self.points[is_used]
+
+    def part(self, chosen: NDArray[np.bool_]) -> "Soup":
+        """Return the chosen triangles only."""
+        return Soup(self.points, self.triangles[chosen], self.colors[chosen], self.opacity[chosen], self.mesh[chosen])
+
+    def recolored(self, colors: NDArray[np.floating]) -> "Soup":
+        """Return the same triangles in other colours."""
+        return Soup(self.points, self.triangles, colors.astype(np.float32), self.opacity, self.mesh)
+
+
+def gather(meshes: Iterable[ObjectMesh]) -> Soup:
+    """Return the triangles of all meshes, numbered in the order of the meshes."""
+    known = list(meshes)
+    counts = [len(mesh.triangles) for mesh in known]
+    starts = np.cumsum([0, *(len(mesh.points) for mesh in known)])
+    triangles = [mesh.triangles.astype(np.int64) + start for mesh, start in zip(known, starts, strict=False)]
+    return Soup(
+        points=np.concatenate([np.zeros((0, 3), np.float32), *(mesh.points for mesh in known)]),
+        triangles=np.concatenate([np.zeros((0, 3), np.int64), *triangles]),
+        colors=np.repeat(np.array([mesh.color for mesh in known], np.float32).reshape(-1, 3), counts, axis=0),
+        opacity=np.repeat(np.array([mesh.opacity for mesh in known], np.float32), counts),
+        mesh=np.repeat(np.arange(len(known), dtype=np.int32), counts),
+    )
+
+
+def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wanted: NDArray[np.integer]) -> Array:
+    """Return unit normals of the wanted triangles' corners (k, 3, 3).
+
+    A corner's normal is the mean, by area, over the faces around the point that are bent by less than 42°; points at
+    the same place are one point, as exporters split them.
+    """
+    corners = points[triangles].astype(np.float64)
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    faces = areas / np.maximum(np.linalg.norm(areas, axis=1, keepdims=True), 1e-30)
+    place = _places(points)[triangles]
+    around = np.argsort(place, axis=None, kind="stable")
+    count = np.bincount(place.reshape(-1), minlength=1)
+    start = np.cumsum(count) - count
+    asked = place[wanted].reshape(-1)
+    counts = np.where(count[asked] <= _MOST_AROUND, count[asked], 0)
+    of = np.repeat(np.arange(len(asked)), counts)
+    ends = np.cumsum(counts)
+    nth = np.arange(len(of)) - np.repeat(ends - counts, counts)
+    other = around[start[asked[of]] + nth] // 3
+    own = wanted[of // 3]
+    # Meshes with faces turned at random are common: a neighbour counts by its slope, whichever way it faces.
+    cosine = np.einsum("ij,ij->i", faces[own], faces[other])
+    weight = np.where(np.abs(cosine) > _SMOOTH, np.sign(cosine), 0.0)
+    sums = [np.bincount(of, weight * areas[other, axis], minlength=len(asked)) for axis in range(3)]
+    normals = np.stack(sums, axis=1)
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    flat = np.repeat(faces[wanted], 3, axis=0)
+    units: Array = np.where(length > 1e-30, normals / np.maximum(length, 1e-30), flat)
+    return units.reshape(-1, 3, 3)
+
+
+def _places(points: NDArray[np.float32]) -> NDArray[np.int64]:
+    """Return a number for each point, the same for points at the same place."""
+    low = points.min(axis=0).astype(np.float64)
+    step = max(float((points.max(axis=0) - low).max()) / (1 << 20), 1e-9)
+    cells = np.round((points - low) / step).astype(np.int64)
+    keys = (cells[:, 0] << 42) | (cells[:, 1] << 21) | cells[:, 2]
+    numbers: NDArray[np.int64] = np.unique(keys, return_inverse=True)[1].reshape(-1)
+    return numbers
