@@ -168,6 +168,7 @@ def test_a_path_that_is_not_there(meshes, path):
         ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2, -1]"), "do not exist"),
         ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2]"), "4 corners, but 3"),
         ((SQUARE[0], "int[] faceVertexCounts = [-4, 8]", "int[] faceVertexIndices = [0, 1, 2, 3]"), "corners"),
+        (("float[] points = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]", *SQUARE[1:]), "another type"),
         (("point3f[] points = [(nan, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]", *SQUARE[1:]), "not all finite"),
         (("point3f[] points = [(inf, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]", *SQUARE[1:]), "not all finite"),
     ],
@@ -190,6 +191,14 @@ def test_empty_meshes_and_curves_and_bad_transforms(meshes):
     assert found == []
     assert [note.prim_path for note in notes] == ["/Rope", "/Lost", "/Nowhere"]
     assert "BasisCurves has no triangles" in notes[0].message
+
+
+def test_attributes_that_hold_no_numbers_count_as_absent(meshes):
+    found, _ = meshes(
+        prim("Mesh", "Words", 'string points = "none"', *SQUARE[1:]),
+        prim("Mesh", "Painted", *SQUARE, 'string primvars:displayColor = "red"'),
+    )
+    assert [(mesh.prim_path, mesh.color) for mesh in found] == [("/Painted", NEUTRAL_GREY)]
 
 
 def test_color_is_grey_unless_authored(meshes):

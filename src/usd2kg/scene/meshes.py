@@ -261,7 +261,7 @@ class _MeshReader:
         """Return colours, each with the faces that have it; None for all of them."""
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(UsdGeom.Tokens.primvarsDisplayColor)
         colors = _array(primvar.ComputeFlattened(self.time), np.float64) if primvar and primvar.HasValue() else None
-        if colors is None or not len(colors) or colors.ndim != 2 or not np.isfinite(colors).all():
+        if colors is None or not len(colors) or colors.shape[1:] != (3,) or not np.isfinite(colors).all():
             return [(None, None)]
         if primvar.GetInterpolation() == UsdGeom.Tokens.uniform and len(colors) >= face_count:
             distinct, which = np.unique(colors, axis=0, return_inverse=True)
@@ -315,7 +315,12 @@ def _scatter(path: str, piece: _Piece, matrices: Points) -> _Piece:
 
 
 def _array(values: Any, dtype: Any) -> NDArray[Any]:
-    return np.asarray(values if values is not None else (), dtype=dtype)
+    """Return values as an array; an empty one where there are none, or no numbers at all (a mistyped attribute)."""
+    try:
+        array = np.asarray(values if values is not None else (), dtype=dtype)
+    except (TypeError, ValueError):
+        array = np.zeros(0, dtype)
+    return array if array.ndim else np.zeros(0, dtype)
 
 
 def _rgb(color: Any) -> Vector:
@@ -330,6 +335,8 @@ def _read_mesh(mesh: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
     indices = _array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64)
     if not len(points) or not len(counts):
         return None, ""
+    if points.shape[1:] != (3,) or counts.ndim != 1 or indices.ndim != 1:
+        return None, "its points or faces are authored with another type than OpenUSD's own"
     if counts.min() < 0 or counts.sum() != len(indices):
         return None, f"its faces count {int(counts.sum())} corners, but {len(indices)} are listed"
     if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):

@@ -27,7 +27,7 @@ _LARGE = 0.35
 """Share of the whole surroundings from which on an object is as large as a room."""
 _ENOUGH_HIDDEN = 0.6
 """Share of an object from which on what is hidden of it shines through."""
-_CLEARLY_MORE = 1.3
+_CLEARLY_MORE = 1.1
 """Another view of an object is taken only where it shows this many times as much."""
 _MORE_OF_A_SCENE = 1.2
 _MORE_OF_IT_SEEN = 1.08
