@@ -37,9 +37,9 @@ def write_whole(path: Path, data: bytes) -> None:
                 file.write(data)
             Path(temporary).chmod(_usual_mode())
             Path(temporary).replace(path)
-        except BaseException:
+        finally:
+            # Still there only where something went wrong.
             Path(temporary).unlink(missing_ok=True)
-            raise
     except OSError as error:
         raise OutputError(f"{path}: could not be written ({error.strerror}); choose another output") from error
 
