@@ -57,6 +57,27 @@ def test_gold_of_another_scene_is_refused(run, room: Path, tmp_path: Path) -> No
     assert "none of its 2 paths is on" in done.err
 
 
+def test_the_length_of_abbreviations_is_a_parameter(run, room: Path, gold: Path) -> None:
+    shown = {}
+    for length in (2, 6):
+        options = ("--regime", "abbreviated", "--abbreviated-length", length, "--grounder", "dictionary", "--json")
+        data = json.loads(run("eval", "run", room, "--gold", gold, *options).out)
+        assert data["settings"]["abbreviated_length"] == str(length)
+        shown[length] = data["scores"][1]["explanation"]
+    # coffee_mug without vowels is cff mg: two letters of each word, or all there are.
+    assert shown == {2: "“cfmg” is not in the dictionary", 6: "“cffmg” is not in the dictionary"}
+
+
+def test_class_sizes_of_the_user(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    sizes = tmp_path / "sizes.csv"
+    sizes.write_text("class,width_m,depth_m,height_m,origin\nsoma:Sofa,1.6,0.8,0.7,mine\n", encoding="utf-8")
+    options = ("--grounder", "volume", "--class-sizes", sizes, "--json")
+    data = json.loads(run("eval", "run", room, "--gold", gold, *options).out)
+    assert data["scores"][0]["answer"].endswith("#Sofa"), "the only class with a size"
+    refused = run("eval", "run", room, "--gold", gold, "--class-sizes", sizes)
+    assert (refused.code, "takes no class sizes" in refused.err) == (2, True)
+
+
 def test_compare_finds_what_differs(run, room: Path, gold: Path, tmp_path: Path) -> None:
     for name, grounder in (("a.json", "embedded"), ("b.json", "dictionary")):
         assert run("eval", "run", room, "--gold", gold, "--grounder", grounder, "-o", tmp_path / name).code == 0

@@ -6,7 +6,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from usd2kg.cli.options import Dictionary, Evidence, GrounderName, JsonOutput, OntologyFile, Regime, SceneFile
+from usd2kg.cli.options import (
+    AbbreviatedLength,
+    ClassSizes,
+    Dictionary,
+    Evidence,
+    GrounderName,
+    JsonOutput,
+    OntologyFile,
+    Regime,
+    SceneFile,
+)
 from usd2kg.cli.output import emit, format_table, print_json, talk
 from usd2kg.errors import EvaluationError
 
@@ -30,7 +40,9 @@ def run(
     ontology: OntologyFile = None,
     grounder: GrounderName = "embedded",
     dictionary: Dictionary = None,
+    class_sizes: ClassSizes = None,
     regime: Regime = "semantic",
+    abbreviated_length: AbbreviatedLength = 4,
     evidence: Evidence = None,
     output: _Output = None,
     json: JsonOutput = False,
@@ -45,7 +57,7 @@ def run(
         check_writable(output)
     groups = grounding.parse_evidence(evidence) if evidence is not None else None
     naming_regime = grounding.parse_regime(regime)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary)
+    chosen = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes)
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)
     found = read_scene(scene, paths=[label.prim_path for label in labels])
@@ -53,7 +65,15 @@ def run(
         raise EvaluationError(
             f"{gold}: none of its {len(labels)} paths is on {scene}; is it the gold of another scene?"
         )
-    result = evaluation.evaluate(found, labels, tbox, chosen, regime=naming_regime, evidence=groups)
+    result = evaluation.evaluate(
+        found,
+        labels,
+        tbox,
+        chosen,
+        regime=naming_regime,
+        evidence=groups,
+        abbreviated_length=abbreviated_length,
+    )
     selection = evaluation.selection_of(found, labels)
     data = evaluation.evaluation_json(result, selection)
     if output is not None:

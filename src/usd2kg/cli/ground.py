@@ -6,6 +6,8 @@ from typing import Annotated
 import typer
 
 from usd2kg.cli.options import (
+    AbbreviatedLength,
+    ClassSizes,
     Dictionary,
     EveryPrim,
     Evidence,
@@ -33,7 +35,9 @@ def ground_command(
     ontology: OntologyFile = None,
     grounder: GrounderName = "embedded",
     dictionary: Dictionary = None,
+    class_sizes: ClassSizes = None,
     regime: Regime = "semantic",
+    abbreviated_length: AbbreviatedLength = 4,
     evidence: Evidence = None,
     paths: Annotated[
         Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
@@ -61,14 +65,22 @@ def ground_command(
     grounding.check_format(file_format)
     if output is not None:
         check_writable(output)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary)
+    chosen = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes)
     wanted = grounding.read_paths(paths) if paths is not None else None
     tbox = open_tbox(ontology)
     options = read_options(
         metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
     )
     found = read_scene(scene, paths=wanted, options=options)
-    result = grounding.ground(found, tbox, chosen, regime=naming_regime, evidence=groups, paths=wanted)
+    result = grounding.ground(
+        found,
+        tbox,
+        chosen,
+        regime=naming_regime,
+        evidence=groups,
+        paths=wanted,
+        abbreviated_length=abbreviated_length,
+    )
     emit(grounding.format_mapping(result, tbox, file_format), output)
     for path in found.missing_paths:
         talk(f"{scene}: there is no prim {path}; its row has the status missing")

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from usd2kg.scene import ReadOptions
 
 __all__ = [
+    "AbbreviatedLength",
+    "ClassSizes",
     "Dictionary",
     "EveryPrim",
     "Evidence",
@@ -52,6 +54,13 @@ Evidence = Annotated[
         help="Evidence that may be used, comma-separated: name, geometry, position, hierarchy, asset, materials, "
         "parts; default: all.",
     ),
+]
+AbbreviatedLength = Annotated[
+    int, typer.Option("--abbreviated-length", min=1, help="Letters kept of each word in the abbreviated regime.")
+]
+ClassSizes = Annotated[
+    Path | None,
+    typer.Option("--class-sizes", help="For the volume grounder: a CSV file of usual sizes; default: our own."),
 ]
 JsonOutput = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 MetresPerUnit = Annotated[

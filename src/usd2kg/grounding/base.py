@@ -7,7 +7,7 @@ from typing import Protocol
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.model import Grounding, Prediction, Status
 from usd2kg.ontology import TBox
-from usd2kg.scene import EVIDENCE_GROUPS, NamingRegime, ObjectView, Scene, view_objects
+from usd2kg.scene import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, ObjectView, Scene, view_objects
 
 __all__ = ["Grounder", "ground", "parse_evidence", "parse_regime"]
 
@@ -42,6 +42,7 @@ def ground(
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
+    abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Grounding:
     """Return a class of `tbox` for each object of `scene`.
 
@@ -51,6 +52,7 @@ def ground(
         grounder: who chooses: a grounder, or the name of one.
         regime: how the names are masked.
         evidence: names of the evidence groups that may be used; all by default.
+        abbreviated_length: letters kept of each word in the abbreviated regime.
         paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
     """
     if isinstance(grounder, str):
@@ -58,7 +60,7 @@ def ground(
         from usd2kg.grounding.registry import make_grounder  # noqa: PLC0415
 
         grounder = make_grounder(grounder)
-    views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence)}
+    views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
     found = [(path, views[path]) for path in wanted if path in views]
     by_path = {p.prim_path: p for p in grounder.ground_views(found, tbox)}
@@ -70,6 +72,7 @@ def ground(
         grounder=grounder.name,
         settings={
             "regime": regime.value,
+            **({"abbreviated_length": str(abbreviated_length)} if regime is NamingRegime.ABBREVIATED else {}),
             "evidence": ",".join(sorted(evidence if evidence is not None else EVIDENCE_GROUPS)),
             **grounder.settings,
         },

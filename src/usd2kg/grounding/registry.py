@@ -26,6 +26,8 @@ def make_grounder(name: str, *, dictionary: Path | None = None, class_sizes: Pat
         raise GroundingError(
             f"grounder {name!r} takes no dictionary; choose the grounder dictionary to use {dictionary}"
         )
+    if class_sizes is not None and name != "volume":
+        raise GroundingError(f"grounder {name!r} takes no class sizes; choose the grounder volume to use {class_sizes}")
     # Each is imported only when it is asked for: the embedded one reads a noun taxonomy.
     if name == "embedded":
         from usd2kg.grounding.embedded.grounder import EmbeddedGrounder  # noqa: PLC0415

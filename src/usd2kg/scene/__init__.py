@@ -17,9 +17,18 @@ from usd2kg.scene.model import (
 )
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
 from usd2kg.scene.read import ASKED_FOR, explain_choice, read_scene
-from usd2kg.scene.views import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, abbreviate, view_objects
+from usd2kg.scene.views import (
+    ABBREVIATED_LENGTH,
+    EVIDENCE_GROUPS,
+    STUDY_GROUPS,
+    NamingRegime,
+    ObjectView,
+    abbreviate,
+    view_objects,
+)
 
 __all__ = [
+    "ABBREVIATED_LENGTH",
     "ASKED_FOR",
     "EVIDENCE_GROUPS",
     "STUDY_GROUPS",
