@@ -114,8 +114,13 @@ def test_materials_are_named_in_order_of_appearance(read):
     assert obj.materials == ("Oak", "Steel")
 
 
-def test_material_bound_on_the_object_comes_first(read):
-    assert thing(read, bind("Paint"), bound("a", "Steel")).materials == ("Paint", "Steel")
+def test_material_bound_on_the_object_holds_for_the_parts_that_bind_none(read):
+    assert thing(read, bind("Paint"), cube("plain"), bound("a", "Steel")).materials == ("Paint", "Steel")
+
+
+def test_material_that_every_part_overrides_is_on_nothing(read):
+    # UsdShade: the binding nearest to the geometry wins.
+    assert thing(read, bind("Paint"), bound("a", "Steel")).materials == ("Steel",)
 
 
 def test_material_is_inherited_where_the_object_has_none(read):

@@ -1,4 +1,4 @@
-"""What else the stage says about an object: asset, materials, parts, mass, colour, texts."""
+"""What else the stage says about an object: asset, parts, mass, colour."""
 
 from collections.abc import Iterator
 from pathlib import PurePosixPath
@@ -9,7 +9,7 @@ from pxr import Usd, UsdGeom, UsdPhysics
 from usd2kg.scene.model import StageFrame, Vector
 from usd2kg.scene.outline import Node
 
-__all__ = ["asset_names", "display_color", "mass_kg", "material_names", "own_nodes", "part_names"]
+__all__ = ["asset_names", "display_color", "mass_kg", "own_nodes", "part_names"]
 
 
 def own_nodes(node: Node, objects: frozenset[str] | dict[str, str]) -> Iterator[Node]:
@@ -34,29 +34,6 @@ def asset_names(prim: Any) -> tuple[str, ...]:
 
 def _stem(asset_path: str) -> str:
     return PurePosixPath(asset_path.replace("\\", "/")).stem
-
-
-def material_names(nodes: list[Node]) -> tuple[str, ...]:
-    """Return the names of the materials bound on `nodes`, their geometry subsets or above them."""
-    names: dict[str, None] = {}
-    for node in nodes:
-        for prim in (node.prim, *_subsets(node)):
-            for target in _bound(prim):
-                names[target] = None
-    above = nodes[0].parent
-    while not names and above is not None and above.parent is not None:
-        names.update(dict.fromkeys(_bound(above.prim)))
-        above = above.parent
-    return tuple(names)
-
-
-def _subsets(node: Node) -> list[Any]:
-    return list(UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(node.prim))) if node.is_gprim else []
-
-
-def _bound(prim: Any) -> list[str]:
-    relationship = (prim.GetPrim() if hasattr(prim, "GetPrim") else prim).GetRelationship("material:binding")
-    return [target.name for target in relationship.GetTargets()] if relationship else []
 
 
 def part_names(nodes: list[Node]) -> tuple[str, ...]:

@@ -228,7 +228,7 @@ class SceneObject:
     asset: tuple[str, ...]
     """Identifiers of the asset it comes from: assetInfo name and identifier, references, payloads."""
     materials: tuple[str, ...]
-    """Names of the materials bound on it or below it, in order of appearance."""
+    """Names of the materials on its visible geometry, by UsdShade's rules of binding, in order of appearance."""
     parts: tuple[str, ...]
     """Distinct names of the prims below it, in order of appearance, nested objects left out."""
     display_color: Vector | None

@@ -139,6 +139,7 @@ class _ObjectReader:
         prim = node.prim
         box, own_box, part_boxes = self._boxes(node, nodes)
         position, orientation = self._pose(node)
+        materials = self.materials.read(nodes)
         return SceneObject(
             prim_path=node.path,
             name=node.name,
@@ -156,7 +157,7 @@ class _ObjectReader:
             display_name=prim.GetDisplayName(),
             documentation=prim.GetDocumentation().strip(),
             asset=evidence.asset_names(prim),
-            materials=evidence.material_names(nodes),
+            materials=tuple(dict.fromkeys(material.name for material in materials)),
             parts=evidence.part_names(nodes),
             display_color=evidence.display_color(nodes, self.time),
             instance_of=str(prim.GetPrototype().GetPath()) if prim.IsInstance() else None,
@@ -164,7 +165,7 @@ class _ObjectReader:
             labels=self.labels.read(nodes),
             variants=variant_selections(prim),
             texts=text_attributes(prim, self.time),
-            material_details=self.materials.read(nodes),
+            material_details=materials,
         )
 
     def own_instancers(self, node: Node) -> list[Node]:
