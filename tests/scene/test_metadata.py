@@ -13,7 +13,7 @@ from usd2kg.scene import evidence
 from usd2kg.scene.metadata import clean_text, material_details, text_attributes, variant_selections
 from usd2kg.scene.model import MaterialDetails
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.outline import outline_stage
+from usd2kg.scene.traversal import outline_stage
 from usd2kg.scene.stage import open_stage
 
 EARLIEST = Usd.TimeCode.EarliestTime()
@@ -250,8 +250,9 @@ def materials(write_stage):
 
     def run(*prims, path="/Thing"):
         opened = open_stage(write_stage(METRES + "\n".join(prims)), ReadOptions())
-        nodes = {node.path: node for node in outline_stage(opened, EARLIEST).root.walk()}
-        return material_details(list(evidence.own_nodes(nodes[path], {path: "asked for"})))
+        with outline_stage(opened, EARLIEST) as outline:
+            nodes = {node.path: node for node in outline.root.walk()}
+            return material_details(list(evidence.own_nodes(nodes[path], {path: "asked for"})))
 
     return run
 

@@ -1,32 +1,47 @@
 """World boxes, positions and rotations, converted to metres and z-up."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Usd, UsdGeom
+from pxr import Gf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.model import Box, Quaternion, StageFrame, Vector
 from usd2kg.scene.outline import Node
 
-__all__ = ["BoxReader", "is_measurable", "pose_of", "read_pose", "to_metres", "union"]
+__all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
 
 _PURPOSES = (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
 _EMPTY_EXTENT = 1e30
 """OpenUSD's empty ranges and infinite planes lie beyond any length a scene can have."""
 _ALIGNED = 1e-6
 _FEWEST_POINTS = 3
+_UNTURNED: dict[str, Quaternion] = {"Z": (0.0, 0.0, 0.0, 1.0), "Y": (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))}
 
 _Matrix = NDArray[np.float64]
+
+
+@dataclass(slots=True)
+class _Shape:
+    """The geometry that instances share, in the frame of the object's prim: what bounds each gprim."""
+
+    corners: list[_Matrix]
+    """(n, 3) for each: the corners of its extent where that is tight, else its points."""
+    gprims: list[Any]
+    """The gprims of the instance that the corners were read from."""
+    points: list[_Matrix] | None = None
+    """(n, 3) for each: its points, or its corners if it has none; read when first needed."""
 
 
 class BoxReader:
     """Reads world boxes from one shared cache, of default and render purpose.
 
     A mesh that is turned against the world's axes is measured by its points: OpenUSD would box it first and turn
-    the box, which makes a round table that is turned by 45° 1.4 times as wide as it is.
+    the box, which makes a round table that is turned by 45° 1.4 times as wide as it is. What instances share is read
+    once.
     """
 
     def __init__(self, frame: StageFrame, time: Usd.TimeCode) -> None:
@@ -35,88 +50,178 @@ class BoxReader:
         self._geometry = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=False)
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
         self._xforms = UsdGeom.XformCache(time)
-        self._read: dict[str, Box | None] = {}
+        self._shapes: dict[tuple[int, ...], _Shape | None] = {}
 
-    def read_below(self, node: Node) -> Box | None:
-        """Return the box of all visible geometry at and below a node.
+    def read_parts(self, nodes: Sequence[Node]) -> list[Box]:
+        """Return the boxes of the visible geometry of an object whose own nodes are `nodes`, its prim first.
 
-        Where nothing there can be measured, the authored `extentsHint` is taken; None if there is none either.
+        Geometry that is empty or not finite has none.
         """
-        measured = [box for below in node.walk() if is_measurable(below) and (box := self.read_own(below))]
-        return union(measured) or self._box(self._hints, node.prim)
+        gprims = [node for node in nodes if is_measurable(node)]
+        shape = self._shared_shape(nodes[0], gprims)
+        if shape is not None:
+            boxes = self._place(shape, nodes[0])
+        else:
+            boxes = [self._measure(node) for node in gprims]
+        return [box for box in boxes if box is not None]
 
-    def read_own(self, node: Node) -> Box | None:
-        """Return the box of one geometry prim or point instancer; None if it is empty or not finite."""
-        if node.path not in self._read:
-            self._read[node.path] = self._measure(node)
-        return self._read[node.path]
+    def read_hint(self, node: Node) -> Box | None:
+        """Return the box by the authored `extentsHint`, for a node whose geometry cannot be measured."""
+        return self._box(self._hints, node.prim)
 
     def _measure(self, node: Node) -> Box | None:
-        if not node.prim.IsA(UsdGeom.PointBased):
+        if not node.is_point_based:
             return self._box(self._geometry, node.prim)
-        matrix = np.asarray(self._xforms.GetLocalToWorldTransform(node.prim))
-        box = self._box_of_extent(node.prim, matrix) if _is_aligned(matrix) else self._box_of_points(node.prim, matrix)
+        if node.may_be_turned:
+            matrix = np.array(self._xforms.GetLocalToWorldTransform(node.prim))
+            if not _is_aligned(matrix):
+                return self._box_around(_points_of(node.prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
         # An extent that is authored inside out reads as empty: the points know better.
-        return box or self._box(self._geometry, node.prim) or self._box_of_points(node.prim, matrix)
+        return self._box(self._geometry, node.prim) or self._box_of_points(node.prim)
 
-    def _box_of_extent(self, prim: Any, matrix: _Matrix) -> Box | None:
-        """Return the box of the authored extent; None if there is none, or it is empty or not finite."""
-        extent = prim.GetAttribute(UsdGeom.Tokens.extent).Get(self._time)
-        if extent is None or len(extent) != 2:
-            return None
-        corners = np.asarray(extent, dtype=float)
-        if not (np.abs(corners) < _EMPTY_EXTENT).all() or (corners[0] > corners[1]).any():
-            return None
-        world = corners @ matrix[:3, :3] + matrix[3, :3]
-        return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
-
-    def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
-        points = np.array(UsdGeom.PointBased(prim).GetPointsAttr().Get(self._time) or (), dtype=float).reshape(-1, 3)
+    def _box_of_points(self, prim: Any) -> Box | None:
+        matrix = np.array(self._xforms.GetLocalToWorldTransform(prim))
         with np.errstate(invalid="ignore", over="ignore"):
-            world: NDArray[np.float64] = points @ matrix[:3, :3] + matrix[3, :3]
-        world = world[np.isfinite(world).all(axis=1) & (np.abs(world) < _EMPTY_EXTENT).all(axis=1)]
-        if len(world) < min(len(points), _FEWEST_POINTS) or not len(world):
+            return self._box_around(_points_of(prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
+
+    def _box_around(self, world: _Matrix) -> Box | None:
+        with np.errstate(invalid="ignore"):
+            found = world[(np.abs(world) < _EMPTY_EXTENT).all(axis=1)]
+        if len(found) < min(len(world), _FEWEST_POINTS) or not len(found):
             # What is left of it says nothing of its size.
             return None
-        return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
+        return _to_box(found.min(axis=0).tolist(), found.max(axis=0).tolist(), self._frame)
 
     def _box(self, cache: Any, prim: Any) -> Box | None:
         aligned = cache.ComputeWorldBound(prim).ComputeAlignedRange()
-        corners = (*aligned.GetMin(), *aligned.GetMax())
-        if aligned.IsEmpty() or not all(abs(value) < _EMPTY_EXTENT for value in corners):
+        # Vectors of Gf are many times faster to take apart as an array.
+        lower: list[float] = np.array(aligned.GetMin()).tolist()
+        upper: list[float] = np.array(aligned.GetMax()).tolist()
+        if not all(-_EMPTY_EXTENT < low <= high < _EMPTY_EXTENT for low, high in zip(lower, upper, strict=True)):
             return None
-        return _to_box(corners[:3], corners[3:], self._frame)
+        return _to_box(lower, upper, self._frame)
 
-    def read_local_corners(self, prim: Any) -> list[Any]:
-        """Return the eight corners of the box of all below a prim, in the prim's own frame without its transform."""
+    def _shared_shape(self, root: Node, gprims: list[Node]) -> _Shape | None:
+        """Return the shape of an object in an instance that is not the first of its prototype; None for others."""
+        if root.twin is None or not gprims or (root.is_instance and gprims[0] is root):
+            return None
+        key = tuple(id(gprim.twin) for gprim in gprims)
+        if key not in self._shapes:
+            self._shapes[key] = self._read_shape(root, gprims)
+        return self._shapes[key]
+
+    def _read_shape(self, root: Node, gprims: list[Node]) -> _Shape | None:
+        corners = []
+        for gprim in gprims:
+            matrix, resets = self._relative(gprim, root)
+            found = self.read_local_corners(gprim.prim)
+            if resets or not (len(found) or gprim.is_point_based):
+                return None
+            is_tight = len(found) and (not gprim.is_point_based or _is_aligned(matrix))
+            local = found if is_tight else _points_of(gprim.prim, self._time)
+            corners.append(local @ matrix[:3, :3] + matrix[3, :3])
+        is_sound = all(len(local) and (np.abs(local) < _EMPTY_EXTENT).all() for local in corners)
+        return _Shape(corners, gprims) if is_sound else None
+
+    def _relative(self, gprim: Node, root: Node) -> tuple[_Matrix, bool]:
+        if gprim is root:
+            return np.eye(4), False
+        matrix, resets = self._xforms.ComputeRelativeTransform(gprim.prim, root.prim)
+        return np.array(matrix), bool(resets)
+
+    def _place(self, shape: _Shape, root: Node) -> list[Box | None]:
+        matrix = np.array(self._xforms.GetLocalToWorldTransform(root.prim))
+        clouds = shape.corners
+        if root.may_be_turned and not _is_aligned(matrix):
+            clouds = self._shape_points(shape, root)
+        world = np.concatenate(clouds) @ matrix[:3, :3] + matrix[3, :3]
+        if not np.isfinite(world).all():
+            return []
+        starts = np.cumsum([0, *(len(cloud) for cloud in clouds[:-1])])
+        lower = np.minimum.reduceat(world, starts).tolist()
+        upper = np.maximum.reduceat(world, starts).tolist()
+        return [_to_box(low, high, self._frame) for low, high in zip(lower, upper, strict=True)]
+
+    def _shape_points(self, shape: _Shape, root: Node) -> list[_Matrix]:
+        if shape.points is None:
+            shape.points = []
+            # Among twins of one prim any will do; the relative place is the same below each root.
+            above = next(node for node in _upwards(shape.gprims[0]) if node.twin is root.twin)
+            for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
+                matrix, _ = self._relative(gprim, above)
+                local = _points_of(gprim.prim, self._time) if gprim.is_point_based else np.empty((0, 3))
+                local = local[np.isfinite(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
+                shape.points.append(local if len(local) >= _FEWEST_POINTS else corners)
+        return shape.points
+
+    def read_local_corners(self, prim: Any) -> _Matrix:
+        """Return the corners, (8, 3) or (0, 3), of the box of all below a prim, in its frame without its transform."""
         local = self._geometry.ComputeUntransformedBound(prim).ComputeAlignedRange()
-        return [] if local.IsEmpty() else [local.GetCorner(corner) for corner in range(8)]
+        found = [] if local.IsEmpty() else [np.array(local.GetCorner(corner)) for corner in range(8)]
+        return np.array(found, dtype=float).reshape(-1, 3)
 
-    def box_of_corners(self, corners: list[Any], matrix: Any) -> Box | None:
+    def box_of_corners(self, corners: _Matrix, matrix: Any) -> Box | None:
         """Return the world box around corners that `matrix` takes to the stage's world; None if there are none."""
-        if not corners:
+        if not len(corners):
             return None
-        world = np.array([tuple(matrix.Transform(corner)) for corner in corners])
+        rows = np.array(matrix)
+        world = corners @ rows[:3, :3] + rows[3, :3]
         if not (np.abs(world) < _EMPTY_EXTENT).all():
             return None
-        return _to_box(tuple(world.min(axis=0).tolist()), tuple(world.max(axis=0).tolist()), self._frame)
+        return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
 
-    def read_oriented_size(self, prim: Any) -> Vector | None:
+    def read_oriented_size(self, node: Node) -> Vector | None:
         """Return the extent in metres along the prim's own axes, where they are turned against the world's."""
-        matrix = self._xforms.GetLocalToWorldTransform(prim)
-        if _is_aligned(np.asarray(matrix)):
+        if not node.may_be_turned:
             return None
-        local = self._geometry.ComputeUntransformedBound(prim).ComputeAlignedRange()
+        matrix = self._xforms.GetLocalToWorldTransform(node.prim)
+        if _is_aligned(np.array(matrix)):
+            return None
+        local = self._geometry.ComputeUntransformedBound(node.prim).ComputeAlignedRange()
         if local.IsEmpty():
             return None
         scales = [matrix.GetRow3(axis).GetLength() * self._frame.metres_per_unit for axis in range(3)]
         width, depth, height = (size * scale for size, scale in zip(local.GetSize(), scales, strict=True))
         return (width, depth, height) if all(map(math.isfinite, (width, depth, height))) else None
 
+    def read_pose(self, node: Node) -> tuple[Vector | None, Quaternion | None]:
+        """Return world position (metres) and rotation (x, y, z, w) of a prim's own frame, z-up.
+
+        Scale and mirroring are taken out of the rotation. Either is None where the matrix has no such part.
+        """
+        matrix = self._local_to_world(node)
+        if not node.may_be_turned:
+            rows = np.array(matrix).tolist()
+            if all(1e-9 < rows[axis][axis] < _EMPTY_EXTENT for axis in range(3)) and math.isfinite(sum(rows[3])):
+                return to_metres(rows[3][:3], self._frame), _UNTURNED[self._frame.up_axis]
+        return pose_of(matrix, self._frame)
+
+    def _local_to_world(self, node: Node) -> Any:
+        if node.type_name or UsdGeom.Tokens.xformOpOrder not in node.authored.names:
+            return self._xforms.GetLocalToWorldTransform(node.prim)
+        # `def "Chair"` leaves its type to the asset it references; where that is missing, OpenUSD takes the prim for
+        # one without a transform, though it has one.
+        local = UsdGeom.Xformable(node.prim).GetLocalTransformation(self._xforms.GetTime())
+        return local * self._xforms.GetLocalToWorldTransform(node.prim.GetParent())
+
+
+def _upwards(node: Node) -> Iterable[Node]:
+    above: Node | None = node
+    while above is not None:
+        yield above
+        above = above.parent
+
 
 def is_measurable(node: Node) -> bool:
     """Return whether a node is itself something to be measured."""
     return (node.is_gprim or node.is_instancer) and not node.is_hidden
+
+
+def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
+    """Return the points, (n, 3), in the prim's frame; none where they are authored as something else."""
+    points = UsdGeom.PointBased(prim).GetPointsAttr().Get(time)
+    is_sound = isinstance(points, Vt.Vec3fArray | Vt.Vec3dArray | Vt.Vec3hArray)
+    return np.array(points if is_sound else (), dtype=float).reshape(-1, 3)
 
 
 def _is_aligned(matrix: _Matrix) -> bool:
@@ -125,43 +230,38 @@ def _is_aligned(matrix: _Matrix) -> bool:
     return bool(((sizes > _ALIGNED * sizes.max(axis=1, keepdims=True)).sum(axis=1) <= 1).all())
 
 
-def _to_box(lower: Any, upper: Any, frame: StageFrame) -> Box:
-    low = to_metres(lower, frame)
-    high = to_metres(upper, frame)
-    pairs = [(min(a, b), max(a, b)) for a, b in zip(low, high, strict=True)]
-    (x0, x1), (y0, y1), (z0, z1) = pairs
-    return Box((x0, y0, z0), (x1, y1, z1))
+def _to_box(lower: Sequence[float], upper: Sequence[float], frame: StageFrame) -> Box:
+    scale = frame.metres_per_unit
+    x0, y0, z0 = lower
+    x1, y1, z1 = upper
+    if frame.up_axis == "Z":
+        return Box((x0 * scale, y0 * scale, z0 * scale), (x1 * scale, y1 * scale, z1 * scale))
+    return Box((x0 * scale, -z1 * scale + 0.0, y0 * scale), (x1 * scale, -z0 * scale + 0.0, y1 * scale))
 
 
 def to_metres(point: Any, frame: StageFrame) -> Vector:
     """Return a point of the stage in metres, z-up: (x, y, z) of a y-up stage becomes (x, -z, y)."""
-    x, y, z = (value * frame.metres_per_unit for value in point)
-    return (x, y, z) if frame.up_axis == "Z" else (x, -z + 0.0, y)
+    scale = frame.metres_per_unit
+    x, y, z = point
+    return (x * scale, y * scale, z * scale) if frame.up_axis == "Z" else (x * scale, -z * scale + 0.0, y * scale)
 
 
 def union(boxes: Iterable[Box]) -> Box | None:
     """Return the smallest box around all of `boxes`; None if there are none."""
     known = list(boxes)
-    if not known:
-        return None
-    lower = tuple(min(box.lower[axis] for box in known) for axis in range(3))
-    upper = tuple(max(box.upper[axis] for box in known) for axis in range(3))
-    return Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
-
-
-def read_pose(cache: UsdGeom.XformCache, prim: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion | None]:
-    """Return world position (metres) and rotation (x, y, z, w) of a prim's own frame, z-up.
-
-    Scale and mirroring are taken out of the rotation. Either is None where the matrix has no such part.
-    """
-    return pose_of(_local_to_world(cache, prim), frame)
+    if len(known) < 2:
+        return known[0] if known else None
+    x0, y0, z0 = map(min, *(box.lower for box in known))
+    x1, y1, z1 = map(max, *(box.upper for box in known))
+    return Box((x0, y0, z0), (x1, y1, z1))
 
 
 def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion | None]:
     """Return position (metres) and rotation (x, y, z, w) of a stage's 4 × 4 matrix, z-up."""
-    if not np.isfinite(np.asarray(matrix)).all():
+    rows = np.array(matrix)
+    if not np.isfinite(rows).all():
         return None, None
-    position = to_metres(matrix.ExtractTranslation(), frame)
+    position = to_metres(rows[3, :3].tolist(), frame)
     if _is_flat(matrix):
         return position, None
     rotation = matrix.RemoveScaleShear()
@@ -172,15 +272,6 @@ def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion |
         half = math.sqrt(0.5)
         quaternion = Gf.Quatd(half, half, 0, 0) * quaternion
     return position, _canonical(quaternion)
-
-
-def _local_to_world(cache: UsdGeom.XformCache, prim: Any) -> Any:
-    if prim.GetTypeName() or not prim.HasAttribute(UsdGeom.Tokens.xformOpOrder):
-        return cache.GetLocalToWorldTransform(prim)
-    # `def "Chair"` leaves its type to the asset it references; where that is missing, OpenUSD takes the prim for one
-    # without a transform, though it has one.
-    local = UsdGeom.Xformable(prim).GetLocalTransformation(cache.GetTime())
-    return local * cache.GetLocalToWorldTransform(prim.GetParent())
 
 
 def _is_flat(matrix: Any) -> bool:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 from pxr import Usd, UsdGeom
 
 from usd2kg.scene.bounds import BoxReader, pose_of
@@ -48,7 +49,7 @@ def read_copies(
         return
     to_world = UsdGeom.Xformable(node.prim).ComputeLocalToWorldTransform(time)
     prototypes = [node.prim.GetStage().GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetTargets()]
-    extents = [boxes.read_local_corners(prim) if prim else [] for prim in prototypes]
+    extents = [boxes.read_local_corners(prim) if prim else np.empty((0, 3)) for prim in prototypes]
     for place, index in enumerate(indices):
         if drawn[place] and 0 <= index < len(prototypes):
             matrix = matrices[place] * to_world

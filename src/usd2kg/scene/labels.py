@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from pxr import Usd, UsdGeom
 
 from usd2kg.scene.metadata import clean_text, texts_of
-from usd2kg.scene.model import Diagnostic, Encoding, Label, ObjectLabels, Strength
+from usd2kg.scene.model import NO_LABELS, Diagnostic, Encoding, Label, ObjectLabels, Strength
 from usd2kg.scene.outline import Node
 from usd2kg.words import split_identifier, words_of
 
@@ -48,28 +48,30 @@ class LabelReader:
 
     def read(self, nodes: list[Node]) -> ObjectLabels:
         """Return the labels of the object whose own nodes are `nodes`, its prim first."""
-        own = read_labels(nodes[0].prim, self._time)
-        inherited = _distinct([*own, *self._inherited(nodes[0].prim.GetParent())])[len(own) :]
-        below = (label for prim in _parts(nodes) for label in read_labels(prim, self._time))
+        own = read_labels(nodes[0].prim, self._time) if nodes[0].is_labelled else ()
+        inherited = _distinct([*own, *self._inherited(nodes[0].parent)])[len(own) :]
+        below = [label for prim in _parts(nodes) for label in read_labels(prim, self._time)]
+        if not (own or inherited or below):
+            return NO_LABELS
         return ObjectLabels(own, inherited, _distinct(below)[:_MOST_PARTS])
 
-    def _inherited(self, prim: Any) -> list[Label]:
+    def _inherited(self, node: Node | None) -> list[Label]:
         found: list[Label] = []
-        while prim and not prim.IsPseudoRoot():
-            path = str(prim.GetPath())
-            if path not in self._above:
-                here = read_labels(prim, self._time)
-                self._above[path] = tuple(replace(label, is_inherited=True) for label in here)
-            found += self._above[path]
-            prim = prim.GetParent()
+        while node is not None:
+            if node.is_labelled:
+                if node.path not in self._above:
+                    here = read_labels(node.prim, self._time)
+                    self._above[node.path] = tuple(replace(label, is_inherited=True) for label in here)
+                found += self._above[node.path]
+            node = node.parent
         return found
 
 
 def _parts(nodes: list[Node]) -> Iterator[Any]:
     for node in nodes:
-        if node is not nodes[0]:
+        if node.is_labelled and node is not nodes[0]:
             yield node.prim
-        if node.is_gprim:
+        if node.has_subsets:
             yield from (subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(node.prim)))
 
 

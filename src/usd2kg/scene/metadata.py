@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
@@ -17,6 +17,7 @@ __all__ = [
     "clean_text",
     "material_details",
     "text_attributes",
+    "text_names",
     "texts_of",
     "variant_selections",
 ]
@@ -79,16 +80,21 @@ def text_attributes(prim: Any, time: Any = None) -> tuple[tuple[str, str], ...]:
 
 
 def _texts(prim: Any, time: Any) -> Iterator[tuple[str, str]]:
-    for name in prim.GetAuthoredPropertyNames():
-        # Of the schemas' own attributes none is free text: purpose, visibility, orientation…
-        if not _is_technical(name) and not prim.GetPrimDefinition().GetPropertyDefinition(name):
-            yield name, ", ".join(texts_of(prim, name, time))
+    for name in text_names(prim, prim.GetAuthoredPropertyNames()):
+        yield name, ", ".join(texts_of(prim, name, time))
     if prim.HasAuthoredCustomData():
         # Every typed prim has its schema's documentation in customData; that is not authored.
         data = {key: value for key, value in prim.GetCustomData().items() if prim.HasAuthoredCustomDataKey(key)}
         yield from _flatten("customData", data)
     if prim.HasAuthoredAssetInfo():
         yield from _flatten("assetInfo", prim.GetAssetInfo())
+
+
+def text_names(prim: Any, names: Iterable[str]) -> list[str]:
+    """Return those of a prim's properties that may be free text, by their names."""
+    definition = prim.GetPrimDefinition()
+    # Of the schemas' own attributes none is free text: purpose, visibility, orientation…
+    return [name for name in names if not _is_technical(name) and not definition.GetPropertyDefinition(name)]
 
 
 def _is_technical(property_name: str) -> bool:
@@ -149,13 +155,15 @@ def _is_base64(text: str) -> bool:
 
 
 class MaterialReader:
-    """Reads the materials of objects at one time; each material is looked into once."""
+    """Reads the materials of objects at one time; each material is looked into once, what instances share too."""
 
-    def __init__(self, time: Any) -> None:
+    def __init__(self, time: Any, *, has_purpose_bindings: bool = True) -> None:
         self._time = time
+        # Without bindings for one purpose only, each purpose shows the same.
+        self._purposes = ("full", "preview") if has_purpose_bindings else ("full",)
         self._details: dict[str, MaterialDetails] = {}
-        self._unbound: set[Any] = set()
-        """Paths that no binding stands at or above."""
+        self._of_shared: dict[str, MaterialDetails] = {}
+        self._of_instances: dict[tuple[int, int], tuple[str, tuple[MaterialDetails, ...]]] = {}
 
     def read(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
         """Return the materials that the geometry among `nodes` is shown with, in order of appearance.
@@ -164,40 +172,62 @@ class MaterialReader:
         `full` and `preview`; geometry subsets are asked too. A binding to a material that does not exist gives its
         name.
         """
-        prims = [prim for node in nodes if node.is_gprim and not node.is_hidden for prim in _bindable(node.prim)]
+        root, twin = nodes[0], nodes[0].twin
+        if twin is None or root.is_bound or twin.is_bound:
+            return self._resolve(nodes)
+        # What is bound within an instance is bound alike in all of them.
+        key = (id(twin), len(nodes))
+        if key not in self._of_instances:
+            self._of_instances[key] = (root.path, self._resolve(nodes))
+        first, materials = self._of_instances[key]
+        return tuple(self._moved(material, first + "/", root.path + "/") for material in materials)
+
+    def _moved(self, material: MaterialDetails, before: str, after: str) -> MaterialDetails:
+        if not material.prim_path.startswith(before):
+            return material
+        return replace(material, prim_path=after + material.prim_path.removeprefix(before))
+
+    def _resolve(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
+        prims = [
+            prim
+            for node in nodes
+            if node.is_gprim and not node.is_hidden and (node.is_bound or node.has_subsets)
+            for prim in (_bindable(node.prim) if node.has_subsets else (node.prim,))
+        ]
         found: dict[str, MaterialDetails] = {}
-        by_purpose = [_bound_materials(prims, purpose) for purpose in ("full", "preview")]
+        by_purpose = [_bound_materials(prims, purpose) for purpose in self._purposes]
         for prim, *materials in zip(prims, *by_purpose, strict=True):
-            for material in materials:
-                if material:
-                    found.setdefault(str(material.GetPath()), self._read(material))
-            target = None if any(materials) else self._authored_target(prim)
+            bound = [material for material in materials if material]
+            for material in bound:
+                details = self._read(material)
+                found.setdefault(details.prim_path, details)
+            target = None if bound else _authored_target(prim)
             if target is not None:
                 found.setdefault(str(target), MaterialDetails(target.name, str(target)))
         return tuple(found.values())
 
-    def _authored_target(self, prim: Any) -> Any:
-        """Return the path that the nearest binding at or above `prim` names; None if there is none."""
-        passed = []
-        target = None
-        while target is None and not prim.IsPseudoRoot() and prim.GetPath() not in self._unbound:
-            passed.append(prim.GetPath())
-            relationship = prim.GetRelationship("material:binding")
-            targets = relationship.GetTargets() if relationship else []
-            target = targets[0].GetPrimPath() if targets else None
-            prim = prim.GetParent()
-        if target is None:
-            self._unbound.update(passed)
-        return target
-
     def _read(self, material: Any) -> MaterialDetails:
-        prim = material.GetPrim()
-        path = str(prim.GetPath())
-        # The copies of an instance share their materials.
-        shared = str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else path
-        if shared not in self._details:
-            self._details[shared] = _read_details(material, path, self._time)
-        return replace(self._details[shared], prim_path=path)
+        path = material.GetPath().pathString
+        known = self._details.get(path)
+        if known is None:
+            prim = material.GetPrim()
+            # The copies of an instance share their materials.
+            shared = prim.GetPrimInPrototype().GetPath().pathString if prim.IsInstanceProxy() else path
+            if shared not in self._of_shared:
+                self._of_shared[shared] = _read_details(material, path, self._time)
+            known = self._details[path] = replace(self._of_shared[shared], prim_path=path)
+        return known
+
+
+def _authored_target(prim: Any) -> Any:
+    """Return the path that the nearest binding at or above `prim` names; None if there is none."""
+    while not prim.IsPseudoRoot():
+        relationship = prim.GetRelationship("material:binding")
+        targets = relationship.GetTargets() if relationship else []
+        if targets:
+            return targets[0].GetPrimPath()
+        prim = prim.GetParent()
+    return None
 
 
 def material_details(prim_nodes: list[Node], time: Any = None) -> tuple[MaterialDetails, ...]:

@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 from usd2kg.words import words_of
 
 __all__ = [
+    "NO_LABELS",
     "Box",
     "Diagnostic",
     "Instances",
@@ -131,7 +132,7 @@ class ObjectLabels(NamedTuple):
     """On prims and geometry subsets below it, nested objects left out; at most 64."""
 
 
-_NO_LABELS = ObjectLabels((), (), ())
+NO_LABELS = ObjectLabels((), (), ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,12 +235,13 @@ class SceneObject:
     display_color: Vector | None
     """First authored display colour, linear RGB from 0 to 1."""
     instance_of: str | None
-    """Path of the prototype shared with other copies; None if the prim is not an instance."""
+    """Path of the first instance of the same prototype, maybe its own; None if the prim is not an instance. (The path
+    of the prototype itself is OpenUSD's secret and differs from run to run.)"""
     instances: Instances | None = None
     """Set where the object stands for the copies of a point instancer."""
     oriented_size: Vector | None = None
     """Extent along the prim's own axes, where they are turned against the world's; None where `box` says as much."""
-    labels: ObjectLabels = _NO_LABELS
+    labels: ObjectLabels = NO_LABELS
     """Semantic labels that the stage carries already, in whatever encoding; evidence, not truth."""
     variants: tuple[tuple[str, str], ...] = ()
     """(variant set, selected variant), by name of the set."""

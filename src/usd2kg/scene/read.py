@@ -1,26 +1,29 @@
 """read_scene: from a USD file to a Scene."""
 
+import gc
 import logging
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from pxr import Tf, Usd, UsdGeom
+from pxr import Tf, Usd
 
 from usd2kg.errors import SceneError
 from usd2kg.scene import evidence
-from usd2kg.scene.bounds import BoxReader, is_measurable, read_pose, union
+from usd2kg.scene.bounds import BoxReader, union
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.labels import LabelReader, lint_labels
 from usd2kg.scene.metadata import MaterialReader, text_attributes, variant_selections
-from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject, StageFrame
+from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.outline import Node, Outline, outline_stage
+from usd2kg.scene.outline import Node, Outline
 from usd2kg.scene.plausibility import check_plausibility
 from usd2kg.scene.selection import ASKED_FOR, Selection, explain, select_objects
-from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage
+from usd2kg.scene.stage import OpenedStage, captured_diagnostics, error_text, open_stage
+from usd2kg.scene.traversal import outline_stage
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
@@ -48,12 +51,11 @@ def read_scene(
     opened = open_stage(source, options)
     # Where an attribute has no samples, its default value is what stands at the earliest time.
     time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
-    with captured_diagnostics() as openusd_notes:
-        outline = outline_stage(opened, time)
+    with captured_diagnostics() as openusd_notes, _paused_collection(), outline_stage(opened, time) as outline:
         selection = select_objects(outline, tuple(dict.fromkeys(paths or ())), options.selection)
         objects, notes = _read_objects(opened, outline, selection, time, options.expand_instancers)
-        joints = read_joints(opened.stage, opened.frame, time)
-        label_notes = lint_labels(opened.stage, time)
+        joints = read_joints(outline.joint_prims, opened.frame, time)
+        label_notes = lint_labels(outline.labelled_prims, time)
     if not objects:
         raise SceneError(_no_object_message(opened.source, outline, selection, opened))
     logger.info("%s: %d objects among %d prims", opened.source, len(objects), outline.prim_count)
@@ -72,6 +74,21 @@ def read_scene(
     return replace(scene, diagnostics=(*opened.diagnostics, *openusd_notes, *found))
 
 
+@contextmanager
+def _paused_collection() -> Iterator[None]:
+    """Keep Python from looking for garbage while a stage is read.
+
+    All that is made is kept, and each look would go through the whole outline again: a fifth of the time.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
+
 def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptions | None = None) -> str:
     """Return why a prim is an object or is none, in words.
 
@@ -80,12 +97,11 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
-    with captured_diagnostics():
-        outline = outline_stage(opened, Usd.TimeCode.EarliestTime())
+    with captured_diagnostics(), outline_stage(opened, Usd.TimeCode.EarliestTime()) as outline:
         selection = select_objects(outline, (), options.selection)
-    if not opened.stage.GetPrimAtPath(path):
-        raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
-    return explain(path, outline, selection)
+        if not opened.stage.GetPrimAtPath(path):
+            raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
+        return explain(path, outline, selection)
 
 
 def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
@@ -104,40 +120,102 @@ def _no_object_message(source: str, outline: Outline, selection: Selection, open
 def _read_objects(
     opened: OpenedStage, outline: Outline, selection: Selection, time: Usd.TimeCode, expand_instancers: bool
 ) -> tuple[list[SceneObject], list[Diagnostic]]:
-    reader = _ObjectReader(opened.frame, selection.chosen, time)
+    reader = _ObjectReader(opened, outline, selection.chosen, time)
+    found = _find_objects(outline, selection.chosen, expand_instancers)
+    boxes = reader.measure([entry for entry in found if entry.is_read])
     objects: list[SceneObject] = []
+    for entry in found:
+        if entry.is_read:
+            objects.append(reader.read(entry, boxes[entry.nodes[0].path]))
+        inside = entry.nodes[0].path if entry.is_read else entry.parent_path
+        for instancer in entry.expanded:
+            objects.extend(read_copies(instancer, inside, opened.frame, time, reader.boxes))
+    return objects, reader.notes
+
+
+class _Found(NamedTuple):
+    """A chosen prim that is yet to be read."""
+
+    nodes: list[Node]
+    """The prim and what is below it, without other objects."""
+    parent_path: str | None
+    """Path of the nearest object above."""
+    expanded: list[Node]
+    """The point instancers whose copies are objects of their own."""
+    is_read: bool
+    """Whether it is an object beside its copies."""
+
+
+class _Boxes(NamedTuple):
+    below: Box | None
+    """Of all below the prim."""
+    own: Box | None
+    """Without nested objects."""
+    parts: tuple[Box, ...]
+
+
+def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: bool) -> list[_Found]:
+    found = []
     # (node, path of the nearest object above)
     pending: list[tuple[Node, str | None]] = [(outline.root, None)]
     while pending:
         node, parent_path = pending.pop()
-        if node.path in selection.chosen:
-            instancers = reader.own_instancers(node) if expand_instancers else []
-            if not instancers or node.gprim_count > len(instancers):
-                objects.append(reader.read(node, parent_path))
-                parent_path = node.path
-            for instancer in instancers:
-                objects.extend(read_copies(instancer, parent_path, opened.frame, time, reader.boxes))
-        pending.extend((child, parent_path) for child in reversed(node.children))
-    return objects, reader.notes
+        if node.path in chosen:
+            nodes = list(evidence.own_nodes(node, chosen))
+            expanded = [own for own in nodes if own.is_instancer and not own.is_hidden] if expand_instancers else []
+            is_read = not expanded or node.gprim_count > len(expanded)
+            found.append(_Found(nodes, parent_path, expanded, is_read))
+            parent_path = node.path if is_read else parent_path
+        if node.children:
+            pending.extend((child, parent_path) for child in reversed(node.children))
+    return found
 
 
 class _ObjectReader:
     """Reads one object at a time, sharing OpenUSD's caches."""
 
-    def __init__(self, frame: StageFrame, chosen: dict[str, str], time: Usd.TimeCode) -> None:
-        self.frame = frame
+    def __init__(self, opened: OpenedStage, outline: Outline, chosen: dict[str, str], time: Usd.TimeCode) -> None:
+        self.frame = opened.frame
         self.chosen = chosen
         self.time = time
-        self.boxes = BoxReader(frame, time)
-        self.xforms = UsdGeom.XformCache(time)
+        self.boxes = BoxReader(opened.frame, time)
         self.labels = LabelReader(time)
-        self.materials = MaterialReader(time)
+        self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
 
-    def read(self, node: Node, parent_path: str | None) -> SceneObject:
-        nodes = list(evidence.own_nodes(node, self.chosen))
-        prim = node.prim
-        box, own_box, part_boxes = self._boxes(node, nodes)
+    def measure(self, found: list[_Found]) -> dict[str, _Boxes]:
+        """Return the boxes of the objects by path."""
+        boxes: dict[str, _Boxes] = {}
+        inside: dict[str, list[Box]] = {}
+        # What is nested comes after what holds it: from the end, each box is computed once.
+        for entry in reversed(found):
+            path = entry.nodes[0].path
+            measured = self._measure(entry.nodes, inside.pop(path, []))
+            boxes[path] = measured
+            if measured.below is not None and entry.parent_path is not None:
+                inside.setdefault(entry.parent_path, []).append(measured.below)
+        self.notes.reverse()
+        return boxes
+
+    def _measure(self, nodes: list[Node], nested: list[Box]) -> _Boxes:
+        try:
+            parts = self.boxes.read_parts(nodes)
+            own = union(parts)
+            below = union([*nested, own]) if nested and own else own or union(nested)
+            below = below or self.boxes.read_hint(nodes[0])
+        except Tf.ErrorException as error:
+            reason = error_text(error) or "OpenUSD does not say why"
+            self._note("geometry", nodes[0], f"its box could not be computed ({reason}); it has none in the graph")
+            return _Boxes(None, None, ())
+        if below is None:
+            self._note("empty-box", nodes[0], "no geometry that can be measured; it has no size in the graph")
+        largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:_MOST_PARTS] if len(parts) > 1 else ()
+        return _Boxes(below, own if nested else below, tuple(parts[i] for i in sorted(largest)))
+
+    def read(self, entry: _Found, boxes: _Boxes) -> SceneObject:
+        """Return the object with all that the stage says about it."""
+        nodes = entry.nodes
+        node, prim = nodes[0], nodes[0].prim
         position, orientation = self._pose(node)
         materials = self.materials.read(nodes)
         return SceneObject(
@@ -146,50 +224,31 @@ class _ObjectReader:
             type_name=node.type_name,
             kind=node.kind,
             selected_by=self.chosen[node.path],
-            parent_path=parent_path,
-            box=box,
-            own_box=own_box,
-            part_boxes=part_boxes,
-            oriented_size=self.boxes.read_oriented_size(prim) if box else None,
+            parent_path=entry.parent_path,
+            box=boxes.below,
+            own_box=boxes.own,
+            part_boxes=boxes.parts,
+            oriented_size=self.boxes.read_oriented_size(node) if boxes.below else None,
             position=position,
             orientation=orientation,
             mass_kg=evidence.mass_kg(nodes, self.frame),
-            display_name=prim.GetDisplayName(),
-            documentation=prim.GetDocumentation().strip(),
+            display_name=str(node.metadata.get("displayName", "")),
+            documentation=str(node.metadata.get("documentation", "")).strip(),
             asset=evidence.asset_names(prim),
             materials=tuple(dict.fromkeys(material.name for material in materials)),
             parts=evidence.part_names(nodes),
             display_color=evidence.display_color(nodes, self.time),
-            instance_of=str(prim.GetPrototype().GetPath()) if prim.IsInstance() else None,
+            instance_of=(node.twin or node).path if node.is_instance else None,
             instances=count_copies(nodes, self.time),
             labels=self.labels.read(nodes),
             variants=variant_selections(prim),
-            texts=text_attributes(prim, self.time),
+            texts=text_attributes(prim, self.time) if node.may_have_texts else (),
             material_details=materials,
         )
 
-    def own_instancers(self, node: Node) -> list[Node]:
-        """Return the visible point instancers of an object, those of objects nested below it left out."""
-        return [own for own in evidence.own_nodes(node, self.chosen) if own.is_instancer and not own.is_hidden]
-
-    def _boxes(self, node: Node, nodes: list[Node]) -> tuple[Box | None, Box | None, tuple[Box, ...]]:
-        """Return the box of all below the prim, the box of its own geometry, and the boxes of its own parts."""
-        try:
-            box = self.boxes.read_below(node)
-            gprims = [own for own in nodes if is_measurable(own)]
-            parts = [part for own in gprims if (part := self.boxes.read_own(own))]
-            own_box = box if len(gprims) == node.gprim_count else union(parts)
-        except Tf.ErrorException as error:
-            self._note("geometry", node, f"its box could not be computed ({error}); it has none in the graph")
-            return None, None, ()
-        if box is None:
-            self._note("empty-box", node, "no geometry that can be measured; it has no size in the graph")
-        largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:_MOST_PARTS]
-        return box, own_box, tuple(parts[i] for i in sorted(largest)) if len(parts) > 1 else ()
-
     def _pose(self, node: Node) -> tuple[Any, Any]:
         try:
-            position, orientation = read_pose(self.xforms, node.prim, self.frame)
+            position, orientation = self.boxes.read_pose(node)
         except Tf.ErrorException:
             position, orientation = None, None
         if position is None or orientation is None:

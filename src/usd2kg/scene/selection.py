@@ -68,10 +68,15 @@ def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, st
     else:
         candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}))
     included = [path_pattern(pattern) for pattern in overrides.include]
-    excluded = [path_pattern(pattern) for pattern in overrides.exclude]
-    for node in nodes:
+    for node in nodes if included else ():
         if any(pattern.fullmatch(node.path) for pattern in included):
             candidates[node.path] = "included by a pattern of the user"
+    if overrides.exclude:
+        _exclude(outline, candidates, [path_pattern(pattern) for pattern in overrides.exclude])
+    return candidates
+
+
+def _exclude(outline: Outline, candidates: dict[str, str], excluded: list[re.Pattern[str]]) -> None:
     # (node, below an excluded one)
     pending = [(child, False) for child in outline.root.children]
     while pending:
@@ -80,7 +85,6 @@ def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, st
         if is_excluded:
             candidates.pop(node.path, None)
         pending.extend((child, is_excluded) for child in node.children)
-    return candidates
 
 
 def path_pattern(pattern: str) -> re.Pattern[str]:
@@ -169,6 +173,8 @@ def _nearest_below(node: Node, candidates: dict[str, str]) -> list[Node]:
 
 def _merge_robot_arms(outline: Outline, candidates: dict[str, str]) -> None:
     turning = {path for path, joint in outline.joints.items() if joint == "PhysicsRevoluteJoint"}
+    if len(turning) < _ARM_JOINTS:
+        return
     for node in outline.root.walk():
         if node.path in candidates and node.is_body and _chain_length(node, turning) >= _ARM_JOINTS:
             for below in node.walk():
@@ -218,17 +224,26 @@ class _Cover:
 def _geometry_owners(root: Node, candidates: dict[str, str]) -> dict[str, str]:
     covers: dict[str, _Cover] = {}
     # From the leaves up, without recursion: a stage may be nested deeper than Python's stack.
-    for node in reversed(list(root.walk())):
+    for node in reversed(list(_open_nodes(root, candidates))):
         covers[node.path] = _cover(node, candidates, covers)
     return {node.path: "geometry without a model above it" for node in covers[root.path].owners}
 
 
+def _open_nodes(root: Node, candidates: dict[str, str]) -> Iterator[Node]:
+    """Yield the nodes that no candidate is above, parents first."""
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        yield node
+        if node.children and node.path not in candidates:
+            pending.extend(reversed(node.children))
+
+
 def _cover(node: Node, candidates: dict[str, str], covers: dict[str, _Cover]) -> _Cover:
+    if node.path in candidates:
+        return _Cover(holds_objects=True)
     below = [covers.pop(child.path) for child in node.children]
     cover = _Cover(holds_objects=any(c.holds_objects for c in below))
-    if node.path in candidates:
-        cover.holds_objects = True
-        return cover
     is_own = node.is_gprim and not node.is_hidden
     cover.uncovered = is_own + sum(c.uncovered for c in below)
     if is_own:

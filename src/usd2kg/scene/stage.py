@@ -14,7 +14,7 @@ from usd2kg.errors import SceneError
 from usd2kg.scene.model import Diagnostic, StageFrame
 from usd2kg.scene.options import ReadOptions
 
-__all__ = ["OpenedStage", "captured_diagnostics", "open_stage"]
+__all__ = ["OpenedStage", "captured_diagnostics", "error_text", "open_stage"]
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _USD_FALLBACK_METRES = 0.01
@@ -48,9 +48,9 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
         with captured_diagnostics() as notes:
             stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
     except Tf.ErrorException as error:
-        raise SceneError(_cannot_open(source, _text(error))) from error
+        raise SceneError(_cannot_open(source, error_text(error))) from error
     if stage is None:
-        raise SceneError(_cannot_open(source, "; ".join(note.message for note in notes)))
+        raise SceneError(_cannot_open(source, _shorten("; ".join(note.message for note in notes))))
     return _opened(stage, str(source), notes, options)
 
 
@@ -80,9 +80,10 @@ def captured_diagnostics() -> Iterator[list[Diagnostic]]:
         found.extend(Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in notes)
 
 
-def _text(error: Exception) -> str:
+def error_text(error: Exception) -> str:
+    """Return the first thing an error of OpenUSD says, on one line; empty if it says nothing."""
     try:
-        return str(error)
+        return _shorten(str(error))
     except UnicodeDecodeError:
         # OpenUSD quotes the bytes that it could not read.
         return "it holds text that is not UTF-8"
@@ -103,8 +104,7 @@ def _check_file(source: Path) -> None:
 
 
 def _cannot_open(source: Path, reason: str) -> str:
-    detail = _shorten(reason)
-    return f"{source}: OpenUSD cannot read this layer{f' ({detail})' if detail else ''}; export it again"
+    return f"{source}: OpenUSD cannot read this layer{f' ({reason})' if reason else ''}; export it again"
 
 
 def _shorten(message: str, limit: int = 240) -> str:

@@ -1,0 +1,282 @@
+"""Traversing a stage, once, into its outline.
+
+A prim is asked as few questions as will do: its authored metadata and the names of its authored properties say what
+else is worth asking. Prims that can never be objects (cameras, materials, inactive or invisible branches…) are counted
+by reason and not entered. What instances share is traversed for the first one only.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from pxr import Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics
+
+from usd2kg.scene.metadata import text_names
+from usd2kg.scene.outline import Authored, Node, Outline
+from usd2kg.scene.stage import OpenedStage
+
+__all__ = ["outline_stage"]
+
+_HIDDEN_PURPOSES = frozenset({UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy})
+_TURNING_OPS = ("xformOp:rotate", "xformOp:orient", "xformOp:transform", "xformOp:shear")
+_BINDING = "material:binding"
+_SUBSET = "geometry subset"
+_TOLD_APART = frozenset({"specifier", "typeName", "kind", "active", "instanceable", "apiSchemas"})
+"""Metadata that the other fields of a node tell."""
+
+_REASON_BY_SCHEMA = (
+    ("UsdGeomCamera", "camera"),
+    ("UsdLuxBoundableLightBase", "light"),
+    ("UsdLuxNonboundableLightBase", "light"),
+    ("UsdLuxLightFilter", "light"),
+    ("UsdLuxPluginLight", "light"),
+    ("UsdShadeMaterial", "material"),
+    ("UsdShadeNodeGraph", "material"),
+    ("UsdShadeShader", "material"),
+    ("UsdGeomSubset", _SUBSET),
+    ("UsdSkelSkeleton", "skeleton rig"),
+    ("UsdSkelAnimation", "skeleton rig"),
+    ("UsdSkelBlendShape", "skeleton rig"),
+    ("UsdPhysicsScene", "physics"),
+    ("UsdPhysicsCollisionGroup", "physics"),
+    ("UsdRenderSettingsBase", "render settings"),
+)
+
+
+class _Schema(NamedTuple):
+    """What follows from a prim's type alone."""
+
+    reason: str | None
+    """Why prims of the type are left out; None if they are not."""
+    is_joint: bool
+    may_be_joint: bool
+    """Whether it is called a joint: vendors' types (PhysxPhysicsGearJoint) are unknown to plain OpenUSD."""
+    is_imageable: bool
+    is_gprim: bool
+    is_point_based: bool
+    is_scope: bool
+    is_instancer: bool
+
+
+def outline_stage(opened: OpenedStage, time: Usd.TimeCode) -> Outline:
+    """Return the outline of a stage, instance proxies included, read at `time`."""
+    return _Outliner(opened, time).run()
+
+
+class _Outliner:
+    def __init__(self, opened: OpenedStage, time: Usd.TimeCode) -> None:
+        self.stage = opened.stage
+        self.time = time
+        self.unresolved = opened.unresolved
+        self.outline = Outline(Node(opened.stage, "/", "", "", "", None))
+        self.schemas: dict[str, _Schema] = {}
+        self.kinds: dict[str, str] = {"": ""}
+        self.authored: dict[tuple[Any, ...], Authored] = {}
+        self.first_instances: dict[Any, Node] = {}
+        """Path of the prototype → its first instance."""
+        self.with_joints: dict[Any, bool] = {}
+        """Path of the prototype → whether joints are in it, which are told for each instance."""
+
+    def run(self) -> Outline:
+        entered = {"/": self.outline.root}
+        prims = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)))
+        next(prims)
+        for prim in prims:
+            path = prim.GetPath().pathString
+            above, _, name = path.rpartition("/")
+            node = self._enter(prim, path, name, entered[above or "/"])
+            if node is None:
+                prims.PruneChildren()
+                continue
+            entered[path] = node
+            if node.is_instancer or (node.is_instance and self._take_over(node)):
+                prims.PruneChildren()
+        _count_geometry(self.outline.root)
+        return self.outline
+
+    def _enter(self, prim: Any, path: str, name: str, parent: Node) -> Node | None:
+        """Return the node of a prim, hung into the tree; None if it is not to be entered."""
+        self.outline.prim_count += 1
+        metadata = prim.GetAllAuthoredMetadata()
+        reason = _reason_of(metadata)
+        if reason is not None:
+            self._leave_out(path, name, parent, reason)
+            return None
+        type_name = metadata.get("typeName", "")
+        schema = self._schema(prim, type_name)
+        schemas = tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas()) if "apiSchemas" in metadata else ()
+        authored = self._authored(prim, type_name, schemas)
+        is_labelled = authored.is_semantic
+        if is_labelled:
+            self.outline.labelled_prims.append(prim)
+        if schema.is_joint or (schema.may_be_joint and "physics:body1" in authored.names):
+            self._add_joint(prim, type_name)
+            reason = "physics"
+        elif schema.reason is not None or self._is_invisible(prim, schema, authored):
+            reason = schema.reason or "invisible"
+        if reason is not None:
+            self._leave_out(path, name, parent, reason)
+            return None
+        node = Node(self.stage, path, name, type_name, self._kind(metadata), parent, known_prim=prim)
+        parent.children.append(node)
+        self._fill(node, schema, authored, schemas)
+        if len(metadata) > 2 and not _TOLD_APART.issuperset(metadata):
+            node.metadata = metadata
+        node.is_labelled = is_labelled
+        if not node.is_gprim:
+            node.is_instance = "instanceable" in metadata and prim.IsInstance()
+            node.is_asset = node.is_instance or prim.HasAuthoredReferences() or prim.HasAuthoredPayloads()
+        return node
+
+    def _fill(self, node: Node, schema: _Schema, authored: Authored, schemas: Sequence[str]) -> None:
+        node.authored = authored
+        node.is_gprim, node.is_point_based = schema.is_gprim, schema.is_point_based
+        node.is_scope, node.is_instancer = schema.is_scope, schema.is_instancer
+        node.is_unresolved = node.path in self.unresolved
+        _inherit(node)
+        if UsdGeom.Tokens.purpose in authored.names:
+            purpose = node.prim.GetAttribute(UsdGeom.Tokens.purpose)
+            if purpose.HasAuthoredValue():
+                node.is_hidden = purpose.Get() in _HIDDEN_PURPOSES
+        if schemas:
+            node.has_mass = "PhysicsMassAPI" in schemas
+            node.is_body = "PhysicsRigidBodyAPI" in schemas or (node.has_mass and not node.is_gprim)
+
+    def _authored(self, prim: Any, type_name: str, schemas: tuple[str, ...]) -> Authored:
+        names = tuple(prim.GetAuthoredPropertyNames())
+        known = self.authored.get((type_name, schemas, names))
+        if known is None:
+            known = _read_authored(prim, schemas, names)
+            self.authored[type_name, schemas, names] = known
+            self.outline.has_purpose_bindings |= known.has_purpose_binding
+        return known
+
+    def _is_invisible(self, prim: Any, schema: _Schema, authored: Authored) -> bool:
+        if not schema.is_imageable or UsdGeom.Tokens.visibility not in authored.names:
+            return False
+        return bool(prim.GetAttribute(UsdGeom.Tokens.visibility).Get(self.time) == UsdGeom.Tokens.invisible)
+
+    def _leave_out(self, path: str, name: str, parent: Node, reason: str) -> None:
+        self.outline.left_out[reason] += 1
+        self.outline.pruned[path] = reason
+        parent.left_out = (*parent.left_out, (name, reason))
+        parent.has_subsets |= reason == _SUBSET
+
+    def _add_joint(self, prim: Any, type_name: str) -> None:
+        self.outline.joint_prims.append(prim)
+        relationship = prim.GetRelationship("physics:body1")
+        for target in relationship.GetTargets() if relationship else ():
+            self.outline.joints.setdefault(str(target), type_name)
+
+    def _schema(self, prim: Any, type_name: str) -> _Schema:
+        known = self.schemas.get(type_name)
+        if known is None:
+            known = self.schemas[type_name] = _Schema(
+                reason=next((why for schema, why in _REASON_BY_SCHEMA if _is_a(prim, schema)), None),
+                is_joint=prim.IsA(UsdPhysics.Joint),
+                may_be_joint=type_name.endswith("Joint"),
+                is_imageable=prim.IsA(UsdGeom.Imageable),
+                is_gprim=prim.IsA(UsdGeom.Gprim),
+                is_point_based=prim.IsA(UsdGeom.PointBased),
+                is_scope=prim.IsA(UsdGeom.Scope),
+                is_instancer=prim.IsA(UsdGeom.PointInstancer),
+            )
+        return known
+
+    def _kind(self, metadata: Mapping[str, Any]) -> str:
+        kind = metadata.get("kind", "")
+        if kind not in self.kinds:
+            self.kinds[kind] = _standard_kind(kind)
+        return self.kinds[kind]
+
+    def _take_over(self, root: Node) -> bool:
+        """Copy what is below the first instance of the same prototype; return whether that could be done."""
+        prototype = root.prim.GetPrototype().GetPath()
+        first = self.first_instances.setdefault(prototype, root)
+        if first is root or first.is_hidden != root.is_hidden or self._holds_joints(prototype, first):
+            return False
+        root.twin = first
+        pending = [(first, root)]
+        while pending:
+            source, copy = pending.pop()
+            for name, reason in source.left_out:
+                self.outline.prim_count += 1
+                self._leave_out(f"{copy.path}/{name}", name, copy, reason)
+            for child in source.children:
+                self.outline.prim_count += 1
+                pending.append((child, _copy_below(child, copy)))
+        return True
+
+    def _holds_joints(self, prototype: Any, first: Node) -> bool:
+        if prototype not in self.with_joints:
+            reasons = {reason for node in first.walk() for _, reason in node.left_out}
+            self.with_joints[prototype] = "physics" in reasons
+        return self.with_joints[prototype]
+
+
+def _copy_below(source: Node, parent: Node) -> Node:
+    path = f"{parent.path}/{source.name}"
+    node = Node(source.stage, path, source.name, source.type_name, source.kind, parent)
+    node.metadata, node.authored = source.metadata, source.authored
+    parent.children.append(node)
+    node.is_gprim, node.is_point_based = source.is_gprim, source.is_point_based
+    node.is_scope, node.is_instancer, node.is_instance = source.is_scope, source.is_instancer, source.is_instance
+    node.is_body, node.has_mass, node.is_asset = source.is_body, source.has_mass, source.is_asset
+    node.is_labelled, node.is_unresolved = source.is_labelled, source.is_unresolved
+    node.twin = source.twin or source
+    _inherit(node)
+    node.is_hidden = source.is_hidden
+    return node
+
+
+def _inherit(node: Node) -> None:
+    parent = node.parent
+    assert parent is not None
+    node.is_hidden = parent.is_hidden
+    node.is_bound = parent.is_bound or node.authored.binds
+    node.may_be_turned = parent.may_be_turned or node.authored.turns
+
+
+def _count_geometry(root: Node) -> None:
+    for node in reversed(list(root.walk())):
+        if node.is_gprim or node.is_instancer:
+            if node.is_hidden:
+                node.hidden_gprim_count += 1
+            else:
+                node.gprim_count += 1
+        if node.parent is not None:
+            node.parent.gprim_count += node.gprim_count
+            node.parent.hidden_gprim_count += node.hidden_gprim_count
+
+
+def _read_authored(prim: Any, schemas: tuple[str, ...], names: tuple[str, ...]) -> Authored:
+    bindings = [name for name in names if name.startswith(_BINDING)]
+    return Authored(
+        names,
+        turns=any(name.startswith(_TURNING_OPS) for name in names),
+        binds=bool(bindings),
+        has_purpose_binding=bool(set(bindings) - {_BINDING}),
+        is_semantic=any(name.lower().startswith("semantic") for name in (*names, *schemas)),
+        has_texts=bool(text_names(prim, names)),
+    )
+
+
+def _reason_of(metadata: Mapping[str, Any]) -> str | None:
+    if not metadata.get("active", True):
+        return "inactive"
+    specifier = metadata.get("specifier", Sdf.SpecifierOver)
+    if specifier == Sdf.SpecifierDef:
+        return None
+    return "abstract" if specifier == Sdf.SpecifierClass else "over without definition"
+
+
+def _standard_kind(kind: str) -> str:
+    for base in (Kind.Tokens.component, Kind.Tokens.subcomponent, Kind.Tokens.assembly, Kind.Tokens.group):
+        # Studios derive kinds of their own ("prop" from "component"); the registry knows the base.
+        if Kind.Registry.IsA(kind, base):
+            return str(base)
+    return kind
+
+
+def _is_a(prim: Any, schema: str) -> bool:
+    schema_type = Tf.Type.FindByName(schema)
+    return bool(schema_type) and prim.IsA(schema_type)
