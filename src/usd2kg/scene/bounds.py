@@ -59,10 +59,7 @@ class BoxReader:
         """
         gprims = [node for node in nodes if is_measurable(node)]
         shape = self._shared_shape(nodes[0], gprims)
-        if shape is not None:
-            boxes = self._place(shape, nodes[0])
-        else:
-            boxes = [self._measure(node) for node in gprims]
+        boxes = [self._measure(node) for node in gprims] if shape is None else self._place(shape, nodes[0])
         return [box for box in boxes if box is not None]
 
     def read_hint(self, node: Node) -> Box | None:

@@ -6,7 +6,16 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-__all__ = ["NOTHING_AUTHORED", "Authored", "Node", "Outline"]
+__all__ = ["NOTHING_AUTHORED", "Authored", "JointLink", "Node", "Outline"]
+
+
+class JointLink(NamedTuple):
+    """Which body a joint moves against which."""
+
+    body0: str | None
+    """None for the world."""
+    body1: str
+    type_name: str
 
 
 class Authored(NamedTuple):
@@ -25,9 +34,7 @@ class Authored(NamedTuple):
 
 
 _NO_METADATA: Mapping[str, Any] = MappingProxyType({})
-NOTHING_AUTHORED = Authored(
-    (), turns=False, binds=False, has_purpose_binding=False, is_semantic=False, has_texts=False
-)
+NOTHING_AUTHORED = Authored((), turns=False, binds=False, has_purpose_binding=False, is_semantic=False, has_texts=False)
 
 
 @dataclass(slots=True)
@@ -113,8 +120,8 @@ class Outline:
     pruned: dict[str, str] = field(default_factory=dict)
     """Path of a prim that was not entered → the reason."""
     prim_count: int = 0
-    joints: dict[str, str] = field(default_factory=dict)
-    """Path of the moved body → type of the joint that moves it."""
+    joints: list[JointLink] = field(default_factory=list)
+    """What the joints connect, in traversal order."""
     joint_prims: list[Any] = field(default_factory=list)
     """The joints, in traversal order."""
     labelled_prims: list[Any] = field(default_factory=list)

@@ -12,12 +12,14 @@ from dataclasses import dataclass, field
 
 from usd2kg.scene.options import SelectionOverrides
 from usd2kg.scene.outline import Node, Outline
-from usd2kg.words import split_identifier
+from usd2kg.scene.robots import merge_robots
+from usd2kg.words import split_identifier, words_of
 
 __all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"]
 
 ASKED_FOR = "asked for by path"
 """The reason of an object that the rules did not choose."""
+_BODY = "rigid body"
 _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
 _GROUPING_WORDS = frozenset(
@@ -26,8 +28,16 @@ _GROUPING_WORDS = frozenset(
     layout environment env world root scene visuals models parts structure decoration decorations
     """.split()
 )
-_ARM_JOINTS = 4
-"""A chain of this many turning joints, each below the other, is a robot arm and not furniture."""
+_FIXTURE_WORDS = frozenset(
+    """
+    basin burner cooktop countertop counter faucet hob hotplate sink stovetop tap washbasin worktop
+    """.split()
+)
+"""Distinct fixtures, which people name apart from the body that they are built into."""
+_SILENT_WORDS = frozenset(
+    "part parts piece component element item entity body solid surface face shape unnamed".split()
+)
+"""Last words of names that converters make up; with production tokens and numbers they say nothing."""
 
 
 @dataclass(frozen=True)
@@ -103,9 +113,10 @@ def path_pattern(pattern: str) -> re.Pattern[str]:
 def _by_rules(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
     candidates = _model_candidates(outline, kinds)
     _drop_whole_scene(outline.root, candidates)
-    _merge_robot_arms(outline, candidates)
+    merge_robots(outline, candidates)
     _merge_wrappers(outline.root, candidates)
     candidates.update(_geometry_owners(outline.root, candidates))
+    candidates.update(_fixtures(outline.root, candidates))
     return candidates
 
 
@@ -120,7 +131,7 @@ def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]
             found[node.path] = f"authored kind: {node.kind}"
             in_model = True
         elif node.is_body and is_there and not node.kind:
-            found[node.path] = "rigid body"
+            found[node.path] = _BODY
             in_model = True
         elif node.is_instancer:
             found[node.path] = "point instancer"
@@ -169,29 +180,6 @@ def _nearest_below(node: Node, candidates: dict[str, str]) -> list[Node]:
         else:
             pending.extend(reversed(below.children))
     return found
-
-
-def _merge_robot_arms(outline: Outline, candidates: dict[str, str]) -> None:
-    turning = {path for path, joint in outline.joints.items() if joint == "PhysicsRevoluteJoint"}
-    if len(turning) < _ARM_JOINTS:
-        return
-    for node in outline.root.walk():
-        if node.path in candidates and node.is_body and _chain_length(node, turning) >= _ARM_JOINTS:
-            for below in node.walk():
-                if below is not node:
-                    candidates.pop(below.path, None)
-            candidates[node.path] = "robot: a chain of turning joints"
-
-
-def _chain_length(node: Node, turning: set[str]) -> int:
-    """Return the longest run of turning joints below `node`, if the chain never branches into objects."""
-    length, current = 0, node
-    while True:
-        links = [child for child in current.children if child.is_body]
-        if len(links) != 1:
-            return length
-        current = links[0]
-        length += current.path in turning
 
 
 def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
@@ -262,7 +250,14 @@ def _owners_at(node: Node, cover: _Cover, below: list[_Cover]) -> list[Node]:
     is_lone_root = _is_lone_root(node) and not cover.holds_objects
     if len(found) == 1 and (is_lone_root or not is_grouping):
         return [node]
+    # A named thing in pieces that nobody named: Chair/group_1/mesh_7.
+    if not is_grouping and not _is_silent(node.name) and all(_is_silent(owner.name) for owner in found):
+        return [node]
     return found
+
+
+def _is_silent(name: str) -> bool:
+    return _SILENT_WORDS.issuperset(words_of(name))
 
 
 def _is_grouping(node: Node, holds_objects: bool) -> bool:
@@ -276,6 +271,33 @@ def _is_lone_root(node: Node) -> bool:
     """Whether the file is one asset: a single root prim with nothing below it but what is asked about."""
     above = node.parent
     return above is not None and above.parent is None and not node.is_scope and node.gprim_count == above.gprim_count
+
+
+def _fixtures(root: Node, candidates: dict[str, str]) -> dict[str, str]:
+    """Return the fixtures among the parts of rigid bodies, which may be frames whose mesh is part of the body's."""
+    found: dict[str, str] = {}
+    if _BODY not in candidates.values():
+        return found
+    for body in [node for node in root.walk() if candidates.get(node.path) == _BODY]:
+        pending = list(body.children)
+        while pending:
+            node = pending.pop()
+            if node.path in candidates:
+                continue
+            if not node.is_hidden and _is_fixture(node) and _last_word(node.name) not in words_of(body.name):
+                found[node.path] = f"fixture of {body.name}"
+            else:
+                pending.extend(node.children)
+    return found
+
+
+def _is_fixture(node: Node) -> bool:
+    is_whole = node.is_gprim or node.gprim_count > 0 or (node.type_name == "Xform" and not node.children)
+    return is_whole and _last_word(node.name) in _FIXTURE_WORDS
+
+
+def _last_word(name: str) -> str:
+    return next(reversed(words_of(name)), "")
 
 
 def _count_left_out(outline: Outline, chosen: dict[str, str]) -> Counter[str]:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from pxr import Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 
 from usd2kg.scene.metadata import text_names
-from usd2kg.scene.outline import Authored, Node, Outline
+from usd2kg.scene.outline import Authored, JointLink, Node, Outline
 from usd2kg.scene.stage import OpenedStage
 
 __all__ = ["outline_stage"]
@@ -163,9 +163,9 @@ class _Outliner:
 
     def _add_joint(self, prim: Any, type_name: str) -> None:
         self.outline.joint_prims.append(prim)
-        relationship = prim.GetRelationship("physics:body1")
-        for target in relationship.GetTargets() if relationship else ():
-            self.outline.joints.setdefault(str(target), type_name)
+        fixed, moved = (_first_target(prim.GetRelationship(f"physics:body{side}")) for side in (0, 1))
+        if moved is not None:
+            self.outline.joints.append(JointLink(fixed, moved, type_name))
 
     def _schema(self, prim: Any, type_name: str) -> _Schema:
         known = self.schemas.get(type_name)
@@ -246,6 +246,11 @@ def _count_geometry(root: Node) -> None:
         if node.parent is not None:
             node.parent.gprim_count += node.gprim_count
             node.parent.hidden_gprim_count += node.hidden_gprim_count
+
+
+def _first_target(relationship: Any) -> str | None:
+    targets = relationship.GetTargets() if relationship else ()
+    return str(targets[0].GetPrimPath()) if targets else None
 
 
 def _read_authored(prim: Any, schemas: tuple[str, ...], names: tuple[str, ...]) -> Authored:
