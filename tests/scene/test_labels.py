@@ -9,8 +9,8 @@ from usd2kg.scene import evidence
 from usd2kg.scene.labels import LabelReader, lint_labels, read_labels
 from usd2kg.scene.model import Label
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.traversal import outline_stage
 from usd2kg.scene.stage import open_stage
+from usd2kg.scene.traversal import outline_stage
 
 EARLIEST = Usd.TimeCode.EarliestTime()
 DFL = "http://www.ease-crc.org/ont/SOMA_DFL.owl#"

@@ -13,8 +13,8 @@ from usd2kg.scene import evidence
 from usd2kg.scene.metadata import clean_text, material_details, text_attributes, variant_selections
 from usd2kg.scene.model import MaterialDetails
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.traversal import outline_stage
 from usd2kg.scene.stage import open_stage
+from usd2kg.scene.traversal import outline_stage
 
 EARLIEST = Usd.TimeCode.EarliestTime()
 

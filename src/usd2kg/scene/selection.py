@@ -19,6 +19,7 @@ __all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"
 
 ASKED_FOR = "asked for by path"
 """The reason of an object that the rules did not choose."""
+_ASSET = "asset boundary (reference, payload or instance)"
 _BODY = "rigid body"
 _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
@@ -115,6 +116,7 @@ def _by_rules(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
     _drop_whole_scene(outline.root, candidates)
     merge_robots(outline, candidates)
     _merge_wrappers(outline.root, candidates)
+    _rise_to_names(outline.root, candidates)
     candidates.update(_geometry_owners(outline.root, candidates))
     candidates.update(_fixtures(outline.root, candidates))
     return candidates
@@ -136,7 +138,7 @@ def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]
         elif node.is_instancer:
             found[node.path] = "point instancer"
         elif node.is_asset and is_there and not (in_model or in_asset or node.is_gprim) and _is_one_asset(node):
-            found[node.path] = "asset boundary (reference, payload or instance)"
+            found[node.path] = _ASSET
             in_asset = True
         pending.extend((child, in_model, in_asset) for child in node.children)
     return found
@@ -195,6 +197,19 @@ def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
             del candidates[nested[0].path]
         elif not candidates[node.path].startswith("authored kind"):
             del candidates[node.path]
+
+
+def _rise_to_names(root: Node, candidates: dict[str, str]) -> None:
+    """Let the model above stand for an asset that comes in as its `visual`, where that is all it shows."""
+    assets = [node for node in root.walk() if candidates.get(node.path) == _ASSET and _is_silent(node.name)]
+    for asset in assets:
+        top = asset
+        while _is_silent(top.name) and (above := top.parent) is not None and above.path not in candidates:
+            if above.gprim_count > asset.gprim_count or _is_grouping(above, holds_objects=False):
+                break
+            top = above
+        del candidates[asset.path]
+        candidates[top.path] = _ASSET
 
 
 @dataclass(slots=True)

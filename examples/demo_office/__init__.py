@@ -1,0 +1,1 @@
+"""The demo office: an OpenUSD scene authored by script, with hand labels."""

@@ -1,0 +1,1 @@
+"""The demo warehouse, authored by script; see README.md."""

@@ -1,0 +1,63 @@
+"""Labels against ontologies other than the one that ships: `benchmarks/gold` can be read and names real objects."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from tests.conftest import shared_file
+from usd2kg.evaluation.gold import GoldLabel, read_gold
+from usd2kg.ontology import TBox, load_tbox
+from usd2kg.scene import ReadOptions, SelectionOverrides, read_scene
+
+GOLD = Path(__file__).parents[2] / "benchmarks" / "gold"
+ONTOLOGIES = {
+    "multiverse": "ontologies/other/multiverse_soma_dfl/SOMA_DFL_module.owl",
+}
+SCENES = {
+    "small_house": "scenes/aws_robomaker/small_house.usdc",
+    "franka_kitchen": "scenes/franka_kitchen/franka_kitchen.usdc",
+}
+COUNTS = {
+    "small_house.multiverse": (87, 35),
+    "franka_kitchen.multiverse": (28, 16),
+}
+"""Rows and distinct classes of each file, as its README says."""
+DFL = "http://www.ease-crc.org/ont/SOMA_DFL.owl#"
+
+
+class _Labelled(NamedTuple):
+    name: str
+    scene: Path
+    tbox: TBox
+    labels: tuple[GoldLabel, ...]
+
+
+@pytest.fixture(scope="module", params=sorted(COUNTS))
+def labelled(request: pytest.FixtureRequest) -> _Labelled:
+    name: str = request.param
+    scene, ontology = name.split(".")
+    tbox = load_tbox(shared_file(ONTOLOGIES[ontology]))
+    return _Labelled(name, shared_file(SCENES[scene]), tbox, read_gold(GOLD / f"{name}.csv", tbox))
+
+
+def test_every_class_is_in_scope_and_the_counts_are_those_written(labelled: _Labelled) -> None:
+    used = {label.target for label in labelled.labels}
+    assert (len(labelled.labels), len(used)) == COUNTS[labelled.name]
+    assert used | {other for label in labelled.labels for other in label.also} <= set(labelled.tbox.by_iri)
+
+
+def test_every_path_is_an_object_of_the_scene(labelled: _Labelled) -> None:
+    paths = {label.prim_path for label in labelled.labels}
+    found = {obj.prim_path for obj in read_scene(labelled.scene).objects}
+    assert paths <= found
+    options = ReadOptions(selection=SelectionOverrides(only=tuple(sorted(paths))))
+    assert {obj.prim_path for obj in read_scene(labelled.scene, options=options).objects} == paths
+
+
+def test_classes_that_the_hierarchy_leaves_out_of_scope_are_those_the_readme_names() -> None:
+    tbox = load_tbox(shared_file(ONTOLOGIES["multiverse"]))
+    for name in ("handle", "knob", "sink", "lid", "room", "kitchen"):
+        assert not any(iri.startswith(f"{DFL}{name}.n.wn.artifact") for iri in tbox.by_iri)
+    for name in ("faucet", "countertop", "door", "cooktop", "kitchen_unit"):
+        assert any(iri.startswith(f"{DFL}{name}.n.wn.artifact") for iri in tbox.by_iri)

@@ -1,0 +1,142 @@
+"""Word frequencies: known words, orderings a speaker of English would sign, and the prior of things."""
+
+import gzip
+import math
+import time
+from importlib.resources import files
+
+import pytest
+
+from usd2kg.grounding.embedded import frequencies
+from usd2kg.grounding.embedded.frequencies import UNKNOWN_FREQUENCY, thing_prior, word_frequency
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+
+DATA = files("usd2kg.grounding") / "data"
+
+COMMON_AND_RARE = """
+    chair davenport, table tabor, cup chalice, lamp sconce, door wicket, window oriel, bottle demijohn, spoon skimmer,
+    box coffer, desk escritoire, shelf etagere, sofa settee, clock clepsydra, oven kiln, bowl tureen, plate trencher,
+    pan skillet, hammer mallet, bag reticule, basket pannier, screen reredos, car phaeton, truck dray, curtain arras,
+    mirror speculum, carpet drugget, stove brazier, wheel cogwheel, ladder ratline, cabinet credenza, shovel mattock
+"""
+PAIRS = [tuple(pair.split()) for pair in COMMON_AND_RARE.split(",")]
+
+
+def shipped_lines() -> list[list[str]]:
+    text = gzip.decompress((DATA / "frequencies.txt.gz").read_bytes()).decode("ascii")
+    return [line.split("\t") for line in text.splitlines()]
+
+
+@pytest.mark.parametrize(("common", "rare"), PAIRS)
+def test_the_common_artifact_is_more_frequent_and_likelier_in_a_scene(common: str, rare: str):
+    assert word_frequency(common) > word_frequency(rare)
+    assert thing_prior(common) > thing_prior(rare)
+
+
+@pytest.mark.parametrize(
+    ("word", "low", "high"),
+    [
+        # Within a factor of three or so of everyday English: a chair about once in 12,000 words.
+        ("time", 6.0, 6.6),
+        ("house", 5.3, 6.1),
+        ("chair", 4.5, 5.2),
+        ("knife", 4.1, 4.8),
+        ("toaster", 2.7, 3.7),
+        ("forklift", 2.2, 3.2),
+        ("wooden", 4.2, 4.9),
+    ],
+)
+def test_zipf_scores_have_the_size_of_everyday_english(word: str, low: float, high: float):
+    assert low <= word_frequency(word) <= high
+
+
+@pytest.mark.parametrize("word", ["", "xqzt", "Chair", "chairs", "coffee table", "coffeetable", "the"])
+def test_a_word_outside_the_vocabulary_has_the_floor(word: str):
+    assert word_frequency(word) == UNKNOWN_FREQUENCY == 1.0
+
+
+def test_plurals_count_for_their_singular():
+    # Shoes and chopsticks are spoken of in pairs: `chopstick` itself is in none of the ranked lists.
+    assert word_frequency("shoe") > word_frequency("wallet")
+    assert word_frequency("chopstick") > word_frequency("forklift")
+
+
+def test_a_plural_that_is_a_noun_of_its_own_stays():
+    assert word_frequency("scissors") > word_frequency("scissor")
+
+
+def test_every_single_word_noun_and_adjective_of_the_taxonomy_is_there():
+    words = [word for word, *_ in shipped_lines()]
+    assert words == sorted(set(words))
+    assert load_taxonomy().adjectives <= set(words)
+    assert {"chair", "forklift", "apple", "dog", "water", "wooden", "flowerpot", "worktop"} <= set(words)
+    assert len(words) == 34563
+
+
+def test_scores_lie_between_the_floor_and_the_commonest_words():
+    tenths = [int(score) for _, score, _ in shipped_lines()]
+    assert min(tenths) == 10 * UNKNOWN_FREQUENCY
+    assert max(tenths) < 80
+    shares = [int(share) for _, _, share in shipped_lines() if share != "-"]
+    assert (min(shares), max(shares)) == (0, 100)
+
+
+def test_the_prior_sums_to_one_over_the_vocabulary():
+    assert math.fsum(math.exp(thing_prior(word)) for word, *_ in shipped_lines()) == pytest.approx(1, abs=1e-9)
+
+
+@pytest.mark.parametrize("abstract", ["time", "people", "person", "way", "idea", "love", "can", "chef", "wooden"])
+def test_common_words_that_name_no_thing_come_behind_a_chair(abstract: str):
+    assert thing_prior(abstract) < thing_prior("chair")
+
+
+def test_at_equal_frequency_artifacts_come_before_food_and_food_before_persons():
+    assert word_frequency("oven") == pytest.approx(word_frequency("onion"), abs=0.4)
+    assert word_frequency("onion") == pytest.approx(word_frequency("chef"), abs=0.4)
+    assert thing_prior("oven") > thing_prior("onion") > thing_prior("chef")
+
+
+def test_a_past_tense_does_not_pass_for_the_tool():
+    assert word_frequency("saw") > word_frequency("hammer")
+    assert thing_prior("saw") < thing_prior("hammer")
+
+
+def test_words_that_only_the_home_ontology_knows_count_as_things():
+    assert not load_taxonomy().senses("worktop")
+    # The weight is 0.5 against the 1 of an artifact without another meaning.
+    difference = word_frequency("forklift") - word_frequency("worktop")
+    expected = 0.75 * math.log(10) * difference + math.log(2)
+    assert thing_prior("forklift") - thing_prior("worktop") == pytest.approx(expected)
+
+
+def test_the_prior_of_a_word_with_one_meaning_follows_the_formula():
+    # Both are artifacts in their only meaning and only nouns, so just the frequencies differ.
+    difference = word_frequency("forklift") - word_frequency("flowerpot")
+    assert thing_prior("forklift") - thing_prior("flowerpot") == pytest.approx(0.75 * math.log(10) * difference)
+
+
+def test_the_prior_of_an_unknown_word_is_the_least():
+    least = min(thing_prior(word) for word, *_ in shipped_lines())
+    assert thing_prior("xqzt") == pytest.approx(least)
+
+
+def test_a_compound_of_the_taxonomy_is_a_thing_of_unknown_frequency():
+    assert [sense.domain for sense in load_taxonomy().senses("coffeetable")] == ["artifact"]
+    assert thing_prior("xqzt") < thing_prior("coffeetable") < thing_prior("flowerpot")
+
+
+def test_the_data_loads_within_50_milliseconds():
+    def seconds() -> float:
+        frequencies._load_entries.cache_clear()
+        start = time.perf_counter()
+        frequencies._load_entries()
+        return time.perf_counter() - start
+
+    assert min(seconds() for _ in range(5)) < 0.05
+
+
+def test_the_notice_stands_beside_the_data():
+    notice = (DATA / "FREQUENCIES-LICENSE.txt").read_text("ascii")
+    assert "https://creativecommons.org/licenses/by/3.0/" in notice
+    assert "Copyright 2000-2018 by Kevin Atkinson" in notice
+    assert len((DATA / "frequencies.txt.gz").read_bytes()) < 400 * 1024

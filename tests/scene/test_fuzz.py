@@ -1,0 +1,223 @@
+"""Mangled stages: a sane Scene or a SceneError of one line, in time, and nothing on the terminal."""
+
+import itertools
+import os
+import random
+import signal
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import shared_file
+from tests.scene import fuzzing
+from tests.scene.fuzzing import Case, Judge, Outcome, Tally, Verdict, Worker, as_crate, insane, make_cases
+from tests.scene.usda import component, cube, xform
+from usd2kg.scene import Box
+
+CORPUS = fuzzing.own_corpus()
+
+
+def check(tally: Tally, capsys):
+    with capsys.disabled():
+        for verdict, cases in tally.found.items():
+            if verdict.outcome in fuzzing.OPENUSDS:
+                print(f"\n{verdict.outcome}: {verdict.place} ({cases[0].name})", end="")
+    assert not tally.failures, "\n".join(tally.failures)
+
+
+def test_mangled_stages(capsys):
+    tally = fuzzing.fuzz(itertools.islice(make_cases(CORPUS, seed=1), 500))
+    assert sum(tally.outcomes.values()) == 500
+    # Mangled so gently that the reader gets to see something.
+    assert tally.outcomes[Outcome.READ] > 150
+    check(tally, capsys)
+
+
+def test_mangled_stages_of_others(capsys):
+    shared_file("scenes/awkward")
+    check(fuzzing.fuzz(itertools.islice(make_cases(fuzzing.shared_corpus(), seed=1), 150)), capsys)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 3])
+def test_many_mangled_stages(seed, capsys):
+    check(fuzzing.fuzz(itertools.islice(fuzzing.all_cases(seed), 8_000)), capsys)
+
+
+# --- the cases ----------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def judge(tmp_path_factory):
+    judge = Judge(tmp_path_factory.mktemp("judge"))
+    yield judge
+    judge.close()
+
+
+def test_every_stage_of_the_corpus_is_read_before_it_is_mangled(judge, tmp_path):
+    crates = {name: as_crate(files, tmp_path) for name, files in CORPUS.items()}
+    for files in (*CORPUS.values(), *crates.values()):
+        assert judge.judge(files) == Verdict(Outcome.READ)
+    assert judge.reader.starts == 1
+
+
+def test_crates_are_crates(tmp_path):
+    crate = as_crate(CORPUS["arcs"], tmp_path)
+    assert list(crate) == ["scene.usdc", "base.usda"]
+    assert crate["scene.usdc"].startswith(b"PXR-USDC")
+    assert as_crate({"scene.usda": b"#usda 1.0\ndef {"}, tmp_path) is None
+
+
+def test_the_same_seed_gives_the_same_cases():
+    first, again, other = (list(itertools.islice(make_cases(CORPUS, seed), 40)) for seed in (5, 5, 6))
+    assert first == again
+    assert {case.files["scene.usda"] for case in first if "scene.usda" in case.files} != {
+        case.files["scene.usda"] for case in other if "scene.usda" in case.files
+    }
+    assert sum("scene.usdc" in case.files for case in first) == 10
+
+
+@pytest.mark.parametrize("mutate", fuzzing.MUTATORS, ids=lambda mutate: mutate.__name__)
+def test_every_mutator_changes_something_and_bears_anything(mutate):
+    rng = random.Random(0)
+    text = CORPUS["materials"]["scene.usda"].decode()
+    assert any(mutate(text, rng, []) != text for _ in range(5))
+    for odd in ("x", "\n", "#usda 1.0\n", "{}}{", 'def "', "<", "@@", '"""'):
+        for _ in range(20):
+            assert isinstance(mutate(odd, rng, ["", odd]), str)
+
+
+def test_bytes_are_changed_whatever_they_are():
+    rng = random.Random(0)
+    data = bytes(range(256))
+    assert sum(fuzzing.mangle_bytes(data, rng) != data for _ in range(100)) > 90
+    assert all(len(fuzzing.mangle_bytes(b"", rng)) < 300 for _ in range(100))
+
+
+def test_paths_of_a_text():
+    assert fuzzing.paths_of(xform("A", cube("b"), xform("c", cube("d")))) == ["/A", "/A/b", "/A/c", "/A/c/d"]
+    assert fuzzing.paths_of("") == ["/"]
+
+
+# --- what is sane -------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def scene(read):
+    return read(xform("World", component("A", cube("a")), component("B", cube("b"))))
+
+
+def test_a_good_scene_is_sane(scene):
+    assert list(insane(scene)) == []
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"prim_path": "/World/B"}, "prim path twice"),
+        ({"parent_path": "/World/B"}, "parent that does not come before"),
+        ({"box": Box((0, 0, 0), (1, -1, 1))}, "box not finite or inside out"),
+        ({"own_box": Box((0, 0, 0), (1, float("inf"), 1))}, "own box not finite or inside out"),
+        ({"part_boxes": (Box((0, 0, float("nan")), (1, 1, 1)),)}, "part box not finite or inside out"),
+        ({"position": (0, float("nan"), 0)}, "position not finite"),
+        ({"orientation": (0, 0, 0, 0.9)}, "orientation no unit quaternion"),
+        ({"mass_kg": 0.0}, "mass not finite or not positive"),
+        ({"mass_kg": float("inf")}, "mass not finite or not positive"),
+        ({"display_color": (0, 0, float("nan"))}, "display colour not finite"),
+        ({"name": "\ud800"}, "text that is not Unicode"),
+    ],
+)
+def test_insane_objects(scene, change, problem):
+    first, second = scene.objects
+    assert problem in list(insane(replace(scene, objects=(replace(first, **change), second))))
+
+
+# --- the child process --------------------------------------------------------------------------------
+
+HERE = "tests.scene.test_fuzz"
+
+
+def raise_other(path):
+    return fuzzing.read_checked(None)
+
+
+def obey(path):
+    """Do what the file's name says."""
+    match Path(path).name:
+        case "die":
+            os.kill(os.getpid(), signal.SIGSEGV)
+        case "sleep":
+            time.sleep(60)
+        case "talk":
+            os.write(2, b"Warning: this is said\n")
+        case "leave":
+            os._exit(3)
+    return Verdict(Outcome.READ)
+
+
+@pytest.fixture(scope="module")
+def worker(tmp_path_factory):
+    worker = Worker(f"{HERE}:obey", tmp_path_factory.mktemp("worker"))
+    yield worker
+    worker.close()
+
+
+def test_what_is_written_to_the_terminal_is_noticed_once(worker):
+    verdict = worker.ask(Path("talk"))
+    assert (verdict.outcome, verdict.place) == (Outcome.TALKED, "Warning: this is said")
+    starts = worker.starts
+    assert worker.ask(Path("quiet")) == Verdict(Outcome.READ)
+    assert worker.starts == starts
+
+
+def test_a_worker_that_died_is_replaced(worker):
+    worker.ask(Path("quiet"))
+    starts = worker.starts
+    assert worker.ask(Path("die")) == Verdict(Outcome.DIED, "SIGSEGV in OpenUSD")
+    assert worker.ask(Path("leave")) == Verdict(Outcome.DIED, "exit 3 in OpenUSD")
+    assert worker.ask(Path("quiet")) == Verdict(Outcome.READ)
+    assert worker.starts == starts + 2
+
+
+def test_a_worker_that_takes_too_long_is_replaced(worker):
+    assert worker.ask(Path("sleep"), seconds=0.2).outcome == Outcome.HUNG
+    assert worker.ask(Path("quiet")) == Verdict(Outcome.READ)
+
+
+def test_exceptions_of_other_kinds_are_told_with_their_place(tmp_path):
+    worker = Worker(f"{HERE}:raise_other", tmp_path)
+    verdict = worker.ask(Path("any"))
+    worker.close()
+    assert verdict.outcome == Outcome.EXCEPTION
+    assert verdict.place.startswith("TypeError in scene/stage.py:")
+
+
+def test_what_is_no_stage_is_refused(judge):
+    assert judge.judge({"scene.usda": b"no stage"}).outcome == Outcome.REFUSED
+
+
+# --- the tally ----------------------------------------------------------------------------------------
+
+
+def test_equal_faults_are_told_once_and_those_of_openusd_are_no_failures(tmp_path):
+    tally = Tally()
+    cases = [Case(f"1 {number} kinds", {"scene.usda": b"text"}) for number in range(9)]
+    for case in cases[:5]:
+        tally.add(case, Verdict(Outcome.INSANE, "position not finite", case.name))
+    tally.add(cases[5], Verdict(Outcome.OPENUSD_DIED, "SIGSEGV in OpenUSD"))
+    tally.add(cases[6], Verdict(Outcome.OPENUSD_BUSY, "OpenUSD"))
+    tally.add(cases[7], Verdict(Outcome.READ))
+    tally.add(cases[8], Verdict(Outcome.REFUSED))
+    assert tally.failures == ["insane scene: position not finite (1 0 kinds) 1 0 kinds"]
+    assert str(tally).splitlines()[0] == "      5 insane scene"
+    tally.keep(tmp_path)
+    # The first three of each fault.
+    assert len(list(tmp_path.glob("insane_scene*/scene.usda"))) == 3
+    assert (tmp_path / "OpenUSD_died_SIGSEGV_in_OpenUSD_1_5_kinds" / "what.txt").read_text().startswith("OpenUSD died")
+
+
+def test_files_are_written_as_they_are(tmp_path):
+    fuzzing.write_files({"a.usda": b"\0\xff", "b.usda": b""}, tmp_path / "new")
+    assert (tmp_path / "new" / "a.usda").read_bytes() == b"\0\xff"
