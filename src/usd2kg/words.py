@@ -1,5 +1,6 @@
 """Reading identifiers as words: `SM_CupCBlue_01` is "cup c blue"."""
 
+import re
 import unicodedata
 from functools import lru_cache
 
@@ -14,6 +15,9 @@ _PRODUCTION_TOKENS = frozenset(
     """.split()
 )
 """Tokens that pipelines put into names and that say nothing of what a thing is."""
+
+_ASCII_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+")
+"""The same rule as `_is_border`, many times faster: most names are ASCII."""
 
 
 def split_identifier(identifier: str) -> tuple[str, ...]:
@@ -33,6 +37,8 @@ def split_identifier(identifier: str) -> tuple[str, ...]:
     text = unicodedata.normalize("NFC", identifier)
     if text.startswith("tn__"):
         text = text[4:].rpartition("_")[0] or text[4:]
+    if text.isascii():
+        return tuple(_ASCII_PARTS.findall(text))
     parts: list[str] = []
     start = 0
     for end in range(1, len(text) + 1):

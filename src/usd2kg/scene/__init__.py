@@ -3,6 +3,7 @@
 This package alone knows OpenUSD.
 """
 
+from usd2kg.scene.company import Companion, Company, Nearness
 from usd2kg.scene.model import (
     Box,
     Diagnostic,
@@ -17,6 +18,7 @@ from usd2kg.scene.model import (
 )
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
 from usd2kg.scene.read import ASKED_FOR, explain_choice, read_scene
+from usd2kg.scene.shapes import ShapeDescriptors, describe_shapes
 from usd2kg.scene.views import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -33,20 +35,25 @@ __all__ = [
     "EVIDENCE_GROUPS",
     "STUDY_GROUPS",
     "Box",
+    "Companion",
+    "Company",
     "Diagnostic",
     "Instances",
     "Joint",
     "Label",
     "MaterialDetails",
     "NamingRegime",
+    "Nearness",
     "ObjectLabels",
     "ObjectView",
     "ReadOptions",
     "Scene",
     "SceneObject",
     "SelectionOverrides",
+    "ShapeDescriptors",
     "StageFrame",
     "abbreviate",
+    "describe_shapes",
     "explain_choice",
     "read_scene",
     "view_objects",

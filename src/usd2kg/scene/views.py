@@ -5,11 +5,13 @@ by one, and nothing that is learnt from one may be used for another (leave-one-o
 lists would give every name away.
 """
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import overload
 
+from usd2kg.scene.company import Company, companies
 from usd2kg.scene.model import Scene, SceneObject, Vector
 from usd2kg.words import split_identifier
 
@@ -25,8 +27,12 @@ __all__ = [
 
 STUDY_GROUPS = frozenset({"name", "geometry", "position", "hierarchy"})
 """The evidence of the study."""
-EVIDENCE_GROUPS = STUDY_GROUPS | {"asset", "materials", "parts"}
+EVIDENCE_GROUPS = STUDY_GROUPS | {"asset", "company", "labels", "materials", "parts"}
 """All evidence a grounder can be limited to."""
+_MASKED_GROUPS = STUDY_GROUPS | {"company"}
+"""What a masked regime shows: assets, labels, parts and materials would give the name away."""
+_CLASS_TAXONOMIES = frozenset({"class", "iri", "semantics", "wikidata_class"})
+"""Taxonomies of labels whose values are names of classes."""
 ABBREVIATED_LENGTH = 4
 """Letters kept of each word in the abbreviated regime. The study does not publish its own; this one is ours."""
 
@@ -91,8 +97,12 @@ class ObjectView:
     display_name: str = ""
     documentation: str = ""
     asset: tuple[str, ...] = ()
+    labels: tuple[str, ...] = ()
+    """Words of the class labels that the stage has on it already."""
     materials: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
+    company: Company | None = None
+    """The other objects of the stage; None where they are nameless too."""
     is_masked: bool = field(default=False)
     """Whether the name is not the authored one: what it seems to say may be a token of the mask."""
 
@@ -125,21 +135,24 @@ def view_objects(
 
     Args:
         scene: the scene.
-        regime: how the target's name is masked. Masked regimes show the study's evidence only: assets, parts
-            and materials would give the name away.
+        regime: how the target's name is masked. Masked regimes show the study's evidence and the company: assets,
+            labels, parts and materials would give the name away.
         groups: the evidence to show, default all that the regime allows.
         length: letters kept of each word in the abbreviated regime.
     """
-    allowed = EVIDENCE_GROUPS if regime is NamingRegime.SEMANTIC else STUDY_GROUPS
+    allowed = EVIDENCE_GROUPS if regime is NamingRegime.SEMANTIC else _MASKED_GROUPS
     shown = allowed if groups is None else allowed & groups
     masked = _masked_names(scene, regime, length)
     families = _families(scene)
+    has_company = "company" in shown and regime is not NamingRegime.OPAQUE_ANONYMOUS
+    others = companies(scene) if has_company else [None] * len(scene.objects)
     for index, obj in enumerate(scene.objects):
         parents, siblings = _company(obj, families, regime)
         grouping = parents[obj.parent_path.count("/") if obj.parent_path else 0 :]
         view = ObjectView(
             name=masked[index] if "name" in shown else "",
             is_masked=regime is not NamingRegime.SEMANTIC,
+            company=others[index],
         )
         yield obj, _with_evidence(view, obj, shown, parents, grouping, siblings)
 
@@ -156,6 +169,7 @@ def _with_evidence(
     return ObjectView(
         name=view.name,
         is_masked=view.is_masked,
+        company=view.company,
         parents=parents if "hierarchy" in shown else (),
         groups=grouping if "hierarchy" in shown else (),
         siblings=siblings if "hierarchy" in shown else (),
@@ -165,9 +179,21 @@ def _with_evidence(
         display_name=obj.display_name if has_name else "",
         documentation=obj.documentation if has_name else "",
         asset=obj.asset if "asset" in shown else (),
+        labels=_label_words(obj) if "labels" in shown else (),
         materials=obj.materials if "materials" in shown else (),
         parts=obj.parts if "parts" in shown else (),
     )
+
+
+def _label_words(obj: SceneObject) -> tuple[str, ...]:
+    """Return the class labels on the object's own prim as names: `drawer` of `drawer.n.wn.artifact`, WordNet's form."""
+    values = [
+        label.iri or label.value
+        for label in obj.labels.own
+        if label.strength == "label" and (label.encoding == "Multiverse" or label.taxonomy in _CLASS_TAXONOMIES)
+    ]
+    local = (re.split(r"[#/]", value.rstrip("#/"))[-1] for value in values)
+    return tuple(dict.fromkeys(re.split(r"\.[nvasr]\.", name)[0] for name in local))
 
 
 def _masked_names(scene: Scene, regime: NamingRegime, length: int) -> list[str]:

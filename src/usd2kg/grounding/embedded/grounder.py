@@ -4,20 +4,20 @@ A name is read as a noun phrase; the TBox's terms, then the taxonomy of nouns, s
 name says nothing, other evidence speaks: asset, documentation, parts, and at last the company the object keeps.
 """
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from itertools import islice
+from functools import cached_property, lru_cache
 
-from usd2kg.grounding.embedded.lexicon import build_lexicon
+from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
+from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company
+from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Match, Matcher
-from usd2kg.grounding.embedded.names import NameReader
+from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.model import Candidate, Prediction, Status
-from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
-from usd2kg.scene import ObjectView
-from usd2kg.words import words_of
+from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.scene import Companion, Nearness, ObjectView
+from usd2kg.words import is_telling, split_identifier, words_of
 
 __all__ = ["EmbeddedGrounder"]
 
@@ -28,9 +28,21 @@ _CLEAR = 0.7
 """A name that scores this is believed before other evidence is asked."""
 _PRIMITIVES = frozenset(["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull"])
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
-_COMPANY = 0.45
-_COMPANY_SAMPLE = 200
-_UNKNOWN = 0.28
+_COMPANY = 0.8
+"""How far the company is trusted to tell the class, as a share of what the name would be."""
+_WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
+_SIZE_FLOOR, _SIZE_POWER, _NO_SIZE = 0.05, 0.3, 0.3
+_SIZE_TRUST = 0.3
+_SHARE_FLOOR = 0.3
+_MOST_TOKENS = 5
+_SAME_SIZE = 0.03
+_NEARNESS_TEXTS = {
+    Nearness.NEXT: "right beside it",
+    Nearness.SIBLING: "in the same group",
+    Nearness.TWIN: "of the same size",
+    Nearness.ALIKE: "of about the same size",
+}
+_UNKNOWN = 0.12
 _DEFAULT = 0.1
 _CANDIDATES = 8
 
@@ -62,13 +74,14 @@ class EmbeddedGrounder:
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
-        run = _Run(tbox, self._home_synonyms())
+        run = _run_for(tbox, self._use_home_synonyms)
         return [replace(run.predict(view), prim_path=path) for path, view in views]
 
-    def _home_synonyms(self) -> dict[ClassIRI, tuple[str, ...]]:
-        if not self._use_home_synonyms:
-            return {}
-        return {cls.iri: (cls.label, *cls.alt_labels) for cls in load_home_tbox().classes}
+
+@lru_cache(maxsize=4)
+def _run_for(tbox: TBox, use_home_synonyms: bool) -> "_Run":
+    """Return the run of a TBox; what it remembers depends on the TBox alone, so that it serves many scenes."""
+    return _Run(tbox, home_names() if use_home_synonyms else {})
 
 
 class _Run:
@@ -82,10 +95,19 @@ class _Run:
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
         self._match = lru_cache(maxsize=100_000)(self._match_text)
 
+    @cached_property
+    def _sizes(self) -> SizeBeliefs:
+        return SizeBeliefs(self._match)
+
+    @cached_property
+    def _abbreviations(self) -> AbbreviationReader:
+        # Most stages spell their names out and never need it.
+        return AbbreviationReader(self._lexicon, load_taxonomy())
+
     def predict(self, view: ObjectView) -> Prediction:
-        findings = self._by_words(view)
-        if not findings and (view.is_masked or not words_of(view.name)):
-            findings = self._by_company(view)
+        findings = [] if view.is_masked else self._by_words(view)
+        if not findings or findings[0].match.score < _CLEAR:
+            findings = self._weigh(view, [*findings, *self._by_abbreviation(view)], self._by_company(view))
         if not findings or findings[0].match.score < _UNKNOWN:
             return self._default("what is known about it does not say what it is")
         best = findings[0]
@@ -103,6 +125,58 @@ class _Run:
             evidence=(best.group,),
             candidates=tuple(candidates[:_CANDIDATES]),
         )
+
+    def _weigh(self, view: ObjectView, words: list[_Finding], company: list[_Finding]) -> list[_Finding]:
+        """Return the findings of words that are not clear by themselves, of the company and of the size together.
+
+        A product of experts (Hinton, 2002), each with a floor below which it rules nothing out and a power for how
+        far it is heard.
+        """
+        by_words, by_company, by_size = _best_by_class(words), _best_by_class(company), self._by_size(view)
+        weighed: dict[ClassIRI, tuple[float, _Finding]] = {}
+        for iri in {**by_words, **by_company, **by_size}:
+            experts = [found[iri] for found in (by_words, by_company) if iri in found]
+            said, seen = (found[iri].match.score if iri in found else 0.0 for found in (by_words, by_company))
+            fit, share = by_size.get(iri, (_NO_SIZE, 0.0))
+            weight = (said + _WORDS_FLOOR) * (seen + _COMPANY_FLOOR * (_SHARE_FLOOR + share)) ** _COMPANY_POWER * (fit + _SIZE_FLOOR) ** _SIZE_POWER
+            finding = max(experts, key=lambda found: found.match.score, default=None)
+            weighed[iri] = (weight, finding or _Finding("geometry", Match(iri, share, self._size_text(iri))))
+        total = sum(weight for weight, _ in weighed.values())
+        trust = max(
+            max((finding.match.score for finding in words), default=0.0),
+            _COMPANY * sum(finding.match.score for finding in company),
+            _SIZE_TRUST if by_size else 0.0,
+        )
+        findings = [
+            _Finding(finding.group, Match(iri, weight / total * trust, finding.match.explanation))
+            for iri, (weight, finding) in weighed.items()
+        ]
+        return sorted(findings, key=_by_score)
+
+    def _by_size(self, view: ObjectView) -> dict[ClassIRI, tuple[float, float]]:
+        return self._sizes.ask(view.size) if view.size is not None else {}
+
+    def _size_text(self, iri: ClassIRI) -> str:
+        return f"its name says nothing; many a {self._tbox.by_iri[iri].local_name} is of its size"
+
+    def _by_abbreviation(self, view: ObjectView) -> list[_Finding]:
+        """Return what the name says if it is an abbreviation."""
+        tokens = [part.lower() for part in split_identifier(view.name) if part.isalpha()]
+        tokens = [token for token in tokens if is_telling(token)][:_MOST_TOKENS]
+        if not tokens or (not view.is_masked and all(self._reader.is_known(token) for token in tokens)):
+            return []
+        readings = self._abbreviations.read(tokens, view.company)
+        totals: dict[ClassIRI, float] = {}
+        best: dict[ClassIRI, tuple[float, str]] = {}
+        for reading in readings:
+            matches = self._matcher.match(NamePhrase(reading.words), view.parents)
+            if matches:
+                iri, weight = matches[0].class_iri, reading.probability * matches[0].score
+                totals[iri] = totals.get(iri, 0.0) + weight
+                if iri not in best or best[iri][0] < weight:
+                    said = f"“{view.name}” may be short for “{' '.join(reading.words)}”: {matches[0].explanation}"
+                    best[iri] = (weight, said)
+        return [_Finding("name", Match(iri, total, best[iri][1])) for iri, total in totals.items()]
 
     def _by_words(self, view: ObjectView) -> list[_Finding]:
         """Return what the words say, best first; other sources are asked only if the name is not clear."""
@@ -127,21 +201,20 @@ class _Run:
         return tuple(self._matcher.match(self._reader.read(text, parents), parents))
 
     def _by_company(self, view: ObjectView) -> list[_Finding]:
-        """Return the class that most of the objects beside it have; none if they are a mixed company."""
-        votes: Counter[ClassIRI] = Counter()
-        for sibling in islice(view.siblings, _COMPANY_SAMPLE):
-            matches = self._match(sibling, view.parents)
-            if matches and matches[0].score >= _CLEAR:
-                votes[matches[0].class_iri] += 1
-        total = sum(votes.values())
-        iri, count = min(votes.items(), key=lambda item: (-item[1], item[0]), default=("", 0))
-        if count <= total / 2:
+        """Return the classes of the things beside it and of its size, by their share."""
+        if view.company is None:
             return []
-        return [_Finding("hierarchy", Match(iri, _COMPANY * count / total, self._company_text(iri, count, total)))]
+        votes = ask_company(view.company, self._match)
+        return [
+            _Finding("company", Match(iri, share, self._company_text(iri, votes.heaviest[iri])))
+            for iri, share in votes.shares.items()
+        ]
 
-    def _company_text(self, iri: ClassIRI, count: int, total: int) -> str:
-        label = self._tbox.by_iri[iri].local_name
-        return f"its name says nothing; {count} of the {total} named objects beside it are {label}"
+    def _company_text(self, iri: ClassIRI, companion: Companion) -> str:
+        where = _NEARNESS_TEXTS[companion.nearness]
+        alike = companion.distance is not None and companion.distance < _SAME_SIZE
+        size = ", of the same size," if alike and companion.nearness is not Nearness.TWIN else ""
+        return f"“{companion.name}” {where}{size} is {self._tbox.by_iri[iri].local_name}"
 
     def _default(self, reason: str) -> Prediction:
         return Prediction(
@@ -153,6 +226,15 @@ class _Run:
             explanation=f"{reason}; {self._tbox.by_iri[self._lexicon.default].local_name} is true of most things",
             candidates=(Candidate(self._lexicon.default, _DEFAULT),),
         )
+
+
+def _best_by_class(findings: list[_Finding]) -> dict[ClassIRI, _Finding]:
+    best: dict[ClassIRI, _Finding] = {}
+    for finding in findings:
+        known = best.get(finding.match.class_iri)
+        if known is None or known.match.score < finding.match.score:
+            best[finding.match.class_iri] = finding
+    return best
 
 
 def _by_score(finding: _Finding) -> tuple[float, str]:

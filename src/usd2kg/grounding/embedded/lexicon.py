@@ -1,15 +1,19 @@
 """The TBox's words: which terms name a class, and where each class lies in the noun taxonomy."""
 
+import csv
+import io
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
 
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
-from usd2kg.ontology import ClassIRI, OntologyClass, TBox
+from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
-__all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "sense_weight"]
+__all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight"]
 
 _LABEL, _SYNONYM, _HEAD = 1.0, 0.92, 0.6
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
@@ -50,6 +54,22 @@ class Lexicon:
     """All single words of the terms."""
     default: ClassIRI
     """The class that is true of most things: the root with the most classes below it."""
+
+
+@lru_cache(maxsize=1)
+def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
+    """Return the names of things by the class of the built-in home TBox that people would choose for them.
+
+    The TBox's own labels and synonyms, and those of `data/home_names.csv`, which is general knowledge of the same kind
+    in bulk: what a thing that is called so is.
+    """
+    home = load_home_tbox()
+    names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
+    by_local_name = {cls.local_name: cls.iri for cls in home.classes}
+    text = (files("usd2kg.grounding") / "data" / "home_names.csv").read_text(encoding="utf-8")
+    for row in csv.DictReader(io.StringIO(text)):
+        names[by_local_name[row["class"]]].append(row["name"])
+    return {iri: tuple(found) for iri, found in names.items()}
 
 
 def sense_weight(sense: Sense) -> float:

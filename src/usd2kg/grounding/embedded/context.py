@@ -1,0 +1,94 @@
+"""What the surroundings of an object say of it: the classes of the things beside it, and what is of its size.
+
+Each named companion votes for the class its name points at (a kernel estimate, Nadaraya and Watson, 1964, over size
+and place in the tree): the nearer in the tree and the more alike in size, the heavier the vote.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from usd2kg.grounding.embedded.frequencies import thing_prior
+from usd2kg.grounding.embedded.matching import Match
+from usd2kg.grounding.embedded.sizes import log_likelihoods, thing_nouns
+from usd2kg.ontology import ClassIRI
+from usd2kg.scene import Companion, Company, Nearness
+
+__all__ = ["SizeBeliefs", "Votes", "ask_company"]
+
+_WEIGHTS = {Nearness.NEXT: 1.0, Nearness.SIBLING: 0.35, Nearness.TWIN: 0.6, Nearness.ALIKE: 0.12}
+_TWIN_BONUS = 3.0
+"""Companions of exactly the same size are most likely copies."""
+_TWIN = 0.01
+_SIZE_SPREAD = 0.3
+"""How much the sizes of things of one class differ that stand together, as `size_distance`."""
+_UNKNOWN_SIZE = 0.5
+_PRIOR_POWER = 0.5
+"""How much heed is paid to what things are most common: all of them stand in scenes, each in some."""
+_CLEAREST = 0.5
+"""A companion whose own name says less has no vote."""
+
+
+class Votes(NamedTuple):
+    """The votes of a company."""
+
+    shares: dict[ClassIRI, float]
+    """Class → its share; they add up to less than 1: the rest is that the company says nothing."""
+    heaviest: dict[ClassIRI, Companion]
+    """Class → the companion that spoke for it with most weight."""
+
+
+def ask_company(company: Company, classify: Callable[[str, tuple[str, ...]], Sequence[Match]]) -> Votes:
+    """Return the votes of a company; `classify` gives the classes for a name and the names above it, best first."""
+    totals: dict[ClassIRI, float] = {}
+    heaviest: dict[ClassIRI, tuple[float, Companion]] = {}
+    for companion in company.companions():
+        matches = classify(companion.name, companion.parents)
+        if not matches or matches[0].score < _CLEAREST:
+            continue
+        iri, weight = matches[0].class_iri, _weight(companion) * matches[0].score
+        totals[iri] = totals.get(iri, 0.0) + weight
+        if iri not in heaviest or heaviest[iri][0] < weight:
+            heaviest[iri] = (weight, companion)
+    whole = sum(totals.values()) + 0.5
+    shares = {iri: total / whole for iri, total in totals.items()}
+    return Votes(shares, {iri: companion for iri, (_, companion) in heaviest.items()})
+
+
+def _weight(companion: Companion) -> float:
+    weight = _WEIGHTS[companion.nearness]
+    if companion.distance is None:
+        return weight * _UNKNOWN_SIZE
+    if companion.distance < _TWIN:
+        return weight * _TWIN_BONUS
+    return weight * math.exp(-0.5 * (companion.distance / _SIZE_SPREAD) ** 2)
+
+
+class SizeBeliefs:
+    """Which classes an object's size speaks for, by the usual sizes of a thousand everyday things."""
+
+    def __init__(self, classify: Callable[[str, tuple[str, ...]], Sequence[Match]]) -> None:
+        nouns = thing_nouns()
+        matches = [classify(noun, ()) for noun in nouns]
+        self.classes = tuple(sorted({found[0].class_iri for found in matches if found}))
+        places = {iri: place for place, iri in enumerate(self.classes)}
+        self._rows = np.array([row for row, found in enumerate(matches) if found], dtype=int)
+        self._places = np.array([places[found[0].class_iri] for found in matches if found], dtype=int)
+        weights = np.array([thing_prior(nouns[row].split()[-1]) for row in self._rows]) * _PRIOR_POWER
+        self._weights = np.exp(weights - weights.max(initial=-np.inf)) if len(weights) else weights
+        self._totals = np.bincount(self._places, self._weights, minlength=len(self.classes))
+
+    def ask(self, size: tuple[float, float, float]) -> dict[ClassIRI, tuple[float, float]]:
+        """Return class → (likelihood of the size, 1 for the class it suits best; probability of the class)."""
+        if not self.classes:
+            return {}
+        logs = log_likelihoods(size)[self._rows]
+        joint = np.bincount(self._places, self._weights * np.exp(logs - logs.max()), minlength=len(self.classes))
+        likelihoods, posterior = joint / self._totals, joint / joint.sum()
+        relative = likelihoods / likelihoods.max()
+        return {
+            iri: (float(value), float(share))
+            for iri, value, share in zip(self.classes, relative, posterior, strict=True)
+        }
