@@ -5,10 +5,13 @@ Church and Gale, COLING 1990). P(w) mixes how likely a thing is called so, the T
 names on the stage. P(written | w) is that of the usual ways to shorten a word: vowels dropped, cut short, or both.
 """
 
+import csv
+import io
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from importlib.resources import files
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -38,6 +41,8 @@ _COMPOUND = math.log(30)
 _NEXT_WORD = math.log(0.35)
 _ANY_LETTER = math.log(0.0004)
 """A single letter or pair that stands for no word: the C of CupC."""
+_USUAL = math.log(0.002)
+"""An abbreviation that people have agreed on, before the stage is heard."""
 _CHOICES = 10
 _BEAM = 16
 _MOST_PIECES = 8
@@ -107,6 +112,8 @@ class AbbreviationReader:
         if piece[0] not in self._forms:
             self._forms[piece[0]] = self._index(piece[0])
         choices = list(self._forms[piece[0]].get(piece, ()))
+        if piece in _usual():
+            choices.append(_Choice(_USUAL, _usual()[piece]))
         if company is not None:
             near = sorted(company.words_written(piece, forms_of), key=lambda found: -found[1] - found[2])[:_CHOICES]
             for word, share, score in near:
@@ -146,6 +153,13 @@ class AbbreviationReader:
             return prior
         # A term's words are as likely as any other term's, and likelier where people use the word.
         return _log_sum(prior, math.log(_TBOX_SHARE / len(self._tbox_words)))
+
+
+@lru_cache(maxsize=1)
+def _usual() -> dict[str, str]:
+    """Return short form → word of the abbreviations that people have agreed on: `kbd` is a keyboard."""
+    text = (files("usd2kg.grounding") / "data" / "abbreviations.csv").read_text(encoding="utf-8")
+    return {row["short"]: row["word"] for row in csv.DictReader(io.StringIO(text))}
 
 
 def _styled(word: str) -> list[tuple[str, float]]:

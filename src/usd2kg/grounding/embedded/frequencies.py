@@ -105,5 +105,3 @@ def _noun_weight(word: str) -> float:
     weights = {sense.rank: _DOMAIN_WEIGHTS[sense.domain] for sense in reversed(senses)}
     ranks = range(1, senses[-1].rank + 1)
     return sum(weights.get(rank, _OTHER_WEIGHT) / rank for rank in ranks) / sum(1 / rank for rank in ranks)
-
-

@@ -13,6 +13,7 @@ from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Match, Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
+from usd2kg.grounding.embedded.sizes import misfit
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
@@ -21,12 +22,20 @@ from usd2kg.words import is_telling, split_identifier, words_of
 
 __all__ = ["EmbeddedGrounder"]
 
-_SHARES = {"name": 1.0, "asset": 0.9, "documentation": 0.8, "hierarchy": 0.55, "parts": 0.5}
+_SHARES = {"name": 1.0, "asset": 0.9, "documentation": 0.8, "hierarchy": 0.55, "labels": 0.9, "parts": 0.35}
 """How far each source of words is trusted, as a share of what the name would be."""
-_SOURCES = {"asset": "asset", "documentation": "documentation", "hierarchy": "group", "parts": "parts"}
+_SOURCES = {
+    "asset": "asset",
+    "documentation": "documentation",
+    "hierarchy": "group",
+    "labels": "label",
+    "parts": "parts",
+}
 _CLEAR = 0.7
 """A name that scores this is believed before other evidence is asked."""
-_PRIMITIVES = frozenset(["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull"])
+_PRIMITIVES = frozenset(
+    ["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull", "poly", "surface"]
+)
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
 _COMPANY = 0.8
 """How far the company is trusted to tell the class, as a share of what the name would be."""
@@ -35,6 +44,12 @@ _SIZE_FLOOR, _SIZE_POWER, _NO_SIZE = 0.05, 0.3, 0.3
 _SIZE_TRUST = 0.3
 _SHARE_FLOOR = 0.3
 _MOST_TOKENS = 5
+_IMPLAUSIBLE = 6.0
+"""A `misfit` of this much makes a reading of the name implausible."""
+_UNKNOWN_FIT = 3.0
+_SMALLEST_PLACE = 2.0
+"""Metres: what is smaller is no room, yard or aisle, but may be named after one."""
+_SECOND_LOOK = 0.85
 _SAME_SIZE = 0.03
 _NEARNESS_TEXTS = {
     Nearness.NEXT: "right beside it",
@@ -105,9 +120,11 @@ class _Run:
         return AbbreviationReader(self._lexicon, load_taxonomy())
 
     def predict(self, view: ObjectView) -> Prediction:
-        findings = [] if view.is_masked else self._by_words(view)
+        is_made_up = _is_made_up(view.name)
+        findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
         if not findings or findings[0].match.score < _CLEAR:
-            findings = self._weigh(view, [*findings, *self._by_abbreviation(view)], self._by_company(view))
+            short = [] if is_made_up else self._by_abbreviation(view)
+            findings = self._weigh(view, [*findings, *short], self._by_company(view))
         if not findings or findings[0].match.score < _UNKNOWN:
             return self._default("what is known about it does not say what it is")
         best = findings[0]
@@ -134,11 +151,15 @@ class _Run:
         """
         by_words, by_company, by_size = _best_by_class(words), _best_by_class(company), self._by_size(view)
         weighed: dict[ClassIRI, tuple[float, _Finding]] = {}
+        # The more a name says, the less is asked of the company; what an abbreviation seems to say is often wrong.
+        said_best = 0.0 if view.is_masked else max((finding.match.score for finding in words), default=0.0)
+        power = _COMPANY_POWER * (1 - said_best)
         for iri in {**by_words, **by_company, **by_size}:
             experts = [found[iri] for found in (by_words, by_company) if iri in found]
             said, seen = (found[iri].match.score if iri in found else 0.0 for found in (by_words, by_company))
             fit, share = by_size.get(iri, (_NO_SIZE, 0.0))
-            weight = (said + _WORDS_FLOOR) * (seen + _COMPANY_FLOOR * (_SHARE_FLOOR + share)) ** _COMPANY_POWER * (fit + _SIZE_FLOOR) ** _SIZE_POWER
+            heard = (seen + _COMPANY_FLOOR * (_SHARE_FLOOR + share)) ** power
+            weight = (said + _WORDS_FLOOR) * heard * (fit + _SIZE_FLOOR) ** _SIZE_POWER
             finding = max(experts, key=lambda found: found.match.score, default=None)
             weighed[iri] = (weight, finding or _Finding("geometry", Match(iri, share, self._size_text(iri))))
         total = sum(weight for weight, _ in weighed.values())
@@ -185,13 +206,39 @@ class _Run:
             if group in {"hierarchy", "parts"} and self._says_what_it_is(view.name):
                 # A tulip is no class of the TBox; that it has a stem does not make it a tube.
                 break
-            for match in self._match(text, view.parents if group == "name" else ()):
+            for match in self._match_in_size(text, view) if group == "name" else self._match(text, ()):
                 said = match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
                 findings.append(_Finding(group, Match(match.class_iri, match.score * _SHARES[group], said)))
             findings.sort(key=_by_score)
             if findings and findings[0].match.score >= _CLEAR:
                 break
         return findings
+
+    def _match_in_size(self, text: str, view: ObjectView) -> Sequence[Match]:
+        """Return the classes of a name; if its last noun is of quite another size, those of a noun before it.
+
+        The window above the sink is called `windowSink`, and is no sink.
+        """
+        matches = self._match(text, view.parents)
+        if view.size is None or not matches:
+            return matches
+        heads = self._matcher.heads(self._reader.read(text, view.parents))
+        if len(heads) < 2 or not self._is_doubtful(heads[0][0], view.size):
+            return matches
+        known = [
+            head for head in heads[1:] if head[1][0].score >= _CLEAR and _misfit(view.size, head[0]) < _IMPLAUSIBLE
+        ]
+        if not known:
+            return matches
+        words, better = min(known, key=lambda head: _misfit(view.size or (0, 0, 0), head[0]))
+        note = f" (it is “{' '.join(words)}” rather than “{' '.join(heads[0][0])}”, by its size)"
+        return [Match(m.class_iri, m.score * _SECOND_LOOK, m.explanation + note) for m in better]
+
+    def _is_doubtful(self, words: tuple[str, ...], size: tuple[float, float, float]) -> bool:
+        """Return whether a thing of this size is hardly called so: a sink of a window's size, a lounge of 40 cm."""
+        is_small_place = len(words) == 1 and max(size) < _SMALLEST_PLACE and self._reader.is_place(words[0])
+        # Of a compound only its own size counts: a spice rack is no rack of usual size.
+        return is_small_place or (misfit(size, "".join(words)) or 0.0) >= _IMPLAUSIBLE
 
     def _says_what_it_is(self, name: str) -> bool:
         words = self._reader.read(name).words
@@ -228,6 +275,20 @@ class _Run:
         )
 
 
+def _misfit(size: tuple[float, float, float], words: tuple[str, ...]) -> float:
+    """Return how ill a size suits a noun phrase, by its last word if need be; `_UNKNOWN_FIT` where nothing is known."""
+    for noun in ("".join(words), words[-1]):
+        value = misfit(size, noun)
+        if value is not None:
+            return value
+    return _UNKNOWN_FIT
+
+
+def _is_made_up(name: str) -> bool:
+    """Return whether a modelling program made the name up from a primitive: `pCube3`, `polySurface12`."""
+    return _PRIMITIVES.issuperset(words_of(name)) and name[-1:].isdigit()
+
+
 def _best_by_class(findings: list[_Finding]) -> dict[ClassIRI, _Finding]:
     best: dict[ClassIRI, _Finding] = {}
     for finding in findings:
@@ -245,6 +306,7 @@ def _texts(view: ObjectView) -> list[tuple[str, str]]:
     """Return (evidence group, text) in the order in which they are asked."""
     texts = [("name", view.name), ("name", view.display_name)]
     texts += [("asset", asset) for asset in view.asset]
+    texts += [("labels", label) for label in view.labels]
     texts.append(("documentation", _first_phrase(view.documentation)))
     texts += [("hierarchy", group) for group in reversed(view.groups) if _is_plural(group)]
     texts += [("parts", part) for part in view.parts[:20] if not _PRIMITIVES.issuperset(words_of(part))]

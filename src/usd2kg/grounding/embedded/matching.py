@@ -15,10 +15,13 @@ _TERM, _COMPOUND_KIND, _KIND = 0.97, 0.88, 0.82
 _HOP_DECAY = 0.965
 _ROOT_SHARE = 0.75
 _FORMER_HEAD = 0.55
+_BEFORE_CODE = 0.8
 _RESPELLED = 0.9
 _WEAK = 0.5
 _EPITHET = 0.8
 _PLACED = 0.95
+_WHOLE = 0.75
+"""A term of several words that stands before the head, as a share of what it would be in its place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +52,18 @@ class Matcher:
                 best[match.class_iri] = match
         return sorted(best.values(), key=lambda match: (-match.score, match.class_iri))
 
+    def heads(self, phrase: NamePhrase) -> list[tuple[tuple[str, ...], list[Match]]]:
+        """Return (words, classes) of each run of words at the beginning that may be the whole name, longest first."""
+        found = []
+        for end in range(len(phrase.words), 0, -1):
+            for start in range(end if not self._reader.is_modifier(phrase.words[end - 1]) else 0):
+                key = "".join((*phrase.words[start : end - 1], self._taxonomy.singular(phrase.words[end - 1])))
+                matches = [*self._by_term(key), *self._by_kind(key, is_compound=end - start > 1)]
+                if matches:
+                    found.append((phrase.words[start:end], sorted(matches, key=lambda match: -match.score)))
+                    break
+        return found
+
     def _matches(self, phrase: NamePhrase, parents: tuple[str, ...]) -> Iterator[Match]:
         share = _RESPELLED if phrase.corrections else 1.0
         note = "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
@@ -60,12 +75,22 @@ class Matcher:
                 yield Match(match.class_iri, match.score * share, match.explanation + note)
             is_weak = max((match.score for match in found), default=0.0) < _WEAK
             if found and not (is_weak and self._reader.is_epithet(phrase.words[head - 1])):
+                yield from self._as_a_whole(phrase.words[: head - 1], share, note)
                 return
             if found:
                 share *= _EPITHET
             elif not self._reader.is_modifier(phrase.words[head - 1]):
-                # The word that should say what it is means nothing here: what stands before it says less.
-                share *= _FORMER_HEAD
+                # The word that should say what it is means nothing here: what stands before it says less. A word that
+                # is no English noun is the code of a make or a place.
+                share *= _FORMER_HEAD if self._reader.is_noun(phrase.words[head - 1]) else _BEFORE_CODE
+
+    def _as_a_whole(self, words: tuple[str, ...], share: float, note: str) -> Iterator[Match]:
+        """Yield the class that several words at the beginning name together: `coffeeMachine_cafeLine`."""
+        for end in range(len(words), 1, -1):
+            for start in range(end - 1):
+                for match in self._by_term("".join(words[start:end])):
+                    yield Match(match.class_iri, match.score * share * _WHOLE, match.explanation + note)
+                    return
 
     def _names_contents(self, words: tuple[str, ...]) -> bool:
         """Return whether the last word says what a thing before it is made of or holds: `can_tomato`, `sink_steel`.
@@ -88,7 +113,7 @@ class Matcher:
             key = "".join((*run[:-1], self._taxonomy.singular(run[-1])))
             found = [*self._by_term(key), *self._by_kind(key, len(run) > 1)]
             if found:
-                return [*self._in_place(key, found, places), *found]
+                return [*self._in_place(key, run[-1], found, places), *found]
         return []
 
     def _by_term(self, key: str) -> list[Match]:
@@ -99,7 +124,7 @@ class Matcher:
         text = f"“{term.text}” {named} {self._label(term.class_iri)}"
         return [Match(term.class_iri, _TERM * term.weight, text)]
 
-    def _in_place(self, key: str, found: list[Match], places: tuple[str, ...]) -> Iterator[Match]:
+    def _in_place(self, key: str, head: str, found: list[Match], places: tuple[str, ...]) -> Iterator[Match]:
         """Yield the class that is named after the place: a cabinet in the kitchen is a kitchen cabinet.
 
         A word that is a class's own label needs no place to be understood.
@@ -107,9 +132,12 @@ class Matcher:
         term = self._lexicon.terms.get(key)
         if term is not None and term.weight == 1.0:
             return
+        above = {match.class_iri for match in found}
         for place in places:
-            special = self._lexicon.terms.get(place + key)
-            if special and any(self._tbox.is_subclass(special.class_iri, match.class_iri) for match in found):
+            special = self._lexicon.terms.get(place + key) or self._lexicon.terms.get(place + head)
+            if special is None or special.class_iri in above or special.class_iri in self._roots:
+                continue
+            if any(self._tbox.is_subclass(special.class_iri, iri) for iri in above):
                 label = self._label(special.class_iri)
                 text = f"a “{key}” in “{place}” is a {special.text}, which is {label}"
                 yield Match(special.class_iri, _TERM * special.weight * _PLACED, text)

@@ -8,6 +8,7 @@ from rapidfuzz.distance import OSA
 
 from usd2kg.grounding.embedded.lexicon import Lexicon
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
+from usd2kg.languages import translate
 from usd2kg.words import is_telling, split_identifier
 
 __all__ = ["NamePhrase", "NameReader"]
@@ -16,13 +17,16 @@ _PLACEMENTS = frozenset(
     """
     top bottom middle mid left right front back rear upper lower inner outer center centre side corner end north
     south east west open closed main big small large long short tall mini new single double half full one two
-    three four five six first second third type var variant alt empty used set grey gray beige
+    three four five six first second third type var variant alt empty used set grey gray beige body assembly part
     """.split()
 )
+_PLACES = frozenset(["room", "building", "passageway", "area", "land", "location", "tract", "facility"])
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
 _THING_DOMAINS = frozenset({"artifact", "food"})
 _SHORTEST_RESPELLED = 6
+_SHORTEST_UNKNOWN = 5
+"""Shorter words that are unknown are abbreviations sooner than misspelt."""
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 
 
@@ -63,12 +67,23 @@ class NameReader:
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         corrections: list[tuple[str, str]] = []
+        translated = self._translated(tokens)
+        if translated is not None:
+            written = " ".join(token.text for token in tokens)
+            return NamePhrase(translated, tuple(t.text for t in references), ((written, " ".join(translated)),))
         for token in tokens:
             read = self.correct(token.text)
             words.extend(read)
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
         return NamePhrase(tuple(words), tuple(token.text for token in references), tuple(corrections))
+
+    def _translated(self, tokens: list[_Token]) -> tuple[str, ...] | None:
+        """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
+        words = tuple(token.text for token in tokens)
+        if not words or "".join(words) in self._lexicon.terms:
+            return None
+        return translate(words)
 
     def is_known(self, word: str) -> bool:
         """Return whether a word is a term of the TBox, or a noun or adjective of the taxonomy."""
@@ -103,10 +118,18 @@ class NameReader:
         senses = self._taxonomy.senses(word)
         return bool(senses) and senses[0].domain not in _THING_DOMAINS | {"communication"}
 
+    def is_place(self, word: str) -> bool:
+        """Return whether a word may stand for a room, a building or an area."""
+        return any(
+            self._taxonomy.name(up) in _PLACES
+            for sense in self._taxonomy.senses(word)[:3]
+            for up, _ in self._taxonomy.walk_up(sense.synset)
+        )
+
     def is_thing(self, word: str) -> bool:
-        """Return whether a word is first of all a made thing."""
+        """Return whether a word is first of all a made thing, or names a class."""
         senses = self._taxonomy.senses(word)
-        return word in self._lexicon.terms if not senses else senses[0].domain == "artifact"
+        return word in self._lexicon.terms or (bool(senses) and senses[0].domain == "artifact")
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
@@ -151,7 +174,7 @@ class NameReader:
         return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in self._taxonomy.senses(word))
 
     def _respell(self, word: str) -> tuple[str, ...] | None:
-        if len(word) < 4 or not word.isalpha():
+        if len(word) < _SHORTEST_UNKNOWN or not word.isalpha():
             return None
         budget = 1 if len(word) < 8 else 2
         best: tuple[int, int, str] | None = None
@@ -179,6 +202,9 @@ def _tokens(name: str) -> list[_Token]:
         at = start + len(part)
         if part.isdigit() and tokens and is_glued and name[start - 1].isalpha():
             tokens[-1] = _Token(tokens[-1].text, part)
+        elif part.isalpha() and is_glued and name[start - 1].isdigit() and len(part) < _SHORTEST_UNKNOWN:
+            # A measure: 6kg, 4tier, 2m.
+            continue
         else:
             tokens.append(_Token(part.lower(), ""))
     return tokens

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "thing_nouns"]
+__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "misfit", "thing_nouns"]
 
 SMALLEST_EXTENT = 0.001
 """Metres. A thinner extent counts as this: a sheet may be modelled without thickness, and zero has no logarithm."""
@@ -53,6 +53,27 @@ def thing_nouns() -> tuple[str, ...]:
     WordNet has for it but for a few (a plate for eating, a notebook of paper, a log of wood, the fruit of a tree).
     """
     return _load_table().nouns
+
+
+@lru_cache(maxsize=1)
+def _rows() -> dict[str, int]:
+    return {noun.replace(" ", ""): row for row, noun in enumerate(thing_nouns())}
+
+
+def misfit(size: npt.ArrayLike, noun: str) -> float | None:
+    """Return how much less likely a size is for a thing than the thing's usual size, as a difference of logarithms.
+
+    Args:
+        size: extents in metres, in any order.
+        noun: the thing, without spaces.
+
+    Returns:
+        0 for the usual size, more for any other; None where the thing's size is not known.
+    """
+    row = _rows().get(noun)
+    if row is None:
+        return None
+    return math.log(_load_table().peaks[row]) - float(log_likelihoods(size)[row])
 
 
 def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
