@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from usd2kg.cli.options import (
+    Abstains,
     Dictionary,
     EveryPrim,
     Evidence,
@@ -40,6 +41,7 @@ def build_command(
     ontology: OntologyFile = None,
     grounder: GrounderName = "embedded",
     dictionary: Dictionary = None,
+    abstain: Abstains = False,
     regime: Regime = "semantic",
     evidence: Evidence = None,
     metres_per_unit: MetresPerUnit = None,
@@ -73,7 +75,7 @@ def build_command(
     targets = _targets(scenes, output)
     groups = grounding.parse_evidence(evidence) if evidence is not None else None
     naming_regime = grounding.parse_regime(regime)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary)
+    chosen = grounding.make_grounder(grounder, dictionary=dictionary, abstains=abstain)
     options = read_options(
         metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
     )

@@ -7,6 +7,7 @@ import typer
 
 from usd2kg.cli.options import (
     AbbreviatedLength,
+    Abstains,
     ClassSizes,
     Dictionary,
     EveryPrim,
@@ -35,6 +36,7 @@ def ground_command(
     ontology: OntologyFile = None,
     grounder: GrounderName = "embedded",
     dictionary: Dictionary = None,
+    abstain: Abstains = False,
     class_sizes: ClassSizes = None,
     regime: Regime = "semantic",
     abbreviated_length: AbbreviatedLength = 4,
@@ -65,7 +67,7 @@ def ground_command(
     grounding.check_format(file_format)
     if output is not None:
         check_writable(output)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes)
+    chosen = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain)
     wanted = grounding.read_paths(paths) if paths is not None else None
     tbox = open_tbox(ontology)
     options = read_options(

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AbbreviatedLength",
+    "Abstains",
     "ClassSizes",
     "Dictionary",
     "EveryPrim",
@@ -25,6 +26,7 @@ __all__ = [
     "OntologyFile",
     "Regime",
     "SceneFile",
+    "Shapes",
     "TimeCode",
     "UpAxis",
     "read_options",
@@ -38,6 +40,12 @@ OntologyFile = Annotated[
 GrounderName = Annotated[
     str,
     typer.Option("--grounder", help="Who chooses the classes: embedded (default), dictionary, embedding or volume."),
+]
+Abstains = Annotated[
+    bool,
+    typer.Option(
+        "--abstain", help="For the embedded grounder: where candidates are split, take the class above; default: not."
+    ),
 ]
 Dictionary = Annotated[
     Path | None,
@@ -63,6 +71,9 @@ ClassSizes = Annotated[
     typer.Option("--class-sizes", help="For the volume grounder: a CSV file of usual sizes; default: our own."),
 ]
 JsonOutput = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
+Shapes = Annotated[
+    bool, typer.Option("--shapes", help="Measure the form of each object, too: true size, volume, what it holds.")
+]
 MetresPerUnit = Annotated[
     float | None, typer.Option("--metres-per-unit", help="Length of a stage unit; default: what the stage says.")
 ]

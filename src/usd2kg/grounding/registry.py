@@ -11,13 +11,16 @@ GROUNDERS = ("embedded", "dictionary", "embedding", "volume")
 """Names that `make_grounder` knows; the first is the default."""
 
 
-def make_grounder(name: str, *, dictionary: Path | None = None, class_sizes: Path | None = None) -> Grounder:
+def make_grounder(
+    name: str, *, dictionary: Path | None = None, class_sizes: Path | None = None, abstains: bool = False
+) -> Grounder:
     """Return the grounder of that name.
 
     Args:
         name: one of `GROUNDERS`.
         dictionary: for `dictionary`, a CSV file `name,class` of the user's own.
         class_sizes: for `volume`, a CSV file of usual sizes of the user's own.
+        abstains: for `embedded`, take the class above where the candidates are split.
 
     Raises:
         GroundingError: there is no such grounder, or its file cannot be read.
@@ -28,11 +31,13 @@ def make_grounder(name: str, *, dictionary: Path | None = None, class_sizes: Pat
         )
     if class_sizes is not None and name != "volume":
         raise GroundingError(f"grounder {name!r} takes no class sizes; choose the grounder volume to use {class_sizes}")
+    if abstains and name != "embedded":
+        raise GroundingError(f"grounder {name!r} cannot abstain; choose the grounder embedded")
     # Each is imported only when it is asked for: the embedded one reads a noun taxonomy.
     if name == "embedded":
         from usd2kg.grounding.embedded.grounder import EmbeddedGrounder  # noqa: PLC0415
 
-        return EmbeddedGrounder()
+        return EmbeddedGrounder(abstains=abstains)
     if name == "dictionary":
         from usd2kg.grounding.dictionary import DictionaryGrounder  # noqa: PLC0415
 

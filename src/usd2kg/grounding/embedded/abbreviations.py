@@ -43,8 +43,10 @@ _ANY_LETTER = math.log(0.0004)
 """A single letter or pair that stands for no word: the C of CupC."""
 _USUAL = math.log(0.002)
 """An abbreviation that people have agreed on, before the stage is heard."""
-_CHOICES = 10
-_BEAM = 16
+_CHOICES = 7
+_BEAM = 10
+_HOPELESS = 9.0
+"""A reading this much less likely than the best, as a logarithm, is given up."""
 _MOST_PIECES = 8
 _LONGEST_PIECE = 12
 _READINGS = 12
@@ -190,6 +192,8 @@ def _readings(paths: list[_Path]) -> list[Reading]:
 def _best(paths: list[_Path]) -> list[_Path]:
     """Return the best paths, those that read the same words as one."""
     by_words: dict[tuple[str, ...], _Path] = {}
+    least = max((path.score for path in paths), default=0.0) - _HOPELESS
+    paths = [path for path in paths if path.score > least]
     for path in sorted(paths, key=lambda path: (-path.score, path.words)):
         known = by_words.get(path.words)
         by_words[path.words] = path if known is None else known._replace(score=_log_sum(known.score, path.score))

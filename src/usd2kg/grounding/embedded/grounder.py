@@ -9,7 +9,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
+from usd2kg.grounding.embedded.calibration import features_of, probability
 from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company
+from usd2kg.grounding.embedded.decision import safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Match, Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
@@ -72,25 +74,47 @@ class EmbeddedGrounder:
     """Grounds by the words of names, a noun taxonomy and the company an object keeps."""
 
     name = "embedded"
-    is_calibrated = False
+    is_calibrated = True
 
-    def __init__(self, *, use_home_synonyms: bool = True) -> None:
+    def __init__(self, *, use_home_synonyms: bool = True, abstains: bool = False) -> None:
         """Make the grounder.
 
         Args:
             use_home_synonyms: also use the synonyms of the built-in home TBox, for classes with the same IRI.
+            abstains: take the class above, where the candidates are split; better by hierarchical F1, and less often
+                exactly right.
         """
         self._use_home_synonyms = use_home_synonyms
+        self._abstains = abstains
 
     @property
     def settings(self) -> Mapping[str, str]:
         """The settings that its answers depend on."""
-        return {"home_synonyms": str(self._use_home_synonyms).lower()}
+        return {
+            "home_synonyms": str(self._use_home_synonyms).lower(),
+            **({"decision": "hierarchical"} if self._abstains else {}),
+        }
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
         run = _run_for(tbox, self._use_home_synonyms)
-        return [replace(run.predict(view), prim_path=path) for path, view in views]
+        answers = [replace(run.predict(view), prim_path=path) for path, view in views]
+        decided = [_abstaining(answer, tbox) for answer in answers] if self._abstains else answers
+        return [_calibrated(answer, tbox) for answer in decided]
+
+
+def _calibrated(prediction: Prediction, tbox: TBox) -> Prediction:
+    return replace(prediction, confidence=probability(features_of(prediction, tbox)))
+
+
+def _abstaining(prediction: Prediction, tbox: TBox) -> Prediction:
+    """Return the prediction with the class above its candidates, where that is the safer answer."""
+    iri = safest_class({candidate.class_iri: candidate.score for candidate in prediction.candidates}, tbox)
+    if iri == prediction.class_iri:
+        return prediction
+    names = ", ".join(tbox.by_iri[candidate.class_iri].local_name for candidate in prediction.candidates[:3])
+    explanation = f"{prediction.explanation}; {tbox.by_iri[iri].local_name} is safer than any of {names}"
+    return replace(prediction, class_iri=iri, status=Status.SUPERCLASS, explanation=explanation)
 
 
 @lru_cache(maxsize=4)

@@ -81,7 +81,7 @@ class NameReader:
     def _translated(self, tokens: list[_Token]) -> tuple[str, ...] | None:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
         words = tuple(token.text for token in tokens)
-        if not words or "".join(words) in self._lexicon.terms:
+        if all(map(self.is_known, words)) or "".join(words) in self._lexicon.terms:
             return None
         return translate(words)
 

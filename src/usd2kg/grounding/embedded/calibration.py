@@ -1,0 +1,54 @@
+"""From scores to probabilities: a logistic model of few features, fitted on labelled scenes (Platt, 1999).
+
+The parameters are in `data/calibration.json`, written by `tools/fit_calibration.py`.
+"""
+
+import json
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from importlib.resources import files
+
+from usd2kg.grounding.model import Prediction
+from usd2kg.ontology import TBox
+
+__all__ = ["FEATURES", "features_of", "probability"]
+
+FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "is_company")
+"""What the parameters are called."""
+_LABEL = 0.95
+"""A score that only the class's own label reaches."""
+
+
+def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
+    """Return the features of an answer.
+
+    - `score`: of the chosen class, 0 to 1;
+    - `margin`: how far the next class is behind;
+    - `is_label`: whether the name is the class's own label;
+    - `is_general`: whether the class is a root of the TBox, true of so much that a better one may be missed;
+    - `is_company`: whether the surroundings decided and not the words.
+    """
+    scores = [candidate.score for candidate in prediction.candidates]
+    first, second = (*scores, 0.0, 0.0)[:2]
+    return {
+        "intercept": 1.0,
+        "score": first,
+        "margin": first - second,
+        "is_label": float(first > _LABEL),
+        "is_general": float(prediction.class_iri in tbox.roots),
+        "is_company": float(not {"company", "geometry"}.isdisjoint(prediction.evidence)),
+    }
+
+
+def probability(features: Mapping[str, float]) -> float:
+    """Return the probability that the answer is the class a person would choose, to four decimals."""
+    weights = _weights()
+    return round(1 / (1 + math.exp(-sum(weights[name] * value for name, value in features.items()))), 4)
+
+
+@lru_cache(maxsize=1)
+def _weights() -> dict[str, float]:
+    text = (files("usd2kg.grounding") / "data" / "calibration.json").read_text(encoding="utf-8")
+    found: dict[str, float] = json.loads(text)["weights"]
+    return found
