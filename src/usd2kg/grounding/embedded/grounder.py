@@ -44,6 +44,8 @@ _COMPANY = 0.8
 _WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
 _SIZE_FLOOR, _SIZE_POWER, _NO_SIZE = 0.05, 0.3, 0.3
 _SIZE_TRUST = 0.3
+_SUITED = 3
+"""The classes that are considered for their size alone."""
 _SHARE_FLOOR = 0.3
 _MOST_TOKENS = 5
 _IMPLAUSIBLE = 6.0
@@ -178,7 +180,8 @@ class _Run:
         # The more a name says, the less is asked of the company; what an abbreviation seems to say is often wrong.
         said_best = 0.0 if view.is_masked else max((finding.match.score for finding in words), default=0.0)
         power = _COMPANY_POWER * (1 - said_best)
-        for iri in {**by_words, **by_company, **by_size}:
+        suited = sorted(by_size, key=lambda iri: (-by_size[iri][1], iri))[:_SUITED]
+        for iri in dict.fromkeys([*by_words, *by_company, *suited]):
             experts = [found[iri] for found in (by_words, by_company) if iri in found]
             said, seen = (found[iri].match.score if iri in found else 0.0 for found in (by_words, by_company))
             fit, share = by_size.get(iri, (_NO_SIZE, 0.0))
@@ -249,14 +252,15 @@ class _Run:
         heads = self._matcher.heads(self._reader.read(text, view.parents))
         if len(heads) < 2 or not self._is_doubtful(heads[0][0], view.size):
             return matches
-        known = [
-            head for head in heads[1:] if head[1][0].score >= _CLEAR and _misfit(view.size, head[0]) < _IMPLAUSIBLE
-        ]
+        known = [head for head in heads[1:] if head[1][0].score >= _CLEAR and self._may_be_meant(head[0], view.size)]
         if not known:
             return matches
         words, better = min(known, key=lambda head: _misfit(view.size or (0, 0, 0), head[0]))
         note = f" (it is “{' '.join(words)}” rather than “{' '.join(heads[0][0])}”, by its size)"
         return [Match(m.class_iri, m.score * _SECOND_LOOK, m.explanation + note) for m in better]
+
+    def _may_be_meant(self, words: tuple[str, ...], size: tuple[float, float, float]) -> bool:
+        return not self._reader.is_place(words[-1]) and _misfit(size, words) < _IMPLAUSIBLE
 
     def _is_doubtful(self, words: tuple[str, ...], size: tuple[float, float, float]) -> bool:
         """Return whether a thing of this size is hardly called so: a sink of a window's size, a lounge of 40 cm."""

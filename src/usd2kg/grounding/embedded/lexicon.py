@@ -20,6 +20,8 @@ _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communicatio
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
+_SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.\S*$")
+"""A class called after a sense of WordNet: `chair.n.01`, `chair.n.wn.artifact..seat`."""
 _PLAUSIBLE = 0.7
 """A sense that fits this share as well as the best one may be meant too."""
 
@@ -112,7 +114,7 @@ def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str,
 
 
 def _words(text: str) -> tuple[str, ...]:
-    plain = re.sub(r"\(.*?\)|\[.*?\]", " ", text)
+    plain = re.sub(r"\(.*?\)|\[.*?\]", " ", _SENSE_KEY.sub(r"\1", text))
     return tuple(word.lower() for word in split_identifier(plain) if not word.isdigit())
 
 
