@@ -11,24 +11,27 @@ from pathlib import Path
 import pytest
 
 from tests.conftest import shared_file
-from tests.scene import fuzzing
-from tests.scene.fuzzing import Case, Judge, Outcome, Tally, Verdict, Worker, as_crate, insane, make_cases
+from tests.scene.fuzz.corpus import as_crate, own_corpus, shared_corpus
+from tests.scene.fuzz.loop import Case, Tally, all_cases, fuzz, make_cases
+from tests.scene.fuzz.mutators import MUTATORS, mangle_bytes, paths_of
+from tests.scene.fuzz.sanity import insane
+from tests.scene.fuzz.worker import OPENUSDS, Judge, Outcome, Verdict, Worker, read_checked, write_files
 from tests.scene.usda import component, cube, xform
 from usd2kg.scene import Box
 
-CORPUS = fuzzing.own_corpus()
+CORPUS = own_corpus()
 
 
 def check(tally: Tally, capsys):
     with capsys.disabled():
         for verdict, cases in tally.found.items():
-            if verdict.outcome in fuzzing.OPENUSDS:
+            if verdict.outcome in OPENUSDS:
                 print(f"\n{verdict.outcome}: {verdict.place} ({cases[0].name})", end="")
     assert not tally.failures, "\n".join(tally.failures)
 
 
 def test_mangled_stages(capsys):
-    tally = fuzzing.fuzz(itertools.islice(make_cases(CORPUS, seed=1), 500))
+    tally = fuzz(itertools.islice(make_cases(CORPUS, seed=1), 500))
     assert sum(tally.outcomes.values()) == 500
     # Mangled so gently that the reader gets to see something.
     assert tally.outcomes[Outcome.READ] > 150
@@ -37,13 +40,13 @@ def test_mangled_stages(capsys):
 
 def test_mangled_stages_of_others(capsys):
     shared_file("scenes/awkward")
-    check(fuzzing.fuzz(itertools.islice(make_cases(fuzzing.shared_corpus(), seed=1), 150)), capsys)
+    check(fuzz(itertools.islice(make_cases(shared_corpus(), seed=1), 150)), capsys)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3])
 def test_many_mangled_stages(seed, capsys):
-    check(fuzzing.fuzz(itertools.islice(fuzzing.all_cases(seed), 8_000)), capsys)
+    check(fuzz(itertools.islice(all_cases(seed), 8_000)), capsys)
 
 
 # --- the cases ----------------------------------------------------------------------------------------
@@ -79,7 +82,7 @@ def test_the_same_seed_gives_the_same_cases():
     assert sum("scene.usdc" in case.files for case in first) == 10
 
 
-@pytest.mark.parametrize("mutate", fuzzing.MUTATORS, ids=lambda mutate: mutate.__name__)
+@pytest.mark.parametrize("mutate", MUTATORS, ids=lambda mutate: mutate.__name__)
 def test_every_mutator_changes_something_and_bears_anything(mutate):
     rng = random.Random(0)
     text = CORPUS["materials"]["scene.usda"].decode()
@@ -92,13 +95,13 @@ def test_every_mutator_changes_something_and_bears_anything(mutate):
 def test_bytes_are_changed_whatever_they_are():
     rng = random.Random(0)
     data = bytes(range(256))
-    assert sum(fuzzing.mangle_bytes(data, rng) != data for _ in range(100)) > 90
-    assert all(len(fuzzing.mangle_bytes(b"", rng)) < 300 for _ in range(100))
+    assert sum(mangle_bytes(data, rng) != data for _ in range(100)) > 90
+    assert all(len(mangle_bytes(b"", rng)) < 300 for _ in range(100))
 
 
 def test_paths_of_a_text():
-    assert fuzzing.paths_of(xform("A", cube("b"), xform("c", cube("d")))) == ["/A", "/A/b", "/A/c", "/A/c/d"]
-    assert fuzzing.paths_of("") == ["/"]
+    assert paths_of(xform("A", cube("b"), xform("c", cube("d")))) == ["/A", "/A/b", "/A/c", "/A/c/d"]
+    assert paths_of("") == ["/"]
 
 
 # --- what is sane -------------------------------------------------------------------------------------
@@ -140,7 +143,7 @@ HERE = "tests.scene.test_fuzz"
 
 
 def raise_other(path):
-    return fuzzing.read_checked(None)
+    return read_checked(None)
 
 
 def obey(path):
@@ -219,5 +222,5 @@ def test_equal_faults_are_told_once_and_those_of_openusd_are_no_failures(tmp_pat
 
 
 def test_files_are_written_as_they_are(tmp_path):
-    fuzzing.write_files({"a.usda": b"\0\xff", "b.usda": b""}, tmp_path / "new")
+    write_files({"a.usda": b"\0\xff", "b.usda": b""}, tmp_path / "new")
     assert (tmp_path / "new" / "a.usda").read_bytes() == b"\0\xff"

@@ -389,3 +389,204 @@ def test_asked_for_paths_are_no_longer_counted_as_left_out(read):
 def test_a_stage_without_geometry_can_still_be_asked_for_a_prim(read):
     scene = read(xform("World", xform("Anchor")), paths=["/World/Anchor"])
     assert [obj.name for obj in scene.objects] == ["Anchor"]
+
+
+# --- fixtures of bodies ------------------------------------------------------------------------------
+
+
+def frame(name):
+    return xform(name)
+
+
+def test_fixtures_built_into_a_body_are_objects(read):
+    scene = read(xform("World", rigid("counter", cube("top"), cube("faucet")), cube("box")))
+    fixture = "/World/counter/faucet"
+    assert chosen(scene) == {"/World/counter": BODY, fixture: "fixture of counter", "/World/box": OWNER}
+    assert parents(scene)["faucet"] == "counter"
+    assert scene.by_path["/World/counter"].parts == ("top",)
+
+
+def test_fixtures_below_the_frames_of_a_body_are_objects(read):
+    visuals = xform("visuals", xform("SM_Faucet_01", cube("spout"), cube("lever")))
+    scene = read(xform("World", rigid("unit", cube("top"), visuals), cube("box")))
+    assert list(chosen(scene)) == ["/World/unit", "/World/unit/visuals/SM_Faucet_01", "/World/box"]
+    assert scene.by_path["/World/unit/visuals/SM_Faucet_01"].parts == ("spout", "lever")
+
+
+def test_fixtures_may_be_frames_whose_mesh_is_part_of_the_body(read):
+    scene = read(xform("World", rigid("stove", cube("top"), frame("hotplate1"), frame("hotplate2")), cube("box")))
+    assert [name for name, above in parents(scene).items() if above == "stove"] == ["hotplate1", "hotplate2"]
+    assert scene.by_path["/World/stove/hotplate1"].box is None
+
+
+@pytest.mark.parametrize(
+    ("body", "part", "is_fixture"),
+    [
+        ("sink", "sink_basin", True),
+        ("sink", "sink_visual", False),  # the body itself by its own name
+        ("kitchen_sink", "sink", False),
+        ("sink", "basin_sink", False),
+        ("unit", "faucet_handle", False),  # the last word says what it is
+        ("unit", "Faucet_LOD0", True),
+        ("unit", "board", False),
+    ],
+)
+def test_the_last_word_of_a_part_says_whether_it_is_a_fixture(read, body, part, is_fixture):
+    scene = read(xform("World", rigid(body, cube("mesh"), cube(part)), cube("box")))
+    assert (f"/World/{body}/{part}" in scene.by_path) == is_fixture
+
+
+def test_fixtures_of_authored_components_are_parts(read):
+    scene = read(xform("World", component("counter", cube("top"), cube("faucet")), rigid("cup", cube("a"))))
+    assert chosen(scene) == {"/World/counter": KIND, "/World/cup": BODY}
+
+
+def test_fixtures_that_only_collide_are_parts(read):
+    counter = rigid("counter", cube("top"), cube("faucet", purpose="guide"))
+    assert list(chosen(read(xform("World", counter, cube("box"))))) == ["/World/counter", "/World/box"]
+
+
+def test_fixtures_of_a_body_within_a_body_belong_to_the_inner_one(read):
+    drawer = rigid("drawer", cube("front"), cube("burner"))
+    scene = read(xform("World", rigid("unit", cube("top"), drawer), cube("box")))
+    assert parents(scene) == {"unit": None, "drawer": "unit", "burner": "drawer", "box": None}
+
+
+# --- pieces that nobody named ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("piece", ["mesh_{}", "part{}_obj", "Object_{}", "solid{}_LOD0", "n{}"])
+def test_a_named_thing_in_unnamed_pieces_is_one_object(read, piece):
+    pieces = [xform(f"group_{index}", cube(piece.format(index))) for index in (1, 2, 3)]
+    scene = read(xform("World", xform("Chair", *pieces), xform("Table", cube("top"))))
+    assert chosen(scene) == {"/World/Chair": OWNER, "/World/Table": OWNER}
+
+
+def test_pieces_named_by_maya_are_unnamed(read):
+    pieces = [xform(f"group_{index}", cube(f"polySurface{index}")) for index in (1, 2, 3)]
+    assert list(chosen(read(xform("World", xform("Chair", *pieces), cube("box"))))) == ["/World/Chair", "/World/box"]
+
+
+def test_unnamed_pieces_deeper_down_are_still_pieces(read):
+    pieces = [xform(f"group_{i}", *(xform(f"node_{j}", cube(f"mesh_{j}")) for j in (1, 2))) for i in (1, 2)]
+    assert list(chosen(read(xform("World", xform("Chair", *pieces), cube("box"))))) == ["/World/Chair", "/World/box"]
+
+
+def test_one_named_piece_keeps_all_pieces_apart(read):
+    pieces = xform("n1", cube("mesh_1")) + xform("Cushion", cube("mesh_2"))
+    scene = read(xform("World", xform("Chair", pieces), cube("box")))
+    assert list(chosen(scene)) == ["/World/Chair/n1", "/World/Chair/Cushion", "/World/box"]
+
+
+@pytest.mark.parametrize("name", ["Furniture", "Chair_grp", "Object_7"])
+def test_a_grouping_does_not_swallow_unnamed_pieces(read, name):
+    pieces = [xform(f"n{index}", cube(f"mesh_{index}")) for index in (1, 2)]
+    scene = read(xform("World", xform("Corner", component("Lamp", cube("bulb")), xform(name, *pieces)), cube("box")))
+    assert f"/World/Corner/{name}" not in scene.by_path
+    assert [path for path in chosen(scene) if "/n" in path] == [f"/World/Corner/{name}/n{index}" for index in (1, 2)]
+
+
+def test_the_root_of_the_stage_does_not_swallow_unnamed_pieces(read):
+    pieces = [xform(f"n{index}", cube(f"mesh_{index}")) for index in (1, 2)]
+    assert list(chosen(read(xform("Kitchen", *pieces)))) == ["/Kitchen/n1", "/Kitchen/n2"]
+
+
+# --- robots whose links lie side by side -------------------------------------------------------------
+
+
+def joint(index, body0, body1, type_name="PhysicsRevoluteJoint", holder="/World/Arm"):
+    sides = [f"rel physics:body{side} = <{holder}/{body}>" for side, body in ((0, body0), (1, body1)) if body]
+    return prim(type_name, f"joint{index}", *sides)
+
+
+def links(*more, count=5, holder="/World/Arm", world=False):
+    """Return an Xform of bodies side by side that turning joints make a chain."""
+    bodies = [rigid(f"link{index}", cube(f"mesh{index}")) for index in range(count)]
+    chain = [joint(i, f"link{i - 1}", f"link{i}", holder=holder) for i in range(1, count)]
+    base = [joint(0, None, "link0", "PhysicsFixedJoint", holder=holder)] if world else []
+    return xform(holder.rpartition("/")[2], *bodies, *base, *chain, *more)
+
+
+@pytest.mark.parametrize("world", [False, True])
+def test_five_links_side_by_side_are_one_robot(read, world):
+    scene = read(xform("World", links(world=world), cube("box")))
+    assert chosen(scene) == {"/World/Arm": ROBOT, "/World/box": OWNER}
+    assert scene.by_path["/World/Arm"].parts[:2] == ("link0", "mesh0")
+
+
+def test_links_side_by_side_within_an_instance_are_one_robot(read, write_stage):
+    write_stage('(\n    defaultPrim = "Arm"\n)\n' + links(holder="/Arm"), "arm.usda")
+    arms = [reference(f"Arm{index}", "arm.usda", meta=["instanceable = true"]) for index in (1, 2)]
+    assert chosen(read(xform("World", *arms, cube("box")))) == {
+        "/World/Arm1": ROBOT,
+        "/World/Arm2": ROBOT,
+        "/World/box": OWNER,
+    }
+
+
+def test_four_links_have_too_few_joints_for_a_robot(read):
+    scene = read(xform("World", links(count=4), cube("box")))
+    assert [obj.selected_by for obj in scene.objects] == [BODY] * 4 + [OWNER]
+
+
+@pytest.mark.parametrize("other", [rigid("Cup", cube("a")), component("Cup", cube("a"))], ids=["body", "component"])
+def test_links_beside_another_object_stay_apart(read, other):
+    scene = read(xform("World", links(other), cube("box")))
+    assert ROBOT not in chosen(scene).values()
+    assert len(scene.objects) == 7
+
+
+def test_links_below_the_root_beside_other_things_stay_apart(read):
+    scene = read(links(cube("Table"), rigid("Cup", cube("a")), holder="/World"))
+    assert ROBOT not in chosen(scene).values()
+    assert len(scene.objects) == 7
+
+
+def test_wheels_in_a_star_are_no_arm(read):
+    wheels = [rigid(f"wheel{index}", cube(f"tyre{index}")) for index in range(6)]
+    joints = [joint(index, "chassis", f"wheel{index}") for index in range(6)]
+    cart = xform("Arm", rigid("chassis", cube("deck")), *wheels, *joints)
+    scene = read(xform("World", cart, cube("box")))
+    assert [obj.selected_by for obj in scene.objects] == [BODY] * 7 + [OWNER]
+
+
+@pytest.mark.parametrize("closing", [("link4", "link0"), ("link4", "link1"), ("link2", "link2")])
+def test_joints_in_a_circle_come_to_an_end(read, closing):
+    # Which of the two joints of the body where the circle closes counts, nobody can say.
+    scene = read(xform("World", links(joint(9, *closing)), cube("box")))
+    assert "/World/box" in scene.by_path
+    assert len(scene.objects) in {2, 6}
+
+
+def test_a_robot_beside_furniture_with_drawers_of_its_own_joints(read):
+    drawers = [rigid(f"Drawer{index}", cube(f"front{index}")) for index in range(6)]
+    slides = [joint(i, "Case", f"Drawer{i}", "PhysicsPrismaticJoint", "/World/Cabinet") for i in range(5)]
+    door = joint(5, "Case", "Drawer5", holder="/World/Cabinet")
+    cabinet = xform("Cabinet", rigid("Case", cube("carcass")), *drawers, *slides, door)
+    found = chosen(read(xform("World", links(), cabinet, cube("box"))))
+    assert found.pop("/World/Arm") == ROBOT
+    assert found == {
+        "/World/Cabinet/Case": BODY,
+        **{f"/World/Cabinet/Drawer{index}": BODY for index in range(6)},
+        "/World/box": OWNER,
+    }
+
+
+def test_two_robots_are_two(read):
+    scene = read(xform("World", links(), links(holder="/World/Arm2", count=7), cube("box")))
+    assert chosen(scene) == {"/World/Arm": ROBOT, "/World/Arm2": ROBOT, "/World/box": OWNER}
+
+
+def test_a_robot_that_is_bolted_to_a_table_leaves_the_room_alone(read):
+    bodies = [f"rel physics:body{side} = <{path}>" for side, path in ((0, "/World/Table"), (1, "/World/Arm/link0"))]
+    bolt = prim("PhysicsFixedJoint", "bolt", *bodies)
+    found = chosen(read(xform("World", links(bolt), rigid("Table", cube("top")), xform("Sofa", cube("a"), cube("b")))))
+    assert found["/World/Table"] == BODY
+    assert found["/World/Sofa"] == OWNER
+
+
+@pytest.mark.parametrize("holder", ["/World", "/World/Corner"])
+def test_a_robot_does_not_swallow_the_things_beside_it(read, holder):
+    arm = links(xform("Sofa", cube("seat"), cube("back")), holder=holder)
+    scene = read(arm if holder == "/World" else xform("World", arm, cube("box")))
+    assert f"{holder}/Sofa" in scene.by_path

@@ -1,6 +1,7 @@
 """The form of objects: volume, sizes, roundness and how much water they hold; and the hulls it is measured with."""
 
 import math
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -108,6 +109,11 @@ def describe(mesh):
     shape = describe_triangles(*mesh)
     assert shape is not None
     return shape
+
+
+@cache
+def shape_of_cup():
+    return describe(CUP)
 
 
 def sizes(shape):
@@ -278,7 +284,7 @@ class TestVessels:
         assert shape.capacity_m3 == pytest.approx(describe(tub(0.4, 0.3, 0.2, 0.01)).capacity_m3, rel=0.01)
 
     def test_fine_mesh_of_a_bowl(self):
-        profile = [(math.sin(a), 1 - math.cos(a)) for a in np.linspace(0, math.pi / 2, 400)]
+        profile = [(math.sin(a), 1 - math.cos(a)) for a in np.linspace(0, math.pi / 2, 200)]
         assert describe(turned(*profile)).capacity_m3 == pytest.approx(2 / 3 * math.pi, rel=0.03)
 
 
@@ -300,7 +306,7 @@ class TestBrokenInput:
         shape = describe((np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]]), np.array([[0, 1, 2]])))
         assert (shape.volume_m3, shape.hull_volume_m3, shape.roundness, shape.verticality) == (None, 0, 0, 0)
         assert shape.surface_m2 == pytest.approx(6)
-        # Area 12 both on the legs (3 × 4) and on the hypotenuse (5 × 2.4): the legs give the shorter edge around.
+        # The rectangles on the edges of a triangle are all twice as large as it is.
         assert sizes(shape) in [pytest.approx((4, 3, 0)), pytest.approx((5, 2.4, 0))]
         assert shape.flatness == 1
 
@@ -330,7 +336,7 @@ class TestBrokenInput:
             is None
         )
 
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=25, deadline=None)
     @given(st.integers(0, 2**32 - 1), st.integers(1, 30), st.integers(0, 3))
     def test_any_soup_has_sane_figures(self, seed, count, digits):
         rng = np.random.default_rng(seed)
@@ -356,19 +362,19 @@ def assert_same(here, there, factor=1.0):
 
 
 class TestInvariance:
-    @settings(max_examples=15, deadline=None)
+    @settings(max_examples=6, deadline=None)
     @given(st.tuples(*[st.floats(-20, 20)] * 3), st.floats(-180, 180), st.sampled_from([CUP, tub(0.4, 0.3, 0.2, 0.01)]))
     def test_moved_and_turned(self, shift, degrees, mesh):
         assert_same(describe(moved(mesh, rotation(2, degrees), shift)), describe(mesh))
 
-    @settings(max_examples=15, deadline=None)
+    @settings(max_examples=6, deadline=None)
     @given(st.floats(0.01, 100))
     def test_scaled(self, factor):
-        assert_same(describe(moved(CUP, factor * np.eye(3))), describe(CUP), factor)
+        assert_same(describe(moved(CUP, factor * np.eye(3))), shape_of_cup(), factor)
 
 
 class TestHull:
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=40, deadline=None)
     @given(st.integers(0, 2**32 - 1), st.integers(4, 60), st.integers(1, 6))
     def test_is_closed_convex_and_around_all_points(self, seed, count, digits):
         points = np.round(np.random.default_rng(seed).random((count, 3)), digits)

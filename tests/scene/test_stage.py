@@ -5,9 +5,9 @@ import subprocess
 import sys
 
 import pytest
-from pxr import Sdf, Usd, UsdGeom, Vt
+from pxr import Sdf, Usd, UsdGeom, UsdUtils, Vt
 
-from tests.scene.usda import METRES, cube, header, move, prim, xform
+from tests.scene.usda import METRES, component, cube, header, move, prim, xform
 from usd2kg.errors import SceneError
 from usd2kg.scene import Diagnostic, read_scene
 
@@ -301,3 +301,132 @@ def test_reading_needs_no_terminal(write_stage):
     code = "import sys; from usd2kg.scene import read_scene; read_scene(sys.argv[1])"
     done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == ("", "")
+
+
+# --- how it comes: a package, or a stage that is open -------------------------------------------------
+
+ROOM = xform(
+    "World",
+    component("Chair", cube("seat"), cube("leg", at=(0, 0, -1))),
+    component("Table", cube("top", size=2), move(5, 0, 0)),
+)
+
+
+def names(scene):
+    return [obj.prim_path for obj in scene.objects]
+
+
+def opened(text, *arguments):
+    """Return a stage that lives in memory."""
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString("#usda 1.0\n" + METRES + text)
+    return Usd.Stage.Open(layer, *arguments)
+
+
+def test_a_package_is_read_like_its_files(write_stage, tmp_path):
+    write_stage(METRES + component("Cup", cube("body", size=3)), "assets/cup.usda")
+    cups = [prim("", name, meta=["references = @assets/cup.usda@</Cup>"]) for name in ("Cup1", "Cup2")]
+    path = write_stage(METRES + xform("World", *cups, component("Table", cube("top"))))
+    package = tmp_path / "room.usdz"
+    assert UsdUtils.CreateNewUsdzPackage(str(path), str(package))
+    of_files, of_package = read_scene(path), read_scene(package)
+    assert names(of_package) == ["/World/Cup1", "/World/Cup2", "/World/Table"]
+    assert of_package.objects == of_files.objects
+    assert (of_package.source, of_package.diagnostics) == (str(package), ())
+
+
+def test_a_package_whose_content_changed_has_another_hash(write_stage, tmp_path):
+    hashes = set()
+    for size in (1, 2):
+        path = write_stage(METRES + xform("World", cube("a", size=size), cube("b")), f"{size}.usda")
+        assert UsdUtils.CreateNewUsdzPackage(str(path), str(tmp_path / f"{size}.usdz"))
+        hashes.add(read_scene(tmp_path / f"{size}.usdz").content_hash)
+    assert len(hashes) == 2
+
+
+def test_the_session_layer_of_an_open_stage_moves_and_hides():
+    stage = opened(ROOM + xform("Other", component("Lamp", cube("bulb"))))
+    before = read_scene(stage)
+    stage.SetEditTarget(stage.GetSessionLayer())
+    UsdGeom.XformCommonAPI(stage.GetPrimAtPath("/World/Chair")).SetTranslate((1, 2, 3))
+    UsdGeom.Imageable(stage.GetPrimAtPath("/Other/Lamp")).MakeInvisible()
+    scene = read_scene(stage)
+    assert (names(before), names(scene)) == (["/World/Chair", "/World/Table", "/Other/Lamp"], names(before)[:2])
+    assert scene.by_path["/World/Chair"].position == (1, 2, 3)
+    assert scene.by_path["/World/Chair"].box.lower == (0.5, 1.5, 1.5)
+    assert scene.left_out["invisible"] == 1
+    assert scene.content_hash != before.content_hash
+
+
+def test_the_session_layer_of_an_open_stage_switches_a_variant():
+    one, two = (f'"{name}" {{\n{cube(name)}}}\n' for name in ("plain", "padded"))
+    meta = ['kind = "component"', 'variants = {\nstring seat = "plain"\n}', 'prepend variantSets = "seat"']
+    chair = prim("Xform", "Chair", f'variantSet "seat" = {{\n{one}{two}}}', meta=meta)
+    stage = opened(xform("World", chair, component("Table", cube("top"))))
+    told = [read_scene(stage).objects[0]]
+    stage.SetEditTarget(stage.GetSessionLayer())
+    stage.GetPrimAtPath("/World/Chair").GetVariantSet("seat").SetVariantSelection("padded")
+    told.append(read_scene(stage).objects[0])
+    assert [(chair.variants, chair.parts) for chair in told] == [
+        ((("seat", "plain"),), ("plain",)),
+        ((("seat", "padded"),), ("padded",)),
+    ]
+
+
+def test_an_open_stage_is_left_as_it_was():
+    stage = opened(ROOM)
+    before = stage.GetRootLayer().ExportToString()
+    read_scene(stage)
+    assert stage.GetRootLayer().ExportToString() == before
+    assert stage.GetSessionLayer().empty
+    assert stage.GetPrimAtPath("/World/Chair/seat").IsValid()
+
+
+def test_of_a_masked_stage_only_what_is_in_the_mask_is_read(write_stage):
+    stage = Usd.Stage.OpenMasked(str(write_stage(METRES + ROOM)), Usd.StagePopulationMask(["/World/Table"]))
+    scene = read_scene(stage)
+    assert names(scene) == ["/World/Table"]
+    assert scene.prim_count == 3  # /World, the table and its top
+    assert scene.by_path["/World/Table"].box.lower == (4, -1, -1)
+
+
+def test_a_material_outside_of_the_mask_keeps_its_name(write_stage):
+    bound = cube("top", "rel material:binding = </Looks/Oak>", meta=['prepend apiSchemas = ["MaterialBindingAPI"]'])
+    path = write_stage(
+        METRES + prim("Scope", "Looks", prim("Material", "Oak")) + xform("World", component("Table", bound))
+    )
+    for stage in (Usd.Stage.Open(str(path)), Usd.Stage.OpenMasked(str(path), Usd.StagePopulationMask(["/World"]))):
+        assert read_scene(stage).by_path["/World/Table"].materials == ("Oak",)
+
+
+def test_payloads_of_an_open_stage_stay_unloaded_and_of_a_file_are_loaded(write_stage):
+    write_stage('(\n    defaultPrim = "Chair"\n)\n' + component("Chair", cube("seat"), cube("leg")), "chair.usda")
+    chair = prim("Xform", "Chair", move(1, 0, 0), meta=["payload = @chair.usda@"])
+    path = write_stage(METRES + xform("World", chair, component("Table", cube("top"))))
+    stage = Usd.Stage.Open(str(path), Usd.Stage.LoadNone)
+    as_it_stands, of_file = read_scene(stage), read_scene(path)
+    assert names(as_it_stands) == ["/World/Table"]
+    assert not stage.GetPrimAtPath("/World/Chair").IsLoaded()
+    assert names(of_file) == ["/World/Chair", "/World/Table"]
+    assert of_file.by_path["/World/Chair"].parts == ("seat", "leg")
+    stage.Load("/World/Chair")
+    assert read_scene(stage).objects == of_file.objects
+
+
+@pytest.mark.parametrize(
+    "type_name",
+    [
+        pytest.param(""),
+        "Xform",
+    ],
+)
+def test_names_and_texts_of_prims_with_and_without_a_type(read, type_name):
+    chairs = [
+        prim(type_name, "P1", cube("a"), cube("b"), meta=['displayName = "Blue chair"']),
+        prim(type_name, "P2", cube("a"), cube("b"), meta=['doc = "A chair"']),
+        prim(type_name, "P3", cube("a"), cube("b"), meta=['customData = {\nstring note = "oak chair"\n}']),
+    ]
+    scene = read(xform("World", *chairs, cube("box")))
+    assert scene.by_path["/World/P1"].display_name == "Blue chair"
+    assert scene.by_path["/World/P2"].documentation == "A chair"
+    assert scene.by_path["/World/P3"].texts == (("customData:note", "oak chair"),)

@@ -1,16 +1,20 @@
 """What a grounder is shown of one object, under each naming regime."""
 
 import time
+from dataclasses import replace
 
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from tests.scene.usda import component, cube, prim, xform
 from usd2kg.scene import (
     EVIDENCE_GROUPS,
     STUDY_GROUPS,
     Box,
+    Label,
     NamingRegime,
+    ObjectLabels,
     ObjectView,
     Scene,
     SceneObject,
@@ -44,6 +48,7 @@ def thing(path, parent=None):
         parts=("handle",),
         display_color=(1, 0, 0),
         instance_of=None,
+        labels=ObjectLabels((Label(path, "UsdSemantics", "class", "mug"),), (), ()),
     )
 
 
@@ -130,9 +135,12 @@ def test_semantic_regime_shows_everything():
         asset=("ikea_cup",),
         materials=("Porcelain",),
         parts=("handle",),
+        labels=("mug",),
+        company=view.company,
         is_masked=False,
     )
     assert list(view.siblings) == ["Plate"]
+    assert [companion.name for companion in view.company.companions()] == ["Plate", "Table", "Lamp"]
 
 
 def test_opaque_names_are_numbers_in_traversal_order():
@@ -146,6 +154,7 @@ def test_only_the_target_is_masked():
 
 def test_anonymous_regime_masks_the_company_too():
     view = views(KITCHEN, NamingRegime.OPAQUE_ANONYMOUS)[0]
+    assert view.company is None
     assert (view.name, view.parents, list(view.siblings)) == ("obj_001", ("group_1",), ["sibling_2"])
     everything = repr([(v, list(v.siblings)) for v in views(KITCHEN, NamingRegime.OPAQUE_ANONYMOUS)])
     for word in ("Kitchen", "Table", "Cup", "Plate", "Lamp"):
@@ -156,7 +165,7 @@ def test_anonymous_regime_masks_the_company_too():
 def test_masked_regimes_show_no_richer_evidence(regime):
     for view in views(KITCHEN, regime):
         assert view.is_masked
-        assert (view.asset, view.materials, view.parts) == ((), (), ())
+        assert (view.asset, view.labels, view.materials, view.parts) == ((), (), (), ())
         assert (view.display_name, view.documentation) == ("", "")
         assert (view.size, view.position, view.mass_kg) == ((1, 2, 3), (4, 5, 6), 2.5)
 
@@ -164,7 +173,8 @@ def test_masked_regimes_show_no_richer_evidence(regime):
 @pytest.mark.parametrize("regime", MASKED)
 def test_masked_regimes_cannot_be_talked_into_richer_evidence(regime):
     for view in views(KITCHEN, regime, groups=EVIDENCE_GROUPS):
-        assert (view.asset, view.materials, view.parts, view.display_name) == ((), (), (), "")
+        assert (view.asset, view.labels, view.materials, view.parts, view.display_name) == ((), (), (), (), "")
+        assert (view.company is None) == (regime is NamingRegime.OPAQUE_ANONYMOUS)
 
 
 # --- evidence groups ---------------------------------------------------------------------------------
@@ -177,6 +187,8 @@ FIELDS = {
     "asset": {"asset"},
     "materials": {"materials"},
     "parts": {"parts"},
+    "labels": {"labels"},
+    "company": {"company"},
 }
 
 
@@ -208,6 +220,88 @@ def test_all_groups_but_one_hide_its_fields(group):
 
 def test_no_group_shows_nothing():
     assert shown(views(KITCHEN, groups=frozenset())[1]) == set()
+
+
+@pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
+def test_a_masked_target_keeps_its_company_but_not_with_the_study_s_evidence(regime):
+    others = [[companion.name for companion in view.company.companions()] for view in views(KITCHEN, regime)]
+    assert [sorted(names) for names in others] == [
+        ["CupCBlue_1", "Lamp", "Plate"],
+        ["Lamp", "Plate", "Table"],
+        ["CupCBlue_1", "Lamp", "Table"],
+        ["CupCBlue_1", "Plate", "Table"],
+    ]
+    assert {view.company for view in views(KITCHEN, regime, groups=STUDY_GROUPS)} == {None}
+
+
+# --- labels ------------------------------------------------------------------------------------------
+
+SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
+
+
+def label(taxonomy, value, encoding="UsdSemantics", **known):
+    return Label("/W/x", encoding, taxonomy, value, **known)
+
+
+def label_words(*own, inherited=(), of_parts=()):
+    labelled = replace(thing("/W/x"), labels=ObjectLabels(own, inherited, of_parts))
+    scene = scene_of()
+    return views(replace(scene, objects=(labelled,)))[0].labels
+
+
+@pytest.mark.parametrize(
+    ("one", "word"),
+    [
+        (label("class", "coffee mug"), "coffee mug"),
+        (label("semantics", "drawer"), "drawer"),
+        (label("wikidata_class", "table"), "table"),
+        (label("class", "chair", "Isaac"), "chair"),
+        (label("iri", SOMA + "Drawer"), "Drawer"),
+        (label("iri", "https://lab.example/things/Beaker/"), "Beaker"),
+        (label(SOMA, "DesignedChair", "Multiverse"), "DesignedChair"),
+        (label("WordNet", "drawer.n.wn.artifact", "Multiverse"), "drawer"),
+        (label("WordNet", "coffee_table.n.wn.artifact", "Multiverse"), "coffee_table"),
+    ],
+)
+def test_a_class_label_is_shown_as_a_name(one, word):
+    assert label_words(one) == (word,)
+
+
+@pytest.mark.parametrize(
+    "one",
+    [
+        label("wikidata_qcode", "Q81727"),
+        label("hierarchy", "furniture/chair"),
+        label("colour", "red"),
+        label("id", "17", "Isaac"),
+        label("WordNet", "drawer.n.wn.artifact", "Multiverse", strength="report"),
+    ],
+)
+def test_labels_that_name_no_class_for_sure_are_not_shown(one):
+    assert label_words(one) == ()
+
+
+def test_labels_come_in_order_and_once():
+    three = [label("class", "cup"), label("class", "cup", "Isaac"), label("class", "mug")]
+    assert label_words(*three) == ("cup", "mug")
+
+
+def test_labels_of_what_is_above_or_below_are_not_the_objects_own():
+    assert label_words(inherited=(label("class", "kitchen"),), of_parts=(label("class", "handle"),)) == ()
+
+
+def test_labels_reach_the_view_from_the_stage(read):
+    wordnet = prim("", "Onto", prim("", "_class_drawer", 'string rdf:conceptName = "drawer.n.wn.artifact"'))
+    usd = 'token[] semantics:labels:class = ["mug", "cup"]'
+    stem = "string semantic:Semantics:params:semantic"
+    isaac = f'{stem}Type = "class"\n{stem}Data = "chair"'
+    tag = "rel semanticTag:semanticLabels = </Onto/_class_drawer>"
+    bodies = {"a": usd, "b": isaac, "c": tag, "d": ""}
+    scene = read(wordnet, xform("World", *(component(name, body, cube("geo")) for name, body in bodies.items())))
+    shown = {obj.name: view.labels for obj, view in view_objects(scene)}
+    assert shown == {"a": ("mug", "cup"), "b": ("chair",), "c": ("drawer",), "d": ()}
+    for regime in MASKED:
+        assert {view.labels for _, view in view_objects(scene, regime, EVIDENCE_GROUPS)} == {()}
 
 
 # --- siblings ----------------------------------------------------------------------------------------

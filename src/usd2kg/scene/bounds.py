@@ -11,6 +11,7 @@ from pxr import Gf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.model import Box, Quaternion, StageFrame, Vector
 from usd2kg.scene.outline import Node
+from usd2kg.scene.stage import read_value
 
 __all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
 
@@ -44,8 +45,10 @@ class BoxReader:
     once.
     """
 
-    def __init__(self, frame: StageFrame, time: Usd.TimeCode) -> None:
+    def __init__(self, frame: StageFrame, time: Usd.TimeCode, endless: frozenset[str] = frozenset()) -> None:
+        """Make a reader; of the prims at the paths `endless` OpenUSD must not be asked for a box."""
         self._frame = frame
+        self._endless = endless
         self._time = time
         self._geometry = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=False)
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
@@ -64,33 +67,33 @@ class BoxReader:
 
     def read_hint(self, node: Node) -> Box | None:
         """Return the box by the authored `extentsHint`, for a node whose geometry cannot be measured."""
-        return self._box(self._hints, node.prim)
+        return self._box(self._hints, node)
 
     def _measure(self, node: Node) -> Box | None:
         if not node.is_point_based:
-            return self._box(self._geometry, node.prim)
+            return self._box(self._geometry, node)
         if node.may_be_turned:
             matrix = np.array(self._xforms.GetLocalToWorldTransform(node.prim))
             if not _is_aligned(matrix):
                 return self._box_around(_points_of(node.prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
         # An extent that is authored inside out reads as empty: the points know better.
-        return self._box(self._geometry, node.prim) or self._box_of_points(node.prim)
+        return self._box(self._geometry, node) or self._box_of_points(node.prim)
 
     def _box_of_points(self, prim: Any) -> Box | None:
         matrix = np.array(self._xforms.GetLocalToWorldTransform(prim))
-        with np.errstate(invalid="ignore", over="ignore"):
-            return self._box_around(_points_of(prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
+        return self._box_around(_points_of(prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
 
     def _box_around(self, world: _Matrix) -> Box | None:
-        with np.errstate(invalid="ignore"):
-            found = world[(np.abs(world) < _EMPTY_EXTENT).all(axis=1)]
+        found = world[_is_near(world).all(axis=1)]
         if len(found) < min(len(world), _FEWEST_POINTS) or not len(found):
             # What is left of it says nothing of its size.
             return None
         return _to_box(found.min(axis=0).tolist(), found.max(axis=0).tolist(), self._frame)
 
-    def _box(self, cache: Any, prim: Any) -> Box | None:
-        aligned = cache.ComputeWorldBound(prim).ComputeAlignedRange()
+    def _box(self, cache: Any, node: Node) -> Box | None:
+        if node.path in self._endless:
+            return None
+        aligned = cache.ComputeWorldBound(node.prim).ComputeAlignedRange()
         # Vectors of Gf are many times faster to take apart as an array.
         lower: list[float] = np.array(aligned.GetMin()).tolist()
         upper: list[float] = np.array(aligned.GetMax()).tolist()
@@ -102,7 +105,7 @@ class BoxReader:
         """Return the shape of an object in an instance that is not the first of its prototype; None for others."""
         if root.twin is None or not gprims or (root.is_instance and gprims[0] is root):
             return None
-        key = tuple(id(gprim.twin) for gprim in gprims)
+        key = (id(root.twin), *(id(gprim.twin) for gprim in gprims))
         if key not in self._shapes:
             self._shapes[key] = self._read_shape(root, gprims)
         return self._shapes[key]
@@ -117,7 +120,7 @@ class BoxReader:
             is_tight = len(found) and (not gprim.is_point_based or _is_aligned(matrix))
             local = found if is_tight else _points_of(gprim.prim, self._time)
             corners.append(local @ matrix[:3, :3] + matrix[3, :3])
-        is_sound = all(len(local) and (np.abs(local) < _EMPTY_EXTENT).all() for local in corners)
+        is_sound = all(len(local) and _is_near(local).all() for local in corners)
         return _Shape(corners, gprims) if is_sound else None
 
     def _relative(self, gprim: Node, root: Node) -> tuple[_Matrix, bool]:
@@ -132,7 +135,7 @@ class BoxReader:
         if root.may_be_turned and not _is_aligned(matrix):
             clouds = self._shape_points(shape, root)
         world = np.concatenate(clouds) @ matrix[:3, :3] + matrix[3, :3]
-        if not np.isfinite(world).all():
+        if not _is_near(world).all():
             return []
         starts = np.cumsum([0, *(len(cloud) for cloud in clouds[:-1])])
         lower = np.minimum.reduceat(world, starts).tolist()
@@ -147,12 +150,14 @@ class BoxReader:
             for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
                 local = _points_of(gprim.prim, self._time) if gprim.is_point_based else np.empty((0, 3))
-                local = local[np.isfinite(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
+                local = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
                 shape.points.append(local if len(local) >= _FEWEST_POINTS else corners)
         return shape.points
 
     def read_local_corners(self, prim: Any) -> _Matrix:
         """Return the corners, (8, 3) or (0, 3), of the box of all below a prim, in its frame without its transform."""
+        if self._endless and prim.GetPath().pathString in self._endless:
+            return np.empty((0, 3))
         local = self._geometry.ComputeUntransformedBound(prim).ComputeAlignedRange()
         found = [] if local.IsEmpty() else [np.array(local.GetCorner(corner)) for corner in range(8)]
         return np.array(found, dtype=float).reshape(-1, 3)
@@ -163,22 +168,25 @@ class BoxReader:
             return None
         rows = np.array(matrix)
         world = corners @ rows[:3, :3] + rows[3, :3]
-        if not (np.abs(world) < _EMPTY_EXTENT).all():
+        if not _is_near(world).all():
             return None
         return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
 
     def read_oriented_size(self, node: Node) -> Vector | None:
         """Return the extent in metres along the prim's own axes, where they are turned against the world's."""
-        if not node.may_be_turned:
+        if not node.may_be_turned or node.path in self._endless:
             return None
         matrix = self._xforms.GetLocalToWorldTransform(node.prim)
         if _is_aligned(np.array(matrix)):
             return None
-        local = self._geometry.ComputeUntransformedBound(node.prim).ComputeAlignedRange()
-        if local.IsEmpty():
+        # OpenUSD's untransformed bound is loose where boxes within it are turned: the parts are asked one by one.
+        shape = self._read_shape(node, [below for below in node.walk() if is_measurable(below)])
+        if shape is None or not shape.corners:
             return None
+        local = np.concatenate(shape.corners)
+        sizes: list[float] = (local.max(axis=0) - local.min(axis=0)).tolist()
         scales = [matrix.GetRow3(axis).GetLength() * self._frame.metres_per_unit for axis in range(3)]
-        width, depth, height = (size * scale for size, scale in zip(local.GetSize(), scales, strict=True))
+        width, depth, height = (size * scale for size, scale in zip(sizes, scales, strict=True))
         return (width, depth, height) if all(map(math.isfinite, (width, depth, height))) else None
 
     def read_pose(self, node: Node) -> tuple[Vector | None, Quaternion | None]:
@@ -189,7 +197,7 @@ class BoxReader:
         matrix = self._local_to_world(node)
         if not node.may_be_turned:
             rows = np.array(matrix).tolist()
-            if all(1e-9 < rows[axis][axis] < _EMPTY_EXTENT for axis in range(3)) and math.isfinite(sum(rows[3])):
+            if all(1e-9 < rows[axis][axis] < _EMPTY_EXTENT > abs(rows[3][axis]) for axis in range(3)):
                 return to_metres(rows[3][:3], self._frame), _UNTURNED[self._frame.up_axis]
         return pose_of(matrix, self._frame)
 
@@ -216,15 +224,19 @@ def is_measurable(node: Node) -> bool:
 
 def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
     """Return the points, (n, 3), in the prim's frame; none where they are authored as something else."""
-    points = UsdGeom.PointBased(prim).GetPointsAttr().Get(time)
-    is_sound = isinstance(points, Vt.Vec3fArray | Vt.Vec3dArray | Vt.Vec3hArray)
-    return np.array(points if is_sound else (), dtype=float).reshape(-1, 3)
+    points = read_value(prim, UsdGeom.Tokens.points, time, Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
+    return np.array(() if points is None else points, dtype=float).reshape(-1, 3)
 
 
 def _is_aligned(matrix: _Matrix) -> bool:
     """Return whether a matrix takes each axis to an axis, so that a turned box is as tight as what it holds."""
     sizes = np.abs(matrix[:3, :3])
     return bool(((sizes > _ALIGNED * sizes.max(axis=1, keepdims=True)).sum(axis=1) <= 1).all())
+
+
+def _is_near(numbers: _Matrix) -> NDArray[np.bool_]:
+    """Return for each number whether a scene can have such a length: neither NaN nor beyond `_EMPTY_EXTENT`."""
+    return np.abs(numbers) < _EMPTY_EXTENT
 
 
 def _to_box(lower: Sequence[float], upper: Sequence[float], frame: StageFrame) -> Box:
@@ -256,7 +268,7 @@ def union(boxes: Iterable[Box]) -> Box | None:
 def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion | None]:
     """Return position (metres) and rotation (x, y, z, w) of a stage's 4 × 4 matrix, z-up."""
     rows = np.array(matrix)
-    if not np.isfinite(rows).all():
+    if not (np.isfinite(rows).all() and _is_near(rows[3]).all()):
         return None, None
     position = to_metres(rows[3, :3].tolist(), frame)
     if _is_flat(matrix):

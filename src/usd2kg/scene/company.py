@@ -131,7 +131,13 @@ class Company:
         found: dict[int, Nearness] = {}
         for index, nearness in (*self._beside(), *self._like()):
             found.setdefault(index, nearness)
-        return [self._companion(index, nearness) for index, nearness in found.items()]
+        # What lies below the target has the target's name among its parents.
+        below = self._stage.objects[self._index].prim_path + "/"
+        return [
+            self._companion(index, nearness)
+            for index, nearness in found.items()
+            if not self._stage.objects[index].prim_path.startswith(below)
+        ]
 
     def _beside(self) -> Iterator[tuple[int, Nearness]]:
         stage = self._stage

@@ -1,16 +1,20 @@
 """What else the stage says about an object: asset, parts, mass, colour."""
 
+import math
 from collections.abc import Iterator
 from pathlib import PurePosixPath
 from typing import Any
 
-import numpy as np
-from pxr import Usd, UsdGeom, UsdPhysics
+from pxr import Usd, UsdGeom, UsdPhysics, Vt
 
+from usd2kg.scene.metadata import vector_of
 from usd2kg.scene.model import StageFrame, Vector
 from usd2kg.scene.outline import Node
+from usd2kg.scene.stage import read_value
 
 __all__ = ["asset_names", "display_color", "mass_kg", "own_nodes", "part_names"]
+
+_COLORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 
 
 def own_nodes(node: Node, objects: frozenset[str] | dict[str, str]) -> Iterator[Node]:
@@ -53,23 +57,24 @@ def mass_kg(nodes: list[Node], frame: StageFrame) -> float | None:
     """
     own = _mass(nodes[0])
     parts = [own] if own else [mass for node in nodes[1:] if (mass := _mass(node))]
-    return sum(parts) * frame.kilograms_per_unit if parts else None
+    # Of huge and tiny masses and units the product may be none.
+    total = sum(parts) * frame.kilograms_per_unit
+    return total if 0 < total < math.inf else None
 
 
 def _mass(node: Node) -> float | None:
     if not node.has_mass:
         return None
-    mass = UsdPhysics.MassAPI(node.prim).GetMassAttr().Get()
-    return float(f"{mass:.7g}") if mass and 0 < mass < float("inf") else None
+    mass = read_value(node.prim, UsdPhysics.Tokens.physicsMass, Usd.TimeCode.Default(), int, float)
+    return float(f"{mass:.7g}") if mass and 0 < mass < math.inf else None
 
 
 def display_color(nodes: list[Node], time: Usd.TimeCode) -> Vector | None:
     """Return the first display colour authored on the object's geometry, linear RGB; None if none is."""
     for node in nodes:
         if node.is_gprim and UsdGeom.Tokens.primvarsDisplayColor in node.authored.names:
-            colors = UsdGeom.Gprim(node.prim).GetDisplayColorAttr().Get(time)
-            if colors:
-                # Vectors of Gf are many times faster to take apart as an array.
-                red, green, blue = (float(f"{value:.6g}") for value in np.array(colors[0]).tolist())
-                return (red, green, blue)
+            colors = read_value(node.prim, UsdGeom.Tokens.primvarsDisplayColor, time, *_COLORS)
+            color = vector_of(colors[0]) if colors else None
+            if color:
+                return color
     return None

@@ -1,17 +1,19 @@
 """The copies of point instancers: counted as one object, or each an object of its own."""
 
-from collections.abc import Iterator
+from collections.abc import Sequence
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 import numpy as np
-from pxr import Usd, UsdGeom
+from pxr import Usd, UsdGeom, Vt
 
 from usd2kg.scene.bounds import BoxReader, pose_of
 from usd2kg.scene.evidence import asset_names
-from usd2kg.scene.model import Box, Instances, SceneObject, StageFrame
+from usd2kg.scene.model import Box, Diagnostic, Instances, SceneObject, StageFrame
 from usd2kg.scene.outline import Node
+from usd2kg.scene.stage import read_targets, read_value
 
-__all__ = ["COPY", "count_copies", "read_copies"]
+__all__ = ["COPY", "count_copies", "is_endless", "read_copies"]
 
 COPY = "copy of a point instancer"
 """`selected_by` of an object that is one copy."""
@@ -19,42 +21,108 @@ COPY = "copy of a point instancer"
 
 def count_copies(nodes: list[Node], time: Usd.TimeCode) -> Instances | None:
     """Return the copies of an object's own point instancers; None if it has none."""
-    instancers = [UsdGeom.PointInstancer(node.prim) for node in nodes if node.is_instancer]
+    instancers = [node.prim for node in nodes if node.is_instancer]
     if not instancers:
         return None
-    names = [target.name for i in instancers for target in i.GetPrototypesRel().GetTargets()]
-    return Instances(sum(sum(_drawn(i, time)) for i in instancers), tuple(dict.fromkeys(names)))
+    names = [target.name for prim in instancers for target in _prototypes(prim)]
+    return Instances(sum(sum(_drawn(prim, time)) for prim in instancers), tuple(dict.fromkeys(names)))
+
+
+def is_endless(prim: Any, known: dict[Any, list[Any]]) -> bool:
+    """Return whether a point instancer at or below `prim` is, at some depth, one of its own prototypes.
+
+    OpenUSD dies of endless recursion when it is asked for the box of such a prim.
+
+    Args:
+        prim: what is to be looked through.
+        known: the point instancers at and below prims, by path; filled here, so that prototypes that several use are
+            looked through once.
+    """
+    graph: dict[Any, list[Any]] = {}
+    pending = list(_instancers_in(prim, known))
+    while pending:
+        instancer = pending.pop()
+        if instancer.GetPath() not in graph:
+            stage = instancer.GetStage()
+            prototypes = [prototype for path in _prototypes(instancer) if (prototype := stage.GetPrimAtPath(path))]
+            used = [below for prototype in prototypes for below in _instancers_in(prototype, known)]
+            graph[instancer.GetPath()] = [below.GetPath() for below in used]
+            pending += used
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError:
+        return True
+    return False
+
+
+def _instancers_in(prim: Any, known: dict[Any, list[Any]]) -> list[Any]:
+    path = prim.GetPath()
+    if path not in known:
+        prims = Usd.PrimRange(prim, Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate))
+        known[path] = [below for below in prims if below.IsA(UsdGeom.PointInstancer)]
+    return known[path]
+
+
+def _prototypes(instancer: Any) -> list[Any]:
+    return read_targets(instancer, UsdGeom.Tokens.prototypes)
+
+
+def _indices(instancer: Any, time: Usd.TimeCode) -> Sequence[int]:
+    """Return the number of its prototype for each copy."""
+    return read_value(instancer, UsdGeom.Tokens.protoIndices, time, Vt.IntArray) or ()
 
 
 def _drawn(instancer: Any, time: Usd.TimeCode) -> list[bool]:
     """Return for each copy whether it is drawn: neither inactive nor invisible."""
-    count = len(instancer.GetProtoIndicesAttr().Get(time) or ())
-    # The mask is empty where all are drawn.
-    return list(instancer.ComputeMaskAtTime(time)) or [True] * count
+    count = len(_indices(instancer, time))
+    mask = list(UsdGeom.PointInstancer(instancer).ComputeMaskAtTime(time))
+    # The mask is empty where all are drawn; where ids are too few or too many, it tells of other copies.
+    return mask if len(mask) == count else [True] * count
 
 
 def read_copies(
-    node: Node, parent_path: str | None, frame: StageFrame, time: Usd.TimeCode, boxes: BoxReader
-) -> Iterator[SceneObject]:
-    """Yield an object for each copy that is drawn; its path is the instancer's with the copy's id in brackets."""
+    node: Node,
+    parent_path: str | None,
+    frame: StageFrame,
+    time: Usd.TimeCode,
+    boxes: BoxReader,
+    notes: list[Diagnostic],
+) -> list[SceneObject]:
+    """Return an object for each copy that is drawn; its path is the instancer's with the copy's id in brackets.
+
+    Copies whose ids are not one different number for each are numbered by their place, which a note says.
+    """
     instancer = UsdGeom.PointInstancer(node.prim)
-    indices = instancer.GetProtoIndicesAttr().Get(time) or ()
-    ids = instancer.GetIdsAttr().Get(time) or range(len(indices))
-    drawn = _drawn(instancer, time)
+    indices = _indices(node.prim, time)
+    ids = _read_ids(node, len(indices), time, notes)
+    drawn = _drawn(node.prim, time)
     matrices = instancer.ComputeInstanceTransformsAtTime(
         time, time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
     )
     if not len(indices) == len(matrices) == len(drawn):
         # OpenUSD has said what is wrong with the arrays; no copy can be placed.
-        return
+        return []
     to_world = UsdGeom.Xformable(node.prim).ComputeLocalToWorldTransform(time)
-    prototypes = [node.prim.GetStage().GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetTargets()]
+    prototypes = [node.prim.GetStage().GetPrimAtPath(path) for path in _prototypes(node.prim)]
     extents = [boxes.read_local_corners(prim) if prim else np.empty((0, 3)) for prim in prototypes]
+    copies = []
     for place, index in enumerate(indices):
         if drawn[place] and 0 <= index < len(prototypes):
             matrix = matrices[place] * to_world
             box = boxes.box_of_corners(extents[index], matrix)
-            yield _copy(node, parent_path, prototypes[index], int(ids[place]), pose_of(matrix, frame), box)
+            copies.append(_copy(node, parent_path, prototypes[index], ids[place], pose_of(matrix, frame), box))
+    return copies
+
+
+def _read_ids(node: Node, count: int, time: Usd.TimeCode, notes: list[Diagnostic]) -> Sequence[int]:
+    ids = read_value(node.prim, UsdGeom.Tokens.ids, time, object)
+    if ids is None or (isinstance(ids, Vt.Int64Array) and not ids):
+        return range(count)
+    if isinstance(ids, Vt.Int64Array) and len(ids) == len(set(ids)) == count:
+        return list(ids)
+    message = f"its ids are not one different number for each of its {count} copies; they are numbered by their place"
+    notes.append(Diagnostic("instancer", message, node.path))
+    return range(count)
 
 
 def _copy(node: Node, parent_path: str | None, prototype: Any, number: int, pose: Any, box: Box | None) -> SceneObject:

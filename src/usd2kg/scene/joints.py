@@ -4,10 +4,11 @@ import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
+from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 from usd2kg.scene.metadata import texts_of
 from usd2kg.scene.model import Diagnostic, Direction, Joint, JointType, StageFrame, Vector
+from usd2kg.scene.stage import UNREADABLE, error_text, read_targets, read_value
 
 __all__ = ["JointReading", "read_joints"]
 
@@ -51,7 +52,8 @@ def read_joints(source: Any, frame: StageFrame, time: Any) -> JointReading:
     """
     prims = _joint_prims(source) if hasattr(source, "GetPseudoRoot") else source
     reader = _JointReader(frame, time)
-    return JointReading(tuple(reader.read(prim) for prim in prims), tuple(reader.notes))
+    joints = tuple(joint for prim in prims if (joint := reader.read(prim)))
+    return JointReading(joints, tuple(reader.notes))
 
 
 def _joint_prims(stage: Any) -> Iterator[Any]:
@@ -72,7 +74,15 @@ class _JointReader:
         self.xforms = UsdGeom.XformCache(time)
         self.notes: list[Diagnostic] = []
 
-    def read(self, prim: Any) -> Joint:
+    def read(self, prim: Any) -> Joint | None:
+        """Return a joint; None where OpenUSD cannot read it."""
+        try:
+            return self._read(prim)
+        except UNREADABLE as error:
+            self._note(prim, f"OpenUSD cannot read it ({error_text(error)}); it is left out")
+            return None
+
+    def _read(self, prim: Any) -> Joint:
         kind = _TYPES.get(str(prim.GetTypeName()), "other")
         bodies = [self._body(prim, side) for side in (0, 1)]
         if not any(path for path, _ in bodies):
@@ -97,8 +107,7 @@ class _JointReader:
 
     def _body(self, prim: Any, side: int) -> tuple[str | None, Any]:
         """Return the path of a body, and its prim: None for the world, an invalid prim if the target is broken."""
-        relationship = prim.GetRelationship(f"physics:body{side}")
-        targets = relationship.GetTargets() if relationship else []
+        targets = read_targets(prim, f"physics:body{side}")
         if not targets:
             return None, None
         if len(targets) > 1:
@@ -129,15 +138,15 @@ class _JointReader:
             return None
         side = sides[0]
         direction = _AXES[axis]
-        local = self._get(prim, f"physics:localRot{side}")
+        local = read_value(prim, f"physics:localRot{side}", self.time, Gf.Quatf, Gf.Quatd, Gf.Quath)
         # An all-zero rotation is an unset one.
-        if isinstance(local, Gf.Quatf | Gf.Quatd | Gf.Quath) and not local.GetLength() < 1e-9:
+        if local is not None and not local.GetLength() < 1e-9:
             direction = Gf.Rotation(Gf.Quatd(local).GetNormalized()).TransformDir(direction)
         if bodies[side]:
             try:
                 # Bodies are rigid: their scale does not tilt the axis.
                 pose = self.xforms.GetLocalToWorldTransform(bodies[side]).RemoveScaleShear()
-            except Tf.ErrorException:
+            except UNREADABLE:
                 return None
             direction = pose.TransformDir(direction)
         return _unit(direction, self.frame)
@@ -163,7 +172,7 @@ class _JointReader:
 
     def _number(self, prim: Any, name: str) -> float | None:
         """Return an authored number in the stage's units; None if there is none, or it stands for infinity."""
-        value = self._get(prim, name)
+        value = read_value(prim, name, self.time, object)
         if value is None:
             return None
         if not isinstance(value, int | float) or math.isnan(value):
@@ -173,12 +182,8 @@ class _JointReader:
         return float(f"{value:.7g}") if abs(value) < _UNLIMITED else None
 
     def _flag(self, prim: Any, name: str, *, default: bool) -> bool:
-        value = self._get(prim, name)
-        return value if isinstance(value, bool) else default
-
-    def _get(self, prim: Any, name: str) -> Any:
-        attribute = prim.GetAttribute(name)
-        return attribute.Get(self.time) if attribute else None
+        value = read_value(prim, name, self.time, bool)
+        return default if value is None else bool(value)
 
     def _note(self, prim: Any, message: str) -> None:
         self.notes.append(Diagnostic("joint", message, str(prim.GetPath())))

@@ -17,6 +17,7 @@ from pxr import Usd, UsdGeom
 from usd2kg.scene.metadata import clean_text, texts_of
 from usd2kg.scene.model import NO_LABELS, Diagnostic, Encoding, Label, ObjectLabels, Strength
 from usd2kg.scene.outline import Node
+from usd2kg.scene.stage import UNREADABLE, error_text, read_targets
 from usd2kg.words import split_identifier, words_of
 
 __all__ = ["LabelReader", "lint_labels", "read_labels"]
@@ -132,8 +133,7 @@ def _clean(prim: Any, name: str, time: Any) -> tuple[str, ...]:
 
 
 def _targets(prim: Any, name: str) -> list[Any]:
-    relationship = prim.GetRelationship(name)
-    return [target.GetPrimPath() for target in relationship.GetTargets()] if relationship else []
+    return [target.GetPrimPath() for target in read_targets(prim, name)]
 
 
 def _tag(prim: Any, name: str, target: Any) -> _Found:
@@ -153,7 +153,7 @@ def lint_labels(source: Any, time: Any = None) -> list[Diagnostic]:
     """
     at = Usd.TimeCode.EarliestTime() if time is None else time
     prims = _stage_prims(source) if hasattr(source, "GetPseudoRoot") else source
-    return [note for prim in prims for note in _lint_prim(prim, at)]
+    return [note for prim in prims for note in _lint_readable(prim, at)]
 
 
 def _stage_prims(stage: Any) -> Iterator[Any]:
@@ -165,6 +165,14 @@ def _stage_prims(stage: Any) -> Iterator[Any]:
                 continue
             seen.add(shared)
         yield prim
+
+
+def _lint_readable(prim: Any, time: Any) -> list[Diagnostic]:
+    try:
+        return list(_lint_prim(prim, time))
+    except UNREADABLE as error:
+        message = f"OpenUSD cannot read its labels ({error_text(error)}); they were not checked"
+        return [Diagnostic("label", message, str(prim.GetPath()))]
 
 
 def _lint_prim(prim: Any, time: Any) -> Iterator[Diagnostic]:

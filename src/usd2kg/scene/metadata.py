@@ -6,10 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from pxr import Sdf, Usd, UsdGeom, UsdShade
+import numpy as np
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 
 from usd2kg.scene.model import MaterialDetails, Vector
 from usd2kg.scene.outline import Node
+from usd2kg.scene.stage import UNREADABLE, read_targets, value_of
 from usd2kg.words import split_identifier, words_of
 
 __all__ = [
@@ -20,6 +22,7 @@ __all__ = [
     "text_names",
     "texts_of",
     "variant_selections",
+    "vector_of",
 ]
 
 _T = TypeVar("_T")
@@ -50,6 +53,7 @@ _METALLIC = ("metallic", "metalness", "base_metalness", "metallic_constant")
 _OPACITY = ("opacity", "geometry_opacity", "alpha", "opacity_constant")
 """Inputs of UsdPreviewSurface; standard_surface, open_pbr_surface, gltf_pbr (MaterialX); OmniPBR, OmniSurface (MDL)."""
 _RENDER_CONTEXTS = ("", "mtlx", "mdl")
+_VECTORS = (Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
 
 
 def variant_selections(prim: Any) -> tuple[tuple[str, str], ...]:
@@ -121,8 +125,9 @@ def texts_of(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
     if not attribute or attribute.GetTypeName() not in _TEXT_TYPES:
         return ()
     try:
-        return _as_texts(attribute.Get() if time is None else attribute.Get(time))
+        return _as_texts(value_of(attribute, Usd.TimeCode.Default() if time is None else time))
     except UnicodeDecodeError:
+        # The texts of a list are decoded as they are taken out of it.
         return ()
 
 
@@ -163,7 +168,7 @@ class MaterialReader:
         self._purposes = ("full", "preview") if has_purpose_bindings else ("full",)
         self._details: dict[str, MaterialDetails] = {}
         self._of_shared: dict[str, MaterialDetails] = {}
-        self._of_instances: dict[tuple[int, int], tuple[str, tuple[MaterialDetails, ...]]] = {}
+        self._of_instances: dict[tuple[int, ...], tuple[str, tuple[MaterialDetails, ...]]] = {}
 
     def read(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
         """Return the materials that the geometry among `nodes` is shown with, in order of appearance.
@@ -176,11 +181,12 @@ class MaterialReader:
         if twin is None or root.is_bound or twin.is_bound:
             return self._resolve(nodes)
         # What is bound within an instance is bound alike in all of them.
-        key = (id(twin), len(nodes))
+        key = tuple(id(node.twin) for node in nodes)
+        instance = _instance_above(root)
         if key not in self._of_instances:
-            self._of_instances[key] = (root.path, self._resolve(nodes))
+            self._of_instances[key] = (instance, self._resolve(nodes))
         first, materials = self._of_instances[key]
-        return tuple(self._moved(material, first + "/", root.path + "/") for material in materials)
+        return tuple(self._moved(material, first + "/", instance + "/") for material in materials)
 
     def _moved(self, material: MaterialDetails, before: str, after: str) -> MaterialDetails:
         if not material.prim_path.startswith(before):
@@ -219,11 +225,18 @@ class MaterialReader:
         return known
 
 
+def _instance_above(node: Node) -> str:
+    """Return the path of the instance that a node is, or is in."""
+    above = node
+    while not above.is_instance and above.parent is not None:
+        above = above.parent
+    return above.path
+
+
 def _authored_target(prim: Any) -> Any:
     """Return the path that the nearest binding at or above `prim` names; None if there is none."""
     while not prim.IsPseudoRoot():
-        relationship = prim.GetRelationship("material:binding")
-        targets = relationship.GetTargets() if relationship else []
+        targets = read_targets(prim, "material:binding")
         if targets:
             return targets[0].GetPrimPath()
         prim = prim.GetParent()
@@ -245,13 +258,18 @@ def _bindable(prim: Any) -> list[Any]:
 
 
 def _bound_materials(prims: list[Any], purpose: str) -> list[Any]:
-    return list(UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)[0]) if prims else []
+    """Return the material of each prim, an invalid one or None where it has none."""
+    try:
+        return list(UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)[0]) if prims else []
+    except UNREADABLE:
+        # One at a time, so that only the prim at fault goes without.
+        return [found for prim in prims for found in _bound_materials([prim], purpose)] if len(prims) > 1 else [None]
 
 
 def _read_details(material: Any, path: str, time: Any) -> MaterialDetails:
     sources = [material.ComputeSurfaceSource(context)[0] for context in _RENDER_CONTEXTS]
     shaders = list({source.GetPath(): source for source in sources if source}.values())
-    colors = [_color(_constant(shader, _BASE_COLOR, time)) for shader in shaders if not _is_mapped(shader)]
+    colors = [vector_of(_constant(shader, _BASE_COLOR, time)) for shader in shaders if not _is_mapped(shader)]
     roughness, metallic, opacity = (
         _first([_number(_constant(shader, names, time)) for shader in shaders])
         for names in (_ROUGHNESS, _METALLIC, _OPACITY)
@@ -266,7 +284,7 @@ def _first(values: list[_T | None]) -> _T | None:
 def _is_mapped(shader: Any) -> bool:
     """Return whether an MDL texture stands before the constant: OmniPBR takes the texture where there is one."""
     texture = shader.GetInput("diffuse_texture")
-    value = texture.Get() if texture else None
+    value = value_of(texture, Usd.TimeCode.Default()) if texture else None
     return isinstance(value, Sdf.AssetPath) and bool(value.path)
 
 
@@ -282,25 +300,26 @@ def _constant(shader: Any, names: tuple[str, ...], time: Any) -> Any:
 
 def _value(attribute: Any, time: Any) -> Any:
     if not UsdShade.Output.IsOutput(attribute):
-        return attribute.Get(time)
+        return value_of(attribute, time)
     shader = UsdShade.Shader(attribute.GetPrim())
     value = shader.GetInput("value") if shader else None
     # MaterialX writes constants as nodes: ND_constant_color3, ND_constant_float.
     if not value or value.HasConnectedSource() or not str(shader.GetShaderId()).startswith("ND_constant"):
         return None
-    return value.Get(time)
+    return value_of(value, time)
 
 
-def _color(value: Any) -> Vector | None:
-    parts = list(value) if hasattr(value, "__len__") else []
-    if len(parts) != 3 or not all(isinstance(part, int | float) for part in parts):
+def vector_of(value: Any) -> Vector | None:
+    """Return a colour to six figures, as 32-bit ones were typed; None for anything but three finite numbers."""
+    if not isinstance(value, _VECTORS):
         return None
-    red, green, blue = (float(f"{part:.6g}") for part in parts)
-    return (red, green, blue) if all(map(math.isfinite, (red, green, blue))) else None
+    # Vectors of Gf are many times faster to take apart as an array.
+    x, y, z = (float(f"{part:.6g}") for part in np.array(value).tolist())
+    return (x, y, z) if math.isfinite(x + y + z) else None
 
 
 def _number(value: Any) -> float | None:
     # MaterialX has opacity as a colour; a grey one is a number.
-    parts = [value] if isinstance(value, int | float) else list(_color(value) or ())
+    parts = [value] if isinstance(value, int | float) else list(vector_of(value) or ())
     is_one = len(set(parts)) == 1 and math.isfinite(parts[0])
     return float(f"{parts[0]:.6g}") if is_one else None

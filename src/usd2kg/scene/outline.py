@@ -73,10 +73,12 @@ class Node:
     is_bound: bool = False
     """Whether a material is bound at or above it."""
     has_subsets: bool = False
-    left_out: tuple[tuple[str, str], ...] = ()
-    """(name, reason) of the prims right below that were not entered."""
+    left_out: list[tuple[str, str]] | None = None
+    """(name, reason) of the prims right below that were not entered; None if there are none."""
     twin: "Node | None" = None
     """The same prim in the first instance of the same prototype; None outside of instances and in the first one."""
+    first_instance: str | None = None
+    """Of an instance, the path of the first one of the same prototype."""
     gprim_count: int = 0
     """Visible geometry prims at and below it, in default or render purpose."""
     hidden_gprim_count: int = 0

@@ -2,34 +2,46 @@
 
 import gc
 import logging
+import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pxr import Tf, Usd
+import numpy as np
+from pxr import Sdf, Usd
 
 from usd2kg.errors import SceneError
-from usd2kg.scene import evidence
 from usd2kg.scene.bounds import BoxReader, union
+from usd2kg.scene.evidence import asset_names, display_color, mass_kg, own_nodes, part_names
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.labels import LabelReader, lint_labels
-from usd2kg.scene.metadata import MaterialReader, text_attributes, variant_selections
+from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
 from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Node, Outline
 from usd2kg.scene.plausibility import check_plausibility
 from usd2kg.scene.selection import ASKED_FOR, Selection, explain, select_objects
-from usd2kg.scene.stage import OpenedStage, captured_diagnostics, error_text, open_stage
-from usd2kg.scene.traversal import outline_stage
+from usd2kg.scene.stage import (
+    UNREADABLE,
+    OpenedStage,
+    captured_diagnostics,
+    error_text,
+    open_stage,
+    translated_errors,
+)
+from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
 logger = logging.getLogger(__name__)
 
 _MOST_PARTS = 64
+_LONGEST_MESSAGE = 500
+_NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
+"""Of an object that OpenUSD cannot read: the fields that have no defaults."""
 
 
 def read_scene(
@@ -51,11 +63,19 @@ def read_scene(
     opened = open_stage(source, options)
     # Where an attribute has no samples, its default value is what stands at the earliest time.
     time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
-    with captured_diagnostics() as openusd_notes, _paused_collection(), outline_stage(opened, time) as outline:
+    with (
+        translated_errors(opened.source),
+        captured_diagnostics() as openusd_notes,
+        _paused_collection(),
+        # What is not finite is looked for in the results.
+        np.errstate(invalid="ignore", over="ignore"),
+        outline_stage(opened, time) as outline,
+    ):
         selection = select_objects(outline, tuple(dict.fromkeys(paths or ())), options.selection)
         objects, notes = _read_objects(opened, outline, selection, time, options.expand_instancers)
         joints = read_joints(outline.joint_prims, opened.frame, time)
         label_notes = lint_labels(outline.labelled_prims, time)
+        time_read = _time_read(opened, options)
     if not objects:
         raise SceneError(_no_object_message(opened.source, outline, selection, opened))
     logger.info("%s: %d objects among %d prims", opened.source, len(objects), outline.prim_count)
@@ -63,15 +83,35 @@ def read_scene(
         source=opened.source,
         content_hash=opened.content_hash,
         frame=opened.frame,
-        time=_time_read(opened, options),
+        time=time_read,
         prim_count=outline.prim_count,
         objects=tuple(objects),
         left_out=dict(sorted(selection.left_out.items())),
         missing_paths=selection.missing,
         joints=joints.joints,
     )
-    found = (*notes, *joints.diagnostics, *label_notes, *check_plausibility(scene))
-    return replace(scene, diagnostics=(*opened.diagnostics, *openusd_notes, *found))
+    found = (*_left_out_notes(outline), *notes, *joints.diagnostics, *label_notes, *check_plausibility(scene))
+    return replace(scene, diagnostics=tuple(map(_on_one_line, (*opened.diagnostics, *openusd_notes, *found))))
+
+
+def _left_out_notes(outline: Outline) -> Iterator[Diagnostic]:
+    consequence = {
+        UNREADABLE_PRIM: "OpenUSD cannot read it; it is left out with all below it",
+        ENDLESS: "a point instancer is among its own prototypes, without end; it is left out",
+    }
+    if any(outline.left_out[reason] for reason in consequence):
+        for path, reason in outline.pruned.items():
+            if reason in consequence:
+                yield Diagnostic("geometry", consequence[reason], path)
+
+
+def _on_one_line(note: Diagnostic) -> Diagnostic:
+    """Return a note whose message is one short line that prints, whatever names and values it quotes."""
+    message = note.message
+    if message.isprintable() and len(message) <= _LONGEST_MESSAGE:
+        return note
+    cleaned = clean_text(message)
+    return replace(note, message=cleaned if len(cleaned) <= _LONGEST_MESSAGE else cleaned[: _LONGEST_MESSAGE - 1] + "…")
 
 
 @contextmanager
@@ -97,7 +137,11 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
-    with captured_diagnostics(), outline_stage(opened, Usd.TimeCode.EarliestTime()) as outline:
+    with (
+        translated_errors(opened.source),
+        captured_diagnostics(),
+        outline_stage(opened, Usd.TimeCode.EarliestTime()) as outline,
+    ):
         selection = select_objects(outline, (), options.selection)
         if not opened.stage.GetPrimAtPath(path):
             raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
@@ -107,7 +151,8 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
 def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
     if options.time is not None:
         return options.time
-    return float(opened.stage.GetStartTimeCode()) if opened.stage.HasAuthoredTimeCodeRange() else None
+    start = float(opened.stage.GetStartTimeCode()) if opened.stage.HasAuthoredTimeCodeRange() else math.nan
+    return start if math.isfinite(start) else None
 
 
 def _no_object_message(source: str, outline: Outline, selection: Selection, opened: OpenedStage) -> str:
@@ -129,7 +174,7 @@ def _read_objects(
             objects.append(reader.read(entry, boxes[entry.nodes[0].path]))
         inside = entry.nodes[0].path if entry.is_read else entry.parent_path
         for instancer in entry.expanded:
-            objects.extend(read_copies(instancer, inside, opened.frame, time, reader.boxes))
+            objects.extend(reader.read_copies(instancer, inside))
     return objects, reader.notes
 
 
@@ -144,6 +189,10 @@ class _Found(NamedTuple):
     """The point instancers whose copies are objects of their own."""
     is_read: bool
     """Whether it is an object beside its copies."""
+
+
+def _why(error: Exception) -> str:
+    return error_text(error) or "OpenUSD does not say why"
 
 
 class _Boxes(NamedTuple):
@@ -161,7 +210,7 @@ def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: b
     while pending:
         node, parent_path = pending.pop()
         if node.path in chosen:
-            nodes = list(evidence.own_nodes(node, chosen))
+            nodes = list(own_nodes(node, chosen))
             expanded = [own for own in nodes if own.is_instancer and not own.is_hidden] if expand_instancers else []
             is_read = not expanded or node.gprim_count > len(expanded)
             found.append(_Found(nodes, parent_path, expanded, is_read))
@@ -171,6 +220,14 @@ def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: b
     return found
 
 
+def _above_endless(outline: Outline) -> frozenset[str]:
+    """Return the paths of prims somewhere below which a point instancer is its own prototype."""
+    if not outline.left_out[ENDLESS]:
+        return frozenset()
+    endless = (Sdf.Path(path) for path, reason in outline.pruned.items() if reason == ENDLESS)
+    return frozenset(prefix.pathString for path in endless for prefix in path.GetPrefixes())
+
+
 class _ObjectReader:
     """Reads one object at a time, sharing OpenUSD's caches."""
 
@@ -178,7 +235,7 @@ class _ObjectReader:
         self.frame = opened.frame
         self.chosen = chosen
         self.time = time
-        self.boxes = BoxReader(opened.frame, time)
+        self.boxes = BoxReader(opened.frame, time, _above_endless(outline))
         self.labels = LabelReader(time)
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
@@ -203,9 +260,8 @@ class _ObjectReader:
             own = union(parts)
             below = union([*nested, own]) if nested and own else own or union(nested)
             below = below or self.boxes.read_hint(nodes[0])
-        except Tf.ErrorException as error:
-            reason = error_text(error) or "OpenUSD does not say why"
-            self._note("geometry", nodes[0], f"its box could not be computed ({reason}); it has none in the graph")
+        except UNREADABLE as error:
+            self._note("geometry", nodes[0], f"its box could not be computed ({_why(error)}); it has none in the graph")
             return _Boxes(None, None, ())
         if below is None:
             self._note("empty-box", nodes[0], "no geometry that can be measured; it has no size in the graph")
@@ -214,10 +270,13 @@ class _ObjectReader:
 
     def read(self, entry: _Found, boxes: _Boxes) -> SceneObject:
         """Return the object with all that the stage says about it."""
-        nodes = entry.nodes
-        node, prim = nodes[0], nodes[0].prim
+        node = entry.nodes[0]
         position, orientation = self._pose(node)
-        materials = self.materials.read(nodes)
+        try:
+            evidence = self._evidence(entry.nodes, boxes)
+        except UNREADABLE as error:
+            self._note("unreadable", node, f"not all of it can be read ({_why(error)}); it has but a name and a box")
+            evidence = _NO_EVIDENCE
         return SceneObject(
             prim_path=node.path,
             name=node.name,
@@ -228,28 +287,44 @@ class _ObjectReader:
             box=boxes.below,
             own_box=boxes.own,
             part_boxes=boxes.parts,
-            oriented_size=self.boxes.read_oriented_size(node) if boxes.below else None,
             position=position,
             orientation=orientation,
-            mass_kg=evidence.mass_kg(nodes, self.frame),
             display_name=str(node.metadata.get("displayName", "")),
             documentation=str(node.metadata.get("documentation", "")).strip(),
-            asset=evidence.asset_names(prim),
-            materials=tuple(dict.fromkeys(material.name for material in materials)),
-            parts=evidence.part_names(nodes),
-            display_color=evidence.display_color(nodes, self.time),
-            instance_of=(node.twin or node).path if node.is_instance else None,
-            instances=count_copies(nodes, self.time),
-            labels=self.labels.read(nodes),
-            variants=variant_selections(prim),
-            texts=text_attributes(prim, self.time) if node.may_have_texts else (),
-            material_details=materials,
+            parts=part_names(entry.nodes),
+            instance_of=node.first_instance,
+            **evidence,
         )
+
+    def _evidence(self, nodes: list[Node], boxes: _Boxes) -> dict[str, Any]:
+        """Return the fields of an object for which OpenUSD has to be asked."""
+        node, prim = nodes[0], nodes[0].prim
+        materials = self.materials.read(nodes)
+        return {
+            "oriented_size": self.boxes.read_oriented_size(node) if boxes.below else None,
+            "mass_kg": mass_kg(nodes, self.frame),
+            "asset": asset_names(prim),
+            "materials": tuple(dict.fromkeys(material.name for material in materials)),
+            "material_details": materials,
+            "display_color": display_color(nodes, self.time),
+            "instances": count_copies(nodes, self.time),
+            "labels": self.labels.read(nodes),
+            "variants": variant_selections(prim),
+            "texts": text_attributes(prim, self.time) if node.may_have_texts else (),
+        }
+
+    def read_copies(self, instancer: Node, parent_path: str | None) -> list[SceneObject]:
+        """Return the copies of a point instancer; none where OpenUSD cannot read it."""
+        try:
+            return read_copies(instancer, parent_path, self.frame, self.time, self.boxes, self.notes)
+        except UNREADABLE as error:
+            self._note("geometry", instancer, f"its copies cannot be read ({_why(error)}); they are left out")
+            return []
 
     def _pose(self, node: Node) -> tuple[Any, Any]:
         try:
             position, orientation = self.boxes.read_pose(node)
-        except Tf.ErrorException:
+        except UNREADABLE:
             position, orientation = None, None
         if position is None or orientation is None:
             self._note("transform", node, "its transform has no finite position or rotation; pose left out")

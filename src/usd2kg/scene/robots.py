@@ -1,8 +1,8 @@
 """Robots: many bodies on a chain of turning joints are one thing to a person."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
-from usd2kg.scene.outline import Node, Outline
+from usd2kg.scene.outline import JointLink, Node, Outline
 
 __all__ = ["merge_robots"]
 
@@ -47,54 +47,66 @@ def _nested_chain(node: Node, turning: set[str]) -> int:
 
 
 def _merge_side_by_side(outline: Outline, candidates: dict[str, str]) -> None:
-    links = {joint.body1: (joint.body0, joint.type_name == _TURNING) for joint in outline.joints if joint.body0}
-    ends = {body for body in links if body in candidates and _chain_above(body, links) >= _ARM_JOINTS}
-    if not ends:
+    moved = {joint.body1: joint for joint in outline.joints if joint.body0}
+    moves: dict[str, list[str]] = {}
+    for joint in moved.values():
+        moves.setdefault(str(joint.body0), []).append(joint.body1)
+    bases = {base for body in moved if body in candidates and (base := _arm_base(body, moved))}
+    if not bases:
         return
     nodes = {node.path: node for node in outline.root.walk()}
-    for end in sorted(ends):
-        bodies = _joined(end, links) & nodes.keys()
-        holder = _holder([nodes[body] for body in sorted(bodies)])
-        below = {node.path for node in holder.walk() if node.path in candidates} if holder else set()
-        if holder is not None and below and below <= bodies | {holder.path}:
+    for base in sorted(bases):
+        bodies = [nodes[body] for body in sorted(_carried(base, moves)) if body in nodes]
+        holder = _holder(bodies)
+        # A prim that shows more than the robot is the room or the table that it stands on.
+        if holder is not None and holder.gprim_count == _geometry_of(bodies):
             _merge(holder, candidates)
 
 
-def _chain_above(body: str, links: Mapping[str, tuple[str, bool]]) -> int:
-    """Return how many turning joints lead to a body from its base."""
-    count, seen = 0, {body}
-    while body in links:
-        body, is_turning = links[body]
-        count += is_turning
+def _arm_base(body: str, moved: Mapping[str, JointLink]) -> str | None:
+    """Return the body that a chain of turning joints to `body` stands on; None if they are too few for an arm."""
+    turns, base, seen = 0, None, {body}
+    while body in moved:
+        joint = moved[body]
+        body = str(joint.body0)
         if body in seen:
-            return 0
+            return None
         seen.add(body)
-    return count
+        if joint.type_name == _TURNING:
+            # What the base itself is fixed to is no part of the robot.
+            turns, base = turns + 1, body
+    return base if turns >= _ARM_JOINTS else None
 
 
-def _joined(body: str, links: Mapping[str, tuple[str, bool]]) -> set[str]:
-    """Return all bodies that joints connect with `body`."""
-    beside: dict[str, list[str]] = {}
-    for body1, (body0, _) in links.items():
-        beside.setdefault(body0, []).append(body1)
-        beside.setdefault(body1, []).append(body0)
-    found, pending = {body}, [body]
+def _carried(base: str, moves: Mapping[str, list[str]]) -> set[str]:
+    """Return a body with all that joints hang on it."""
+    found, pending = {base}, [base]
     while pending:
-        for other in beside.get(pending.pop(), ()):
-            if other not in found:
-                found.add(other)
-                pending.append(other)
+        for body in moves.get(pending.pop(), ()):
+            if body not in found:
+                found.add(body)
+                pending.append(body)
     return found
 
 
-def _holder(bodies: Iterable[Node]) -> Node | None:
+def _geometry_of(bodies: Sequence[Node]) -> int:
+    """Return the number of visible geometry prims of the bodies, nested ones counted once."""
+    paths = {body.path for body in bodies}
+    outermost = [body for body in bodies if not any(above.path in paths for above in _above(body))]
+    return sum(body.gprim_count for body in outermost)
+
+
+def _above(node: Node) -> Iterator[Node]:
+    above = node.parent
+    while above is not None:
+        yield above
+        above = above.parent
+
+
+def _holder(bodies: Sequence[Node]) -> Node | None:
     """Return the nearest prim that all the bodies are below; None if that is the stage itself."""
     shared: list[Node] | None = None
     for body in bodies:
-        above: list[Node] = []
-        node = body.parent
-        while node is not None:
-            above.append(node)
-            node = node.parent
+        above = list(_above(body))
         shared = above if shared is None else [node for node in shared if node in above]
     return shared[0] if shared and shared[0].parent is not None else None

@@ -36,7 +36,7 @@ _FIXTURE_WORDS = frozenset(
 )
 """Distinct fixtures, which people name apart from the body that they are built into."""
 _SILENT_WORDS = frozenset(
-    "part parts piece component element item entity body solid surface face shape unnamed".split()
+    "poly part parts piece component element item entity body solid surface face shape unnamed".split()
 )
 """Last words of names that converters make up; with production tokens and numbers they say nothing."""
 

@@ -6,17 +6,18 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom
 
-from usd2kg.scene.hull import convex_hull, convex_polygon, largest_normals, smallest_box, smallest_rectangle
+from usd2kg.scene.hull import ConvexHull, convex_hull, convex_polygon, largest_normals, smallest_box, smallest_rectangle
 from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
 from usd2kg.scene.model import Diagnostic, Scene
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage
+from usd2kg.scene.vessels import NO_VESSEL, measure_vessel
 
 __all__ = ["ShapeDescriptors", "describe_shapes", "describe_triangles"]
 
@@ -32,22 +33,12 @@ _SMALLEST = 1e-12
 """Metres: coordinates beyond and objects below are broken data."""
 _SAME = 1e-5
 """Two objects have the same shape where no point differs by more than this, in diagonals."""
+_LARGE = 0.01
+"""Faces of the hull that are smaller, in surfaces of the hull, decide nothing about its box."""
+_PARALLEL = 1 - 2e-6
+"""Cosine of normals that are the same."""
 _GAP = 1e-3
 """The largest share of a part's surface that may be missing from a closed part."""
-_CELLS = 128
-"""Cells of the height field along each side of the footprint, fewer where they would take too long."""
-_VOXELS = 64
-"""Voxels along each edge of the box, where water may leak sideways."""
-_TIGHT = np.uint8(255)
-_FEWEST_CELLS = 8
-_RIPPLE = 1e-3
-"""Water that is less deep, in heights of the object, is there for the cells only."""
-_STEEP = 0.25
-"""Triangles whose unit normal rises less than this are walls: cell middles would miss them."""
-_CHUNK = 1 << 19
-"""The most cells or samples that are worked on at once."""
-_MOST_SAMPLES = 3_000_000
-"""The most for one object; a mesh needs more where very many large triangles lie above each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +96,8 @@ class ShapeDescriptors:
     Depressions of the height field on 128 × 128 cells over the footprint are filled to where they overflow (Planchon
     & Darboux 2001; the same as priority flood, Barnes et al. 2014), but no higher than to where they leak sideways:
     through gaps in 64 × 64 × 64 voxels. About 2 % less than true for a cup. What is below the surface seen from above
-    holds nothing: the inside of a bottle, or under a lid. Gaps below 1/64 of the extent count as tight.
+    holds nothing: the inside of a bottle, or under a lid. Gaps below 1/64 of the extent count as tight; where no
+    hollow is wider than 1/32 of it, there is none.
     """
 
 
@@ -248,12 +240,12 @@ def describe_triangles(points: Array, triangles: Indices) -> ShapeDescriptors | 
 
 
 def _describe(body: _Body) -> ShapeDescriptors:
-    hull = convex_hull(body.points, max(_WELD * body.diagonal, body.noise))
     principal = np.linalg.eigh(np.cov(body.points.T, ddof=0))[1].T
+    hull = convex_hull(body.points, max(_WELD * body.diagonal, body.noise))
     across = np.concatenate([[[0.0, 0.0, 1.0]], principal])
     if hull is not None:
         hull_volume, hull_surface = hull.volume, hull.surface
-        box = smallest_box(hull.vertices, np.concatenate([across, largest_normals(hull)]))
+        box = smallest_box(hull.vertices, _standing(hull, across))
     else:
         hull_volume, hull_surface = 0.0, _flat_surface(body.points @ principal[1:].T)
         box = smallest_box(body.points, across)
@@ -261,8 +253,9 @@ def _describe(body: _Body) -> ShapeDescriptors:
     if hull is None:
         short = 0.0
     height = float(np.ptp(body.points[:, 2]))
-    plan, (width, depth) = smallest_rectangle(body.points[:, :2])
-    openness, capacity = _vessel(body, plan) if min(width, depth, height) > 4 * body.noise else (0.0, 0.0)
+    plan, (width, depth) = smallest_rectangle((body.points if hull is None else hull.vertices)[:, :2])
+    has_inside = min(width, depth, height) > 4 * body.noise
+    vessel = measure_vessel(body.points, body.triangles, plan) if has_inside else NO_VESSEL
     return ShapeDescriptors(
         volume_m3=_enclosed_volume(body),
         hull_volume_m3=hull_volume,
@@ -274,9 +267,25 @@ def _describe(body: _Body) -> ShapeDescriptors:
         flatness=1 - short / middle if middle > 0 else None,
         roundness=(36 * math.pi * hull_volume**2) ** (1 / 3) / hull_surface if hull_surface > 0 else None,
         verticality=height / (height + width) if height + width > 0 else None,
-        openness=openness,
-        capacity_m3=capacity,
+        openness=vessel.openness,
+        capacity_m3=vessel.capacity_m3,
     )
+
+
+def _standing(hull: ConvexHull, across: Array) -> Array:
+    """Return the normals of the planes that a box around a hull may stand on: `across` and those of large faces.
+
+    A box on the opposite face is the same, and round things have many faces of which none is large.
+    """
+    areas = hull.areas
+    normals = np.concatenate([across, largest_normals(hull)])
+    units = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    along = areas @ units.T
+    is_on = along > _PARALLEL * np.linalg.norm(areas, axis=1)[:, None]
+    is_large = np.where(is_on, along, 0.0).sum(axis=0) > _LARGE * hull.surface
+    is_large[: len(across)] = True
+    is_same = np.tril(np.abs(units @ units.T) > _PARALLEL, -1).any(axis=1)
+    return np.asarray(normals[is_large & ~is_same])
 
 
 def _areas(points: Array, triangles: Indices) -> Array:
@@ -364,202 +373,3 @@ def _is_cavity(corners: Array, part: Indices, volume: Array) -> NDArray[np.bool_
         if len(around):
             found[i] = (volume[around[size[around].argmin()]] > 0) != (volume[i] > 0)
     return found
-
-
-def _vessel(body: _Body, plan: Array) -> tuple[float, float]:
-    """Return openness and capacity in cubic metres; see `ShapeDescriptors`."""
-    x, y = plan
-    upright = body.points @ np.array([[*x, 0.0], [*y, 0.0], [0.0, 0.0, 1.0]]).T
-    extent = np.ptp(upright, axis=0)
-    # From 0 to 1 across the box; heights, too, so that cells and voxels fit it.
-    placed = (upright - upright.min(axis=0)) / extent
-    top = _height_field(placed, body)
-    is_covered = np.isfinite(top)
-    top = np.where(is_covered, top, 0.0)
-    depth = _filled(top, np.where(is_covered, np.inf, 0.0)) - top
-    if (depth > _RIPPLE).any():
-        leak = np.maximum(top, _leak_levels(placed[body.triangles], len(top) - 2))
-        depth = _filled(top, np.where(is_covered, leak, 0.0)) - top
-    water = float(depth[depth > _RIPPLE].sum())
-    if water <= 0:
-        return 0.0, 0.0
-    return water / float(is_covered.sum()), water * float(extent.prod()) / (len(top) - 2) ** 2
-
-
-def _height_field(placed: Array, body: _Body) -> Array:
-    """Return the highest z over each cell, -inf where there is nothing; a ring of cells around it is empty.
-
-    Args:
-        placed: (n, 3), the body's points, from 0 to 1 across its box.
-        body: the triangles of these points.
-    """
-    areas = _areas(body.points, body.triangles)
-    is_steep = np.abs(areas[:, 2]) <= _STEEP * np.linalg.norm(areas, axis=1)
-    cells = _CELLS
-    while True:
-        corners = (placed * [cells - 1e-6, cells - 1e-6, 1] + [1, 1, 0])[body.triangles]
-        boxes, lines = _cells_of(corners), _lines_of(corners[is_steep])
-        if boxes.span.prod(axis=1).sum() + lines.steps.sum() <= _MOST_SAMPLES or cells <= _FEWEST_CELLS:
-            break
-        cells //= 2
-    top = np.full((cells + 2, cells + 2), -np.inf)
-    for x, y, z in (*_over_middles(corners, boxes), *_along(lines)):
-        np.maximum.at(top, (y, x), z)
-    return top
-
-
-def _leak_levels(corners: Array, cells: int) -> Array:
-    """Return for each cell how high water can stand on what is seen from above before it leaks sideways, from 0 to 1.
-
-    A height field takes a rail for a wall, a cage for a tub. So the box is cut into voxels, those with a surface in
-    them are tight, and water sinks through the others as it does over the cells. Gaps of one voxel may go unnoticed.
-
-    Args:
-        corners: (m, 3, 3), from 0 to 1 across the box.
-        cells: of the height field along each side, without its ring.
-    """
-    side = min(_VOXELS, cells)
-    while True:
-        scaled = _from_tip(corners * (side - 1e-6) + 1)
-        cuts = _half_cells(scaled[:, [1, 2]] - scaled[:, [0, 1]])
-        if (cuts + 1).prod(axis=1).sum() <= _MOST_SAMPLES or side <= _FEWEST_CELLS:
-            break
-        side //= 2
-    is_solid = np.zeros((side + 2,) * 3, np.bool_)
-    for inside in _over_surface(scaled, cuts):
-        x, y, z = inside.astype(np.int64).T
-        is_solid[y, x, z] = True
-    # Small numbers: the whole field stays close to the processor.
-    height = np.broadcast_to(np.arange(side + 2, dtype=np.uint8), is_solid.shape)
-    start = height.copy()
-    start[1:-1, 1:-1, 1:-1] = _TIGHT
-    water = _filled(np.where(is_solid, _TIGHT, height), start)
-    seen = (is_solid * np.arange(side + 2)).max(axis=2, keepdims=True)
-    level = np.take_along_axis(water, seen + 1, axis=2)[1:-1, 1:-1, 0]
-    fine = np.kron((level - 1.0) / side, np.ones((cells // side, cells // side)))
-    return np.pad(fine, 1)
-
-
-def _from_tip(corners: Array) -> Array:
-    """Return triangles (m, 3, 3) that begin with the corner across from the shortest edge."""
-    edges = np.abs(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1)).max(axis=2)
-    order = (edges.argmin(axis=1)[:, None] + np.arange(3)) % 3
-    return np.take_along_axis(corners, order[..., None], axis=1)
-
-
-def _over_surface(corners: Array, cuts: Indices) -> Iterator[Array]:
-    """Yield points (k, 3) on triangles, edges included.
-
-    Args:
-        corners: (m, 3, 3).
-        cuts: (m, 2), into how many pieces to cut each from the first corner to the opposite edge, and along that edge.
-    """
-    total = (cuts + 1).prod(axis=1)
-    for chosen in _chunks(total):
-        of, nth = _spread(total[chosen])
-        across = cuts[chosen, 1][of]
-        away = (nth // (across + 1) / cuts[chosen, 0][of])[:, None]
-        along = (nth % (across + 1) / across)[:, None]
-        a, b, c = np.moveaxis(corners[chosen], 1, 0)
-        yield a[of] + away * ((b - a)[of] + along * (c - b)[of])
-
-
-class _Cells(NamedTuple):
-    """For each triangle the cells whose middle its box covers."""
-
-    first: Indices
-    """(m, 2), lowest column and row."""
-    span: Indices
-    """(m, 2), number of columns and rows."""
-
-
-class _Lines(NamedTuple):
-    """Edges of triangles, each cut into steps of at most half a cell."""
-
-    start: Array
-    end: Array
-    steps: Indices
-
-
-def _cells_of(corners: Array) -> _Cells:
-    flat = corners[..., :2]
-    first = np.ceil(flat.min(axis=1) - 0.5).astype(np.int64)
-    count = np.floor(flat.max(axis=1) - 0.5).astype(np.int64) - first + 1
-    return _Cells(first, np.where((count > 0).all(axis=1, keepdims=True), count, 0))
-
-
-def _lines_of(corners: Array) -> _Lines:
-    start, end = corners.reshape(-1, 3), np.roll(corners, -1, axis=1).reshape(-1, 3)
-    return _Lines(start, end, _half_cells((end - start)[:, :2]))
-
-
-def _half_cells(lines: Array) -> Indices:
-    """Return into how many pieces to cut vectors (..., n), for pieces of at most half a cell along each axis."""
-    return np.asarray(np.maximum(np.ceil(2 * np.abs(lines).max(axis=-1)), 1), np.int64)
-
-
-def _over_middles(corners: Array, boxes: _Cells) -> Iterator[tuple[Indices, Indices, Array]]:
-    """Yield column, row and z where a triangle covers the middle of a cell."""
-    total = boxes.span.prod(axis=1)
-    for chosen in _chunks(total):
-        of, nth = _spread(total[chosen])
-        columns = boxes.span[chosen][of, 0]
-        x = boxes.first[chosen][of, 0] + nth % columns
-        y = boxes.first[chosen][of, 1] + nth // columns
-        a, b, c = np.moveaxis(corners[chosen], 1, 0)
-        ab, ac = b - a, c - a
-        area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-        safe = np.where(area == 0, np.nan, area)[of]
-        dx, dy = x + 0.5 - a[of, 0], y + 0.5 - a[of, 1]
-        u = (dx * ac[of, 1] - dy * ac[of, 0]) / safe
-        v = (dy * ab[of, 0] - dx * ab[of, 1]) / safe
-        # Nothing may slip between two triangles that share an edge.
-        inside = np.flatnonzero((u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9))
-        z = (a[of, 2] + u * ab[of, 2] + v * ac[of, 2])[inside]
-        yield x[inside], y[inside], z
-
-
-def _along(lines: _Lines) -> Iterator[tuple[Indices, Indices, Array]]:
-    """Yield column, row and z of the cells that lines pass: cells in a row touch, so that a wall is tight."""
-    for chosen in _chunks(lines.steps + 1):
-        steps = lines.steps[chosen]
-        of, nth = _spread(steps + 1)
-        share = (nth / steps[of])[:, None]
-        x, y, z = (lines.start[chosen][of] * (1 - share) + lines.end[chosen][of] * share).T
-        yield x.astype(np.int64), y.astype(np.int64), z
-
-
-def _chunks(counts: Indices) -> Iterator[Indices]:
-    """Yield indices of counts above 0, parted so that each part adds up to a bounded number."""
-    some = np.flatnonzero(counts)
-    part = np.cumsum(counts[some]) // _CHUNK
-    yield from (chosen for chosen in np.split(some, np.flatnonzero(np.diff(part)) + 1) if len(chosen))
-
-
-def _spread(counts: Indices) -> tuple[Indices, Indices]:
-    """Return which count each item belongs to, and its number there: [2, 1] gives 0 0 1 and 0 1 0."""
-    of = np.repeat(np.arange(len(counts)), counts)
-    return of, np.arange(len(of)) - np.repeat(np.cumsum(counts) - counts, counts)
-
-
-def _filled(ground: NDArray[Any], water: NDArray[Any]) -> NDArray[Any]:
-    """Return how high water stands over the ground, in a field of any dimension, once all has run off that can.
-
-    Water sinks to the highest of the ground and the lowest neighbour's water, swept along each axis both ways until
-    nothing changes. It does not pass between cells that touch at a corner only: a wall of one cell is tight.
-
-    Args:
-        ground: heights, the largest number where nothing passes.
-        water: how high it may stand at most; at the edge of the field, where it runs off.
-    """
-    water = water.copy()
-    axes = [np.moveaxis(field, axis, 0) for axis in range(water.ndim) for field in (water, ground)]
-    before = np.zeros_like(water)
-    while not np.array_equal(before, water):
-        before = water.copy()
-        for here, floor in zip(axes[::2], axes[1::2], strict=True):
-            for rows in (range(1, len(here)), range(len(here) - 2, -1, -1)):
-                step = rows.step
-                for i in rows:
-                    np.minimum(here[i], np.maximum(floor[i], here[i - step]), out=here[i])
-    return water

@@ -1,10 +1,14 @@
-"""Opening a stage, with everything OpenUSD has to say turned into diagnostics."""
+"""Opening a stage and asking it for values, with everything OpenUSD has to say turned into diagnostics.
+
+A value that is not of the type it should be, or that OpenUSD cannot unpack, counts as none.
+"""
 
 import hashlib
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +18,28 @@ from usd2kg.errors import SceneError
 from usd2kg.scene.model import Diagnostic, StageFrame
 from usd2kg.scene.options import ReadOptions
 
-__all__ = ["OpenedStage", "captured_diagnostics", "error_text", "open_stage"]
+__all__ = [
+    "UNREADABLE",
+    "OpenedStage",
+    "captured_diagnostics",
+    "error_text",
+    "open_stage",
+    "read_targets",
+    "read_value",
+    "translated_errors",
+    "value_of",
+]
+
+UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
+"""What any question to OpenUSD may raise where a file is corrupt."""
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _USD_FALLBACK_METRES = 0.01
+_UNITS = (1e-15, 1e20)
+"""Metres or kilograms that a unit may have: from a proton's size to a galaxy's. With coordinates of up to 1e30 no
+length or volume overflows."""
+_MOST_READ = 4_000
+_NOT_UTF8 = "it holds text that is not UTF-8"
 
 
 @dataclass(frozen=True)
@@ -41,17 +63,17 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
         SceneError: the file is missing, is no USD file or is corrupt.
     """
     if isinstance(source, Usd.Stage):
-        return _opened(source, source.GetRootLayer().identifier, [], options)
+        identifier = source.GetRootLayer().identifier
+        with translated_errors(identifier):
+            return _opened(source, identifier, [], options)
     source = Path(source)
     _check_file(source)
-    try:
+    with translated_errors(str(source)):
         with captured_diagnostics() as notes:
             stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
-    except Tf.ErrorException as error:
-        raise SceneError(_cannot_open(source, error_text(error))) from error
-    if stage is None:
-        raise SceneError(_cannot_open(source, _shorten("; ".join(note.message for note in notes))))
-    return _opened(stage, str(source), notes, options)
+        if stage is None:
+            raise SceneError(_cannot_open(str(source), _shorten("; ".join(note.message for note in notes))))
+        return _opened(stage, str(source), notes, options)
 
 
 def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptions) -> OpenedStage:
@@ -76,17 +98,55 @@ def captured_diagnostics() -> Iterator[list[Diagnostic]]:
     try:
         yield found
     finally:
-        notes = dict.fromkeys(note.commentary for note in delegate.TakeUncoalescedDiagnostics())
-        found.extend(Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in notes)
+        commentaries = (_decoded(attrgetter("commentary"), note) for note in delegate.TakeUncoalescedDiagnostics())
+        found.extend(Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in dict.fromkeys(commentaries))
+
+
+def _decoded(ask: Callable[[Any], str], thing: Any) -> str:
+    """Return the beginning of what a note or an error of OpenUSD says; it may quote bytes that could not be read."""
+    try:
+        # Of corrupt files OpenUSD says the same for each of their parts: millions of lines.
+        return ask(thing)[:_MOST_READ]
+    except UnicodeDecodeError:
+        return _NOT_UTF8
+
+
+@contextmanager
+def translated_errors(source: str) -> Iterator[None]:
+    """Raise a SceneError about the stage named `source` where OpenUSD cannot read what it is asked for."""
+    try:
+        yield
+    except UNREADABLE as error:
+        raise SceneError(_cannot_open(source, error_text(error))) from error
 
 
 def error_text(error: Exception) -> str:
     """Return the first thing an error of OpenUSD says, on one line; empty if it says nothing."""
+    return _NOT_UTF8 if isinstance(error, UnicodeDecodeError) else _shorten(_decoded(str, error))
+
+
+def read_value(prim: Any, name: str, time: Usd.TimeCode, *types: type) -> Any:
+    """Return an attribute's value at `time`; None if there is none, of none of the types, or it cannot be read."""
+    attribute = prim.GetAttribute(name)
+    value = value_of(attribute, time) if attribute else None
+    return value if isinstance(value, types) else None
+
+
+def value_of(attribute: Any, time: Usd.TimeCode) -> Any:
+    """Return the value of an attribute or a shader's input, of whatever type; None if it cannot be read."""
     try:
-        return _shorten(str(error))
-    except UnicodeDecodeError:
-        # OpenUSD quotes the bytes that it could not read.
-        return "it holds text that is not UTF-8"
+        return attribute.Get(time)
+    except UNREADABLE:
+        return None
+
+
+def read_targets(prim: Any, name: str) -> list[Any]:
+    """Return the paths that a relationship names; none where it is authored as an attribute, or cannot be read."""
+    relationship = prim.GetRelationship(name)
+    try:
+        return list(relationship.GetTargets()) if relationship else []
+    except UNREADABLE:
+        return []
 
 
 def _check_file(source: Path) -> None:
@@ -103,7 +163,7 @@ def _check_file(source: Path) -> None:
         )
 
 
-def _cannot_open(source: Path, reason: str) -> str:
+def _cannot_open(source: str, reason: str) -> str:
     return f"{source}: OpenUSD cannot read this layer{f' ({reason})' if reason else ''}; export it again"
 
 
@@ -116,7 +176,7 @@ def _shorten(message: str, limit: int = 240) -> str:
 
 
 def _composition_diagnostic(error: Any, stage: Any) -> Diagnostic:
-    text = str(error)
+    text = _decoded(str, error)
     # The error's own fields name the root layer only; its text names the layer that holds the broken arc.
     introduced_by = re.search(r"introduced by @([^@]+)@", text)
     layer = introduced_by.group(1) if introduced_by else stage.GetRootLayer().identifier
@@ -138,25 +198,22 @@ def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diag
     notes: list[Diagnostic] = []
     layer = stage.GetRootLayer().identifier
     metres = options.metres_per_unit or _metadata(stage, UsdGeom.Tokens.metersPerUnit)
-    is_authored = isinstance(metres, int | float) and 0 < metres < float("inf")
+    is_authored = _is_unit(metres)
     if metres is not None and not is_authored:
-        notes.append(
-            Diagnostic("units", f"metersPerUnit is {metres!r}, expected a positive number; 0.01 is used", None, layer)
-        )
+        notes.append(_odd_unit("metersPerUnit", metres, _USD_FALLBACK_METRES, layer))
     if metres is None:
         notes.append(
             Diagnostic("units", "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used", None, layer)
         )
     up_axis = options.up_axis or _metadata(stage, UsdGeom.Tokens.upAxis)
-    if up_axis not in {"Y", "Z", None}:
+    if up_axis is not None and str(up_axis) not in {"Y", "Z"}:
         notes.append(Diagnostic("units", f"upAxis is {str(up_axis)!r}, expected Y or Z; Y is used", None, layer))
     kilograms = _metadata(stage, UsdPhysics.Tokens.kilogramsPerUnit)
-    has_kilograms = isinstance(kilograms, int | float) and 0 < kilograms < float("inf")
+    has_kilograms = _is_unit(kilograms)
     if kilograms is not None and not has_kilograms:
-        message = f"kilogramsPerUnit is {kilograms!r}, expected a positive number; 1 is used"
-        notes.append(Diagnostic("units", message, None, layer))
+        notes.append(_odd_unit("kilogramsPerUnit", kilograms, 1, layer))
     frame = StageFrame(
-        up_axis="Z" if up_axis == "Z" else "Y",
+        up_axis="Z" if str(up_axis) == "Z" else "Y",
         metres_per_unit=_as_double(metres) if is_authored else _USD_FALLBACK_METRES,
         kilograms_per_unit=_as_double(kilograms) if has_kilograms else 1.0,
         is_authored=is_authored,
@@ -166,7 +223,20 @@ def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diag
 
 def _metadata(stage: Any, key: str) -> Any:
     # Not UsdGeom.GetStageMetersPerUnit: it raises where the value is authored with another type than double.
-    return stage.GetMetadata(key) if stage.HasAuthoredMetadata(key) else None
+    try:
+        return stage.GetMetadata(key) if stage.HasAuthoredMetadata(key) else None
+    except UNREADABLE as error:
+        # Told as what was found where a number was expected.
+        return error_text(error)
+
+
+def _odd_unit(key: str, value: Any, used: float, layer: str) -> Diagnostic:
+    message = f"{key} is {value!r}, expected a positive number that a unit can be; {used:g} is used"
+    return Diagnostic("units", message, None, layer)
+
+
+def _is_unit(value: Any) -> bool:
+    return isinstance(value, int | float) and _UNITS[0] <= value <= _UNITS[1]
 
 
 def _as_double(value: float) -> float:

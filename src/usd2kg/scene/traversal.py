@@ -10,16 +10,22 @@ from typing import Any, NamedTuple
 
 from pxr import Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 
+from usd2kg.scene.instancers import is_endless
 from usd2kg.scene.metadata import text_names
 from usd2kg.scene.outline import Authored, JointLink, Node, Outline
-from usd2kg.scene.stage import OpenedStage
+from usd2kg.scene.stage import UNREADABLE, OpenedStage, read_targets, read_value, value_of
 
-__all__ = ["outline_stage"]
+__all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_stage"]
+
+ENDLESS = "point instancer among its own prototypes"
+UNREADABLE_PRIM = "unreadable"
+"""Reasons for which a prim is not entered that a user should know."""
 
 _HIDDEN_PURPOSES = frozenset({UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy})
 _TURNING_OPS = ("xformOp:rotate", "xformOp:orient", "xformOp:transform", "xformOp:shear")
 _BINDING = "material:binding"
 _SUBSET = "geometry subset"
+_INVISIBLE = "invisible"
 _TOLD_APART = frozenset({"specifier", "typeName", "kind", "active", "instanceable", "apiSchemas"})
 """Metadata that the other fields of a node tell."""
 
@@ -73,6 +79,10 @@ class _Outliner:
         self.authored: dict[tuple[Any, ...], Authored] = {}
         self.first_instances: dict[Any, Node] = {}
         """Path of the prototype → its first instance."""
+        self.instancers: dict[Any, list[Any]] = {}
+        """Path of a prim → the point instancers at and below it, for those that were looked through."""
+        self.labelled: set[Any] = set()
+        """Paths in prototypes of prims with something semantic on them."""
         self.with_joints: dict[Any, bool] = {}
         """Path of the prototype → whether joints are in it, which are told for each instance."""
 
@@ -83,7 +93,11 @@ class _Outliner:
         for prim in prims:
             path = prim.GetPath().pathString
             above, _, name = path.rpartition("/")
-            node = self._enter(prim, path, name, entered[above or "/"])
+            try:
+                node = self._enter(prim, path, name, entered[above or "/"])
+            except UNREADABLE:
+                self._leave_out(path, name, entered[above or "/"], UNREADABLE_PRIM)
+                node = None
             if node is None:
                 prims.PruneChildren()
                 continue
@@ -102,30 +116,44 @@ class _Outliner:
             self._leave_out(path, name, parent, reason)
             return None
         type_name = metadata.get("typeName", "")
+        if type_name.__class__ is not str:
+            type_name = ""
         schema = self._schema(prim, type_name)
         schemas = tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas()) if "apiSchemas" in metadata else ()
         authored = self._authored(prim, type_name, schemas)
-        is_labelled = authored.is_semantic
-        if is_labelled:
-            self.outline.labelled_prims.append(prim)
         if schema.is_joint or (schema.may_be_joint and "physics:body1" in authored.names):
             self._add_joint(prim, type_name)
             reason = "physics"
         elif schema.reason is not None or self._is_invisible(prim, schema, authored):
-            reason = schema.reason or "invisible"
+            reason = schema.reason or _INVISIBLE
+        # What is invisible OpenUSD does not ask for its box; cameras and lights it does.
+        if (schema.is_instancer or reason) and schema.is_imageable and reason != _INVISIBLE:
+            reason = ENDLESS if is_endless(prim, self.instancers) else reason
+        if authored.is_semantic and self._is_new(prim):
+            self.outline.labelled_prims.append(prim)
         if reason is not None:
             self._leave_out(path, name, parent, reason)
             return None
         node = Node(self.stage, path, name, type_name, self._kind(metadata), parent, known_prim=prim)
-        parent.children.append(node)
         self._fill(node, schema, authored, schemas)
-        if len(metadata) > 2 and not _TOLD_APART.issuperset(metadata):
+        if not _TOLD_APART.issuperset(metadata):
             node.metadata = metadata
-        node.is_labelled = is_labelled
+        node.is_labelled = authored.is_semantic
+        node.is_instance = "instanceable" in metadata and prim.IsInstance()
         if not node.is_gprim:
-            node.is_instance = "instanceable" in metadata and prim.IsInstance()
             node.is_asset = node.is_instance or prim.HasAuthoredReferences() or prim.HasAuthoredPayloads()
+        # Last, so that what turns out to be unreadable is not in the tree.
+        parent.children.append(node)
         return node
+
+    def _is_new(self, prim: Any) -> bool:
+        """Return whether a prim is no other instance's: what instances share is told once."""
+        if not prim.IsInstanceProxy():
+            return True
+        shared = prim.GetPrimInPrototype().GetPath()
+        is_new = shared not in self.labelled
+        self.labelled.add(shared)
+        return is_new
 
     def _fill(self, node: Node, schema: _Schema, authored: Authored, schemas: Sequence[str]) -> None:
         node.authored = authored
@@ -135,8 +163,8 @@ class _Outliner:
         _inherit(node)
         if UsdGeom.Tokens.purpose in authored.names:
             purpose = node.prim.GetAttribute(UsdGeom.Tokens.purpose)
-            if purpose.HasAuthoredValue():
-                node.is_hidden = purpose.Get() in _HIDDEN_PURPOSES
+            if purpose and purpose.HasAuthoredValue():
+                node.is_hidden = value_of(purpose, Usd.TimeCode.Default()) in _HIDDEN_PURPOSES
         if schemas:
             node.has_mass = "PhysicsMassAPI" in schemas
             node.is_body = "PhysicsRigidBodyAPI" in schemas or (node.has_mass and not node.is_gprim)
@@ -153,17 +181,19 @@ class _Outliner:
     def _is_invisible(self, prim: Any, schema: _Schema, authored: Authored) -> bool:
         if not schema.is_imageable or UsdGeom.Tokens.visibility not in authored.names:
             return False
-        return bool(prim.GetAttribute(UsdGeom.Tokens.visibility).Get(self.time) == UsdGeom.Tokens.invisible)
+        return bool(read_value(prim, UsdGeom.Tokens.visibility, self.time, str) == UsdGeom.Tokens.invisible)
 
     def _leave_out(self, path: str, name: str, parent: Node, reason: str) -> None:
         self.outline.left_out[reason] += 1
         self.outline.pruned[path] = reason
-        parent.left_out = (*parent.left_out, (name, reason))
+        if parent.left_out is None:
+            parent.left_out = []
+        parent.left_out.append((name, reason))
         parent.has_subsets |= reason == _SUBSET
 
     def _add_joint(self, prim: Any, type_name: str) -> None:
         self.outline.joint_prims.append(prim)
-        fixed, moved = (_first_target(prim.GetRelationship(f"physics:body{side}")) for side in (0, 1))
+        fixed, moved = (_first_target(prim, f"physics:body{side}") for side in (0, 1))
         if moved is not None:
             self.outline.joints.append(JointLink(fixed, moved, type_name))
 
@@ -184,6 +214,8 @@ class _Outliner:
 
     def _kind(self, metadata: Mapping[str, Any]) -> str:
         kind = metadata.get("kind", "")
+        if kind.__class__ is not str:
+            return ""
         if kind not in self.kinds:
             self.kinds[kind] = _standard_kind(kind)
         return self.kinds[kind]
@@ -192,13 +224,14 @@ class _Outliner:
         """Copy what is below the first instance of the same prototype; return whether that could be done."""
         prototype = root.prim.GetPrototype().GetPath()
         first = self.first_instances.setdefault(prototype, root)
+        root.first_instance = first.path
         if first is root or first.is_hidden != root.is_hidden or self._holds_joints(prototype, first):
             return False
         root.twin = first
         pending = [(first, root)]
         while pending:
             source, copy = pending.pop()
-            for name, reason in source.left_out:
+            for name, reason in source.left_out or ():
                 self.outline.prim_count += 1
                 self._leave_out(f"{copy.path}/{name}", name, copy, reason)
             for child in source.children:
@@ -208,7 +241,7 @@ class _Outliner:
 
     def _holds_joints(self, prototype: Any, first: Node) -> bool:
         if prototype not in self.with_joints:
-            reasons = {reason for node in first.walk() for _, reason in node.left_out}
+            reasons = {reason for node in first.walk() for _, reason in node.left_out or ()}
             self.with_joints[prototype] = "physics" in reasons
         return self.with_joints[prototype]
 
@@ -223,6 +256,7 @@ def _copy_below(source: Node, parent: Node) -> Node:
     node.is_body, node.has_mass, node.is_asset = source.is_body, source.has_mass, source.is_asset
     node.is_labelled, node.is_unresolved = source.is_labelled, source.is_unresolved
     node.twin = source.twin or source
+    node.first_instance = source.first_instance
     _inherit(node)
     node.is_hidden = source.is_hidden
     return node
@@ -248,8 +282,8 @@ def _count_geometry(root: Node) -> None:
             node.parent.hidden_gprim_count += node.hidden_gprim_count
 
 
-def _first_target(relationship: Any) -> str | None:
-    targets = relationship.GetTargets() if relationship else ()
+def _first_target(prim: Any, name: str) -> str | None:
+    targets = read_targets(prim, name)
     return str(targets[0].GetPrimPath()) if targets else None
 
 

@@ -1,0 +1,212 @@
+"""What the surroundings say: votes of the companions, and the classes that a size speaks for."""
+
+import math
+from collections.abc import Sequence
+
+import pytest
+
+from tests.grounding.records import SOMA, make_class, make_object, make_scene, make_tbox
+from usd2kg.grounding.embedded import context
+from usd2kg.grounding.embedded.context import SizeBeliefs, Votes, ask_company
+from usd2kg.grounding.embedded.grounder import _run_for
+from usd2kg.grounding.embedded.matching import Match
+from usd2kg.ontology import TBox
+from usd2kg.scene import Box, Companion, NamingRegime, Nearness, view_objects
+
+NEXT, SIBLING, TWIN, ALIKE = Nearness.NEXT, Nearness.SIBLING, Nearness.TWIN, Nearness.ALIKE
+REST = 0.5
+"""What the company is held to say nothing with, in weights of a companion right beside."""
+
+
+class Around:
+    """A company of given companions."""
+
+    def __init__(self, *companions: Companion) -> None:
+        self._companions = companions
+
+    def companions(self) -> Sequence[Companion]:
+        return self._companions
+
+
+def near(name: str, nearness: Nearness = NEXT, distance: float | None = 0.1) -> Companion:
+    return Companion(name, ("Room",), nearness, distance)
+
+
+def by_first_word(name: str, parents: tuple[str, ...]) -> list[Match]:
+    """Take `cup-0.8` for a cup with score 0.8, and give a second class that is not to be counted."""
+    word, _, score = name.partition("-")
+    first = Match(word, float(score or 1), "")
+    return [first, Match("other", first.score / 2, "")] if word != "nothing" else []
+
+
+def votes(*companions: Companion) -> Votes:
+    return ask_company(Around(*companions), by_first_word)
+
+
+def ratio(one: Companion, other: Companion) -> float:
+    """Return how much heavier the vote of one companion is than that of another."""
+    shares = votes(one, other).shares
+    return shares[one.name.partition("-")[0]] / shares[other.name.partition("-")[0]]
+
+
+# --- votes -------------------------------------------------------------------------------------------
+
+
+def test_without_companions_there_are_no_votes():
+    assert votes() == Votes({}, {})
+
+
+def test_shares_worked_by_hand():
+    # Of unknown size a companion right beside weighs half: 0.5 · 0.8 = 0.4 for the cup, twice 0.5 for the lamp.
+    found = votes(near("cup-0.8", NEXT, None), near("lamp", NEXT, None), near("lamp", NEXT, None)).shares
+    assert found == pytest.approx({"cup": 0.4 / (1.4 + REST), "lamp": 1 / (1.4 + REST)})
+
+
+def test_shares_leave_something_for_knowing_nothing():
+    few, many = votes(near("cup")).shares["cup"], votes(*[near("cup")] * 60).shares["cup"]
+    assert 0 < few < many < 1
+    mixed = votes(near("cup"), near("lamp", SIBLING), near("plate", ALIKE)).shares
+    assert sum(mixed.values()) < 1
+
+
+def test_the_nearer_the_heavier():
+    order = [NEXT, TWIN, SIBLING, ALIKE]
+    shares = votes(*(near(f"{nearness.value}", nearness, 0.1) for nearness in order)).shares
+    assert list(shares) == sorted(shares, key=lambda name: -shares[name]) == [nearness.value for nearness in order]
+    expected = context._WEIGHTS[NEXT] / context._WEIGHTS[SIBLING]
+    assert ratio(near("cup", NEXT), near("lamp", SIBLING)) == pytest.approx(expected)
+
+
+def test_the_more_alike_in_size_the_heavier():
+    # A Gaussian kernel: one spread off weighs e^-½ = 0.607, two weigh e^-2 = 0.135.
+    spread = context._SIZE_SPREAD
+    one = ratio(near("cup", NEXT, 2 * spread), near("lamp", NEXT, spread))
+    assert one == pytest.approx(math.exp(-2) / math.exp(-0.5))
+    assert ratio(near("cup", NEXT, 3.0), near("lamp", NEXT, 0.1)) < 1e-6
+    # Of unknown size it is neither alike nor different.
+    assert 0.1 < ratio(near("cup", NEXT, None), near("lamp", NEXT, 0.02)) < 1
+
+
+def test_a_companion_of_exactly_the_same_size_counts_several_times():
+    bonus = ratio(near("cup", NEXT, 0.0), near("lamp", NEXT, 0.011))
+    assert bonus == pytest.approx(context._TWIN_BONUS, rel=0.01)
+    assert bonus > 2
+    # So two strangers in the family do not outvote the copy that stands elsewhere.
+    found = votes(near("cup", TWIN, 0.0), near("lamp", SIBLING, 0.3), near("lamp", SIBLING, 0.3)).shares
+    assert found["cup"] > found["lamp"]
+
+
+def test_companions_of_unclear_names_have_no_vote():
+    found = votes(near("cup-0.49"), near("nothing"), near("lamp-0.5", SIBLING))
+    assert set(found.shares) == set(found.heaviest) == {"lamp"}
+    assert votes(near("cup-0.49"), near("nothing")) == Votes({}, {})
+
+
+def test_a_clearer_name_has_more_of_a_vote():
+    assert ratio(near("cup-0.9"), near("lamp-0.6")) == pytest.approx(1.5)
+
+
+def test_the_heaviest_vote_is_remembered_for_each_class():
+    far, beside, other = near("cup", ALIKE), near("cup-0.9", NEXT), near("lamp", SIBLING)
+    assert votes(far, beside, other).heaviest == {"cup": beside, "lamp": other}
+    assert votes(beside, far).heaviest == {"cup": beside}
+
+
+def test_companions_are_classified_with_the_names_above_them():
+    asked = []
+
+    def classify(name: str, parents: tuple[str, ...]) -> list[Match]:
+        asked.append((name, parents))
+        return []
+
+    ask_company(Around(Companion("cabinet", ("World", "Kitchen"), NEXT, None)), classify)
+    assert asked == [("cabinet", ("World", "Kitchen"))]
+
+
+def test_the_order_of_the_companions_makes_no_difference_to_the_shares():
+    some = [near("cup"), near("lamp", SIBLING, 0.4), near("cup", ALIKE, None), near("plate", TWIN, 0.005)]
+    assert votes(*some).shares == pytest.approx(votes(*reversed(some)).shares)
+
+
+def test_a_chair_among_chairs_of_its_size_in_a_real_company(home_tbox: TBox):
+    chairs = (make_object(f"/Hall/chair_{i}", box=Box((0, 0, 0), (0.5, 0.5, 0.9))) for i in range(3))
+    table = make_object("/Hall/table", box=Box((0, 0, 0), (1.8, 0.9, 0.75)))
+    target = make_object("/Hall/x", box=Box((0, 0, 0), (0.5, 0.5, 0.9)))
+    *_, (_, view) = view_objects(make_scene(*chairs, table, target), NamingRegime.OPAQUE)
+    assert view.company is not None
+    found = ask_company(view.company, _run_for(home_tbox, True)._match).shares
+    assert found[SOMA + "DesignedChair"] > 0.7 > 0.1 > found[SOMA + "Table"]
+
+
+# --- sizes -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def beliefs(home_tbox: TBox) -> SizeBeliefs:
+    return _run_for(home_tbox, True)._sizes
+
+
+def ranked(beliefs: SizeBeliefs, size: tuple[float, float, float]) -> list[str]:
+    """Return the local names of the classes, the one that the size suits best first."""
+    found = beliefs.ask(size)
+    return [iri.rpartition("#")[2] for iri in sorted(found, key=lambda iri: -found[iri][0])]
+
+
+@pytest.mark.parametrize(
+    ("size", "suits", "rather_than"),
+    [
+        ((0.09, 0.09, 0.1), {"Cup", "Glass", "WaterGlass", "Bowl", "Jar"}, ["Refrigerator", "Sofa", "Door"]),
+        ((0.6, 0.65, 1.8), {"Refrigerator"}, ["Cup", "Bowl", "Spoon"]),
+        ((2.0, 0.9, 0.8), {"Sofa"}, ["Cup", "Plate", "Jar"]),
+        ((0.9, 0.04, 2.05), {"Door"}, ["Cup", "Sofa", "Bowl"]),
+        ((0.19, 0.04, 0.02), {"Spoon", "Fork", "TableKnife", "Knife", "Cutlery"}, ["Refrigerator", "Table"]),
+    ],
+    ids=["mug", "refrigerator", "sofa", "door", "spoon"],
+)
+def test_a_size_speaks_for_what_is_usually_of_it(
+    beliefs: SizeBeliefs, size: tuple[float, float, float], suits: set[str], rather_than: list[str]
+):
+    order = ranked(beliefs, size)
+    assert set(order[:3]) & suits
+    found = {iri.rpartition("#")[2]: belief for iri, belief in beliefs.ask(size).items()}
+    best = max(found[name] for name in suits if name in found)
+    assert [name for name in rather_than if found[name][0] > best[0] / 20] == []
+    assert [name for name in rather_than if found[name][1] > best[1] / 5] == []
+
+
+@pytest.mark.parametrize("size", [(0.1, 0.09, 0.09), (2, 1, 1), (0, 0, 0), (80, 70, 9), (0.3, 0, 0.2)])
+def test_beliefs_are_shares(beliefs: SizeBeliefs, size: tuple[float, float, float]):
+    found = beliefs.ask(size)
+    assert set(found) == set(beliefs.classes)
+    assert max(value for value, _ in found.values()) == pytest.approx(1)
+    assert all(0 < value <= 1 and 0 < share <= 1 for value, share in found.values())
+    assert sum(share for _, share in found.values()) == pytest.approx(1)
+
+
+def test_the_way_a_thing_lies_makes_no_difference(beliefs: SizeBeliefs):
+    assert beliefs.ask((0.6, 1.8, 0.65)) == beliefs.ask((1.8, 0.65, 0.6))
+
+
+def test_the_classes_are_those_of_the_tbox(beliefs: SizeBeliefs, home_tbox: TBox):
+    assert set(beliefs.classes) <= set(home_tbox.by_iri)
+    assert len(beliefs.classes) > 40
+    assert list(beliefs.classes) == sorted(set(beliefs.classes))
+
+
+def test_a_tbox_of_other_things_has_no_beliefs():
+    # Nothing whose size is known is one of its classes.
+    abstract = _run_for(make_tbox(make_class("Qualia"), make_class("Zorg", "Qualia")), False)._sizes
+    assert abstract.classes == ()
+    assert abstract.ask((1, 1, 1)) == {}
+
+
+def test_beliefs_follow_the_names_that_the_nouns_match():
+    # A TBox with two classes: everything is a Small thing by its name, or a Large one.
+    def classify(noun: str, parents: tuple[str, ...]) -> list[Match]:
+        return {"mug": [Match("small", 1, "")], "refrigerator": [Match("large", 1, "")]}.get(noun, [])
+
+    beliefs = SizeBeliefs(classify)
+    assert beliefs.classes == ("large", "small")
+    assert beliefs.ask((0.09, 0.09, 0.1))["small"][0] == 1
+    assert beliefs.ask((0.6, 0.65, 1.8))["large"][0] == 1
+    assert beliefs.ask((0.6, 0.65, 1.8))["small"][0] < 1e-3

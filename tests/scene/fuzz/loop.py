@@ -1,0 +1,111 @@
+"""Mangling and reading one stage after the other, and counting what happens."""
+
+import itertools
+import math
+import random
+import re
+import shutil
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+from tests.scene.fuzz.corpus import Files, as_crate, own_corpus, shared_corpus, text_of
+from tests.scene.fuzz.mutators import mangle_bytes, mangle_text
+from tests.scene.fuzz.worker import OPENUSDS, Judge, Outcome, Verdict, write_files
+
+_KEPT = 3
+"""Cases kept of each failure."""
+
+
+class Case(NamedTuple):
+    """One mangled stage."""
+
+    name: str
+    """Seed, number and what it was made of; the same name means the same files."""
+    files: Files
+
+
+@dataclass
+class Tally:
+    """What happened to all cases."""
+
+    outcomes: Counter[str] = field(default_factory=Counter)
+    found: dict[Verdict, list[Case]] = field(default_factory=dict)
+    """Each fault of OpenUSD or ours, told apart by place, with its first cases."""
+
+    def add(self, case: Case, verdict: Verdict) -> None:
+        """Count a case."""
+        self.outcomes[verdict.outcome] += 1
+        if verdict.outcome in {Outcome.READ, Outcome.REFUSED}:
+            return
+        same = next((known for known in self.found if known[:2] == verdict[:2]), verdict)
+        cases = self.found.setdefault(same, [])
+        if len(cases) < _KEPT:
+            cases.append(case)
+
+    @property
+    def failures(self) -> list[str]:
+        """What the reader itself did wrong, with the first case of each fault."""
+        return [
+            f"{verdict.outcome}: {verdict.place} ({cases[0].name}) {verdict.detail}"
+            for verdict, cases in self.found.items()
+            if verdict.outcome not in OPENUSDS
+        ]
+
+    def __str__(self) -> str:
+        lines = [f"{count:7} {outcome}" for outcome, count in self.outcomes.most_common()]
+        lines += [f"{verdict.outcome}: {verdict.place} ({cases[0].name})" for verdict, cases in self.found.items()]
+        return "\n".join(lines)
+
+    def keep(self, folder: Path) -> None:
+        """Write the files of all faults, each with a note of what it does."""
+        for verdict, cases in self.found.items():
+            for case in cases:
+                below = folder / re.sub(r"\W+", "_", f"{verdict.outcome} {verdict.place} {case.name}")
+                shutil.rmtree(below, ignore_errors=True)
+                write_files(case.files, below)
+                (below / "what.txt").write_text("\n".join(verdict), encoding="utf-8", errors="replace")
+
+
+def make_cases(corpus: dict[str, Files], seed: int) -> Iterator[Case]:
+    """Yield mangled stages without end: of the text ones every fourth as crate, crates as they are."""
+    with tempfile.TemporaryDirectory() as folder:
+        crates = [(name, crate) for name, files in corpus.items() if (crate := as_crate(files, Path(folder)))]
+    texts = [text for files in corpus.values() if (text := text_of(next(iter(files.values()))))]
+    for number in itertools.count():
+        # A string: the same numbers in each run, and apart for neighbouring seeds.
+        rng = random.Random(f"{seed} {number}")
+        name, files = rng.choice(crates if crates and number % 4 == 3 else list(corpus.items()))
+        # Mostly the root; the whole is written anew, so that the root stays first.
+        chosen = next(iter(files)) if rng.random() < 0.85 else rng.choice(list(files))
+        yield Case(f"{seed} {number} {name}", {**files, chosen: _mangle(files[chosen], rng, texts)})
+
+
+def all_cases(seed: int) -> Iterator[Case]:
+    """Yield mangled stages of our own, and in turn with them those of others where they are there."""
+    streams = [make_cases(corpus, seed) for corpus in (own_corpus(), shared_corpus()) if corpus]
+    return itertools.chain.from_iterable(zip(*streams, strict=True))
+
+
+def _mangle(data: bytes, rng: random.Random, texts: list[str]) -> bytes:
+    text = text_of(data)
+    # Half a surrogate makes a file that is not UTF-8.
+    return mangle_text(text, rng, texts).encode(errors="surrogatepass") if text else mangle_bytes(data, rng)
+
+
+def fuzz(cases: Iterable[Case], seconds: float = math.inf) -> Tally:
+    """Return what becomes of the cases, up to the first that comes after `seconds`."""
+    tally = Tally()
+    end = time.monotonic() + seconds
+    with tempfile.TemporaryDirectory() as folder:
+        judge = Judge(Path(folder))
+        try:
+            for case in itertools.takewhile(lambda _: time.monotonic() < end, cases):
+                tally.add(case, judge.judge(case.files))
+        finally:
+            judge.close()
+    return tally
