@@ -93,6 +93,11 @@ class Node:
         return self.known_prim
 
     @property
+    def may_have_asset(self) -> bool:
+        """Whether the stage may name an asset that it comes from; of geometry the arcs are not known."""
+        return self.is_asset or self.is_gprim or "assetInfo" in self.metadata
+
+    @property
     def may_have_texts(self) -> bool:
         """Whether somebody may have written words on it, beyond the schemas."""
         return self.authored.has_texts or "customData" in self.metadata or "assetInfo" in self.metadata

@@ -303,7 +303,7 @@ class _ObjectReader:
         return {
             "oriented_size": self.boxes.read_oriented_size(node) if boxes.below else None,
             "mass_kg": mass_kg(nodes, self.frame),
-            "asset": asset_names(prim),
+            "asset": asset_names(prim) if node.may_have_asset else (),
             "materials": tuple(dict.fromkeys(material.name for material in materials)),
             "material_details": materials,
             "display_color": display_color(nodes, self.time),
