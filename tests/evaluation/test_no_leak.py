@@ -1,6 +1,8 @@
 """Under a masked regime nothing that a grounder is given tells the target's own name."""
 
+from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
@@ -8,7 +10,18 @@ from tests.conftest import shared_file
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import make_grounder
 from usd2kg.ontology import TBox
-from usd2kg.scene import NamingRegime, ObjectView, Scene, read_scene, view_objects
+from usd2kg.scene import (
+    EVIDENCE_GROUPS,
+    Companion,
+    Label,
+    NamingRegime,
+    ObjectView,
+    Scene,
+    SceneObject,
+    read_scene,
+    view_objects,
+)
+from usd2kg.words import words_of
 
 MASKED = [regime for regime in NamingRegime if regime is not NamingRegime.SEMANTIC]
 
@@ -30,8 +43,34 @@ def scene(request: pytest.FixtureRequest) -> Scene:
 
 def _texts(view: ObjectView) -> Iterator[str]:
     yield from (view.name, view.display_name, view.documentation)
-    for several in (view.groups, view.siblings, view.asset, view.materials, view.parts):
+    for several in (view.groups, view.siblings, view.asset, view.labels, view.materials, view.parts):
         yield from several
+
+
+def _companions(view: ObjectView) -> list[Companion]:
+    return view.company.companions() if view.company else []
+
+
+def _path_of(companion: Companion) -> str:
+    return "/".join(("", *companion.parents, companion.name))
+
+
+def _in_full(word: str) -> list[tuple[str, float]]:
+    """The only way to write a word: in full."""
+    return [(word, 0.0)]
+
+
+def _renamed(scene: Scene, obj: SceneObject) -> Scene:
+    """Return the scene with another name for one object; whatever lies below it moves with it."""
+    path = obj.prim_path.rpartition("/")[0] + "/Zebra_77"
+    changed = []
+    for other in scene.objects:
+        is_below = other.prim_path.startswith(obj.prim_path + "/")
+        moved = path + other.prim_path.removeprefix(obj.prim_path) if is_below or other is obj else other.prim_path
+        name = "Zebra_77" if other is obj else other.name
+        above = path if other.parent_path == obj.prim_path else other.parent_path
+        changed.append(replace(other, prim_path=moved, name=name, parent_path=above))
+    return replace(scene, objects=tuple(changed))
 
 
 @pytest.mark.parametrize("regime", MASKED)
@@ -43,6 +82,58 @@ def test_no_text_of_a_view_is_the_target_s_name(scene: Scene, regime: NamingRegi
         above = obj.prim_path.split("/")[1:-1]
         assert view.parents.count(obj.name) <= above.count(obj.name)
         assert not (view.asset or view.materials or view.parts or view.display_name or view.documentation)
+        assert view.labels == ()
+
+
+@pytest.mark.parametrize("regime", MASKED)
+def test_richer_evidence_stays_hidden_where_it_is_there_and_asked_for(scene: Scene, regime: NamingRegime) -> None:
+    labelled = [
+        replace(obj, labels=obj.labels._replace(own=(Label(obj.prim_path, "UsdSemantics", "class", obj.name),)))
+        for obj in scene.objects
+    ]
+    told = replace(scene, objects=tuple(labelled))
+    assert all(view.labels == (obj.name,) for obj, view in view_objects(told))
+    for obj, view in view_objects(told, regime, EVIDENCE_GROUPS):
+        assert view.labels == ()
+        assert obj.name not in _texts(view)
+
+
+@pytest.mark.parametrize("regime", MASKED)
+def test_no_companion_is_the_target(scene: Scene, regime: NamingRegime) -> None:
+    paths = {obj.prim_path for obj in scene.objects}
+    for obj, view in view_objects(scene, regime):
+        assert (view.company is None) == (regime is NamingRegime.OPAQUE_ANONYMOUS)
+        found = [_path_of(companion) for companion in _companions(view)]
+        assert obj.prim_path not in found
+        # What lies below the target has the target's name among its parents.
+        assert not any(path.startswith(obj.prim_path + "/") for path in found)
+        assert set(found) <= paths
+        assert len(set(found)) == len(found)
+
+
+@pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
+def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, regime: NamingRegime) -> None:
+    bearers = Counter(word for obj in scene.objects for word in set(words_of(obj.name)))
+    for obj, view in view_objects(scene, regime):
+        assert view.company is not None
+        for word in set(words_of(obj.name)):
+            others = bearers[word] - 1
+            expected = [(word, others / len(scene.objects), 0.0)] if others else []
+            assert view.company.words_written(word, _in_full) == expected
+
+
+@pytest.mark.parametrize("regime", [NamingRegime.OPAQUE, NamingRegime.OPAQUE_ANONYMOUS])
+def test_another_name_of_the_target_makes_no_difference(scene: Scene, regime: NamingRegime, home_tbox: TBox) -> None:
+    grounder = make_grounder("embedded")
+    for at in range(0, len(scene.objects), max(1, len(scene.objects) // 8)):
+        renamed = _renamed(scene, scene.objects[at])
+        (_, before), (other, after) = (list(view_objects(whole, regime))[at] for whole in (scene, renamed))
+        assert other.name == "Zebra_77"
+        assert _companions(before) == _companions(after)
+        assert list(before.siblings) == list(after.siblings)
+        assert replace(before, company=None, siblings=()) == replace(after, company=None, siblings=())
+        one, two = (grounder.ground_views([("/x", view)], home_tbox) for view in (before, after))
+        assert one == two
 
 
 @pytest.mark.parametrize("regime", MASKED)
@@ -79,3 +170,6 @@ def test_a_batch_gives_nothing_that_one_target_alone_does_not(
     alone = [grounder.ground_views([pair], home_tbox)[0] for pair in views[::12]]
     assert alone == together[::12]
     assert make_grounder(name).ground_views(views[::-1], home_tbox)[::-1] == together
+    # Nor does it matter whether the views share one stage's company or each is made anew.
+    anew = [(obj.prim_path, view) for obj, view in view_objects(scene, regime)][:60:12]
+    assert make_grounder(name).ground_views(anew, home_tbox) == alone

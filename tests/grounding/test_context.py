@@ -135,7 +135,8 @@ def test_a_chair_among_chairs_of_its_size_in_a_real_company(home_tbox: TBox):
     *_, (_, view) = view_objects(make_scene(*chairs, table, target), NamingRegime.OPAQUE)
     assert view.company is not None
     found = ask_company(view.company, _run_for(home_tbox, True)._match).shares
-    assert found[SOMA + "DesignedChair"] > 0.7 > 0.1 > found[SOMA + "Table"]
+    assert found[SOMA + "DesignedChair"] > 0.7
+    assert found[SOMA + "Table"] < 0.1
 
 
 # --- sizes -------------------------------------------------------------------------------------------

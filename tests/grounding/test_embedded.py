@@ -9,11 +9,35 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.grounding.records import SOMA, ground_names, ground_view, local, make_class, make_tbox, scene_of
+from tests.grounding.records import (
+    SOMA,
+    ground_names,
+    ground_view,
+    local,
+    make_class,
+    make_object,
+    make_scene,
+    make_tbox,
+    scene_of,
+)
 from usd2kg.grounding import Prediction, Status, ground
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
-from usd2kg.scene import NamingRegime, ObjectView
+from usd2kg.scene import Box, NamingRegime, ObjectView, SceneObject, view_objects
+
+
+def sized(path: str, size: tuple[float, float, float] | None) -> SceneObject:
+    return make_object(path, box=Box((0, 0, 0), size) if size else None)
+
+
+def first_view(*objects: SceneObject, regime: NamingRegime = NamingRegime.SEMANTIC) -> ObjectView:
+    """Return the view of the first of a scene's objects."""
+    return next(view for _, view in view_objects(make_scene(*objects), regime))
+
+
+def in_company(name: str, others: list[str], regime: NamingRegime = NamingRegime.SEMANTIC) -> ObjectView:
+    """Return the view of an object without a size before others in a room."""
+    return first_view(*(sized(f"/Room/{other}", None) for other in (name, *others)), regime=regime)
 
 
 class TestExplanations:
@@ -73,26 +97,93 @@ class TestWhereTheNameSaysNothing:
         assert local(prediction) == "Spoon"
         assert prediction.evidence == ("name",)
 
+    def test_the_label_speaks(self, home_tbox: TBox):
+        prediction = ground_view(ObjectView(name="obj_17", labels=("Q42", "drawer")), home_tbox)
+        assert local(prediction) == "Drawer"
+        assert prediction.evidence == ("labels",)
+        assert "(from its label)" in prediction.explanation
+
+    @pytest.mark.parametrize("name", ["xqzv", "thing_2", "pCube3", ""])
+    def test_a_label_decides_where_the_name_is_of_no_class(self, home_tbox: TBox, name: str):
+        assert local(ground_view(ObjectView(name=name, labels=("office_chair",)), home_tbox)) == "DesignedChair"
+
+    def test_a_label_is_weaker_than_a_clear_name_and_than_the_asset(self, home_tbox: TBox):
+        # Labels are evidence, not truth: assets are shipped with leftovers of others.
+        named = ground_view(ObjectView(name="Spoon", labels=("chair",)), home_tbox)
+        assert (local(named), named.evidence) == ("Spoon", ("name",))
+        bought = ground_view(ObjectView(name="obj_17", asset=("wine_bottle",), labels=("chair",)), home_tbox)
+        assert (local(bought), bought.evidence) == ("WineBottle", ("asset",))
+
+    def test_a_label_comes_before_what_is_said_and_what_is_inside(self, home_tbox: TBox):
+        view = ObjectView(name="obj_17", labels=("chair",), documentation="A bottle.", parts=("Faucet",))
+        assert local(ground_view(view, home_tbox)) == "DesignedChair"
+
+    def test_labels_that_say_nothing_make_no_difference(self, home_tbox: TBox):
+        bare = ground_view(ObjectView(name="obj_17"), home_tbox)
+        assert ground_view(ObjectView(name="obj_17", labels=("Q42", "object", "17")), home_tbox) == bare
+
+    def test_the_label_of_a_masked_thing_is_not_heard(self, home_tbox: TBox):
+        bare = ground_view(ObjectView(name="obj_004", is_masked=True), home_tbox)
+        assert ground_view(ObjectView(name="obj_004", labels=("chair",), is_masked=True), home_tbox) == bare
+
     def test_the_company_speaks_last(self, home_tbox: TBox):
-        siblings = ("chair_1", "chair_2", "chair_3", "table_1")
-        prediction = ground_view(ObjectView(name="obj_004", siblings=siblings, is_masked=True), home_tbox)
+        view = in_company("thing_4", ["chair_1", "chair_2", "chair_3", "table_1"], NamingRegime.OPAQUE)
+        prediction = ground_view(view, home_tbox)
         assert local(prediction) == "DesignedChair"
-        assert prediction.evidence == ("hierarchy",)
-        # Three of the four named objects are chairs.
-        assert "3 of the 4" in prediction.explanation
+        assert prediction.evidence == ("company",)
+        assert prediction.explanation == "“chair_1” right beside it is DesignedChair"
+        told = ground_view(replace(in_company("obj_4", ["chair_1", "chair_2"]), labels=("drawer",)), home_tbox)
+        assert (local(told), told.evidence) == ("Drawer", ("labels",))
 
-    def test_a_mixed_company_says_nothing(self, home_tbox: TBox):
-        # Two of four is no majority.
-        siblings = ("chair_1", "chair_2", "table_1", "lamp_1")
-        prediction = ground_view(ObjectView(name="obj_004", siblings=siblings, is_masked=True), home_tbox)
-        assert prediction.status is Status.SUPERCLASS
-        assert local(prediction) == "DesignedArtifact"
+    def test_the_company_is_not_asked_about_a_clear_name(self, home_tbox: TBox):
+        prediction = ground_view(in_company("Spoon_3", ["chair_1", "chair_2", "chair_3"]), home_tbox)
+        assert prediction == ground_view(replace(in_company("Spoon_3", []), company=None), home_tbox)
+        assert local(prediction) == "Spoon"
 
-    def test_company_is_less_sure_than_a_name(self, home_tbox: TBox):
+    def test_a_mixed_company_is_less_sure_than_one_of_a_kind(self, home_tbox: TBox):
+        mixed, alike = (
+            ground_view(in_company("obj_4", others), home_tbox)
+            for others in (["table_1", "chair_1", "lamp_1", "mug_1"], ["chair_1", "chair_2", "chair_3", "chair_4"])
+        )
+        assert local(alike) == "DesignedChair"
+        assert mixed.candidates[0].score < alike.candidates[0].score
+        assert {"Table", "DesignedChair"} <= {c.class_iri.rpartition("#")[2] for c in mixed.candidates}
+
+    def test_the_company_leaves_room_for_doubt(self, home_tbox: TBox):
         named = ground_view(ObjectView(name="chair_4"), home_tbox)
-        masked = ground_view(ObjectView(name="obj_4", siblings=("chair_1", "chair_2")), home_tbox)
-        assert local(named) == local(masked) == "DesignedChair"
-        assert masked.confidence < named.confidence
+        unnamed = ground_view(in_company("obj_4", ["chair_1", "chair_2"]), home_tbox)
+        assert local(named) == local(unnamed) == "DesignedChair"
+        assert unnamed.candidates[0].score < named.candidates[0].score
+
+    def test_a_copy_elsewhere_says_more_than_the_neighbours(self, home_tbox: TBox):
+        target = sized("/Hall/obj_1", (0.5, 0.5, 0.9))
+        others = (sized("/Hall/table_1", (1.8, 0.9, 0.75)), sized("/Office/chair_7", (0.5, 0.9, 0.5)))
+        prediction = ground_view(first_view(target, *others), home_tbox)
+        assert local(prediction) == "DesignedChair"
+        assert prediction.explanation == "“chair_7” of the same size is DesignedChair"
+
+    def test_siblings_by_themselves_are_no_evidence(self, home_tbox: TBox):
+        # Names without sizes and places: the company tells the same and more.
+        prediction = ground_view(ObjectView(name="obj_4", siblings=("chair_1", "chair_2")), home_tbox)
+        assert prediction == ground_view(ObjectView(name="obj_4"), home_tbox)
+
+    def test_the_size_speaks_where_nothing_else_does(self, home_tbox: TBox):
+        mug, fridge = (
+            ground_view(ObjectView(name="obj_1", size=size), home_tbox)
+            for size in ((0.09, 0.09, 0.1), (0.6, 0.65, 1.8))
+        )
+        ranks = [[c.class_iri.rpartition("#")[2] for c in p.candidates] for p in (mug, fridge)]
+        assert "Refrigerator" not in ranks[0]
+        assert "Cup" not in ranks[1]
+        assert all(p.candidates[0].score < 0.5 for p in (mug, fridge))
+
+    def test_the_size_decides_between_companions(self, home_tbox: TBox):
+        others = [sized(f"/Hall/{name}", None) for name in ("fridge_1", "mug_1")]
+        found = [
+            ground_view(first_view(sized("/Hall/obj_1", size), *others), home_tbox)
+            for size in ((0.6, 0.65, 1.8), (0.09, 0.09, 0.1))
+        ]
+        assert [local(prediction) for prediction in found] == ["Refrigerator", "Cup"]
 
     def test_company_that_is_masked_too_says_nothing(self, home_tbox: TBox):
         view = ObjectView(name="obj_004", siblings=("sibling_1", "sibling_2"), parents=("group_1",), is_masked=True)
@@ -104,14 +195,14 @@ class TestWhereTheNameSaysNothing:
         assert prediction.class_iri == "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#DesignedArtifact"
         assert prediction.status is Status.SUPERCLASS
         assert "DesignedArtifact is true of most things" in prediction.explanation
-        assert prediction.confidence < 0.5
+        assert prediction.confidence < ground_view(ObjectView(name="Spoon"), home_tbox).confidence
 
     def test_an_unknown_word_gets_the_class_that_is_true_of_most_things(self, home_tbox: TBox):
-        # Its name is a word, if an unknown one: the company is not asked.
-        view = ObjectView(name="xqzv_12", siblings=("chair_1", "chair_2"))
-        prediction = ground_view(view, home_tbox)
+        prediction = ground_view(ObjectView(name="xqzv_12"), home_tbox)
         assert local(prediction) == "DesignedArtifact"
         assert prediction.status is Status.SUPERCLASS
+        # In company it is asked what the others are.
+        assert local(ground_view(in_company("xqzv_12", ["chair_1", "chair_2"]), home_tbox)) == "DesignedChair"
 
 
 class TestIndependence:
@@ -217,7 +308,7 @@ class TestNamingRegimes:
         by_path = ground(self.SCENE, home_tbox, EmbeddedGrounder(), regime=NamingRegime.OPAQUE).by_path
         # A chair sees three chairs and a cup beside it, the cup sees four chairs.
         assert {local(p) for p in by_path.values()} == {"DesignedChair"}
-        assert all(p.evidence == ("hierarchy",) for p in by_path.values())
+        assert {p.evidence for p in by_path.values()} == {("company",)}
 
     def test_anonymous_context_gives_nothing_away_either(self, home_tbox: TBox):
         grounding = ground(self.SCENE, home_tbox, EmbeddedGrounder(), regime=NamingRegime.OPAQUE_ANONYMOUS)

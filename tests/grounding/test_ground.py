@@ -145,4 +145,4 @@ def test_unknown_evidence_is_an_error_that_names_the_known_groups(text: str, fou
     with pytest.raises(GroundingError) as error:
         parse_evidence(text)
     assert found in str(error.value)
-    assert "asset, geometry, hierarchy, materials, name, parts, position" in str(error.value)
+    assert "a list of asset, company, geometry, hierarchy, labels, materials, name, parts, position" in str(error.value)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.grounding.records import ground_names, local
+from tests.grounding.records import ground_names, ground_view, local
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.embedded.lexicon import build_lexicon
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
@@ -167,7 +167,119 @@ class TestModifiers:
         assert not any(reader.is_modifier(word) for word in ("mug", "lamp", "drawer", "qwrtz"))
 
 
+class TestNumbersAndCodes:
+    def test_a_measure_does_not_say_what_it_is(self, reader: NameReader, home_tbox: TBox):
+        written = ["Extinguisher_6kg", "shelf_4tier", "rope_10m", "TV_55in", "Bottle_500ml"]
+        bare = [name.partition("_")[0] for name in written]
+        assert [reader.read(name).words for name in written] == [(name.lower(),) for name in bare]
+        found, plain = ([local(p) for p in ground_names(names, home_tbox)] for names in (written, bare))
+        assert found == plain
+        assert found[:2] == ["DesignedTool", "DesignedFurniture"]
+
+    @pytest.mark.parametrize(
+        ("name", "words"),
+        [
+            ("Room1Door", ("room", "door")),
+            ("Kitchen1Sink", ("kitchen", "sink")),
+            ("Table3Lamp", ("table", "lamp")),
+            ("001Cup", ("cup",)),
+            ("2cup", ("cup",)),
+        ],
+    )
+    def test_a_number_before_a_word_is_not_always_a_measure(
+        self, reader: NameReader, name: str, words: tuple[str, ...]
+    ):
+        assert reader.read(name).words == words
+
+    @pytest.mark.parametrize(("name", "words"), [("hall2chair", ("hall", "chair")), ("4Chair", ("chair",))])
+    def test_a_longer_word_after_a_number_is_none(self, reader: NameReader, name: str, words: tuple[str, ...]):
+        assert reader.read(name).words == words
+
+    def test_a_code_at_the_end_leaves_the_class(self, home_tbox: TBox):
+        expected = {"Keyboard_DE": "Appliance", "MilkCarton_UHT": "MilkPack", "Chair_XK": "DesignedChair"}
+        assert classes_of(expected, home_tbox) == expected
+
+    def test_a_flavour_leaves_the_class(self, home_tbox: TBox):
+        expected = {"jam_apricot": "JamJar", "jam": "JamJar", "juice_bottle_orange": "Bottle"}
+        assert classes_of(expected, home_tbox) == expected
+
+    @pytest.mark.parametrize("name", ["pCube3", "polySurface12", "pCylinder_1", "Box_0012", "pPlane01"])
+    def test_made_up_names_say_nothing(self, home_tbox: TBox, name: str):
+        views = [("/a", ObjectView(name=name)), ("/b", ObjectView(name="obj_3"))]
+        made_up, nameless = EmbeddedGrounder().ground_views(views, home_tbox)
+        assert (made_up.class_iri, made_up.status) == (nameless.class_iri, nameless.status)
+        assert made_up.confidence == nameless.confidence
+        assert made_up.evidence == ()
+
+    def test_a_box_that_was_named_by_a_person_is_a_box(self, home_tbox: TBox):
+        expected = {"Box": "Box", "cardboard_box_3": "Box"}
+        assert classes_of(expected, home_tbox) == expected
+
+
+class TestSize:
+    """A second look at names whose last noun is of quite another size."""
+
+    EXPECTED = (
+        # A sign that hangs above an aisle is no aisle; what is as large as an aisle may be one.
+        ("ExitSign_Aisle", (0.3, 0.02, 0.15), "DesignedArtifact"),
+        ("ExitSign_Aisle", (9.0, 2.5, 0.01), "Floor"),
+        ("ExitSign_Aisle", None, "Floor"),
+        ("storage_room", (4.0, 3.0, 2.5), "Room"),
+        ("storage_room", None, "Room"),
+        # The window above the sink.
+        ("windowSink", (1.2, 0.1, 1.3), "DesignedComponent"),
+        ("windowSink", (0.6, 0.5, 0.2), "Sink"),
+        ("windowSink", None, "Sink"),
+    )
+
+    @pytest.mark.parametrize(("name", "size", "expected"), EXPECTED)
+    def test_what_a_name_means_depends_on_the_size(
+        self, home_tbox: TBox, name: str, size: tuple[float, float, float] | None, expected: str
+    ):
+        assert local(ground_view(ObjectView(name=name, size=size), home_tbox)) == expected
+
+    def test_the_second_look_is_told_and_less_sure(self, home_tbox: TBox):
+        first, second = (
+            ground_view(ObjectView(name="windowSink", size=size), home_tbox)
+            for size in ((0.6, 0.5, 0.2), (1.2, 0.1, 1.3))
+        )
+        assert "(it is “window” rather than “sink”, by its size)" in second.explanation
+        assert "by its size" not in first.explanation
+        assert second.candidates[0].score < first.candidates[0].score
+
+    @pytest.mark.parametrize("size", [(0.02, 0.02, 0.02), (30.0, 30.0, 30.0), (0.0, 0.0, 0.0)])
+    def test_a_name_of_one_noun_is_believed_whatever_its_size(self, home_tbox: TBox, size: tuple[float, float, float]):
+        for name, expected in (("Cup", "Cup"), ("Refrigerator", "Refrigerator"), ("spice_rack", "Rack")):
+            assert local(ground_view(ObjectView(name=name, size=size), home_tbox)) == expected
+
+
 class TestUnicode:
+    def test_names_in_other_languages_are_grounded(self, home_tbox: TBox):
+        expected = {
+            "Kuechenschrank": "KitchenCabinet",
+            "Küchenschrank_02": "KitchenCabinet",
+            "Kuhlschrank": "Refrigerator",  # as exporters write it that drop umlauts
+            "Geschirrspüler": "Dishwasher",
+            "Geschirrspueler": "Dishwasher",
+            "Stuhl_blau": "DesignedChair",
+            "silla_de_oficina": "DesignedChair",
+            "SillaDeOficina_3": "DesignedChair",
+            "lámpara": "Appliance",
+            "lampara": "Appliance",
+            "puerta_garaje": "Door",
+            "vaso_de_agua": "WaterGlass",
+            "nevera": "Refrigerator",
+        }
+        assert classes_of(expected, home_tbox) == expected
+
+    def test_a_translation_is_told(self, home_tbox: TBox):
+        (prediction,) = ground_names(["Kuechenschrank"], home_tbox)
+        assert "“kuechenschrank” read as “kitchen cupboard”" in prediction.explanation
+
+    @pytest.mark.parametrize("name", ["WallPaper", "Pan_2", "Wand", "table_mat"])
+    def test_english_names_are_not_translated(self, reader: NameReader, name: str):
+        assert reader.read(name).corrections == ()
+
     def test_german_names(self, home_tbox: TBox):
         expected = {
             "Kühlschrank": "Refrigerator",

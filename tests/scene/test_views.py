@@ -225,8 +225,9 @@ def test_no_group_shows_nothing():
 @pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
 def test_a_masked_target_keeps_its_company_but_not_with_the_study_s_evidence(regime):
     others = [[companion.name for companion in view.company.companions()] for view in views(KITCHEN, regime)]
+    # What lies on the table, below it in the stage, has its name among the parents' and is left out.
     assert [sorted(names) for names in others] == [
-        ["CupCBlue_1", "Lamp", "Plate"],
+        ["Lamp"],
         ["Lamp", "Plate", "Table"],
         ["CupCBlue_1", "Lamp", "Table"],
         ["CupCBlue_1", "Plate", "Table"],

@@ -181,7 +181,7 @@ def _anchor(
 
     senses = taxonomy.senses(key)
     # A sense below a word that names a superclass is the one the ontologist meant.
-    agreeing = [sense for sense in senses if agrees(sense)]
+    agreeing = [sense for sense in senses if agrees(sense)] if above and len(senses) > 1 else []
     fits = {sense.synset: sense_weight(sense) for sense in agreeing or senses}
     for synset, value in fits.items():
         share = value / max(fits.values())

@@ -25,9 +25,9 @@ _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
 _THING_DOMAINS = frozenset({"artifact", "food"})
 _SHORTEST_RESPELLED = 6
+"""Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 _SHORTEST_UNKNOWN = 5
 """Shorter words that are unknown are abbreviations sooner than misspelt."""
-"""Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,17 +196,17 @@ class NameReader:
 def _tokens(name: str) -> list[_Token]:
     tokens: list[_Token] = []
     at = 0
+    is_amount = False
     for part in split_identifier(name):
         start = name.find(part, at)
         is_glued = start == at and start > 0
         at = start + len(part)
         if part.isdigit() and tokens and is_glued and name[start - 1].isalpha():
             tokens[-1] = _Token(tokens[-1].text, part)
-        elif part.isalpha() and is_glued and name[start - 1].isdigit() and len(part) < _SHORTEST_UNKNOWN:
-            # A measure: 6kg, 4tier, 2m.
-            continue
-        else:
+        elif not (is_amount and is_glued and len(part) < _SHORTEST_UNKNOWN):
             tokens.append(_Token(part.lower(), ""))
+        # A number that stands apart may begin a measure: _6kg, _4tier; but Room1Door is a door.
+        is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
     return tokens
 
 
