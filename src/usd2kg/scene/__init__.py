@@ -3,7 +3,7 @@
 This package alone knows OpenUSD.
 """
 
-from usd2kg.scene.company import Companion, Company, Nearness
+from usd2kg.scene.company import Companion, Company, Nearness, size_distance
 from usd2kg.scene.model import (
     Box,
     Diagnostic,
@@ -56,5 +56,6 @@ __all__ = [
     "describe_shapes",
     "explain_choice",
     "read_scene",
+    "size_distance",
     "view_objects",
 ]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, NamedTuple
 
+from usd2kg.languages import split_compound
 from usd2kg.words import words_of
 
 __all__ = [
@@ -252,8 +253,8 @@ class SceneObject:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """The telling words of the display name or, without one, of the prim's name."""
-        return words_of(self.display_name or self.name)
+        """The telling words of the display name or, without one, of the prim's name; foreign compounds are split."""
+        return tuple(part for word in words_of(self.display_name or self.name) for part in split_compound(word))
 
 
 @dataclass(frozen=True)

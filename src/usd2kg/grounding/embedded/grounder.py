@@ -11,7 +11,7 @@ from functools import cached_property, lru_cache
 from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
 from usd2kg.grounding.embedded.calibration import features_of, probability
 from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company
-from usd2kg.grounding.embedded.decision import safest_class
+from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Match, Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
@@ -102,7 +102,7 @@ class EmbeddedGrounder:
         run = _run_for(tbox, self._use_home_synonyms)
         answers = [replace(run.predict(view), prim_path=path) for path, view in views]
         decided = [_abstaining(answer, tbox) for answer in answers] if self._abstains else answers
-        return [_calibrated(answer, tbox) for answer in decided]
+        return agree_by_asset([view for _, view in views], [_calibrated(answer, tbox) for answer in decided], tbox)
 
 
 def _calibrated(prediction: Prediction, tbox: TBox) -> Prediction:
