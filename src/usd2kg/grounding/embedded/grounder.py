@@ -149,8 +149,11 @@ class _Run:
         is_made_up = _is_made_up(view.name)
         findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
         if not findings or findings[0].match.score < _CLEAR:
-            short = [] if is_made_up else self._by_abbreviation(view)
-            findings = self._weigh(view, [*findings, *short], self._by_company(view))
+            # A tulip that is no class of the TBox is none of the things beside it either.
+            is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
+            short = [] if is_made_up or is_understood else self._by_abbreviation(view)
+            company = [] if is_understood else self._by_company(view)
+            findings = self._weigh(view, [*findings, *short], company) if short or company or findings else []
         if not findings or findings[0].match.score < _UNKNOWN:
             return self._default("what is known about it does not say what it is")
         best = findings[0]

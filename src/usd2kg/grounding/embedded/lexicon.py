@@ -20,6 +20,8 @@ _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communicatio
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
+_HAPPENINGS = frozenset((word,) for word in "activity event action process state situation task".split())
+"""Last words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
 _SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.\S*$")
 """A class called after a sense of WordNet: `chair.n.01`, `chair.n.wn.artifact..seat`."""
 _PLAUSIBLE = 0.7
@@ -91,7 +93,9 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     terms: dict[str, Term] = {}
     anchors: dict[int, Anchor] = {}
     depths = tbox.depths
-    for cls in sorted(tbox.classes, key=lambda cls: (depths[cls.iri], cls.iri)):
+    happenings = {cls.iri for cls in tbox.classes if _words(cls.label)[-1:] in _HAPPENINGS}
+    things = [cls for cls in tbox.classes if happenings.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
+    for cls in sorted(things, key=lambda cls: (depths[cls.iri], cls.iri)):
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
             for words in _variants(text, affixes, taxonomy):
                 _keep_best(terms, "".join(words), Term(cls.iri, " ".join(words), weight))
