@@ -15,7 +15,6 @@ from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Match, Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
-from usd2kg.grounding.embedded.sizes import misfit
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
@@ -48,12 +47,6 @@ _SUITED = 3
 """The classes that are considered for their size alone."""
 _SHARE_FLOOR = 0.3
 _MOST_TOKENS = 5
-_IMPLAUSIBLE = 6.0
-"""A `misfit` of this much makes a reading of the name implausible."""
-_UNKNOWN_FIT = 3.0
-_SMALLEST_PLACE = 2.0
-"""Metres: what is smaller is no room, yard or aisle, but may be named after one."""
-_SECOND_LOOK = 0.85
 _SAME_SIZE = 0.03
 _NEARNESS_TEXTS = {
     Nearness.NEXT: "right beside it",
@@ -236,7 +229,8 @@ class _Run:
             if group in {"hierarchy", "parts"} and self._says_what_it_is(view.name):
                 # A tulip is no class of the TBox; that it has a stem does not make it a tube.
                 break
-            for match in self._match_in_size(text, view) if group == "name" else self._match(text, ()):
+            is_name = group == "name"
+            for match in self._match(text, view.parents if is_name else (), view.size if is_name else None):
                 said = match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
                 findings.append(_Finding(group, Match(match.class_iri, match.score * _SHARES[group], said)))
             findings.sort(key=_by_score)
@@ -244,39 +238,14 @@ class _Run:
                 break
         return findings
 
-    def _match_in_size(self, text: str, view: ObjectView) -> Sequence[Match]:
-        """Return the classes of a name; if its last noun is of quite another size, those of a noun before it.
-
-        The window above the sink is called `windowSink`, and is no sink.
-        """
-        matches = self._match(text, view.parents)
-        if view.size is None or not matches:
-            return matches
-        heads = self._matcher.heads(self._reader.read(text, view.parents))
-        if len(heads) < 2 or not self._is_doubtful(heads[0][0], view.size):
-            return matches
-        known = [head for head in heads[1:] if head[1][0].score >= _CLEAR and self._may_be_meant(head[0], view.size)]
-        if not known:
-            return matches
-        words, better = min(known, key=lambda head: _misfit(view.size or (0, 0, 0), head[0]))
-        note = f" (it is “{' '.join(words)}” rather than “{' '.join(heads[0][0])}”, by its size)"
-        return [Match(m.class_iri, m.score * _SECOND_LOOK, m.explanation + note) for m in better]
-
-    def _may_be_meant(self, words: tuple[str, ...], size: tuple[float, float, float]) -> bool:
-        return not self._reader.is_place(words[-1]) and _misfit(size, words) < _IMPLAUSIBLE
-
-    def _is_doubtful(self, words: tuple[str, ...], size: tuple[float, float, float]) -> bool:
-        """Return whether a thing of this size is hardly called so: a sink of a window's size, a lounge of 40 cm."""
-        is_small_place = len(words) == 1 and max(size) < _SMALLEST_PLACE and self._reader.is_place(words[0])
-        # Of a compound only its own size counts: a spice rack is no rack of usual size.
-        return is_small_place or (misfit(size, "".join(words)) or 0.0) >= _IMPLAUSIBLE
-
     def _says_what_it_is(self, name: str) -> bool:
         words = self._reader.read(name).words
         return bool(words) and not self._reader.is_modifier(words[-1]) and self._reader.is_noun(words[-1])
 
-    def _match_text(self, text: str, parents: tuple[str, ...]) -> tuple[Match, ...]:
-        return tuple(self._matcher.match(self._reader.read(text, parents), parents))
+    def _match_text(
+        self, text: str, parents: tuple[str, ...], size: tuple[float, float, float] | None = None
+    ) -> tuple[Match, ...]:
+        return tuple(self._matcher.match(self._reader.read(text, parents), parents, size))
 
     def _by_company(self, view: ObjectView) -> list[_Finding]:
         """Return the classes of the things beside it and of its size, by their share."""
@@ -304,15 +273,6 @@ class _Run:
             explanation=f"{reason}; {self._tbox.by_iri[self._lexicon.default].local_name} is true of most things",
             candidates=(Candidate(self._lexicon.default, _DEFAULT),),
         )
-
-
-def _misfit(size: tuple[float, float, float], words: tuple[str, ...]) -> float:
-    """Return how ill a size suits a noun phrase, by its last word if need be; `_UNKNOWN_FIT` where nothing is known."""
-    for noun in ("".join(words), words[-1]):
-        value = misfit(size, noun)
-        if value is not None:
-            return value
-    return _UNKNOWN_FIT
 
 
 def _is_made_up(name: str) -> bool:

@@ -2,9 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import exp, prod
+from typing import NamedTuple
 
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
+from usd2kg.grounding.embedded.sizes import misfit
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.words import split_identifier
@@ -14,14 +17,21 @@ __all__ = ["Match", "Matcher"]
 _TERM, _COMPOUND_KIND, _KIND = 0.97, 0.88, 0.82
 _HOP_DECAY = 0.965
 _ROOT_SHARE = 0.75
-_FORMER_HEAD = 0.55
-_BEFORE_CODE = 0.8
 _RESPELLED = 0.9
-_WEAK = 0.5
-_EPITHET = 0.8
 _PLACED = 0.95
-_WHOLE = 0.75
-"""A term of several words that stands before the head, as a share of what it would be in its place."""
+_COMPOUND = 1.6
+"""How much likelier a phrase ends where a term of several words ends."""
+_FIRST_CHUNK = 2.5
+"""How much likelier it ends with a first part of several words: `DiningChair_Velvet`."""
+_LEAST_SHARE = 0.4
+"""Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
+_MISFIT = 0.15
+_USUAL = 3.0
+"""A `misfit` of less than this says nothing."""
+_SMALLEST_PLACE = 2.0
+"""Metres: what is smaller is no room, yard or aisle, but may be named after one."""
+
+Size = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +44,13 @@ class Match:
     explanation: str
 
 
+class _Reading(NamedTuple):
+    """One way to tell the head of a name from what follows it."""
+
+    weight: float
+    matches: list[Match]
+
+
 class Matcher:
     """Finds the classes for the phrases of one TBox."""
 
@@ -44,77 +61,72 @@ class Matcher:
         self._reader = reader
         self._roots = frozenset(tbox.roots)
 
-    def match(self, phrase: NamePhrase, parents: tuple[str, ...]) -> list[Match]:
-        """Return the classes a phrase may name, best first; none if no word of it is known."""
+    def match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None) -> list[Match]:
+        """Return the classes a phrase may name, best first; none if no word of it is known.
+
+        Each word at which the phrase proper may end is tried as its head: the bowl of `bowl_salad_oak`. How likely
+        that is weighs what follows (materials, flavours, colours and places may, another thing hardly), whether a term
+        of several words ends there, and whether a thing called so has about the given size.
+
+        Args:
+            phrase: the name.
+            parents: the names of the prims above, outermost first.
+            size: extents of the object in metres, in any order.
+        """
+        readings = [
+            found for end in range(1, len(phrase.words) + 1) if (found := self._reading(phrase, end, parents, size))
+        ]
+        total = sum(reading.weight for reading in readings)
         best: dict[ClassIRI, Match] = {}
-        for match in self._matches(phrase, parents):
-            if match.class_iri not in best or best[match.class_iri].score < match.score:
-                best[match.class_iri] = match
+        for reading in readings:
+            share = _LEAST_SHARE + (1 - _LEAST_SHARE) * reading.weight / total
+            for match in reading.matches:
+                score = match.score * share
+                if match.class_iri not in best or best[match.class_iri].score < score:
+                    best[match.class_iri] = Match(match.class_iri, score, match.explanation)
         return sorted(best.values(), key=lambda match: (-match.score, match.class_iri))
 
-    def heads(self, phrase: NamePhrase) -> list[tuple[tuple[str, ...], list[Match]]]:
-        """Return (words, classes) of each run of words at the beginning that may be the whole name, longest first."""
-        found = []
-        for end in range(len(phrase.words), 0, -1):
-            for start in range(end if not self._reader.is_modifier(phrase.words[end - 1]) else 0):
-                key = "".join((*phrase.words[start : end - 1], self._taxonomy.singular(phrase.words[end - 1])))
-                matches = [*self._by_term(key), *self._by_kind(key, is_compound=end - start > 1)]
-                if matches:
-                    found.append((phrase.words[start:end], sorted(matches, key=lambda match: -match.score)))
-                    break
-        return found
-
-    def _matches(self, phrase: NamePhrase, parents: tuple[str, ...]) -> Iterator[Match]:
+    def _reading(self, phrase: NamePhrase, end: int, parents: tuple[str, ...], size: Size | None) -> "_Reading | None":
+        """Return the reading in which the phrase proper ends before word number `end`; None if that names nothing."""
+        words, after = phrase.words[:end], phrase.words[end:]
+        run, found = self._at_head(words, (*phrase.context, *_words_above(parents)))
+        if not found:
+            return None
+        best = max(match.score for match in found)
+        weight = best * prod(self._reader.trailing(word) for word in after)
+        if len(run) > 1:
+            weight *= _COMPOUND
+        elif end > 1 or after:
+            weight *= 1 - self._reader.trailing(run[-1])
+        if end == phrase.first_chunk:
+            weight *= _FIRST_CHUNK
+        fits = 1.0 if size is None else self._fit(run, size)
+        note = f" (the thing in “{' '.join(phrase.words)}”)" if after else ""
+        note += "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
         share = _RESPELLED if phrase.corrections else 1.0
-        note = "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
-        for head in range(len(phrase.words), 0, -1):
-            if self._names_contents(phrase.words[:head]):
-                continue
-            found = self._at_head(phrase.words[:head], (*phrase.context, *_words_above(parents)))
-            for match in found:
-                yield Match(match.class_iri, match.score * share, match.explanation + note)
-            is_weak = max((match.score for match in found), default=0.0) < _WEAK
-            if found and not (is_weak and self._reader.is_epithet(phrase.words[head - 1])):
-                yield from self._as_a_whole(phrase.words[: head - 1], share, note)
-                return
-            if found:
-                share *= _EPITHET
-            elif not self._reader.is_modifier(phrase.words[head - 1]):
-                # The word that should say what it is means nothing here: what stands before it says less. A word that
-                # is no English noun is the code of a make or a place.
-                share *= _FORMER_HEAD if self._reader.is_noun(phrase.words[head - 1]) else _BEFORE_CODE
+        matches = [Match(match.class_iri, match.score * share, match.explanation + note) for match in found]
+        return _Reading(weight * fits, matches)
 
-    def _as_a_whole(self, words: tuple[str, ...], share: float, note: str) -> Iterator[Match]:
-        """Yield the class that several words at the beginning name together: `coffeeMachine_cafeLine`."""
-        for end in range(len(words), 1, -1):
-            for start in range(end - 1):
-                for match in self._by_term("".join(words[start:end])):
-                    yield Match(match.class_iri, match.score * share * _WHOLE, match.explanation + note)
-                    return
+    def _fit(self, run: tuple[str, ...], size: Size) -> float:
+        """Return how well a size suits what is called so, from `_MISFIT` to 1."""
+        if len(run) == 1 and max(size) < _SMALLEST_PLACE and self._reader.is_place(run[0]):
+            return _MISFIT
+        # Of a compound only its own size counts: a spice rack is no rack of usual size.
+        value = misfit(size, "".join(run))
+        return 1.0 if value is None else max(_MISFIT, min(1.0, exp((_USUAL - value) / 2)))
 
-    def _names_contents(self, words: tuple[str, ...]) -> bool:
-        """Return whether the last word says what a thing before it is made of or holds: `can_tomato`, `sink_steel`.
-
-        A compound that is known as a whole (`wine glass`) says what it says.
-        """
-        *before, last = words
-        if not before or not self._reader.is_stuff(last) or not self._reader.is_thing(before[-1]):
-            return False
-        compounds = ("".join(words[start:]) for start in range(len(words) - 1))
-        return not any(key in self._lexicon.terms or key in self._taxonomy for key in compounds)
-
-    def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> list[Match]:
-        """Return the matches of the longest run of words that ends with the last one and is known."""
+    def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], list[Match]]:
+        """Return the longest run of words that ends with the last one and is known, and its matches."""
         is_modifier = self._reader.is_modifier(words[-1])
         for start in range(len(words)):
             run = words[start:]
             if is_modifier and len(run) == 1:
-                return []
+                break
             key = "".join((*run[:-1], self._taxonomy.singular(run[-1])))
             found = [*self._by_term(key), *self._by_kind(key, len(run) > 1)]
             if found:
-                return [*self._in_place(key, run[-1], found, places), *found]
-        return []
+                return run, [*self._in_place(key, run[-1], found, places), *found]
+        return (), []
 
     def _by_term(self, key: str) -> list[Match]:
         term = self._lexicon.terms.get(key)

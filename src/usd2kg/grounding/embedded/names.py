@@ -1,5 +1,6 @@
 """Reading an object's name as a noun phrase: which of its words says what it is."""
 
+import re
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -21,6 +22,10 @@ _PLACEMENTS = frozenset(
     """.split()
 )
 _PLACES = frozenset(["room", "building", "passageway", "area", "land", "location", "tract", "facility"])
+_MOUNTS = frozenset(["wall", "ceiling", "floor", "door", "window", "counter", "table", "desk"])
+"""Where things hang and stand, and are called after: `clock_wall`."""
+_MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper"])
+_DESCRIBES, _CODE, _FLAVOUR, _PLACE, _OTHER_THING = 0.93, 0.8, 0.6, 0.5, 0.15
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
 _THING_DOMAINS = frozenset({"artifact", "food"})
@@ -38,6 +43,8 @@ class NamePhrase:
     """Modifiers first, the head noun last; empty if the name says nothing."""
     context: tuple[str, ...] = ()
     """Words of the name that refer to the thing's parent or place (`cabinet10` in `cabinet10_drawer`)."""
+    first_chunk: int = 0
+    """How many words stand before the first separator, if several do and more follow; else 0."""
     corrections: tuple[tuple[str, str], ...] = ()
     """(as written, as read) of the words that were corrected or split."""
 
@@ -70,18 +77,21 @@ class NameReader:
         translated = self._translated(tokens)
         if translated is not None:
             written = " ".join(token.text for token in tokens)
-            return NamePhrase(translated, tuple(t.text for t in references), ((written, " ".join(translated)),))
+            context = tuple(token.text for token in references)
+            return NamePhrase(translated, context, corrections=((written, " ".join(translated)),))
         for token in tokens:
             read = self.correct(token.text)
             words.extend(read)
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
-        return NamePhrase(tuple(words), tuple(token.text for token in references), tuple(corrections))
+        context = tuple(token.text for token in references)
+        return NamePhrase(tuple(words), context, _first_chunk(name, words), tuple(corrections))
 
     def _translated(self, tokens: list[_Token]) -> tuple[str, ...] | None:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
         words = tuple(token.text for token in tokens)
-        if all(map(self.is_known, words)) or "".join(words) in self._lexicon.terms:
+        is_english = all(word in self._taxonomy or word in self._taxonomy.adjectives for word in words)
+        if is_english or "".join(words) in self._lexicon.terms:
             return None
         return translate(words)
 
@@ -108,15 +118,25 @@ class NameReader:
         """Return whether the taxonomy knows a word as a noun for something physical."""
         return word in self._taxonomy
 
-    def is_stuff(self, word: str) -> bool:
-        """Return whether a word is first of all something that a thing is made of or holds: steel, glass, tomato."""
-        senses = self._taxonomy.senses(word)
-        return bool(senses) and senses[0].domain in _STUFF_DOMAINS | _CONTENT_DOMAINS
+    def trailing(self, word: str) -> float:
+        """Return how likely a word, behind the head of a name, does no more than describe: `table_oak`.
 
-    def is_epithet(self, word: str) -> bool:
-        """Return whether a word is first of all no thing of a scene, but may describe one: `tap_swanNeck`."""
+        A share of names by the word's first meaning, set by hand: materials, colours and shapes nearly always, codes
+        mostly, flavours and places often, other things seldom.
+        """
+        if word in _PLACEMENTS or word in self._taxonomy.adjectives:
+            return _DESCRIBES
         senses = self._taxonomy.senses(word)
-        return bool(senses) and senses[0].domain not in _THING_DOMAINS | {"communication"}
+        if not senses:
+            return _OTHER_THING if word in self._lexicon.terms else _CODE
+        if senses[0].domain in _STUFF_DOMAINS or self._is_material(senses[0].synset):
+            return _DESCRIBES
+        if senses[0].domain in _CONTENT_DOMAINS:
+            return _FLAVOUR
+        return _PLACE if self.is_place(word) or word in _MOUNTS else _OTHER_THING
+
+    def _is_material(self, synset: int) -> bool:
+        return any(self._taxonomy.name(up) in _MATERIALS for up, _ in self._taxonomy.walk_up(synset))
 
     def is_place(self, word: str) -> bool:
         """Return whether a word may stand for a room, a building or an area."""
@@ -125,11 +145,6 @@ class NameReader:
             for sense in self._taxonomy.senses(word)[:3]
             for up, _ in self._taxonomy.walk_up(sense.synset)
         )
-
-    def is_thing(self, word: str) -> bool:
-        """Return whether a word is first of all a made thing, or names a class."""
-        senses = self._taxonomy.senses(word)
-        return word in self._lexicon.terms or (bool(senses) and senses[0].domain == "artifact")
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
@@ -208,6 +223,14 @@ def _tokens(name: str) -> list[_Token]:
         # A number that stands apart may begin a measure: _6kg, _4tier; but Room1Door is a door.
         is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
     return tokens
+
+
+def _first_chunk(name: str, words: list[str]) -> int:
+    """Return the number of words before the first separator, if several do and others follow; else 0."""
+    chunks = [[t for t in _tokens(chunk) if is_telling(t.text)] for chunk in re.split(r"[^\w]|_", name)]
+    counts = [len(chunk) for chunk in chunks if chunk]
+    is_whole = bool(counts) and sum(counts) == len(words)
+    return counts[0] if is_whole and len(counts) > 1 and counts[0] > 1 else 0
 
 
 def _is_reference(token: _Token, above: set[_Token]) -> bool:
