@@ -20,7 +20,7 @@ from usd2kg.grounding.embedded.lexicon import Lexicon
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.scene import Company
 
-__all__ = ["AbbreviationReader", "Reading", "forms_of"]
+__all__ = ["AbbreviationReader", "Reading", "forms_of", "usual_abbreviations"]
 
 _VOWELS = frozenset("aeiou")
 _THINGS = frozenset({"artifact", "food", "plant", "substance"})
@@ -114,8 +114,8 @@ class AbbreviationReader:
         if piece[0] not in self._forms:
             self._forms[piece[0]] = self._index(piece[0])
         choices = list(self._forms[piece[0]].get(piece, ()))
-        if piece in _usual():
-            choices.append(_Choice(_USUAL, _usual()[piece]))
+        if piece in usual_abbreviations():
+            choices.append(_Choice(_USUAL, usual_abbreviations()[piece]))
         if company is not None:
             near = sorted(company.words_written(piece, forms_of), key=lambda found: -found[1] - found[2])[:_CHOICES]
             for word, share, score in near:
@@ -158,7 +158,7 @@ class AbbreviationReader:
 
 
 @lru_cache(maxsize=1)
-def _usual() -> dict[str, str]:
+def usual_abbreviations() -> dict[str, str]:
     """Return short form → word of the abbreviations that people have agreed on: `kbd` is a keyboard."""
     text = (files("usd2kg.grounding") / "data" / "abbreviations.csv").read_text(encoding="utf-8")
     return {row["short"]: row["word"] for row in csv.DictReader(io.StringIO(text))}

@@ -25,9 +25,8 @@ _FIRST_CHUNK = 2.5
 """How much likelier it ends with a first part of several words: `DiningChair_Velvet`."""
 _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
-_MISFIT = 0.15
-_USUAL = 3.0
-"""A `misfit` of less than this says nothing."""
+_MISFIT, _USUAL, _SLOPE = 0.06, 3.0, 2.0
+"""A `misfit` of less than `_USUAL` says nothing; from there each `_SLOPE` more makes the thing e times less likely."""
 _SMALLEST_PLACE = 2.0
 """Metres: what is smaller is no room, yard or aisle, but may be named after one."""
 
@@ -96,8 +95,8 @@ class Matcher:
         weight = best * prod(self._reader.trailing(word) for word in after)
         if len(run) > 1:
             weight *= _COMPOUND
-        elif end > 1 or after:
-            weight *= 1 - self._reader.trailing(run[-1])
+        elif len(phrase.words) > 1:
+            weight *= 1 - self._reader.trailing(run[-1], is_last=not after)
         if end == phrase.first_chunk:
             weight *= _FIRST_CHUNK
         fits = 1.0 if size is None else self._fit(run, size)
@@ -113,7 +112,7 @@ class Matcher:
             return _MISFIT
         # Of a compound only its own size counts: a spice rack is no rack of usual size.
         value = misfit(size, "".join(run))
-        return 1.0 if value is None else max(_MISFIT, min(1.0, exp((_USUAL - value) / 2)))
+        return 1.0 if value is None else max(_MISFIT, min(1.0, exp((_USUAL - value) / _SLOPE)))
 
     def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], list[Match]]:
         """Return the longest run of words that ends with the last one and is known, and its matches."""

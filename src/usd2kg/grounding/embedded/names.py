@@ -7,6 +7,8 @@ from functools import lru_cache
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
+from usd2kg.grounding.embedded.abbreviations import usual_abbreviations
+from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.languages import translate
@@ -21,16 +23,22 @@ _PLACEMENTS = frozenset(
     three four five six first second third type var variant alt empty used set grey gray beige body assembly part
     """.split()
 )
-_PLACES = frozenset(["room", "building", "passageway", "area", "land", "location", "tract", "facility"])
-_MOUNTS = frozenset(["wall", "ceiling", "floor", "door", "window", "counter", "table", "desk"])
+_PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility"])
+_MOUNTS = frozenset(
+    "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
+)
 """Where things hang and stand, and are called after: `clock_wall`."""
 _MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper"])
-_DESCRIBES, _CODE, _FLAVOUR, _PLACE, _OTHER_THING = 0.93, 0.8, 0.6, 0.5, 0.15
+_DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
+_MOUNT, _PLACE = 0.3, 0.4
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
+_SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "substance", "object", "shape"})
 _THING_DOMAINS = frozenset({"artifact", "food"})
 _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
+_LONG = 7
+"""Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
 _SHORTEST_UNKNOWN = 5
 """Shorter words that are unknown are abbreviations sooner than misspelt."""
 
@@ -79,13 +87,20 @@ class NameReader:
             written = " ".join(token.text for token in tokens)
             context = tuple(token.text for token in references)
             return NamePhrase(translated, context, corrections=((written, " ".join(translated)),))
+        others = [token.text for token in tokens if token.text not in usual_abbreviations()]
+        is_spelled = bool(others) and all(map(self.is_known, others))
         for token in tokens:
-            read = self.correct(token.text)
+            read = self._spelled_out(token.text) if is_spelled else self.correct(token.text)
             words.extend(read)
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
         context = tuple(token.text for token in references)
         return NamePhrase(tuple(words), context, _first_chunk(name, words), tuple(corrections))
+
+    def _spelled_out(self, word: str) -> tuple[str, ...]:
+        """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""
+        usual = usual_abbreviations().get(word)
+        return (usual,) if usual is not None and word not in self._lexicon.terms else self.correct(word)
 
     def _translated(self, tokens: list[_Token]) -> tuple[str, ...] | None:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
@@ -118,22 +133,29 @@ class NameReader:
         """Return whether the taxonomy knows a word as a noun for something physical."""
         return word in self._taxonomy
 
-    def trailing(self, word: str) -> float:
+    def trailing(self, word: str, *, is_last: bool = True) -> float:
         """Return how likely a word, behind the head of a name, does no more than describe: `table_oak`.
 
         A share of names by the word's first meaning, set by hand: materials, colours and shapes nearly always, codes
-        mostly, flavours and places often, other things seldom.
+        mostly, flavours and places often, other things seldom. Before the last word only the first kind does.
         """
+        share = self._trailing(word)
+        return share if is_last or share == _DESCRIBES else 0.0
+
+    def _trailing(self, word: str) -> float:
         if word in _PLACEMENTS or word in self._taxonomy.adjectives:
             return _DESCRIBES
+        if word in _MOUNTS:
+            return _MOUNT
         senses = self._taxonomy.senses(word)
         if not senses:
             return _OTHER_THING if word in self._lexicon.terms else _CODE
-        if senses[0].domain in _STUFF_DOMAINS or self._is_material(senses[0].synset):
+        first = next((sense for sense in senses if sense.domain in _SOLID_DOMAINS), senses[0])
+        if first.domain in _STUFF_DOMAINS or self._is_material(first.synset):
             return _DESCRIBES
-        if senses[0].domain in _CONTENT_DOMAINS:
+        if first.domain in _CONTENT_DOMAINS:
             return _FLAVOUR
-        return _PLACE if self.is_place(word) or word in _MOUNTS else _OTHER_THING
+        return _PLACE if self.is_place(word) else _OTHER_THING
 
     def _is_material(self, synset: int) -> bool:
         return any(self._taxonomy.name(up) in _MATERIALS for up, _ in self._taxonomy.walk_up(synset))
@@ -148,7 +170,7 @@ class NameReader:
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
-        above = {token for parent in parents for token in _tokens(parent)}
+        above = {token for parent in parents for token in _repeated(parent, tokens)}
         references = [token for token in tokens if _is_reference(token, above)]
         own = [token for token in tokens if token not in references]
         if any(not self.is_modifier(word) for token in own for word in self.correct(token.text)):
@@ -162,7 +184,9 @@ class NameReader:
         singular = self._taxonomy.singular(word)
         if singular != word:
             return (singular,)
-        return self._split(word) or self._respell(word) or (word,)
+        # A long word with one letter amiss is misspelt sooner than made of two words.
+        slip = self._respell(word, 1) if len(word) >= _LONG else None
+        return slip or self._split(word) or self._respell(word, 1 if len(word) < 8 else 2) or (word,)
 
     def _split(self, word: str) -> tuple[str, ...] | None:
         """Split a compound into known words, the longest last word first; pipeline tokens at the end fall off."""
@@ -170,7 +194,7 @@ class NameReader:
             left, right = word[:at], self._taxonomy.singular(word[at:])
             if not is_telling(right):
                 return self._known_words(left)
-            if self._is_noun(right) and (before := self._known_words(left)):
+            if right not in _PLACEMENTS and self._is_noun(right) and (before := self._known_words(left)):
                 return (*before, right)
         return None
 
@@ -188,24 +212,25 @@ class NameReader:
             return True
         return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in self._taxonomy.senses(word))
 
-    def _respell(self, word: str) -> tuple[str, ...] | None:
+    def _respell(self, word: str, budget: int) -> tuple[str, ...] | None:
         if len(word) < _SHORTEST_UNKNOWN or not word.isalpha():
             return None
-        budget = 1 if len(word) < 8 else 2
-        best: tuple[int, int, str] | None = None
+        ranked: list[tuple[int, bool, float, str]] = []
         for length in range(len(word) - budget, len(word) + budget + 1):
-            choices = self._by_length.get(length, [])
-            for candidate, distance, _ in process.extract(
-                word, choices, scorer=OSA.distance, score_cutoff=budget, limit=5
-            ):
+            near = process.extract(
+                word, self._by_length.get(length, []), scorer=OSA.distance, score_cutoff=budget, limit=8
+            )
+            for candidate, distance, _ in near:
                 # The TBox's own words first: they are what the scene is likely to be about.
                 is_foreign = candidate not in self._lexicon.vocabulary
-                rank = (int(distance), is_foreign, candidate)
-                if candidate[0] != word[0] or (is_foreign and len(word) < _SHORTEST_RESPELLED):
-                    continue
-                if best is None or rank < best:
-                    best = rank
-        return (best[2],) if best else None
+                if candidate[0] == word[0] and not (is_foreign and len(word) < _SHORTEST_RESPELLED):
+                    is_doubling = _undoubled(candidate) == _undoubled(word)
+                    ranked.append((int(distance), not is_doubling, -thing_prior(candidate) + 2 * is_foreign, candidate))
+        return (min(ranked)[3],) if ranked else None
+
+
+def _undoubled(word: str) -> str:
+    return "".join(letter for letter, before in zip(word, " " + word, strict=False) if letter != before)
 
 
 def _tokens(name: str) -> list[_Token]:
@@ -218,11 +243,22 @@ def _tokens(name: str) -> list[_Token]:
         at = start + len(part)
         if part.isdigit() and tokens and is_glued and name[start - 1].isalpha():
             tokens[-1] = _Token(tokens[-1].text, part)
-        elif not (is_amount and is_glued and len(part) < _SHORTEST_UNKNOWN):
+        elif not (is_amount and is_glued and len(part) < _LONG):
             tokens.append(_Token(part.lower(), ""))
         # A number that stands apart may begin a measure: _6kg, _4tier; but Room1Door is a door.
         is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
     return tokens
+
+
+def _repeated(parent: str, tokens: list[_Token]) -> list[_Token]:
+    """Return the tokens of a parent's name that may stand in a name for the parent.
+
+    All of them must: below `knifeBlock` a `breadKnife` is a knife. A number tells by itself.
+    """
+    above = _tokens(parent)
+    telling = {token.text for token in above if is_telling(token.text)}
+    is_whole = telling <= {token.text for token in tokens}
+    return [token for token in above if is_whole or token.number]
 
 
 def _first_chunk(name: str, words: list[str]) -> int:
