@@ -146,7 +146,7 @@ class _Run:
             is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
             short = [] if is_made_up or is_understood else self._by_abbreviation(view)
             company = [] if is_understood else self._by_company(view)
-            findings = self._weigh(view, [*findings, *short], company) if short or company or findings else []
+            findings = [] if is_understood else self._weigh(view, [*findings, *short], company)
         if not findings or findings[0].match.score < _UNKNOWN:
             return self._default("what is known about it does not say what it is")
         best = findings[0]
