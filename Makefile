@@ -55,8 +55,11 @@ lock: $(READY) ## Pin what pyproject.toml asks for into requirements/, with hash
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	  --output-file requirements/run.txt pyproject.toml
 
-scene: $(READY) ## Write the demo kitchen anew from its scripts
+scene: $(READY) ## Write the demo kitchen and the scenes of the benchmarks anew from their scripts
 	$(BIN)/python -m examples.demo_kitchen.make
+	$(BIN)/python -m examples.demo_office.make
+	$(BIN)/python -m examples.demo_warehouse.make
+	$(BIN)/python -m examples.test_flat.make
 
 clean: ## Remove what was built
 	rm -rf .venv build dist
