@@ -1,31 +1,20 @@
 """What the surroundings say: votes of the companions, and the classes that a size speaks for."""
 
 import math
-from collections.abc import Sequence
 
 import pytest
 
 from tests.grounding.records import SOMA, make_class, make_object, make_scene, make_tbox
 from usd2kg.grounding.embedded import context
-from usd2kg.grounding.embedded.context import SizeBeliefs, Votes, ask_company
-from usd2kg.grounding.embedded.grounder import _run_for
+from usd2kg.grounding.embedded.context import SizeBeliefs, Votes, ask_company, siblings_as_company
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder, _run_for
 from usd2kg.grounding.embedded.matching import Match
 from usd2kg.ontology import TBox
-from usd2kg.scene import Box, Companion, NamingRegime, Nearness, view_objects
+from usd2kg.scene import Box, Companion, NamingRegime, Nearness, ObjectView, view_objects
 
 NEXT, SIBLING, TWIN, ALIKE = Nearness.NEXT, Nearness.SIBLING, Nearness.TWIN, Nearness.ALIKE
 REST = 0.5
 """What the company is held to say nothing with, in weights of a companion right beside."""
-
-
-class Around:
-    """A company of given companions."""
-
-    def __init__(self, *companions: Companion) -> None:
-        self._companions = companions
-
-    def companions(self) -> Sequence[Companion]:
-        return self._companions
 
 
 def near(name: str, nearness: Nearness = NEXT, distance: float | None = 0.1) -> Companion:
@@ -40,7 +29,7 @@ def by_first_word(name: str, parents: tuple[str, ...]) -> list[Match]:
 
 
 def votes(*companions: Companion) -> Votes:
-    return ask_company(Around(*companions), by_first_word)
+    return ask_company(companions, by_first_word)
 
 
 def ratio(one: Companion, other: Companion) -> float:
@@ -119,7 +108,7 @@ def test_companions_are_classified_with_the_names_above_them():
         asked.append((name, parents))
         return []
 
-    ask_company(Around(Companion("cabinet", ("World", "Kitchen"), NEXT, None)), classify)
+    ask_company([Companion("cabinet", ("World", "Kitchen"), NEXT, None)], classify)
     assert asked == [("cabinet", ("World", "Kitchen"))]
 
 
@@ -134,7 +123,7 @@ def test_a_chair_among_chairs_of_its_size_in_a_real_company(home_tbox: TBox):
     target = make_object("/Hall/x", box=Box((0, 0, 0), (0.5, 0.5, 0.9)))
     *_, (_, view) = view_objects(make_scene(*chairs, table, target), NamingRegime.OPAQUE)
     assert view.company is not None
-    found = ask_company(view.company, _run_for(home_tbox, True)._match).shares
+    found = ask_company(view.company.companions(), _run_for(home_tbox, True)._match).shares
     assert found[SOMA + "DesignedChair"] > 0.7
     assert found[SOMA + "Table"] < 0.1
 
@@ -211,3 +200,16 @@ def test_beliefs_follow_the_names_that_the_nouns_match():
     assert beliefs.ask((0.09, 0.09, 0.1))["small"][0] == 1
     assert beliefs.ask((0.6, 0.65, 1.8))["large"][0] == 1
     assert beliefs.ask((0.6, 0.65, 1.8))["small"][0] < 1e-3
+
+
+def test_siblings_of_which_only_the_names_are_known_vote_alike():
+    found = ask_company(siblings_as_company(["cup-0.8", "cup-0.8", "bowl-0.8"], ("Room",)), by_first_word)
+    assert found.shares["cup"] == pytest.approx(2 * found.shares["bowl"])
+    assert len(siblings_as_company(map(str, range(1000)), ())) == 48
+
+
+def test_hierarchy_alone_lets_the_siblings_speak(home_tbox: TBox):
+    view = ObjectView(name="obj_001", parents=("Room",), siblings=["Cup_1", "Cup_2", "Plate_1"], is_masked=True)
+    (answer,) = EmbeddedGrounder().ground_views([("/Room/x", view)], home_tbox)
+    assert home_tbox.by_iri[answer.class_iri].local_name == "Cup"
+    assert answer.evidence == ("hierarchy",)

@@ -5,7 +5,8 @@ and place in the tree): the nearer in the tree and the more alike in size, the h
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -14,9 +15,9 @@ from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.matching import Match
 from usd2kg.grounding.embedded.sizes import log_likelihoods, thing_nouns
 from usd2kg.ontology import ClassIRI
-from usd2kg.scene import Companion, Company, Nearness
+from usd2kg.scene import Companion, Nearness
 
-__all__ = ["SizeBeliefs", "Votes", "ask_company"]
+__all__ = ["SizeBeliefs", "Votes", "ask_company", "siblings_as_company"]
 
 _WEIGHTS = {Nearness.NEXT: 1.0, Nearness.SIBLING: 0.35, Nearness.TWIN: 0.6, Nearness.ALIKE: 0.12}
 _TWIN_BONUS = 3.0
@@ -27,6 +28,7 @@ _SIZE_SPREAD = 0.3
 _UNKNOWN_SIZE = 0.5
 _PRIOR_POWER = 0.5
 """How much heed is paid to what things are most common: all of them stand in scenes, each in some."""
+_MOST_SIBLINGS = 48
 _CLEAREST = 0.5
 """A companion whose own name says less has no vote."""
 
@@ -40,11 +42,20 @@ class Votes(NamedTuple):
     """Class → the companion that spoke for it with most weight."""
 
 
-def ask_company(company: Company, classify: Callable[[str, tuple[str, ...]], Sequence[Match]]) -> Votes:
-    """Return the votes of a company; `classify` gives the classes for a name and the names above it, best first."""
+Classify = Callable[[str, tuple[str, ...]], Sequence[Match]]
+"""Gives the classes for a name and the names above it, best first."""
+
+
+def siblings_as_company(names: Iterable[str], parents: tuple[str, ...]) -> list[Companion]:
+    """Return siblings of which only the names are known, as the study shows them; at most 48."""
+    return [Companion(name, parents, Nearness.SIBLING, None) for name in islice(names, _MOST_SIBLINGS)]
+
+
+def ask_company(companions: Iterable[Companion], classify: Classify) -> Votes:
+    """Return the votes of a company."""
     totals: dict[ClassIRI, float] = {}
     heaviest: dict[ClassIRI, tuple[float, Companion]] = {}
-    for companion in company.companions():
+    for companion in companions:
         matches = classify(companion.name, companion.parents)
         if not matches or matches[0].score < _CLEAREST:
             continue
@@ -69,7 +80,7 @@ def _weight(companion: Companion) -> float:
 class SizeBeliefs:
     """Which classes an object's size speaks for, by the usual sizes of a thousand everyday things."""
 
-    def __init__(self, classify: Callable[[str, tuple[str, ...]], Sequence[Match]]) -> None:
+    def __init__(self, classify: Classify) -> None:
         nouns = thing_nouns()
         matches = [classify(noun, ()) for noun in nouns]
         self.classes = tuple(sorted({found[0].class_iri for found in matches if found}))

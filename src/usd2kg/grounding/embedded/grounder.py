@@ -10,7 +10,7 @@ from functools import cached_property, lru_cache
 
 from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
 from usd2kg.grounding.embedded.calibration import features_of, probability
-from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company
+from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company, siblings_as_company
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Match, Matcher
@@ -249,11 +249,13 @@ class _Run:
 
     def _by_company(self, view: ObjectView) -> list[_Finding]:
         """Return the classes of the things beside it and of its size, by their share."""
-        if view.company is None:
-            return []
-        votes = ask_company(view.company, self._match)
+        if view.company is not None:
+            group, companions = "company", view.company.companions()
+        else:
+            group, companions = "hierarchy", siblings_as_company(view.siblings, view.parents)
+        votes = ask_company(companions, self._match)
         return [
-            _Finding("company", Match(iri, share, self._company_text(iri, votes.heaviest[iri])))
+            _Finding(group, Match(iri, share, self._company_text(iri, votes.heaviest[iri])))
             for iri, share in votes.shares.items()
         ]
 
