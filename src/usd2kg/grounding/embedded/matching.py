@@ -21,7 +21,7 @@ _RESPELLED = 0.9
 _PLACED = 0.95
 _COMPOUND = 1.6
 """How much likelier a phrase ends where a term of several words ends."""
-_FIRST_CHUNK = 2.5
+_FIRST_CHUNK = 6.0
 """How much likelier it ends with a first part of several words: `DiningChair_Velvet`."""
 _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""

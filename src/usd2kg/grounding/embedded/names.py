@@ -88,7 +88,8 @@ class NameReader:
             context = tuple(token.text for token in references)
             return NamePhrase(translated, context, corrections=((written, " ".join(translated)),))
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
-        is_spelled = bool(others) and all(map(self.is_known, others))
+        # Among other unknown words an abbreviation is better read with them, by what the stage speaks of.
+        is_spelled = any(map(self.is_known, others)) if others else len(tokens) > 1
         for token in tokens:
             read = self._spelled_out(token.text) if is_spelled else self.correct(token.text)
             words.extend(read)
