@@ -1,5 +1,8 @@
 """Names read as noun phrases."""
 
+import os
+import subprocess
+import sys
 from collections.abc import Iterable
 from typing import ClassVar
 
@@ -355,3 +358,32 @@ class TestHeads:
     @pytest.mark.parametrize(("written", "read"), [("barrell", "barrel"), ("collander", "colander")])
     def test_a_doubled_letter_is_the_likeliest_slip(self, reader: NameReader, written: str, read: str):
         assert reader.read(written).words == (read,)
+
+
+class TestFreeText:
+    """Display names are whatever somebody typed."""
+
+    def test_a_page_of_words_is_read_at_its_beginning(self, home_tbox: TBox):
+        prediction = ground_view(ObjectView(name="chair " + "elephant " * 4000), home_tbox)
+        assert len(prediction.explanation) < 500
+
+    def test_words_that_other_names_bear_are_ranked_the_same_in_every_run(self):
+        # Sets of words have another order in each process.
+        code = (
+            "from usd2kg.grounding.embedded.abbreviations import forms_of\n"
+            "from tests.grounding.records import make_object, make_scene\n"
+            "from usd2kg.scene import view_objects\n"
+            "scene = make_scene(*(make_object(f'/R/{n}') for n in ('pot_big_red_tin', 'tap_tub_pit', 'x')))\n"
+            "*_, (_, view) = view_objects(scene)\n"
+            "print(view.company.words_written('t', forms_of), view.company.words_written('p', forms_of))"
+        )
+        outputs = {
+            subprocess.run(
+                [sys.executable, "-c", code],
+                env={**os.environ, "PYTHONHASHSEED": seed},
+                capture_output=True,
+                check=True,
+            ).stdout
+            for seed in ("1", "2", "3")
+        }
+        assert len(outputs) == 1

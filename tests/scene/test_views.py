@@ -352,3 +352,8 @@ def test_twenty_thousand_siblings_are_not_quadratic(regime):
     lengths = {len(view.siblings) for view in views(scene, regime)}
     assert lengths == {19_999}
     assert time.perf_counter() - start < 5
+
+
+def test_a_name_of_thousands_of_digits_is_abbreviated():
+    assert abbreviate("cup_" + "0" * 3 + "7" * 5000) == "cp" + "7" * 5000
+    assert abbreviate("cup_000") == "cp0"

@@ -80,7 +80,7 @@ class _Stage:
     @cached_property
     def words(self) -> Counter[str]:
         """Word → number of objects with it in their names."""
-        return Counter(word for obj in self.objects for word in set(words_of(obj.name)))
+        return Counter(word for obj in self.objects for word in dict.fromkeys(words_of(obj.name)))
 
     def written(self, ways: "Ways") -> Mapping[str, list[tuple[str, float]]]:
         """Return form → (word, score) of the words that may be written so."""

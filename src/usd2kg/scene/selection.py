@@ -73,7 +73,8 @@ def select_objects(
 def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, str]:
     nodes = [node for node in outline.root.walk() if node is not outline.root]
     if overrides.only:
-        return {node.path: "listed by the user" for node in nodes if node.path in set(overrides.only)}
+        only = frozenset(overrides.only)
+        return {node.path: "listed by the user" for node in nodes if node.path in only}
     if overrides.is_every_prim:
         candidates = {node.path: "every prim with geometry was asked for" for node in nodes if node.gprim_count}
     else:

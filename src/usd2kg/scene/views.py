@@ -6,6 +6,7 @@ lists would give every name away.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -119,7 +120,7 @@ def abbreviate(name: str, length: int = ABBREVIATED_LENGTH) -> str:
     for word in split_identifier(name):
         lower = word.lower()
         if lower.isdecimal():
-            short.append(str(int(lower)))
+            short.append("".join(str(int(digit)) for digit in lower).lstrip("0") or "0")
         else:
             short.append("".join(c for c in lower if c not in "aeiou")[:length] or lower[0])
     return "".join(short) or name.lower()
@@ -207,13 +208,18 @@ def _masked_names(scene: Scene, regime: NamingRegime, length: int) -> list[str]:
 
 def _collision_free(names: list[str], short: list[str]) -> list[str]:
     """Return the short names, numbered where different authored names would share one."""
-    owners: dict[str, str] = {}
+    by_name: dict[str, str] = {}
+    owned: set[str] = set()
+    counts: Counter[str] = Counter()
     for name, abbreviation in zip(names, short, strict=True):
-        candidate, count = abbreviation, 1
-        while owners.setdefault(candidate, name) != name:
-            count += 1
-            candidate = f"{abbreviation}x{count}"
-    by_name = {name: abbreviation for abbreviation, name in owners.items()}
+        if name in by_name:
+            continue
+        candidate = abbreviation
+        while candidate in owned:
+            counts[abbreviation] += 1
+            candidate = f"{abbreviation}x{counts[abbreviation] + 1}"
+        owned.add(candidate)
+        by_name[name] = candidate
     return [by_name[name] for name in names]
 
 

@@ -117,10 +117,12 @@ class AbbreviationReader:
         if piece in usual_abbreviations():
             choices.append(_Choice(_USUAL, usual_abbreviations()[piece]))
         if company is not None:
-            near = sorted(company.words_written(piece, forms_of), key=lambda found: -found[1] - found[2])[:_CHOICES]
-            for word, share, score in near:
-                prior = math.log(_STAGE_SHARE * min(1.0, share))
-                choices.append(_Choice(prior + score, self._taxonomy.singular(word)))
+            near = [
+                (math.log(_STAGE_SHARE * min(1.0, share)) + score, word)
+                for word, share, score in company.words_written(piece, forms_of)
+            ]
+            best = sorted(near, key=lambda found: (-found[0], found[1]))[:_CHOICES]
+            choices.extend(_Choice(score, self._taxonomy.singular(word)) for score, word in best)
         return choices
 
     def _extended(self, paths: list[_Path], piece: str, choices: list[_Choice]) -> Iterator[_Path]:

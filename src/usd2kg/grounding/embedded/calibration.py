@@ -23,11 +23,11 @@ _LABEL = 0.95
 def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
     """Return the features of an answer.
 
-    - `score`: of the chosen class, 0 to 1;
+    - `score`: of the likeliest class, 0 to 1;
     - `margin`: how far the next class is behind;
     - `is_label`: whether the name is the class's own label;
     - `is_general`: whether the class is a root of the TBox, true of so much that a better one may be missed;
-    - `is_company`: whether the surroundings decided and not the words.
+    - `is_company`: whether other objects or the size decided and not the words.
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
@@ -36,7 +36,7 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
         "score": first,
         "margin": first - second,
         "is_label": float(first > _LABEL),
-        "is_general": float(prediction.class_iri in tbox.roots),
+        "is_general": float(prediction.class_iri is not None and not tbox.by_iri[prediction.class_iri].parents),
         "is_company": float(not {"company", "geometry"}.isdisjoint(prediction.evidence)),
     }
 

@@ -77,5 +77,6 @@ def _is_copy(one: ObjectView, other: ObjectView) -> bool:
 
 
 def _following(prediction: Prediction, best: Prediction, name: str) -> Prediction:
-    explanation = f"it is a copy of “{name}”, of the same asset and size: {best.explanation}"
+    other = f"“{name}”" if name else "another object"
+    explanation = f"it is a copy of {other}, of the same asset and size: {best.explanation}"
     return replace(best, prim_path=prediction.prim_path, explanation=explanation, evidence=("asset",))

@@ -262,7 +262,8 @@ class _Run:
     def _company_text(self, iri: ClassIRI, companion: Companion) -> str:
         where = _NEARNESS_TEXTS[companion.nearness]
         alike = companion.distance is not None and companion.distance < _SAME_SIZE
-        size = ", of the same size," if alike and companion.nearness is not Nearness.TWIN else ""
+        is_told = companion.nearness in {Nearness.TWIN, Nearness.ALIKE}
+        size = ", of the same size," if alike and not is_told else ""
         return f"“{companion.name}” {where}{size} is {self._tbox.by_iri[iri].local_name}"
 
     def _default(self, reason: str) -> Prediction:

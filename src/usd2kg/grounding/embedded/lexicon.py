@@ -161,6 +161,7 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
 
     An ontology's largest root may be of activities or spaces, and no thing is one of those.
     """
+    below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
 
     def rank(root: ClassIRI) -> tuple[int, int, str]:
         words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or ("",)
@@ -168,7 +169,7 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
         senses = taxonomy.senses(head)
         is_made = bool(senses) and senses[0].domain == "artifact"
         kind = 0 if head in _GENERAL else 1 if is_made else 2
-        return (kind, -sum(tbox.is_subclass(cls.iri, root) for cls in tbox.classes), root)
+        return (kind, -below[root], root)
 
     return min(tbox.roots, key=rank)
 

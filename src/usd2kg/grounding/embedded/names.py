@@ -37,6 +37,8 @@ _SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "substance", 
 _THING_DOMAINS = frozenset({"artifact", "food"})
 _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
+_MOST_WORDS = 16
+"""Words of a name that are read; display names are free text, and no thing's name is longer."""
 _LONG = 7
 """Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
 _SHORTEST_UNKNOWN = 5
@@ -78,7 +80,7 @@ class NameReader:
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
-        tokens = [token for token in _tokens(name) if is_telling(token.text)]
+        tokens = [token for token in _tokens(name) if is_telling(token.text)][:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         corrections: list[tuple[str, str]] = []
