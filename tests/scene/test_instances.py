@@ -395,16 +395,12 @@ def test_boxes_of_two_prototypes_of_the_same_legs():
     assert [obj.box.size[0] for obj in scene.objects] == [3, 3, 10, 10, 9]
 
 
-@pytest.mark.xfail(strict=True, reason="points of fewer than three are measured by their box, with the width")
 def test_boxes_of_turned_instances_of_a_line():
     lines = ["point3f[] points = [(0, 0, 0), (1, 0, 0)]", "int[] curveVertexCounts = [2]", "float[] widths = [0.1]"]
     rope = prim("BasisCurves", "rope", *lines, 'uniform token type = "linear"')
     assert_alike(*world(shared(rope, cube("knot", size=0.1)), *(instance(name, TURNED) for name in ("I1", "I2"))))
 
 
-@pytest.mark.xfail(
-    strict=True, reason="what is turned back by its instance is measured by points, a copy by its extent"
-)
 def test_boxes_of_what_is_turned_within_an_instance_and_turned_back():
     points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]"
     back = ops(("float", "rotateZ", -30))

@@ -31,6 +31,10 @@ class _Shape:
 
     corners: list[_Matrix]
     """(n, 3) for each: the corners of its extent where that is tight, else its points."""
+    extents: list[_Matrix]
+    """(8, 3) for each, or (0, 3): the corners of its extent, tight or not."""
+    matrices: list[_Matrix]
+    """(4, 4) for each: from its frame to that of the object's prim."""
     gprims: list[Any]
     """The gprims of the instance that the corners were read from."""
     points: list[_Matrix] | None = None
@@ -111,7 +115,7 @@ class BoxReader:
         return self._shapes[key]
 
     def _read_shape(self, root: Node, gprims: list[Node]) -> _Shape | None:
-        corners = []
+        corners, extents, matrices = [], [], []
         for gprim in gprims:
             matrix, resets = self._relative(gprim, root)
             found = self.read_local_corners(gprim.prim)
@@ -120,8 +124,10 @@ class BoxReader:
             is_tight = len(found) and (not gprim.is_point_based or _is_aligned(matrix))
             local = found if is_tight else _points_of(gprim.prim, self._time)
             corners.append(local @ matrix[:3, :3] + matrix[3, :3])
+            extents.append(found @ matrix[:3, :3] + matrix[3, :3])
+            matrices.append(matrix)
         is_sound = all(len(local) and _is_near(local).all() for local in corners)
-        return _Shape(corners, gprims) if is_sound else None
+        return _Shape(corners, extents, matrices, gprims) if is_sound else None
 
     def _relative(self, gprim: Node, root: Node) -> tuple[_Matrix, bool]:
         if gprim is root:
@@ -133,7 +139,13 @@ class BoxReader:
         matrix = np.array(self._xforms.GetLocalToWorldTransform(root.prim))
         clouds = shape.corners
         if root.may_be_turned and not _is_aligned(matrix):
-            clouds = self._shape_points(shape, root)
+            # What the instance turns back is as tight in its extent as a copy of it.
+            clouds = [
+                extent if len(extent) and _is_aligned(inner @ matrix) else points
+                for extent, inner, points in zip(
+                    shape.extents, shape.matrices, self._shape_points(shape, root), strict=True
+                )
+            ]
         world = np.concatenate(clouds) @ matrix[:3, :3] + matrix[3, :3]
         if not _is_near(world).all():
             return []
@@ -150,8 +162,9 @@ class BoxReader:
             for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
                 local = _points_of(gprim.prim, self._time) if gprim.is_point_based else np.empty((0, 3))
-                local = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
-                shape.points.append(local if len(local) >= _FEWEST_POINTS else corners)
+                near = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
+                is_enough = len(near) and len(near) >= min(len(local), _FEWEST_POINTS)
+                shape.points.append(near if is_enough else corners)
         return shape.points
 
     def read_local_corners(self, prim: Any) -> _Matrix:
