@@ -55,3 +55,15 @@ def test_a_class_of_each_stands_where_its_authors_put_it(name, iri, parents):
 def test_missing_imports_of_the_apartment_are_told():
     tbox = load_tbox(shared_file("ontologies/iai/iai-apartment.owl"))
     assert {note.code for note in tbox.notes} == {"missing-import"}
+
+
+def test_equivalence_with_soma_brings_handles_into_scope():
+    # part ≡ soma:DesignedComponent, which is below dul:PhysicalObject; nothing else places it there.
+    tbox = load_tbox(shared_file("ontologies/other/multiverse_soma_dfl/SOMA_DFL_module.owl"))
+    dfl = "http://www.ease-crc.org/ont/SOMA_DFL.owl#"
+    assert tbox.is_subclass(f"{dfl}knob.n.wn.artifact..handle", f"{dfl}handle.n.wn.artifact")
+    assert tbox.resolve("soma:DesignedHandle") == f"{dfl}handle.n.wn.artifact"
+    assert tbox.by_iri[f"{dfl}container.n.wn.artifact"].equivalents == (
+        "http://www.ease-crc.org/ont/SOMA.owl#DesignedContainer",
+    )
+    assert tbox.notes == ()

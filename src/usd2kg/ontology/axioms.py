@@ -40,6 +40,7 @@ DEFINITIONS = (
 DEPRECATED = "http://www.w3.org/2002/07/owl#deprecated"
 HAS_DISPOSITION = "http://www.ease-crc.org/ont/SOMA.owl#hasDisposition"
 TOP_CLASSES = frozenset({"http://www.w3.org/2002/07/owl#Thing", f"{_RDFS}Resource"})
+_NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
 
 
 @dataclass
@@ -73,19 +74,51 @@ class ClassAxioms:
 
     parents: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
     """Class → stated superclasses that are named; complex expressions give their named conjuncts."""
+    equivalents: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    """Class → other named classes stated to be equivalent to it; symmetric, not closed."""
     annotations: dict[str, Annotations] = field(default_factory=lambda: defaultdict(Annotations))
     dispositions: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
     classes: set[str] = field(default_factory=set)
     """Every declared or used named class."""
+    declared: set[str] = field(default_factory=set)
+    """Those of them that are declared as classes."""
     ontology_iri: str | None = None
     version_iri: str | None = None
     imports: set[str] = field(default_factory=set)
+
+    def declare(self, iri: str) -> None:
+        """State that `iri` is a class."""
+        self.classes.add(iri)
+        self.declared.add(iri)
 
     def add_parent(self, child: str, parent: str) -> None:
         """State that `child` is a subclass of `parent`."""
         self.classes.update({child, parent} - TOP_CLASSES)
         if child != parent and parent not in TOP_CLASSES:
             self.parents[child].add(parent)
+
+    def add_equivalents(self, names: Iterable[str]) -> None:
+        """State that all `names` are the same class."""
+        # Classes that are stated to be everything or empty would else all be one.
+        same = set(names) - TOP_CLASSES - {_NOTHING}
+        self.classes |= same
+        for name in same:
+            if len(same) > 1:
+                self.equivalents[name] |= same - {name}
+
+    def linked(self) -> set[str]:
+        """Return the classes that are stated to be a subclass or a superclass of another."""
+        return {iri for child, parents in self.parents.items() for iri in (child, *parents)}
+
+    def superclasses(self) -> dict[str, set[str]]:
+        """Return class → its stated superclasses and equivalents.
+
+        C ≡ D is C ⊑ D and D ⊑ C (OWL 2 Structural Specification, section 9.1.2).
+        """
+        edges = {cls: set(parents) for cls, parents in self.parents.items()}
+        for cls, equivalents in self.equivalents.items():
+            edges.setdefault(cls, set()).update(equivalents)
+        return edges
 
     def annotate(self, subject: str, name: str, text: str, language: str) -> None:
         """State a text about `subject`; white space is folded."""
@@ -101,8 +134,11 @@ def merge_axioms(several: Iterable[ClassAxioms]) -> ClassAxioms:
     merged = ClassAxioms()
     for axioms in several:
         merged.classes |= axioms.classes
+        merged.declared |= axioms.declared
         for cls, parents in axioms.parents.items():
             merged.parents[cls] |= parents
+        for cls, equivalents in axioms.equivalents.items():
+            merged.equivalents[cls] |= equivalents
         for cls, dispositions in axioms.dispositions.items():
             merged.dispositions[cls] |= dispositions
         for cls, notes in axioms.annotations.items():

@@ -1,7 +1,7 @@
 """load_tbox: from an ontology file to a TBox."""
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from importlib.resources import as_file, files
 from pathlib import Path
@@ -9,6 +9,7 @@ from pathlib import Path
 from usd2kg.errors import OntologyError
 from usd2kg.ontology.axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.documents import Document, close_imports, parse_document
+from usd2kg.ontology.equivalence import all_equivalents, keep_one_of_each
 from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
 from usd2kg.ontology.scope import ancestors, default_scope, nearest_parents, rooted_scope
@@ -27,6 +28,8 @@ def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes
             syntax, told apart by content. Imports are read from the catalog or folder beside it.
         roots: IRIs or CURIEs; the scope is these classes and all below them.
         classes: IRIs or CURIEs; the scope is exactly these classes.
+
+    Of equivalent classes in the scope one stays, which `equivalence.keep_one_of_each` chooses.
 
     Raises:
         OntologyError: the file cannot be read, or no class is in scope.
@@ -49,16 +52,17 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
     documents, notes = close_imports(document)
     own = document.axioms
     closure = merge_axioms(doc.axioms for doc in documents)
-    scope = _scope(name, own, closure, roots, classes)
-    parents = nearest_parents(scope, closure.parents)
+    scope = keep_one_of_each(_scope(name, own, closure, roots, classes), document.iri, own, closure)
+    superclasses = closure.superclasses()
+    parents = nearest_parents(scope, superclasses)
     return TBox(
         source=name,
         ontology_iri=document.iri,
         version_iri=document.version_iri,
         content_hash=_hash(documents),
-        classes=tuple(_class(iri, parents[iri], closure) for iri in sorted(scope)),
+        classes=tuple(_class(iri, parents[iri], superclasses, closure) for iri in sorted(scope)),
         imports=tuple(doc.iri for doc in documents[1:]),
-        notes=(*notes, *_cycle_notes(scope, closure)),
+        notes=(*notes, *_cycle_notes(scope, superclasses, closure)),
     )
 
 
@@ -91,26 +95,45 @@ def _hash(documents: Iterable[Document]) -> str:
     return "sha256:" + hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
-def _class(iri: str, parents: tuple[str, ...], closure: ClassAxioms) -> OntologyClass:
-    texts = closure.annotations[iri]
-    label = texts.pick(LABELS) or local_name(iri)
-    others = texts.all((*LABELS, *ALT_LABELS)) - {label}
-    stated = {iri, *ancestors(closure.parents, iri)}
-    dispositions = {up for cls in stated for up in closure.dispositions.get(cls, ())}
-    dispositions |= {up for disposition in dispositions for up in ancestors(closure.parents, disposition)}
+def _class(
+    iri: str, parents: tuple[str, ...], superclasses: Mapping[str, set[str]], closure: ClassAxioms
+) -> OntologyClass:
+    equivalents = sorted(all_equivalents(iri, closure))
+    texts = [closure.annotations[same] for same in (iri, *equivalents)]
+    label = _label(iri, closure)
+    others = {text for said in texts for text in said.all((*LABELS, *ALT_LABELS))}
+    others |= {_label(same, closure) for same in equivalents}
     return OntologyClass(
         iri=iri,
         label=label,
-        alt_labels=tuple(sorted(others)),
-        comment=texts.pick(DEFINITIONS),
+        alt_labels=tuple(sorted(others - {label})),
+        comment=next((comment for said in texts if (comment := said.pick(DEFINITIONS))), ""),
         parents=parents,
-        dispositions=tuple(sorted(dispositions)),
+        dispositions=_dispositions(iri, superclasses, closure),
+        equivalents=tuple(equivalents),
     )
 
 
-def _cycle_notes(scope: set[str], closure: ClassAxioms) -> list[OntologyNote]:
+def _label(iri: str, closure: ClassAxioms) -> str:
+    return closure.annotations[iri].pick(LABELS) or local_name(iri)
+
+
+def _dispositions(iri: str, superclasses: Mapping[str, set[str]], closure: ClassAxioms) -> tuple[str, ...]:
+    stated = {iri, *ancestors(superclasses, iri)}
+    dispositions = {up for cls in stated for up in closure.dispositions.get(cls, ())}
+    dispositions |= {up for disposition in dispositions for up in ancestors(superclasses, disposition)}
+    return tuple(sorted(dispositions))
+
+
+def _cycle_notes(scope: set[str], superclasses: Mapping[str, set[str]], closure: ClassAxioms) -> list[OntologyNote]:
     return [
         OntologyNote("cycle", f"<{iri}> is stated to be a subclass of itself; the edges of that cycle are left out")
         for iri in sorted(scope)
-        if any(iri in ancestors(closure.parents, parent) for parent in closure.parents.get(iri, ()))
+        if any(iri in ancestors(superclasses, parent) for parent in _other_parents(iri, closure))
     ]
+
+
+def _other_parents(iri: str, closure: ClassAxioms) -> set[str]:
+    """Return the stated superclasses of a class and its equivalents that are not among them."""
+    group = {iri, *all_equivalents(iri, closure)}
+    return {parent for same in group for parent in closure.parents.get(same, ())} - group

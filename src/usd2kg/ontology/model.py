@@ -30,13 +30,15 @@ class OntologyClass:
     label: str
     """The preferred label, else the local name."""
     alt_labels: tuple[str, ...]
-    """Further labels and synonyms, sorted."""
+    """Further labels and synonyms, sorted; all those of its equivalents too."""
     comment: str
-    """The definition or comment, empty if none."""
+    """The definition or comment, else that of an equivalent, empty if none."""
     parents: tuple[ClassIRI, ...]
     """Nearest superclasses inside the scope, sorted; none for a root."""
     dispositions: tuple[str, ...] = ()
     """IRIs of the dispositions stated for it or for a superclass (SOMA's `hasDisposition some …`)."""
+    equivalents: tuple[ClassIRI, ...] = ()
+    """IRIs of the other named classes that are stated to be the same, sorted; none of them is in the scope."""
 
     @property
     def local_name(self) -> str:
@@ -126,14 +128,24 @@ class TBox:
         return tuple(sorted(iri for iri in common if not any(iri in self._closures[other] for other in common - {iri})))
 
     @cached_property
+    def _iri_by_equivalent(self) -> Mapping[ClassIRI, ClassIRI]:
+        return {equivalent: cls.iri for cls in self.classes for equivalent in cls.equivalents}
+
+    @cached_property
     def _iris_by_local_name(self) -> Mapping[str, tuple[ClassIRI, ...]]:
         found: dict[str, list[ClassIRI]] = {}
         for cls in self.classes:
             found.setdefault(cls.local_name, []).append(cls.iri)
-        return {name: tuple(iris) for name, iris in found.items()}
+        others: dict[str, set[ClassIRI]] = {}
+        for equivalent, iri in self._iri_by_equivalent.items():
+            others.setdefault(local_name(equivalent), set()).add(iri)
+        # A class's own name goes before one that it has by an equivalent.
+        return {name: tuple(sorted(iris)) for name, iris in (others | found).items()}
 
     def resolve(self, name: str) -> ClassIRI:
         """Return the class that a person means by an IRI, a CURIE, or a local name unique in the scope.
+
+        The names of an equivalent mean the class that stands for it.
 
         Raises:
             OntologyError: no class of the scope, or several, go by that name.
@@ -142,6 +154,8 @@ class TBox:
         for candidate in (name, expand_curie(name)):
             if candidate in self.by_iri:
                 return candidate
+            if candidate in self._iri_by_equivalent:
+                return self._iri_by_equivalent[candidate]
         named = self._iris_by_local_name.get(name, ())
         if len(named) == 1:
             return named[0]

@@ -38,7 +38,7 @@ def _import(component: Any, axioms: ClassAxioms) -> None:
 
 
 def _declare(component: Any, axioms: ClassAxioms) -> None:
-    axioms.classes.add(str(component.first.first))
+    axioms.declare(str(component.first.first))
 
 
 def _subclass(component: Any, axioms: ClassAxioms) -> None:
@@ -49,6 +49,7 @@ def _subclass(component: Any, axioms: ClassAxioms) -> None:
 
 def _equivalent(component: Any, axioms: ClassAxioms) -> None:
     named = [iri for expression in component.first if (iri := _named(expression))]
+    axioms.add_equivalents(named)
     for expression in component.first:
         if type(expression).__name__ == "ObjectIntersectionOf":
             for iri in named:

@@ -17,6 +17,7 @@ __all__ = ["read_rdf_axioms"]
 _RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 _RDFS = "http://www.w3.org/2000/01/rdf-schema#"
 _OWL = "http://www.w3.org/2002/07/owl#"
+_XSD = "http://www.w3.org/2001/XMLSchema#"
 _CLASS_TYPES = (f"{_OWL}Class", f"{_RDFS}Class")
 _FORMATS = {
     "rdf": ox.RdfFormat.RDF_XML,
@@ -53,12 +54,14 @@ def _read_subject(iri: str, statements: dict[str, list[Any]], triples: _Triples,
         axioms.imports |= {node.value for node in statements.get(f"{_OWL}imports", ())}
         return
     if not types.isdisjoint(_CLASS_TYPES):
-        axioms.classes.add(iri)
+        axioms.declare(iri)
     for node in statements.get(f"{_RDFS}subClassOf", ()):
         _add_superclass(iri, node, triples, axioms)
     for node in statements.get(f"{_OWL}equivalentClass", ()):
         if _is_intersection(node, triples):
             _add_superclass(iri, node, triples, axioms)
+        elif isinstance(node, ox.NamedNode) and not _is_datatype(types, node, triples):
+            axioms.add_equivalents((iri, node.value))
     for predicate, objects in statements.items():
         for node in objects:
             if isinstance(node, ox.Literal):
@@ -77,6 +80,13 @@ def _add_superclass(child: str, expression: Any, triples: _Triples, axioms: Clas
         if on_property == [HAS_DISPOSITION]:
             fillers = [f for node in restriction.get(f"{_OWL}someValuesFrom", ()) for f in _conjuncts(node, triples)]
             axioms.dispositions[child].update(node.value for node in fillers if isinstance(node, ox.NamedNode))
+
+
+def _is_datatype(types: set[str], other: ox.NamedNode, triples: _Triples) -> bool:
+    # RDF defines a datatype by the predicate that makes two classes equivalent.
+    datatype = ox.NamedNode(f"{_RDFS}Datatype")
+    is_other = other.value.startswith(_XSD) or datatype in triples.get(other, {}).get(f"{_RDF}type", ())
+    return datatype.value in types or is_other
 
 
 def _is_intersection(node: Any, triples: _Triples) -> bool:
