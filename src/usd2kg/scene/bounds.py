@@ -20,6 +20,8 @@ _EMPTY_EXTENT = 1e30
 """OpenUSD's empty ranges and infinite planes lie beyond any length a scene can have."""
 _ALIGNED = 1e-6
 _FEWEST_POINTS = 3
+_RANGE = 2
+"""An extent has a lower and an upper corner."""
 _UNTURNED: dict[str, Quaternion] = {"Z": (0.0, 0.0, 0.0, 1.0), "Y": (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))}
 
 _Matrix = NDArray[np.float64]
@@ -58,6 +60,7 @@ class BoxReader:
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
         self._xforms = UsdGeom.XformCache(time)
         self._shapes: dict[tuple[int, ...], _Shape | None] = {}
+        self._last_matrix: tuple[Node | None, _Matrix] = (None, np.eye(4))
 
     def read_parts(self, nodes: Sequence[Node]) -> list[Box]:
         """Return the boxes of the visible geometry of an object whose own nodes are `nodes`, its prim first.
@@ -76,15 +79,40 @@ class BoxReader:
     def _measure(self, node: Node) -> Box | None:
         if not node.is_point_based:
             return self._box(self._geometry, node)
-        if node.may_be_turned:
-            matrix = np.array(self._xforms.GetLocalToWorldTransform(node.prim))
-            if not _is_aligned(matrix):
-                return self._box_around(_points_of(node.prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
+        matrix = self._matrix(node)
+        if not node.may_be_turned:
+            box = self._box_of_extent(node, matrix)
+        elif _is_aligned(matrix):
+            box = self._box(self._geometry, node)
+        else:
+            return self._box_of_points(node.prim, matrix)
         # An extent that is authored inside out reads as empty: the points know better.
-        return self._box(self._geometry, node) or self._box_of_points(node.prim)
+        return box or self._box_of_points(node.prim, matrix)
 
-    def _box_of_points(self, prim: Any) -> Box | None:
-        matrix = np.array(self._xforms.GetLocalToWorldTransform(prim))
+    def _matrix(self, node: Node) -> _Matrix:
+        """Return the (4, 4) matrix to the stage's world; what is not moved shares it with what it is below."""
+        while node.parent is not None and not node.authored.moves:
+            node = node.parent
+        last, matrix = self._last_matrix
+        if last is not node:
+            matrix = np.array(self._xforms.GetLocalToWorldTransform(node.prim))
+            self._last_matrix = (node, matrix)
+        return matrix
+
+    def _box_of_extent(self, node: Node, matrix: _Matrix) -> Box | None:
+        """Return the box of a node that is moved and scaled, not turned: as OpenUSD's cache does, but sooner."""
+        extent = None
+        if UsdGeom.Tokens.extent in node.authored.names:
+            extent = read_value(node.prim, UsdGeom.Tokens.extent, self._time, Vt.Vec3fArray)
+        if extent is None or len(extent) != _RANGE:
+            return self._box(self._geometry, node)
+        (x0, y0, z0), (x1, y1, z1) = np.asarray(extent).tolist()
+        (sx, *_), (_, sy, *_), (_, _, sz, _), (x, y, z, _) = matrix.tolist()
+        if not (_is_range((x0, y0, z0), (x1, y1, z1)) and sx > 0 and sy > 0 and sz > 0):
+            return self._box(self._geometry, node)
+        return self._finite_box((x0 * sx + x, y0 * sy + y, z0 * sz + z), (x1 * sx + x, y1 * sy + y, z1 * sz + z))
+
+    def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
         return self._box_around(_points_of(prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
 
     def _box_around(self, world: _Matrix) -> Box | None:
@@ -99,11 +127,10 @@ class BoxReader:
             return None
         aligned = cache.ComputeWorldBound(node.prim).ComputeAlignedRange()
         # Vectors of Gf are many times faster to take apart as an array.
-        lower: list[float] = np.array(aligned.GetMin()).tolist()
-        upper: list[float] = np.array(aligned.GetMax()).tolist()
-        if not all(-_EMPTY_EXTENT < low <= high < _EMPTY_EXTENT for low, high in zip(lower, upper, strict=True)):
-            return None
-        return _to_box(lower, upper, self._frame)
+        return self._finite_box(np.array(aligned.GetMin()).tolist(), np.array(aligned.GetMax()).tolist())
+
+    def _finite_box(self, lower: Sequence[float], upper: Sequence[float]) -> Box | None:
+        return _to_box(lower, upper, self._frame) if _is_range(lower, upper) else None
 
     def _shared_shape(self, root: Node, gprims: list[Node]) -> _Shape | None:
         """Return the shape of an object in an instance that is not the first of its prototype; None for others."""
@@ -215,7 +242,7 @@ class BoxReader:
         return pose_of(matrix, self._frame)
 
     def _local_to_world(self, node: Node) -> Any:
-        if node.type_name or UsdGeom.Tokens.xformOpOrder not in node.authored.names:
+        if node.type_name or not node.authored.moves:
             return self._xforms.GetLocalToWorldTransform(node.prim)
         # `def "Chair"` leaves its type to the asset it references; where that is missing, OpenUSD takes the prim for
         # one without a transform, though it has one.
@@ -250,6 +277,14 @@ def _is_aligned(matrix: _Matrix) -> bool:
 def _is_near(numbers: _Matrix) -> NDArray[np.bool_]:
     """Return for each number whether a scene can have such a length: neither NaN nor beyond `_EMPTY_EXTENT`."""
     return np.abs(numbers) < _EMPTY_EXTENT
+
+
+def _is_range(lower: Sequence[float], upper: Sequence[float]) -> bool:
+    """Return whether a range is neither empty nor beyond what a scene can have."""
+    x0, y0, z0 = lower
+    x1, y1, z1 = upper
+    is_lower_near = -_EMPTY_EXTENT < x0 <= x1 and -_EMPTY_EXTENT < y0 <= y1 and -_EMPTY_EXTENT < z0 <= z1
+    return is_lower_near and x1 < _EMPTY_EXTENT and y1 < _EMPTY_EXTENT and z1 < _EMPTY_EXTENT
 
 
 def _to_box(lower: Sequence[float], upper: Sequence[float], frame: StageFrame) -> Box:

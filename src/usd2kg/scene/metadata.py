@@ -169,6 +169,15 @@ class MaterialReader:
         self._details: dict[str, MaterialDetails] = {}
         self._of_shared: dict[str, MaterialDetails] = {}
         self._of_instances: dict[tuple[int, ...], tuple[str, tuple[MaterialDetails, ...]]] = {}
+        self._ahead: dict[int, tuple[Any, ...]] = {}
+        """id of a node → its material for each purpose, for the nodes that were looked at ahead."""
+
+    def look_ahead(self, nodes: Iterable[Node]) -> None:
+        """Find what is bound to the nodes that will be read next; OpenUSD does many at once in parallel."""
+        shown = [node for node in nodes if _shows_material(node) and not node.has_subsets and node.twin is None]
+        prims = [node.prim for node in shown]
+        by_purpose = (_bound_materials(prims, purpose) for purpose in self._purposes)
+        self._ahead = dict(zip(map(id, shown), zip(*by_purpose, strict=True), strict=True))
 
     def read(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
         """Return the materials that the geometry among `nodes` is shown with, in order of appearance.
@@ -194,15 +203,8 @@ class MaterialReader:
         return replace(material, prim_path=after + material.prim_path.removeprefix(before))
 
     def _resolve(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
-        prims = [
-            prim
-            for node in nodes
-            if node.is_gprim and not node.is_hidden and (node.is_bound or node.has_subsets)
-            for prim in (_bindable(node.prim) if node.has_subsets else (node.prim,))
-        ]
         found: dict[str, MaterialDetails] = {}
-        by_purpose = [_bound_materials(prims, purpose) for purpose in self._purposes]
-        for prim, *materials in zip(prims, *by_purpose, strict=True):
+        for prim, materials in (binding for node in nodes if _shows_material(node) for binding in self._bound(node)):
             bound = [material for material in materials if material]
             for material in bound:
                 details = self._read(material)
@@ -211,6 +213,15 @@ class MaterialReader:
             if target is not None:
                 found.setdefault(str(target), MaterialDetails(target.name, str(target)))
         return tuple(found.values())
+
+    def _bound(self, node: Node) -> list[tuple[Any, tuple[Any, ...]]]:
+        """Return (prim, its material for each purpose) for a node and its geometry subsets."""
+        known = self._ahead.get(id(node))
+        if known is not None:
+            return [(node.prim, known)]
+        prims = _bindable(node.prim) if node.has_subsets else [node.prim]
+        by_purpose = (_bound_materials(prims, purpose) for purpose in self._purposes)
+        return list(zip(prims, zip(*by_purpose, strict=True), strict=True))
 
     def _read(self, material: Any) -> MaterialDetails:
         path = material.GetPath().pathString
@@ -223,6 +234,10 @@ class MaterialReader:
                 self._of_shared[shared] = _read_details(material, path, self._time)
             known = self._details[path] = replace(self._of_shared[shared], prim_path=path)
         return known
+
+
+def _shows_material(node: Node) -> bool:
+    return node.is_gprim and not node.is_hidden and (node.is_bound or node.has_subsets)
 
 
 def _instance_above(node: Node) -> str:

@@ -22,6 +22,8 @@ class Authored(NamedTuple):
     """What the names of a prim's authored properties say; prims with the same schemas and names share one."""
 
     names: tuple[str, ...]
+    moves: bool
+    """Whether a transform is authored."""
     turns: bool
     """Whether a transform may turn the prim against its parent."""
     binds: bool
@@ -34,7 +36,9 @@ class Authored(NamedTuple):
 
 
 _NO_METADATA: Mapping[str, Any] = MappingProxyType({})
-NOTHING_AUTHORED = Authored((), turns=False, binds=False, has_purpose_binding=False, is_semantic=False, has_texts=False)
+NOTHING_AUTHORED = Authored(
+    (), moves=False, turns=False, binds=False, has_purpose_binding=False, is_semantic=False, has_texts=False
+)
 
 
 @dataclass(slots=True)
@@ -58,8 +62,6 @@ class Node:
     """Carries UsdPhysics' RigidBodyAPI, or a mass of its own without being geometry."""
     has_mass: bool = False
     """Carries UsdPhysics' MassAPI."""
-    is_asset: bool = False
-    """Brings in a reference or payload, or is an instance."""
     is_instance: bool = False
     is_instancer: bool = False
     is_hidden: bool = False
@@ -84,6 +86,7 @@ class Node:
     hidden_gprim_count: int = 0
     """The same for guide and proxy purpose."""
     known_prim: Any = None
+    known_as_asset: bool | None = None
 
     @property
     def prim(self) -> Any:
@@ -93,9 +96,17 @@ class Node:
         return self.known_prim
 
     @property
+    def is_asset(self) -> bool:
+        """Whether it brings in a reference or payload, or is an instance; looked up when it is first asked for."""
+        if self.known_as_asset is None:
+            prim = (self.twin or self).prim
+            self.known_as_asset = self.is_instance or prim.HasAuthoredReferences() or prim.HasAuthoredPayloads()
+        return self.known_as_asset
+
+    @property
     def may_have_asset(self) -> bool:
-        """Whether the stage may name an asset that it comes from; of geometry the arcs are not known."""
-        return self.is_asset or self.is_gprim or "assetInfo" in self.metadata
+        """Whether the stage may name an asset that it comes from."""
+        return "assetInfo" in self.metadata or self.is_asset
 
     @property
     def may_have_texts(self) -> bool:
@@ -122,6 +133,8 @@ class Outline:
 
     root: Node
     """The pseudo-root."""
+    nodes: list[Node] = field(default_factory=list)
+    """All nodes below it, parents first."""
     left_out: Counter[str] = field(default_factory=Counter)
     """Reason → number of prims."""
     pruned: dict[str, str] = field(default_factory=dict)
@@ -140,5 +153,5 @@ class Outline:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for node in self.root.walk():
+        for node in self.nodes:
             node.parent = None

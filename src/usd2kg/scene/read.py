@@ -19,7 +19,7 @@ from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.labels import LabelReader, lint_labels
 from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
-from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject
+from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Node, Outline
 from usd2kg.scene.plausibility import check_plausibility
@@ -39,6 +39,8 @@ __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 logger = logging.getLogger(__name__)
 
 _MOST_PARTS = 64
+_READ_AHEAD = 1000
+"""How many objects are looked at together where that is faster."""
 _LONGEST_MESSAGE = 500
 _NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
 """Of an object that OpenUSD cannot read: the fields that have no defaults."""
@@ -169,7 +171,9 @@ def _read_objects(
     found = _find_objects(outline, selection.chosen, expand_instancers)
     boxes = reader.measure([entry for entry in found if entry.is_read])
     objects: list[SceneObject] = []
-    for entry in found:
+    for index, entry in enumerate(found):
+        if index % _READ_AHEAD == 0:
+            reader.look_ahead(found[index : index + _READ_AHEAD])
         if entry.is_read:
             objects.append(reader.read(entry, boxes[entry.nodes[0].path]))
         inside = entry.nodes[0].path if entry.is_read else entry.parent_path
@@ -201,6 +205,14 @@ class _Boxes(NamedTuple):
     own: Box | None
     """Without nested objects."""
     parts: tuple[Box, ...]
+
+
+def _largest(parts: list[Box]) -> tuple[Box, ...]:
+    """Return the largest of the parts, as many as are kept, in their order."""
+    if len(parts) <= _MOST_PARTS:
+        return tuple(parts)
+    largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:_MOST_PARTS]
+    return tuple(parts[i] for i in sorted(largest))
 
 
 def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: bool) -> list[_Found]:
@@ -237,6 +249,7 @@ class _ObjectReader:
         self.time = time
         self.boxes = BoxReader(opened.frame, time, _above_endless(outline))
         self.labels = LabelReader(time)
+        self.has_labels = bool(outline.labelled_prims)
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
 
@@ -265,8 +278,11 @@ class _ObjectReader:
             return _Boxes(None, None, ())
         if below is None:
             self._note("empty-box", nodes[0], "no geometry that can be measured; it has no size in the graph")
-        largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:_MOST_PARTS] if len(parts) > 1 else ()
-        return _Boxes(below, own if nested else below, tuple(parts[i] for i in sorted(largest)))
+        return _Boxes(below, own if nested else below, _largest(parts) if len(parts) > 1 else ())
+
+    def look_ahead(self, found: list[_Found]) -> None:
+        """Prepare for reading these objects next."""
+        self.materials.look_ahead(node for entry in found if entry.is_read for node in entry.nodes)
 
     def read(self, entry: _Found, boxes: _Boxes) -> SceneObject:
         """Return the object with all that the stage says about it."""
@@ -308,7 +324,7 @@ class _ObjectReader:
             "material_details": materials,
             "display_color": display_color(nodes, self.time),
             "instances": count_copies(nodes, self.time),
-            "labels": self.labels.read(nodes),
+            "labels": self.labels.read(nodes) if self.has_labels else NO_LABELS,
             "variants": variant_selections(prim),
             "texts": text_attributes(prim, self.time) if node.may_have_texts else (),
         }

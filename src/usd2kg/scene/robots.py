@@ -24,7 +24,7 @@ def merge_robots(outline: Outline, candidates: dict[str, str]) -> None:
 
 def _merge_nested(outline: Outline, candidates: dict[str, str]) -> None:
     turning = {joint.body1 for joint in outline.joints if joint.type_name == _TURNING}
-    for node in outline.root.walk():
+    for node in outline.nodes:
         if node.path in candidates and node.is_body and _nested_chain(node, turning) >= _ARM_JOINTS:
             _merge(node, candidates)
 
@@ -54,7 +54,7 @@ def _merge_side_by_side(outline: Outline, candidates: dict[str, str]) -> None:
     bases = {base for body in moved if body in candidates and (base := _arm_base(body, moved))}
     if not bases:
         return
-    nodes = {node.path: node for node in outline.root.walk()}
+    nodes = {node.path: node for node in outline.nodes}
     for base in sorted(bases):
         bodies = [nodes[body] for body in sorted(_carried(base, moves)) if body in nodes]
         holder = _holder(bodies)

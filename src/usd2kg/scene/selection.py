@@ -61,17 +61,17 @@ def select_objects(
     Those at the paths `wanted` are objects whatever the rules or the overrides say.
     """
     candidates = _overridden(outline, overrides or SelectionOverrides())
-    there = {node.path for node in outline.root.walk()} - {outline.root.path}
+    there = {node.path for node in outline.nodes}
     for path in wanted:
         if path in there:
             candidates.setdefault(path, ASKED_FOR)
-    chosen = {node.path: candidates[node.path] for node in outline.root.walk() if node.path in candidates}
+    chosen = {node.path: candidates[node.path] for node in outline.nodes if node.path in candidates}
     missing = tuple(path for path in wanted if path not in there)
     return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
 def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, str]:
-    nodes = [node for node in outline.root.walk() if node is not outline.root]
+    nodes = outline.nodes
     if overrides.only:
         only = frozenset(overrides.only)
         return {node.path: "listed by the user" for node in nodes if node.path in only}
@@ -116,10 +116,10 @@ def _by_rules(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
     candidates = _model_candidates(outline, kinds)
     _drop_whole_scene(outline.root, candidates)
     merge_robots(outline, candidates)
-    _merge_wrappers(outline.root, candidates)
-    _rise_to_names(outline.root, candidates)
+    _merge_wrappers(outline, candidates)
+    _rise_to_names(outline, candidates)
     candidates.update(_geometry_owners(outline.root, candidates))
-    candidates.update(_fixtures(outline.root, candidates))
+    candidates.update(_fixtures(outline, candidates))
     return candidates
 
 
@@ -138,7 +138,7 @@ def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]
             in_model = True
         elif node.is_instancer:
             found[node.path] = "point instancer"
-        elif node.is_asset and is_there and not (in_model or in_asset or node.is_gprim) and _is_one_asset(node):
+        elif is_there and not (in_model or in_asset or node.is_gprim) and node.is_asset and _is_one_asset(node):
             found[node.path] = _ASSET
             in_asset = True
         pending.extend((child, in_model, in_asset) for child in node.children)
@@ -160,7 +160,7 @@ def _is_one_asset(node: Node) -> bool:
     """Whether the referenced prim is one thing, not a whole set that brings in assets of its own."""
     if node.kind in _STRUCTURE_KINDS:
         return False
-    nested = sum(1 for below in node.walk() if below is not node and below.is_asset and not below.is_gprim)
+    nested = sum(1 for below in node.walk() if below is not node and not below.is_gprim and below.is_asset)
     return nested < 2
 
 
@@ -185,9 +185,9 @@ def _nearest_below(node: Node, candidates: dict[str, str]) -> list[Node]:
     return found
 
 
-def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
+def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
     """A body or asset without geometry of its own wraps one object, and then is it, or groups several."""
-    for node in reversed(list(root.walk())):
+    for node in reversed(outline.nodes):
         if node.path not in candidates or node.is_instancer or node.is_gprim:
             continue
         nested = _nearest_below(node, candidates)
@@ -200,9 +200,9 @@ def _merge_wrappers(root: Node, candidates: dict[str, str]) -> None:
             del candidates[node.path]
 
 
-def _rise_to_names(root: Node, candidates: dict[str, str]) -> None:
+def _rise_to_names(outline: Outline, candidates: dict[str, str]) -> None:
     """Let the model above stand for an asset that comes in as its `visual`, where that is all it shows."""
-    assets = [node for node in root.walk() if candidates.get(node.path) == _ASSET and _is_silent(node.name)]
+    assets = [node for node in outline.nodes if candidates.get(node.path) == _ASSET and _is_silent(node.name)]
     for asset in assets:
         top = asset
         while _is_silent(top.name) and (above := top.parent) is not None and above.path not in candidates:
@@ -289,12 +289,12 @@ def _is_lone_root(node: Node) -> bool:
     return above is not None and above.parent is None and not node.is_scope and node.gprim_count == above.gprim_count
 
 
-def _fixtures(root: Node, candidates: dict[str, str]) -> dict[str, str]:
+def _fixtures(outline: Outline, candidates: dict[str, str]) -> dict[str, str]:
     """Return the fixtures among the parts of rigid bodies, which may be frames whose mesh is part of the body's."""
     found: dict[str, str] = {}
     if _BODY not in candidates.values():
         return found
-    for body in [node for node in root.walk() if candidates.get(node.path) == _BODY]:
+    for body in [node for node in outline.nodes if candidates.get(node.path) == _BODY]:
         pending = list(body.children)
         while pending:
             node = pending.pop()
@@ -343,7 +343,7 @@ def explain(path: str, outline: Outline, selection: Selection) -> str:
         if above in outline.pruned:
             what = "it is" if above == path else f"it is below {above}, which is"
             return f"{path} is no object: {what} left out ({outline.pruned[above]})"
-    node = next((node for node in outline.root.walk() if node.path == path), None)
+    node = next((node for node in (outline.root, *outline.nodes) if node.path == path), None)
     if node is None:
         return f"{path} is no object: it belongs to the prototypes of a point instancer"
     holder = next((above for above in _paths_up(path) if above in selection.chosen), None)

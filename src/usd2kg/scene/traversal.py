@@ -104,7 +104,8 @@ class _Outliner:
             entered[path] = node
             if node.is_instancer or (node.is_instance and self._take_over(node)):
                 prims.PruneChildren()
-        _count_geometry(self.outline.root)
+        self.outline.nodes = list(self.outline.root.walk())[1:]
+        _count_geometry(self.outline.nodes)
         return self.outline
 
     def _enter(self, prim: Any, path: str, name: str, parent: Node) -> Node | None:
@@ -140,8 +141,6 @@ class _Outliner:
             node.metadata = metadata
         node.is_labelled = authored.is_semantic
         node.is_instance = "instanceable" in metadata and prim.IsInstance()
-        if not node.is_gprim:
-            node.is_asset = node.is_instance or prim.HasAuthoredReferences() or prim.HasAuthoredPayloads()
         # Last, so that what turns out to be unreadable is not in the tree.
         parent.children.append(node)
         return node
@@ -253,7 +252,7 @@ def _copy_below(source: Node, parent: Node) -> Node:
     parent.children.append(node)
     node.is_gprim, node.is_point_based = source.is_gprim, source.is_point_based
     node.is_scope, node.is_instancer, node.is_instance = source.is_scope, source.is_instancer, source.is_instance
-    node.is_body, node.has_mass, node.is_asset = source.is_body, source.has_mass, source.is_asset
+    node.is_body, node.has_mass = source.is_body, source.has_mass
     node.is_labelled, node.is_unresolved = source.is_labelled, source.is_unresolved
     node.twin = source.twin or source
     node.first_instance = source.first_instance
@@ -270,8 +269,8 @@ def _inherit(node: Node) -> None:
     node.may_be_turned = parent.may_be_turned or node.authored.turns
 
 
-def _count_geometry(root: Node) -> None:
-    for node in reversed(list(root.walk())):
+def _count_geometry(nodes: list[Node]) -> None:
+    for node in reversed(nodes):
         if node.is_gprim or node.is_instancer:
             if node.is_hidden:
                 node.hidden_gprim_count += 1
@@ -291,6 +290,7 @@ def _read_authored(prim: Any, schemas: tuple[str, ...], names: tuple[str, ...]) 
     bindings = [name for name in names if name.startswith(_BINDING)]
     return Authored(
         names,
+        moves=UsdGeom.Tokens.xformOpOrder in names,
         turns=any(name.startswith(_TURNING_OPS) for name in names),
         binds=bool(bindings),
         has_purpose_binding=bool(set(bindings) - {_BINDING}),
