@@ -260,3 +260,10 @@ class TestUntrustedText:
             assert done.code == 0
             assert all(c.isprintable() or c == "\n" for c in done.out + done.err)
             assert not any(line.startswith("c") for line in done.out.splitlines())
+
+    def test_json_escapes_what_steers_a_terminal_and_keeps_the_text(self, run: Run, write_stage):
+        name = "a\x9b2Jb\u202ec"
+        scene = write_stage(METRES + component("Cup", cube("c"), meta=[f'displayName = "{name}"']))
+        done = run("inspect", scene, "--json")
+        assert all(c.isprintable() or c == "\n" for c in done.out)
+        assert json.loads(done.out)["objects"][0]["display_name"] == name

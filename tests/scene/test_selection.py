@@ -277,8 +277,8 @@ def test_bare_meshes_below_a_scope_are_objects(read):
     ],
 )
 def test_an_xform_named_as_a_grouping_is_one(read, name, is_grouping):
-    scene = read(xform("World", xform(name, cube("a"), cube("b")), cube("box")))
-    both = [f"/World/{name}/a", f"/World/{name}/b"]
+    scene = read(xform("World", xform(name, cube("cup"), cube("pot")), cube("box")))
+    both = [f"/World/{name}/cup", f"/World/{name}/pot"]
     assert list(chosen(scene)) == [*(both if is_grouping else [f"/World/{name}"]), "/World/box"]
 
 
@@ -478,7 +478,7 @@ def test_one_named_piece_keeps_all_pieces_apart(read):
     assert list(chosen(scene)) == ["/World/Chair/n1", "/World/Chair/Cushion", "/World/box"]
 
 
-@pytest.mark.parametrize("name", ["Furniture", "Chair_grp", "Object_7"])
+@pytest.mark.parametrize("name", ["Furniture", "Chair_grp"])
 def test_a_grouping_does_not_swallow_unnamed_pieces(read, name):
     pieces = [xform(f"n{index}", cube(f"mesh_{index}")) for index in (1, 2)]
     scene = read(xform("World", xform("Corner", component("Lamp", cube("bulb")), xform(name, *pieces)), cube("box")))

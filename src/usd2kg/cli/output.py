@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +13,8 @@ from usd2kg.files import write_whole
 __all__ = ["emit", "format_table", "print_json", "printable", "talk"]
 
 _WIDEST = 60
+_STEERING = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""Controls beyond ASCII's, which JSON escapes by itself, and changes of direction."""
 
 
 def talk(message: str) -> None:
@@ -20,8 +23,9 @@ def talk(message: str) -> None:
 
 
 def print_json(data: Any) -> None:
-    """Print data as JSON on stdout."""
-    emit(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
+    """Print data as JSON on stdout, readable: only what could steer a terminal is escaped."""
+    text = json.dumps(data, indent=1, ensure_ascii=False)
+    emit(_STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text) + "\n", None)
 
 
 def emit(text: str, path: Path | None) -> None:

@@ -11,7 +11,7 @@ from pxr import Gf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.model import Box, Quaternion, StageFrame, Vector
 from usd2kg.scene.outline import Node
-from usd2kg.scene.stage import read_value
+from usd2kg.scene.stage import UNREADABLE, read_value
 
 __all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
 
@@ -55,7 +55,7 @@ class BoxReader:
         """Make a reader; of the prims at the paths `endless` OpenUSD must not be asked for a box."""
         self._frame = frame
         self._endless = endless
-        self._time = time
+        self.time = time
         self._geometry = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=False)
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
         self._xforms = UsdGeom.XformCache(time)
@@ -71,6 +71,13 @@ class BoxReader:
         shape = self._shared_shape(nodes[0], gprims)
         boxes = [self._measure(node) for node in gprims] if shape is None else self._place(shape, nodes[0])
         return [box for box in boxes if box is not None]
+
+    def read_below(self, node: Node) -> Box | None:
+        """Return the box of all visible geometry at and below a node; None if there is none, or it cannot be read."""
+        try:
+            return union(self.read_parts(list(node.walk())))
+        except UNREADABLE:
+            return None
 
     def read_hint(self, node: Node) -> Box | None:
         """Return the box by the authored `extentsHint`, for a node whose geometry cannot be measured."""
@@ -103,7 +110,7 @@ class BoxReader:
         """Return the box of a node that is moved and scaled, not turned: as OpenUSD's cache does, but sooner."""
         extent = None
         if UsdGeom.Tokens.extent in node.authored.names:
-            extent = read_value(node.prim, UsdGeom.Tokens.extent, self._time, Vt.Vec3fArray)
+            extent = read_value(node.prim, UsdGeom.Tokens.extent, self.time, Vt.Vec3fArray)
         if extent is None or len(extent) != _RANGE:
             return self._box(self._geometry, node)
         (x0, y0, z0), (x1, y1, z1) = np.asarray(extent).tolist()
@@ -113,7 +120,7 @@ class BoxReader:
         return self._finite_box((x0 * sx + x, y0 * sy + y, z0 * sz + z), (x1 * sx + x, y1 * sy + y, z1 * sz + z))
 
     def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
-        return self._box_around(_points_of(prim, self._time) @ matrix[:3, :3] + matrix[3, :3])
+        return self._box_around(_points_of(prim, self.time) @ matrix[:3, :3] + matrix[3, :3])
 
     def _box_around(self, world: _Matrix) -> Box | None:
         found = world[_is_near(world).all(axis=1)]
@@ -149,7 +156,7 @@ class BoxReader:
             if resets or not (len(found) or gprim.is_point_based):
                 return None
             is_tight = len(found) and (not gprim.is_point_based or _is_aligned(matrix))
-            local = found if is_tight else _points_of(gprim.prim, self._time)
+            local = found if is_tight else _points_of(gprim.prim, self.time)
             corners.append(local @ matrix[:3, :3] + matrix[3, :3])
             extents.append(found @ matrix[:3, :3] + matrix[3, :3])
             matrices.append(matrix)
@@ -188,7 +195,7 @@ class BoxReader:
             above = next(node for node in _upwards(shape.gprims[0]) if node.twin is root.twin)
             for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
-                local = _points_of(gprim.prim, self._time) if gprim.is_point_based else np.empty((0, 3))
+                local = _points_of(gprim.prim, self.time) if gprim.is_point_based else np.empty((0, 3))
                 near = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
                 is_enough = len(near) and len(near) >= min(len(local), _FEWEST_POINTS)
                 shape.points.append(near if is_enough else corners)

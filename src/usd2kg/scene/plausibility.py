@@ -1,9 +1,10 @@
-"""Whether a scene's measures can be true: its units, and objects that are not where a room can be."""
+"""Whether a scene can be as it reads: its units, objects that are not where a room can be, names that say nothing."""
 
 import math
 from statistics import median
 
 from usd2kg.scene.model import Diagnostic, Scene, SceneObject
+from usd2kg.scene.pieces import is_silent
 
 __all__ = ["check_plausibility", "find_outliers"]
 
@@ -12,6 +13,7 @@ _FEWEST = 5
 _SMALLEST_ROOM, _LARGEST_PLACE = 1.0, 20_000.0
 _FAR = 50.0
 _FAR_AT_LEAST = 100.0
+_MANY_UNNAMED, _MOSTLY = 20, 0.5
 
 
 def find_outliers(scene: Scene) -> dict[str, str]:
@@ -44,7 +46,23 @@ def _size(obj: SceneObject) -> float:
 
 
 def check_plausibility(scene: Scene) -> list[Diagnostic]:
-    """Return what is hard to believe about a scene's measures."""
+    """Return what is hard to believe about a scene, and what makes it hard to understand."""
+    return [*_measures(scene), *_names(scene)]
+
+
+def _names(scene: Scene) -> list[Diagnostic]:
+    # A copy of a point instancer has its prototype's name.
+    unnamed = [obj.name for obj in scene.objects if is_silent(obj.name) and not (obj.asset or obj.display_name)]
+    if len(unnamed) < _MANY_UNNAMED or len(unnamed) < _MOSTLY * len(scene.objects):
+        return []
+    message = (
+        f"{len(unnamed)} of {len(scene.objects)} objects have names that say nothing ({', '.join(unnamed[:3])}, …); "
+        "if they are pieces of larger things, say which prims are objects with --include or --objects"
+    )
+    return [Diagnostic("unnamed", message)]
+
+
+def _measures(scene: Scene) -> list[Diagnostic]:
     outliers = find_outliers(scene)
     notes = [
         Diagnostic("outlier", f"{what}; it is kept, but not counted in the scene's extent", path)

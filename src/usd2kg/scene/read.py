@@ -63,8 +63,7 @@ def read_scene(
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
-    # Where an attribute has no samples, its default value is what stands at the earliest time.
-    time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
+    time = _time_code(options)
     with (
         translated_errors(opened.source),
         captured_diagnostics() as openusd_notes,
@@ -73,8 +72,10 @@ def read_scene(
         np.errstate(invalid="ignore", over="ignore"),
         outline_stage(opened, time) as outline,
     ):
-        selection = select_objects(outline, tuple(dict.fromkeys(paths or ())), options.selection)
-        objects, notes = _read_objects(opened, outline, selection, time, options.expand_instancers)
+        boxes = BoxReader(opened.frame, time, _above_endless(outline))
+        selection = select_objects(outline, options.selection, boxes.read_below, tuple(dict.fromkeys(paths or ())))
+        reader = _ObjectReader(opened, outline, selection.chosen, boxes)
+        objects = _read_objects(reader, outline, selection, options.expand_instancers)
         joints = read_joints(outline.joint_prims, opened.frame, time)
         label_notes = lint_labels(outline.labelled_prims, time)
         time_read = _time_read(opened, options)
@@ -92,7 +93,7 @@ def read_scene(
         missing_paths=selection.missing,
         joints=joints.joints,
     )
-    found = (*_left_out_notes(outline), *notes, *joints.diagnostics, *label_notes, *check_plausibility(scene))
+    found = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_plausibility(scene))
     return replace(scene, diagnostics=tuple(map(_on_one_line, (*opened.diagnostics, *openusd_notes, *found))))
 
 
@@ -139,15 +140,18 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
-    with (
-        translated_errors(opened.source),
-        captured_diagnostics(),
-        outline_stage(opened, Usd.TimeCode.EarliestTime()) as outline,
-    ):
-        selection = select_objects(outline, (), options.selection)
+    time = _time_code(options)
+    with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
+        boxes = BoxReader(opened.frame, time, _above_endless(outline))
+        selection = select_objects(outline, options.selection, boxes.read_below)
         if not opened.stage.GetPrimAtPath(path):
             raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
         return explain(path, outline, selection)
+
+
+def _time_code(options: ReadOptions) -> Usd.TimeCode:
+    # Where an attribute has no samples, its default value is what stands at the earliest time.
+    return Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
 
 
 def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
@@ -165,9 +169,8 @@ def _no_object_message(source: str, outline: Outline, selection: Selection, open
 
 
 def _read_objects(
-    opened: OpenedStage, outline: Outline, selection: Selection, time: Usd.TimeCode, expand_instancers: bool
-) -> tuple[list[SceneObject], list[Diagnostic]]:
-    reader = _ObjectReader(opened, outline, selection.chosen, time)
+    reader: "_ObjectReader", outline: Outline, selection: Selection, expand_instancers: bool
+) -> list[SceneObject]:
     found = _find_objects(outline, selection.chosen, expand_instancers)
     boxes = reader.measure([entry for entry in found if entry.is_read])
     objects: list[SceneObject] = []
@@ -179,7 +182,7 @@ def _read_objects(
         inside = entry.nodes[0].path if entry.is_read else entry.parent_path
         for instancer in entry.expanded:
             objects.extend(reader.read_copies(instancer, inside))
-    return objects, reader.notes
+    return objects
 
 
 class _Found(NamedTuple):
@@ -243,11 +246,11 @@ def _above_endless(outline: Outline) -> frozenset[str]:
 class _ObjectReader:
     """Reads one object at a time, sharing OpenUSD's caches."""
 
-    def __init__(self, opened: OpenedStage, outline: Outline, chosen: dict[str, str], time: Usd.TimeCode) -> None:
+    def __init__(self, opened: OpenedStage, outline: Outline, chosen: dict[str, str], boxes: BoxReader) -> None:
         self.frame = opened.frame
         self.chosen = chosen
-        self.time = time
-        self.boxes = BoxReader(opened.frame, time, _above_endless(outline))
+        self.time = time = boxes.time
+        self.boxes = boxes
         self.labels = LabelReader(time)
         self.has_labels = bool(outline.labelled_prims)
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)

@@ -2,7 +2,7 @@
 
 In order: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads,
 instances), and for geometry that none of these covers its nearest owner that is not a mere grouping.
-The rules see outline nodes only, so each can be tried on a tree written by hand.
+The rules see outline nodes only, and boxes where names say nothing.
 """
 
 import re
@@ -10,10 +10,12 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from usd2kg.scene.fixtures import find_fixtures
 from usd2kg.scene.options import SelectionOverrides
 from usd2kg.scene.outline import Node, Outline
+from usd2kg.scene.pieces import Measure, is_silent, sort_pieces
 from usd2kg.scene.robots import merge_robots
-from usd2kg.words import split_identifier, words_of
+from usd2kg.words import split_identifier
 
 __all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"]
 
@@ -29,16 +31,6 @@ _GROUPING_WORDS = frozenset(
     layout environment env world root scene visuals models parts structure decoration decorations
     """.split()
 )
-_FIXTURE_WORDS = frozenset(
-    """
-    basin burner cooktop countertop counter faucet hob hotplate sink stovetop tap washbasin worktop
-    """.split()
-)
-"""Distinct fixtures, which people name apart from the body that they are built into."""
-_SILENT_WORDS = frozenset(
-    "poly part parts piece component element item entity body solid surface face shape unnamed".split()
-)
-"""Last words of names that converters make up; with production tokens and numbers they say nothing."""
 
 
 @dataclass(frozen=True)
@@ -54,13 +46,13 @@ class Selection:
 
 
 def select_objects(
-    outline: Outline, wanted: tuple[str, ...] = (), overrides: SelectionOverrides | None = None
+    outline: Outline, overrides: SelectionOverrides, measure: Measure, wanted: tuple[str, ...] = ()
 ) -> Selection:
     """Return the prims of `outline` that are objects, each with the reason.
 
     Those at the paths `wanted` are objects whatever the rules or the overrides say.
     """
-    candidates = _overridden(outline, overrides or SelectionOverrides())
+    candidates = _overridden(outline, overrides, measure)
     there = {node.path for node in outline.nodes}
     for path in wanted:
         if path in there:
@@ -70,7 +62,7 @@ def select_objects(
     return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
-def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, str]:
+def _overridden(outline: Outline, overrides: SelectionOverrides, measure: Measure) -> dict[str, str]:
     nodes = outline.nodes
     if overrides.only:
         only = frozenset(overrides.only)
@@ -78,7 +70,7 @@ def _overridden(outline: Outline, overrides: SelectionOverrides) -> dict[str, st
     if overrides.is_every_prim:
         candidates = {node.path: "every prim with geometry was asked for" for node in nodes if node.gprim_count}
     else:
-        candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}))
+        candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}), measure)
     included = [path_pattern(pattern) for pattern in overrides.include]
     for node in nodes if included else ():
         if any(pattern.fullmatch(node.path) for pattern in included):
@@ -112,14 +104,17 @@ def path_pattern(pattern: str) -> re.Pattern[str]:
     return re.compile("".join(pieces.get(part, re.escape(part)) for part in parts))
 
 
-def _by_rules(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
+def _by_rules(outline: Outline, kinds: frozenset[str], measure: Measure) -> dict[str, str]:
     candidates = _model_candidates(outline, kinds)
     _drop_whole_scene(outline.root, candidates)
     merge_robots(outline, candidates)
     _merge_wrappers(outline, candidates)
     _rise_to_names(outline, candidates)
-    candidates.update(_geometry_owners(outline.root, candidates))
-    candidates.update(_fixtures(outline, candidates))
+    owners = _geometry_owners(outline.root, candidates)
+    sort_pieces(outline, candidates, owners, measure)
+    candidates.update(owners)
+    for body in [node for node in outline.nodes if candidates.get(node.path) == _BODY]:
+        candidates.update(find_fixtures(body, candidates))
     return candidates
 
 
@@ -202,10 +197,10 @@ def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
 
 def _rise_to_names(outline: Outline, candidates: dict[str, str]) -> None:
     """Let the model above stand for an asset that comes in as its `visual`, where that is all it shows."""
-    assets = [node for node in outline.nodes if candidates.get(node.path) == _ASSET and _is_silent(node.name)]
+    assets = [node for node in outline.nodes if candidates.get(node.path) == _ASSET and is_silent(node.name)]
     for asset in assets:
         top = asset
-        while _is_silent(top.name) and (above := top.parent) is not None and above.path not in candidates:
+        while is_silent(top.name) and (above := top.parent) is not None and above.path not in candidates:
             if above.gprim_count > asset.gprim_count or _is_grouping(above, holds_objects=False):
                 break
             top = above
@@ -267,13 +262,9 @@ def _owners_at(node: Node, cover: _Cover, below: list[_Cover]) -> list[Node]:
     if len(found) == 1 and (is_lone_root or not is_grouping):
         return [node]
     # A named thing in pieces that nobody named: Chair/group_1/mesh_7.
-    if not is_grouping and not _is_silent(node.name) and all(_is_silent(owner.name) for owner in found):
+    if not is_grouping and not is_silent(node.name) and all(is_silent(owner.name) for owner in found):
         return [node]
     return found
-
-
-def _is_silent(name: str) -> bool:
-    return _SILENT_WORDS.issuperset(words_of(name))
 
 
 def _is_grouping(node: Node, holds_objects: bool) -> bool:
@@ -287,33 +278,6 @@ def _is_lone_root(node: Node) -> bool:
     """Whether the file is one asset: a single root prim with nothing below it but what is asked about."""
     above = node.parent
     return above is not None and above.parent is None and not node.is_scope and node.gprim_count == above.gprim_count
-
-
-def _fixtures(outline: Outline, candidates: dict[str, str]) -> dict[str, str]:
-    """Return the fixtures among the parts of rigid bodies, which may be frames whose mesh is part of the body's."""
-    found: dict[str, str] = {}
-    if _BODY not in candidates.values():
-        return found
-    for body in [node for node in outline.nodes if candidates.get(node.path) == _BODY]:
-        pending = list(body.children)
-        while pending:
-            node = pending.pop()
-            if node.path in candidates:
-                continue
-            if not node.is_hidden and _is_fixture(node) and _last_word(node.name) not in words_of(body.name):
-                found[node.path] = f"fixture of {body.name}"
-            else:
-                pending.extend(node.children)
-    return found
-
-
-def _is_fixture(node: Node) -> bool:
-    is_whole = node.is_gprim or node.gprim_count > 0 or (node.type_name == "Xform" and not node.children)
-    return is_whole and _last_word(node.name) in _FIXTURE_WORDS
-
-
-def _last_word(name: str) -> str:
-    return next(reversed(words_of(name)), "")
 
 
 def _count_left_out(outline: Outline, chosen: dict[str, str]) -> Counter[str]:
