@@ -253,3 +253,55 @@ def test_box_is_the_tightest_around_the_eight_corners(tmp_path_factory, place, t
     points *= unit
     box = read_scene(path).objects[0].box
     assert corners(box) == pytest.approx((*points.min(axis=0), *points.max(axis=0)), rel=1e-6, abs=1e-6 * unit)
+
+
+# --- round solids: the box of what is turned, not the turned box -----------------------------------------
+
+
+def solid(type_name, *sizes):
+    """Return a solid turned by 30° about x, its axis z."""
+    turned = ops(("double", "rotateX", 30))
+    return xform("World", component("Thing", prim(type_name, "solid", 'uniform token axis = "Z"', *sizes, turned)))
+
+
+COS, SIN = math.cos(math.radians(30)), math.sin(math.radians(30))
+
+
+@pytest.mark.parametrize(
+    ("text", "size"),
+    [
+        pytest.param(
+            prim("Sphere", "solid", "double radius = 2", ops(("double", "rotateX", 30))), (4, 4, 4), id="ball"
+        ),
+        # Across its axis 2 r = 2; along y the axis' 4 sin 30° and the disc's 2 cos 30°, along z the other way round.
+        pytest.param(
+            solid("Cylinder", "double radius = 1", "double height = 4"),
+            (2, 4 * SIN + 2 * COS, 4 * COS + 2 * SIN),
+            id="cylinder",
+        ),
+        # A capsule is a ball that is drawn along its axis.
+        pytest.param(
+            solid("Capsule", "double radius = 1", "double height = 4"), (2, 4 * SIN + 2, 4 * COS + 2), id="capsule"
+        ),
+        # The tip is at -2 sin 30° in y, beyond the base circle's 2 sin 30° - cos 30°.
+        pytest.param(
+            solid("Cone", "double radius = 1", "double height = 4"),
+            (2, 2 * SIN + 2 * SIN + COS, 2 * COS + 2 * COS + SIN),
+            id="cone",
+        ),
+    ],
+)
+def test_round_solids_that_are_turned_have_tight_boxes(read, text, size):
+    assert read(text).objects[0].box.size == pytest.approx(size, rel=1e-3)
+
+
+def test_a_pot_turned_about_its_own_axis_is_no_wider(read):
+    pot = prim("Cylinder", "pot", "double radius = 0.1", "double height = 0.2", 'uniform token axis = "Z"')
+    scene = read(xform("World", component("Pot", pot, ops(("double", "rotateZ", 45)))))
+    assert scene.objects[0].box.size == pytest.approx((0.2, 0.2, 0.2), rel=1e-3)
+
+
+def test_a_solid_whose_size_is_no_number_has_no_box(read):
+    solid_of_text = prim("Sphere", "ball", 'string radius = "large"', ops(("double", "rotateX", 30)))
+    [thing] = [obj for obj in read(xform("World", solid_of_text, cube("box"))).objects if obj.name == "ball"]
+    assert thing.box is None

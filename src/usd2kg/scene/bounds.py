@@ -11,6 +11,7 @@ from pxr import Gf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.model import Box, Quaternion, StageFrame, Vector
 from usd2kg.scene.outline import Node
+from usd2kg.scene.solids import ROUND_SOLIDS, solid_surface
 from usd2kg.scene.stage import UNREADABLE, read_value
 
 __all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
@@ -20,6 +21,8 @@ _EMPTY_EXTENT = 1e30
 """OpenUSD's empty ranges and infinite planes lie beyond any length a scene can have."""
 _ALIGNED = 1e-6
 _FEWEST_POINTS = 3
+_SEGMENTS = 128
+"""Around a round solid: its box is right to 0.03 % of the radius."""
 _RANGE = 2
 """An extent has a lower and an upper corner."""
 _UNTURNED: dict[str, Quaternion] = {"Z": (0.0, 0.0, 0.0, 1.0), "Y": (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))}
@@ -84,7 +87,7 @@ class BoxReader:
         return self._box(self._hints, node)
 
     def _measure(self, node: Node) -> Box | None:
-        if not node.is_point_based:
+        if not node.has_points:
             return self._box(self._geometry, node)
         matrix = self._matrix(node)
         if not node.may_be_turned:
@@ -153,9 +156,9 @@ class BoxReader:
         for gprim in gprims:
             matrix, resets = self._relative(gprim, root)
             found = self.read_local_corners(gprim.prim)
-            if resets or not (len(found) or gprim.is_point_based):
+            if resets or not (len(found) or gprim.has_points):
                 return None
-            is_tight = len(found) and (not gprim.is_point_based or _is_aligned(matrix))
+            is_tight = len(found) and (not gprim.has_points or _is_aligned(matrix))
             local = found if is_tight else _points_of(gprim.prim, self.time)
             corners.append(local @ matrix[:3, :3] + matrix[3, :3])
             extents.append(found @ matrix[:3, :3] + matrix[3, :3])
@@ -195,7 +198,7 @@ class BoxReader:
             above = next(node for node in _upwards(shape.gprims[0]) if node.twin is root.twin)
             for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
-                local = _points_of(gprim.prim, self.time) if gprim.is_point_based else np.empty((0, 3))
+                local = _points_of(gprim.prim, self.time) if gprim.has_points else np.empty((0, 3))
                 near = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
                 is_enough = len(near) and len(near) >= min(len(local), _FEWEST_POINTS)
                 shape.points.append(near if is_enough else corners)
@@ -270,7 +273,13 @@ def is_measurable(node: Node) -> bool:
 
 
 def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
-    """Return the points, (n, 3), in the prim's frame; none where they are authored as something else."""
+    """Return the points, (n, 3), in the prim's frame, of a solid those of its surface.
+
+    There are none where they are authored as something else.
+    """
+    if prim.GetTypeName() in ROUND_SOLIDS:
+        surface = solid_surface(prim, time, _SEGMENTS)
+        return surface[0] if surface else np.empty((0, 3))
     points = read_value(prim, UsdGeom.Tokens.points, time, Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
     return np.array(() if points is None else points, dtype=float).reshape(-1, 3)
 

@@ -1,9 +1,7 @@
 """The triangles of a stage, in metres and z-up: for pictures and for the page that shows objects in 3D."""
 
-import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +10,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom, UsdShade
 
 from usd2kg.errors import SceneError
 from usd2kg.scene.model import Diagnostic, StageFrame, Vector
+from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.stage import OpenedStage
 
 __all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes"]
@@ -24,7 +23,6 @@ NEUTRAL_GREY: Vector = (0.5, 0.5, 0.5)
 
 _PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
 _COLOR_INPUTS = ("diffuseColor", "diffuse_color_constant", "base_color", "baseColor", "diffuse_reflection_color")
-_SEGMENTS = 32
 _MOST_LOOKS = 16
 """A mesh coloured face by face is split by colour up to this many; past it the mean stands for all."""
 _MOST_COPIES = 4000
@@ -229,7 +227,7 @@ class _MeshReader:
         if prim.IsA(UsdGeom.Mesh):
             shape, trouble = _read_mesh(UsdGeom.Mesh(prim), self.time)
         else:
-            shape, trouble = _tessellate(prim, self.time)
+            shape, trouble = _read_solid(prim, self.time)
         if shape is not None and not (np.abs(shape.points) < _FARTHEST).all():
             shape, trouble = None, "its points are not all finite"
         if trouble:
@@ -328,6 +326,14 @@ def _rgb(color: Any) -> Vector:
     return (red, green, blue)
 
 
+def _read_solid(prim: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
+    surface = solid_surface(prim, time)
+    if surface is None:
+        return None, f"a {prim.GetTypeName() or 'prim without type'} has no triangles"
+    points, triangles = surface
+    return _Shape(points, triangles, np.zeros(len(triangles), np.int64)), ""
+
+
 def _read_mesh(mesh: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
     """Return the mesh cut into triangles, or None and what is wrong with it."""
     points = _array(mesh.GetPointsAttr().Get(time), np.float64)
@@ -349,73 +355,3 @@ def _read_mesh(mesh: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         corners = corners[:, ::-1]
     return _Shape(points, indices[corners].astype(np.int32), face_of), ""
-
-
-def _tessellate(prim: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
-    def number(name: str) -> float:
-        value = prim.GetAttribute(name).Get(time) if prim.HasAttribute(name) else None
-        return math.nan if value is None else float(value)
-
-    type_name = str(prim.GetTypeName())
-    solid = _solid(type_name, number)
-    if solid is None:
-        return None, f"a {type_name or 'prim without type'} has no triangles"
-    points, triangles = solid
-    axis = prim.GetAttribute("axis").Get(time) if prim.HasAttribute("axis") else "Z"
-    # Axes change places in a ring, so that nothing is mirrored.
-    order = {"X": [2, 0, 1], "Y": [1, 2, 0]}.get(str(axis), [0, 1, 2])
-    return _Shape(points[:, order], triangles, np.zeros(len(triangles), np.int64)), ""
-
-
-def _solid(type_name: str, number: Callable[[str], float]) -> tuple[Points, Triangles] | None:
-    """Return a UsdGeom solid about the z axis; None if the type has no such shape."""
-    half, radius = number("height") / 2, number("radius")
-    # Cylinder_1 and Capsule_1 have a radius at either end.
-    low, high = (radius, radius) if math.isfinite(radius) else (number("radiusBottom"), number("radiusTop"))
-    match type_name.removesuffix("_1"):
-        case "Cube":
-            return _CUBE_CORNERS * (number("size") / 2), _CUBE_TRIANGLES
-        case "Plane":
-            return _SQUARE_CORNERS * np.array([number("width") / 2, number("length") / 2, 0]), _SQUARE_TRIANGLES
-        case "Sphere":
-            profile = [*_arc(radius, 0.0, -90, 90)]
-        case "Cylinder":
-            profile = [(0, -half), (low, -half), (high, half), (0, half)]
-        case "Cone":
-            profile = [(0, -half), (radius, -half), (0, half)]
-        case "Capsule":
-            profile = [*_arc(low, -half, -90, 0), *_arc(high, half, 0, 90)]
-        case _:
-            return None
-    return _turn(profile)
-
-
-_SQUARE_CORNERS = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
-_SQUARE_TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
-_CUBE_CORNERS = np.array([[x, y, z] for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)])
-_CUBE_QUADS = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]], np.int32)
-_CUBE_TRIANGLES = np.concatenate([_CUBE_QUADS[:, [0, 1, 2]], _CUBE_QUADS[:, [0, 2, 3]]])
-
-
-def _arc(radius: float, middle: float, start: int, end: int) -> Iterator[tuple[float, float]]:
-    for degrees in np.linspace(start, end, 1 + (end - start) // 10):
-        # Exactly 0 at the poles, so that they are recognised as such.
-        distance = 0.0 if abs(degrees) == 90 else radius * math.cos(math.radians(degrees))
-        yield distance, middle + radius * math.sin(math.radians(degrees))
-
-
-def _turn(profile: list[tuple[float, float]]) -> tuple[Points, Triangles]:
-    """Return the solid that a profile of (distance from the axis, height), from the bottom up, makes about z."""
-    angles = np.arange(_SEGMENTS) * (2 * math.pi / _SEGMENTS)
-    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    rings = [np.column_stack([circle * distance, np.full(_SEGMENTS, height)]) for distance, height in profile]
-    here = np.arange(_SEGMENTS, dtype=np.int32)
-    after = (here + 1) % _SEGMENTS
-    triangles = []
-    for i, ((low, _), (high, _)) in enumerate(pairwise(profile)):
-        below, above = i * _SEGMENTS, (i + 1) * _SEGMENTS
-        if low != 0:
-            triangles.append(np.stack([below + here, below + after, above + after], axis=1))
-        if high != 0:
-            triangles.append(np.stack([below + here, above + after, above + here], axis=1))
-    return np.concatenate(rings), np.concatenate(triangles).astype(np.int32)

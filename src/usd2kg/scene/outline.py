@@ -56,7 +56,8 @@ class Node:
     authored: Authored = NOTHING_AUTHORED
     children: list["Node"] = field(default_factory=list)
     is_gprim: bool = False
-    is_point_based: bool = False
+    has_points: bool = False
+    """Whether it can be measured by points: its own, or those of a round solid's surface."""
     is_scope: bool = False
     is_body: bool = False
     """Carries UsdPhysics' RigidBodyAPI, or a mass of its own without being geometry."""

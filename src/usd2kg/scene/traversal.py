@@ -13,6 +13,7 @@ from pxr import Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 from usd2kg.scene.instancers import is_endless
 from usd2kg.scene.metadata import text_names
 from usd2kg.scene.outline import Authored, JointLink, Node, Outline
+from usd2kg.scene.solids import ROUND_SOLIDS
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, read_targets, read_value, value_of
 
 __all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_stage"]
@@ -58,7 +59,7 @@ class _Schema(NamedTuple):
     """Whether it is called a joint: vendors' types (PhysxPhysicsGearJoint) are unknown to plain OpenUSD."""
     is_imageable: bool
     is_gprim: bool
-    is_point_based: bool
+    has_points: bool
     is_scope: bool
     is_instancer: bool
 
@@ -156,7 +157,7 @@ class _Outliner:
 
     def _fill(self, node: Node, schema: _Schema, authored: Authored, schemas: Sequence[str]) -> None:
         node.authored = authored
-        node.is_gprim, node.is_point_based = schema.is_gprim, schema.is_point_based
+        node.is_gprim, node.has_points = schema.is_gprim, schema.has_points
         node.is_scope, node.is_instancer = schema.is_scope, schema.is_instancer
         node.is_unresolved = node.path in self.unresolved
         _inherit(node)
@@ -205,7 +206,7 @@ class _Outliner:
                 may_be_joint=type_name.endswith("Joint"),
                 is_imageable=prim.IsA(UsdGeom.Imageable),
                 is_gprim=prim.IsA(UsdGeom.Gprim),
-                is_point_based=prim.IsA(UsdGeom.PointBased),
+                has_points=prim.IsA(UsdGeom.PointBased) or type_name in ROUND_SOLIDS,
                 is_scope=prim.IsA(UsdGeom.Scope),
                 is_instancer=prim.IsA(UsdGeom.PointInstancer),
             )
@@ -250,7 +251,7 @@ def _copy_below(source: Node, parent: Node) -> Node:
     node = Node(source.stage, path, source.name, source.type_name, source.kind, parent)
     node.metadata, node.authored = source.metadata, source.authored
     parent.children.append(node)
-    node.is_gprim, node.is_point_based = source.is_gprim, source.is_point_based
+    node.is_gprim, node.has_points = source.is_gprim, source.has_points
     node.is_scope, node.is_instancer, node.is_instance = source.is_scope, source.is_instancer, source.is_instance
     node.is_body, node.has_mass = source.is_body, source.has_mass
     node.is_labelled, node.is_unresolved = source.is_labelled, source.is_unresolved
