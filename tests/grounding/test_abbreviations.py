@@ -125,14 +125,24 @@ def test_the_likeliest_reading(tokens: list[str], words: tuple[str, ...]):
     assert best(*tokens) == words
 
 
-def test_readings_are_ranked_and_their_probabilities_add_up_to_one():
+def test_readings_are_ranked_and_their_probabilities_leave_room_for_no_word():
     for tokens in (["frdg"], ["cff", "mchn"], ["cpcbl"], ["b"], ["tbl", "lmp", "blk"]):
         found = READER.read(tokens)
         shares = [reading.probability for reading in found]
         assert shares == sorted(shares, reverse=True)
         assert all(0 <= share <= 1 for share in shares)
-        assert sum(shares) == pytest.approx(1)
+        assert 0 < sum(shares) <= 1
         assert len({reading.words for reading in found}) == len(found) > 0
+
+
+def test_letters_that_no_word_is_written_with_are_hardly_read():
+    assert sum(reading.probability for reading in READER.read(["xqzv"])) < 0.01
+    # A brand among words is passed over: "lnde" is no word of a fork lift.
+    assert READER.read(["frklft", "lndwxz"])[0].words == ("forklift",)
+
+
+def test_a_word_of_many_terms_is_likelier_than_a_word_of_one():
+    assert READER.read(["brd"])[0].words == ("board",)
 
 
 def test_a_border_between_tokens_is_a_border_between_words():

@@ -143,7 +143,7 @@ def test_the_default_is_the_root_with_the_most_classes_below_it(home_tbox: TBox)
 
 
 def test_the_vocabulary_holds_the_words_of_all_terms():
-    assert {"bunsen", "burner", "glass", "vessel", "beaker"} <= lexicon_of(LABORATORY).vocabulary
+    assert {"bunsen", "burner", "glass", "vessel", "beaker"} <= lexicon_of(LABORATORY).vocabulary.keys()
 
 
 def test_the_home_tbox_names_every_class_by_its_own_local_name(home_tbox: TBox):

@@ -30,19 +30,22 @@ _STYLES = {"skeleton": 0.5, "skeleton with first vowel": 0.15, "cut": 0.2}
 """How often words are shortened in each way."""
 _LENGTHS = ((1, 0.02), (2, 0.1), (3, 0.28), (4, 0.35), (5, 0.15), (6, 0.1))
 """How many letters are kept, and how often."""
-_TBOX_SHARE, _STAGE_SHARE = 0.25, 0.45
+_TBOX_SHARE, _STAGE_SHARE = 0.55, 0.3
 """Of the words of names, how many are the TBox's, and how many are in another name on the stage."""
 _ADJECTIVE = math.log(0.05 / 0.003)
 """How much likelier an adjective is to stand in a name than `thing_prior`, which is about heads, has it."""
 _GENERAL = math.log(1 - _TBOX_SHARE - _STAGE_SHARE)
 _RAREST = -15.5
-_COMPOUND = math.log(30)
+_COMPOUND = math.log(15)
 """How much likelier two words are together if they make a known compound."""
 _NEXT_WORD = math.log(0.35)
 _ANY_LETTER = math.log(0.0004)
 """A single letter or pair that stands for no word: the C of CupC."""
 _USUAL = math.log(0.002)
 """An abbreviation that people have agreed on, before the stage is heard."""
+_UNKNOWN_WORD, _UNKNOWN_LETTER = math.log(0.02), math.log(0.06)
+"""A word that nobody knows, a brand say, of three to six letters that may be any."""
+_LONGEST_UNKNOWN = 6
 _CHOICES = 7
 _BEAM = 10
 _HOPELESS = 9.0
@@ -78,7 +81,8 @@ class AbbreviationReader:
     def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
-        self._tbox_words = frozenset(word for word in lexicon.vocabulary if len(word) > 1)
+        self._tbox_words = {word: count for word, count in lexicon.vocabulary.items() if len(word) > 1}
+        self._tbox_total = sum(self._tbox_words.values())
         self._forms: dict[str, dict[str, list[_Choice]]] = {}
         """First letter → form → words; made for a letter when it is first met."""
 
@@ -132,6 +136,8 @@ class AbbreviationReader:
             score = path.score + (_NEXT_WORD if path.pieces else 0.0)
             if len(piece) <= 2:
                 yield _Path(score + len(piece) * _ANY_LETTER, path.words, path.pieces + 1)
+            elif len(piece) <= _LONGEST_UNKNOWN:
+                yield _Path(score + _UNKNOWN_WORD + len(piece) * _UNKNOWN_LETTER, path.words, path.pieces + 1)
             for choice in choices:
                 bonus = _COMPOUND if path.words and self._is_compound(path.words[-1], choice.word) else 0.0
                 yield _Path(score + choice.score + bonus, (*path.words, choice.word), path.pieces + 1)
@@ -155,8 +161,8 @@ class AbbreviationReader:
         prior = thing_prior(word) + (_ADJECTIVE if word in self._taxonomy.adjectives else 0.0) + _GENERAL
         if word not in self._tbox_words:
             return prior
-        # A term's words are as likely as any other term's, and likelier where people use the word.
-        return _log_sum(prior, math.log(_TBOX_SHARE / len(self._tbox_words)))
+        # A word is the likelier the more terms hold it, and likelier where people use it.
+        return _log_sum(prior, math.log(_TBOX_SHARE * self._tbox_words[word] / self._tbox_total))
 
 
 @lru_cache(maxsize=1)
@@ -186,9 +192,11 @@ def forms_of(word: str) -> list[tuple[str, float]]:
 
 
 def _readings(paths: list[_Path]) -> list[Reading]:
-    found = [path for path in paths if path.words][:_READINGS]
+    found = paths[:_READINGS]
     weights = [math.exp(path.score - found[0].score) for path in found]
-    return [Reading(path.words, weight / sum(weights)) for path, weight in zip(found, weights, strict=True)]
+    readings = [Reading(path.words, weight / sum(weights)) for path, weight in zip(found, weights, strict=True)]
+    # That it is no word at all is a reading too.
+    return [reading for reading in readings if reading.words]
 
 
 def _best(paths: list[_Path]) -> list[_Path]:

@@ -32,7 +32,7 @@ _SOURCES = {
     "labels": "label",
     "parts": "parts",
 }
-_CLEAR = 0.7
+_CLEAR = 0.6
 """A name that scores this is believed before other evidence is asked."""
 _PRIMITIVES = frozenset(
     ["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull", "poly", "surface"]
@@ -41,7 +41,7 @@ _PRIMITIVES = frozenset(
 _COMPANY = 0.8
 """How far the company is trusted to tell the class, as a share of what the name would be."""
 _WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
-_SIZE_FLOOR, _SIZE_POWER, _NO_SIZE = 0.05, 0.3, 0.3
+_SIZE_FLOOR, _SIZE_POWER, _NO_SIZE = 0.05, 0.2, 0.3
 _SIZE_TRUST = 0.3
 _SUITED = 3
 """The classes that are considered for their size alone."""
@@ -54,6 +54,8 @@ _NEARNESS_TEXTS = {
     Nearness.TWIN: "of the same size",
     Nearness.ALIKE: "of about the same size",
 }
+_UNREAD = 0.2
+"""The weight of a reading of an abbreviation that names no class: it may be right all the same."""
 _UNKNOWN = 0.12
 _DEFAULT = 0.1
 _CANDIDATES = 8
@@ -210,17 +212,21 @@ class _Run:
         if not tokens or (not view.is_masked and all(self._reader.is_known(token) for token in tokens)):
             return []
         readings = self._abbreviations.read(tokens, view.company)
-        totals: dict[ClassIRI, float] = {}
+        shares: dict[ClassIRI, float] = {}
         best: dict[ClassIRI, tuple[float, str]] = {}
+        # What is left of the probability is that it is no word at all.
+        total = _UNREAD * (1 - sum(reading.probability for reading in readings))
         for reading in readings:
-            matches = self._matcher.match(NamePhrase(reading.words), view.parents)
+            matches, weight = self._matcher.weigh(NamePhrase(reading.words), view.parents, view.size)
+            likelihood = reading.probability * max(weight, _UNREAD)
+            total += likelihood
             if matches:
-                iri, weight = matches[0].class_iri, reading.probability * matches[0].score
-                totals[iri] = totals.get(iri, 0.0) + weight
-                if iri not in best or best[iri][0] < weight:
+                iri, share = matches[0].class_iri, likelihood * matches[0].score
+                shares[iri] = shares.get(iri, 0.0) + share
+                if iri not in best or best[iri][0] < share:
                     said = f"“{view.name}” may be short for “{' '.join(reading.words)}”: {matches[0].explanation}"
-                    best[iri] = (weight, said)
-        return [_Finding("name", Match(iri, total, best[iri][1])) for iri, total in totals.items()]
+                    best[iri] = (share, said)
+        return [_Finding("name", Match(iri, share / total, best[iri][1])) for iri, share in shares.items()]
 
     def _by_words(self, view: ObjectView) -> list[_Finding]:
         """Return what the words say, best first; other sources are asked only if the name is not clear."""

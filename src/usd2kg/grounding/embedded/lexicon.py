@@ -54,8 +54,8 @@ class Lexicon:
     """Term without spaces → the class it names."""
     anchors: Mapping[int, Anchor]
     """Synset → the class aligned with it."""
-    vocabulary: frozenset[str]
-    """All single words of the terms."""
+    vocabulary: Mapping[str, int]
+    """Single word → the number of terms that hold it."""
     default: ClassIRI
     """The class that is true of most things: the root with the most classes below it."""
 
@@ -105,7 +105,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     return Lexicon(
         terms=terms,
         anchors=anchors,
-        vocabulary=frozenset(word for term in terms.values() for word in term.text.split()),
+        vocabulary=Counter(word for term in terms.values() for word in term.text.split()),
         default=_default_class(tbox, taxonomy),
     )
 

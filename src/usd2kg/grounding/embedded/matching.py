@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
-from usd2kg.grounding.embedded.sizes import misfit
+from usd2kg.grounding.embedded.sizes import surprise
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.words import split_identifier
@@ -25,8 +25,16 @@ _FIRST_CHUNK = 6.0
 """How much likelier it ends with a first part of several words: `DiningChair_Velvet`."""
 _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
-_MISFIT, _USUAL, _SLOPE = 0.06, 3.0, 2.0
-"""A `misfit` of less than `_USUAL` says nothing; from there each `_SLOPE` more makes the thing e times less likely."""
+_WRONG_SIZE, _RIGHT_SIZE = 0.05, 10.0
+"""How much a size that is wrong or right for what a thing is called makes a reading less or more likely, at most."""
+_SIZE_POWER, _SIZE_OFFSET = 0.6, 0.3
+"""How far `surprise` is heard: models of things vary more than things do, and many names are of parts."""
+_NO_USUAL_SIZE = 0.5
+"""What a reading keeps whose usual size is not known, beside one of the right size."""
+_GUESSED = 0.3
+"""What a reading keeps whose head was misspelt: a brand or a word of another language may look like it."""
+_AGREEING = 0.8
+"""Other matches of a reading count for their classes if they score this much of its best."""
 _SMALLEST_PLACE = 2.0
 """Metres: what is smaller is no room, yard or aisle, but may be named after one."""
 
@@ -48,6 +56,14 @@ class _Reading(NamedTuple):
 
     weight: float
     matches: list[Match]
+
+    def best_by_class(self) -> dict[ClassIRI, Match]:
+        """Return the best match of each class."""
+        return {match.class_iri: match for match in sorted(self.matches, key=lambda match: match.score)}
+
+    def speaks_for(self, match: Match) -> float:
+        """Return 1 for a match that is as good as the best one, less for a lesser sense of the word."""
+        return 1.0 if match.score > _AGREEING * max(found.score for found in self.matches) else match.score
 
 
 class Matcher:
@@ -72,18 +88,28 @@ class Matcher:
             parents: the names of the prims above, outermost first.
             size: extents of the object in metres, in any order.
         """
-        readings = [
-            found for end in range(1, len(phrase.words) + 1) if (found := self._reading(phrase, end, parents, size))
-        ]
+        return self.weigh(phrase, parents, size)[0]
+
+    def weigh(
+        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None
+    ) -> tuple[list[Match], float]:
+        """Return the classes a phrase may name as `match` does, and how likely a thing of that size is called so."""
+        ends = range(1, len(phrase.words) + 1)
+        readings = [found for end in ends if (found := self._reading(phrase, end, parents, size))]
         total = sum(reading.weight for reading in readings)
         best: dict[ClassIRI, Match] = {}
+        shares: dict[ClassIRI, float] = {}
         for reading in readings:
-            share = _LEAST_SHARE + (1 - _LEAST_SHARE) * reading.weight / total
-            for match in reading.matches:
-                score = match.score * share
-                if match.class_iri not in best or best[match.class_iri].score < score:
-                    best[match.class_iri] = Match(match.class_iri, score, match.explanation)
-        return sorted(best.values(), key=lambda match: (-match.score, match.class_iri))
+            for iri, match in reading.best_by_class().items():
+                # Readings that agree on a class add up: a door handle and a lever are handles both.
+                shares[iri] = shares.get(iri, 0.0) + reading.weight / total * reading.speaks_for(match)
+                if iri not in best or best[iri].score * shares[iri] < match.score * reading.weight / total:
+                    best[iri] = match
+        answers = [
+            Match(iri, match.score * (_LEAST_SHARE + (1 - _LEAST_SHARE) * shares[iri]), match.explanation)
+            for iri, match in best.items()
+        ]
+        return sorted(answers, key=lambda match: (-match.score, match.class_iri)), total
 
     def _reading(self, phrase: NamePhrase, end: int, parents: tuple[str, ...], size: Size | None) -> "_Reading | None":
         """Return the reading in which the phrase proper ends before word number `end`; None if that names nothing."""
@@ -97,6 +123,8 @@ class Matcher:
             weight *= _COMPOUND
         elif len(phrase.words) > 1:
             weight *= 1 - self._reader.trailing(run[-1], is_last=not after)
+        if any(read == run[-1] for _, read in phrase.corrections):
+            weight *= _GUESSED
         if end == phrase.first_chunk:
             weight *= _FIRST_CHUNK
         fits = 1.0 if size is None else self._fit(run, size)
@@ -107,12 +135,14 @@ class Matcher:
         return _Reading(weight * fits, matches)
 
     def _fit(self, run: tuple[str, ...], size: Size) -> float:
-        """Return how well a size suits what is called so, from `_MISFIT` to 1."""
+        """Return how much likelier a size makes it that a thing is called so."""
         if len(run) == 1 and max(size) < _SMALLEST_PLACE and self._reader.is_place(run[0]):
-            return _MISFIT
+            return _WRONG_SIZE
         # Of a compound only its own size counts: a spice rack is no rack of usual size.
-        value = misfit(size, "".join(run))
-        return 1.0 if value is None else max(_MISFIT, min(1.0, exp((_USUAL - value) / _SLOPE)))
+        value = surprise(size, "".join(run))
+        if value is None:
+            return _NO_USUAL_SIZE
+        return max(_WRONG_SIZE, min(_RIGHT_SIZE, exp(_SIZE_POWER * value + _SIZE_OFFSET)))
 
     def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], list[Match]]:
         """Return the longest run of words that ends with the last one and is known, and its matches."""

@@ -21,14 +21,15 @@ _PLACEMENTS = frozenset(
     top bottom middle mid left right front back rear upper lower inner outer center centre side corner end north
     south east west open closed main big small large long short tall mini new single double half full one two
     three four five six first second third type var variant alt empty used set grey gray beige body assembly part
+    stack pile pair bunch heap row scan scanned lowpoly highpoly poly simplified decimated textured
     """.split()
 )
-_PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility"])
+_PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility", "establishment"])
 _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
 """Where things hang and stand, and are called after: `clock_wall`."""
-_MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper"])
+_MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
 _DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
 _MOUNT, _PLACE = 0.3, 0.4
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
@@ -41,6 +42,7 @@ _MOST_WORDS = 16
 """Words of a name that are read; display names are free text, and no thing's name is longer."""
 _LONG = 7
 """Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
+_SHORTEST_PARTICIPLE = 5
 _SHORTEST_UNKNOWN = 5
 """Shorter words that are unknown are abbreviations sooner than misspelt."""
 
@@ -73,7 +75,7 @@ class NameReader:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._by_length: dict[int, list[str]] = {}
-        vocabulary = {word for word in taxonomy.words(_THING_DOMAINS) if len(word) > 3} | lexicon.vocabulary
+        vocabulary = {word for word in taxonomy.words(_THING_DOMAINS) if len(word) > 3} | lexicon.vocabulary.keys()
         for word in sorted(vocabulary):
             self._by_length.setdefault(len(word), []).append(word)
         self.correct = lru_cache(maxsize=65536)(self._correct)
@@ -121,13 +123,22 @@ class NameReader:
             or word in self._taxonomy
             or word in self._taxonomy.adjectives
             or word in _PLACEMENTS
+            or self._is_participle(word)
         )
+
+    def _is_participle(self, word: str) -> bool:
+        """Return whether a word is no noun and looks like a participle of one that is known: `lidded`, `braced`."""
+        if not word.endswith("ed") or len(word) < _SHORTEST_PARTICIPLE or word in self._taxonomy:
+            return False
+        stem = word[:-2]
+        stems = {stem, word[:-1], stem[:-1] if stem[-1] == stem[-2] else stem, stem[:-1] + "y"}
+        return any(found in self._taxonomy for found in stems)
 
     def is_modifier(self, word: str) -> bool:
         """Return whether a word, at the end of a name, describes and does not say what the thing is."""
         if word in self._lexicon.terms:
             return False
-        if word in _PLACEMENTS or word in self._taxonomy.adjectives:
+        if word in _PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
             return True
         senses = self._taxonomy.senses(word)
         return bool(senses) and all(sense.domain in _STUFF_DOMAINS for sense in senses)
@@ -146,7 +157,7 @@ class NameReader:
         return share if is_last or share == _DESCRIBES else 0.0
 
     def _trailing(self, word: str) -> float:
-        if word in _PLACEMENTS or word in self._taxonomy.adjectives:
+        if word in _PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
             return _DESCRIBES
         if word in _MOUNTS:
             return _MOUNT

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "misfit", "thing_nouns"]
+__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "surprise", "thing_nouns"]
 
 SMALLEST_EXTENT = 0.001
 """Metres. A thinner extent counts as this: a sheet may be modelled without thickness, and zero has no logarithm."""
@@ -60,20 +60,30 @@ def _rows() -> dict[str, int]:
     return {noun.replace(" ", ""): row for row, noun in enumerate(thing_nouns())}
 
 
-def misfit(size: npt.ArrayLike, noun: str) -> float | None:
-    """Return how much less likely a size is for a thing than the thing's usual size, as a difference of logarithms.
+def surprise(size: tuple[float, float, float], noun: str) -> float | None:
+    """Return how much a size speaks for a thing, against all things whose size is known, as a natural logarithm.
+
+        log p(size | thing) - log mean over things of p(size | thing)
 
     Args:
         size: extents in metres, in any order.
         noun: the thing, without spaces.
 
     Returns:
-        0 for the usual size, more for any other; None where the thing's size is not known.
+        More than 0 where the thing is of this size more often than things are, less for the wrong size; None where the
+        thing's size is not known.
     """
     row = _rows().get(noun)
     if row is None:
         return None
-    return math.log(_load_table().peaks[row]) - float(log_likelihoods(size)[row])
+    logs, usual = _ask(size)
+    return float(logs[row]) - usual
+
+
+@lru_cache(maxsize=4096)
+def _ask(size: tuple[float, float, float]) -> tuple[_Floats, float]:
+    logs = log_likelihoods(size)
+    return logs, float(np.logaddexp.reduce(logs)) - math.log(len(logs))
 
 
 def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
