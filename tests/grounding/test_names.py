@@ -214,6 +214,24 @@ class TestNumbersAndCodes:
         assert made_up.confidence == nameless.confidence
         assert made_up.evidence == ()
 
+    def test_a_box_with_a_small_number_is_a_box(self, home_tbox: TBox):
+        expected = {"Box_3": "Box", "box12": "Box"}
+        assert classes_of(expected, home_tbox) == expected
+
+    @pytest.mark.parametrize("word", ["lidded", "braced", "striped", "folded", "carpeted"])
+    def test_participles_describe(self, reader: NameReader, word: str):
+        assert reader.is_known(word)
+        assert reader.is_modifier(word)
+        assert reader.trailing(word) > 0.9
+
+    @pytest.mark.parametrize("word", ["bed", "sunbed", "seed", "shed", "xqzed"])
+    def test_nouns_and_unknown_words_that_end_alike_are_no_participles(self, reader: NameReader, word: str):
+        assert not reader.is_modifier(word)
+
+    def test_participles_and_scans_leave_the_class(self, home_tbox: TBox):
+        expected = {"Door_braced": "Door", "bowl_striped_blue": "Bowl", "chair_wooden_scan_v2": "DesignedChair"}
+        assert classes_of(expected, home_tbox) == expected
+
     def test_a_box_that_was_named_by_a_person_is_a_box(self, home_tbox: TBox):
         expected = {"Box": "Box", "cardboard_box_3": "Box"}
         assert classes_of(expected, home_tbox) == expected

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from usd2kg.grounding.embedded import sizes
-from usd2kg.grounding.embedded.sizes import log_likelihoods, thing_nouns
+from usd2kg.grounding.embedded.sizes import log_likelihoods, surprise, thing_nouns
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 
 ROWS = list(csv.DictReader(io.StringIO((files("usd2kg.grounding") / "data" / "thing_sizes.csv").read_text("utf-8"))))
@@ -160,3 +160,24 @@ def test_a_thousand_boxes_take_less_than_fifty_milliseconds():
         log_likelihoods(boxes)
         took.append(time.perf_counter() - start)
     assert min(took) < 0.05
+
+
+# --- what a size says of one thing against all others ------------------------------------------------
+
+
+def test_surprise_is_the_likelihood_against_the_mean_over_all_things():
+    mug = (0.12, 0.09, 0.1)
+    mean = math.log(sum(math.exp(likelihood(noun, mug)) for noun in thing_nouns()) / len(thing_nouns()))
+    assert surprise(mug, "mug") == pytest.approx(likelihood("mug", mug) - mean)
+
+
+def test_the_right_size_speaks_for_a_thing_and_the_wrong_one_against_it():
+    assert surprise((0.12, 0.09, 0.1), "mug") > 1
+    assert surprise((1.8, 0.7, 0.6), "mug") < -1
+    assert surprise((1.8, 0.7, 0.6), "refrigerator") > 1
+
+
+def test_spaces_are_left_out_of_nouns_and_unknown_ones_say_nothing():
+    noun = next(noun for noun in thing_nouns() if " " in noun)
+    assert surprise((0.1, 0.1, 0.1), noun.replace(" ", "")) is not None
+    assert surprise((0.1, 0.1, 0.1), "xqzv") is None

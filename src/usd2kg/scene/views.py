@@ -92,6 +92,8 @@ class ObjectView:
     """Names of the other objects under the same prim, in traversal order."""
     size: Vector | None = None
     """Extent of the world box in metres."""
+    oriented_size: Vector | None = None
+    """Extent along the thing's own axes in metres, where they are turned against the world's."""
     mass_kg: float | None = None
     position: Vector | None = None
     """World translation in metres."""
@@ -106,6 +108,11 @@ class ObjectView:
     """The other objects of the stage; None where they are nameless too."""
     is_masked: bool = field(default=False)
     """Whether the name is not the authored one: what it seems to say may be a token of the mask."""
+
+    @property
+    def own_size(self) -> Vector | None:
+        """The extent that says most of what the thing is: however it is turned, it has the same."""
+        return self.oriented_size or self.size
 
 
 def abbreviate(name: str, length: int = ABBREVIATED_LENGTH) -> str:
@@ -175,6 +182,7 @@ def _with_evidence(
         groups=grouping if "hierarchy" in shown else (),
         siblings=siblings if "hierarchy" in shown else (),
         size=obj.box.size if obj.box and "geometry" in shown else None,
+        oriented_size=obj.oriented_size if "geometry" in shown else None,
         mass_kg=obj.mass_kg if "geometry" in shown else None,
         position=obj.position if "position" in shown else None,
         display_name=obj.display_name if has_name else "",

@@ -73,7 +73,8 @@ def _votes(predictions: Sequence[Prediction]) -> dict[ClassIRI, float]:
 
 
 def _is_copy(one: ObjectView, other: ObjectView) -> bool:
-    return one.size is not None and other.size is not None and size_distance(one.size, other.size) < _SAME_SIZE
+    sizes = one.own_size, other.own_size
+    return sizes[0] is not None and sizes[1] is not None and size_distance(sizes[0], sizes[1]) < _SAME_SIZE
 
 
 def _following(prediction: Prediction, best: Prediction, name: str) -> Prediction:

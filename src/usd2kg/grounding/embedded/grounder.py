@@ -4,6 +4,7 @@ A name is read as a noun phrase; the TBox's terms, then the taxonomy of nouns, s
 name says nothing, other evidence speaks: asset, documentation, parts, and at last the company the object keeps.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
@@ -38,6 +39,7 @@ _PRIMITIVES = frozenset(
     ["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull", "poly", "surface"]
 )
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
+_NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
 _COMPANY = 0.8
 """How far the company is trusted to tell the class, as a share of what the name would be."""
 _WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
@@ -200,7 +202,7 @@ class _Run:
         return sorted(findings, key=_by_score)
 
     def _by_size(self, view: ObjectView) -> dict[ClassIRI, tuple[float, float]]:
-        return self._sizes.ask(view.size) if view.size is not None else {}
+        return self._sizes.ask(view.own_size) if view.own_size is not None else {}
 
     def _size_text(self, iri: ClassIRI) -> str:
         return f"its name says nothing; many a {self._tbox.by_iri[iri].local_name} is of its size"
@@ -217,7 +219,7 @@ class _Run:
         # What is left of the probability is that it is no word at all.
         total = _UNREAD * (1 - sum(reading.probability for reading in readings))
         for reading in readings:
-            matches, weight = self._matcher.weigh(NamePhrase(reading.words), view.parents, view.size)
+            matches, weight = self._matcher.weigh(NamePhrase(reading.words), view.parents, view.own_size)
             likelihood = reading.probability * max(weight, _UNREAD)
             total += likelihood
             if matches:
@@ -236,7 +238,7 @@ class _Run:
                 # A tulip is no class of the TBox; that it has a stem does not make it a tube.
                 break
             is_name = group == "name"
-            for match in self._match(text, view.parents if is_name else (), view.size if is_name else None):
+            for match in self._match(text, view.parents if is_name else (), view.own_size if is_name else None):
                 said = match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
                 findings.append(_Finding(group, Match(match.class_iri, match.score * _SHARES[group], said)))
             findings.sort(key=_by_score)
@@ -285,8 +287,14 @@ class _Run:
 
 
 def _is_made_up(name: str) -> bool:
-    """Return whether a modelling program made the name up from a primitive: `pCube3`, `polySurface12`."""
-    return _PRIMITIVES.issuperset(words_of(name)) and name[-1:].isdigit()
+    """Return whether a modelling program made the name up from a primitive: `pCube3`, `polySurface12`.
+
+    A `Box_3` may be a box; programs write `Box003`.
+    """
+    words = words_of(name)
+    return _PRIMITIVES.issuperset(words) and bool(
+        _NUMBERED_BOX.search(name) if words == ("box",) else name[-1:].isdigit()
+    )
 
 
 def _best_by_class(findings: list[_Finding]) -> dict[ClassIRI, _Finding]:
