@@ -50,7 +50,7 @@ def main() -> None:
     scenes: dict[str, Sample] = {}
     for scene in tomllib.loads(MATRIX.read_text(encoding="utf-8"))["scene"]:
         path = (MATRIX.parent / scene["path"]).resolve()
-        if path.exists() and not {"SOMA+DFL", "test"} & set(re.findall(r"[\w+]+", scene["name"])):
+        if path.exists() and "test" not in re.findall(r"\w+", scene["name"]):
             scenes[scene["name"]] = sample(scene)
     report = {name: check(name, scenes) for name in scenes}
     weights = fit(list(scenes.values()))

@@ -9,12 +9,13 @@ from collections.abc import Mapping
 from functools import lru_cache
 from importlib.resources import files
 
+from usd2kg.grounding.embedded.lexicon import home_names
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import TBox
 
 __all__ = ["FEATURES", "features_of", "probability"]
 
-FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "is_company")
+FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "is_company", "is_foreign")
 """What the parameters are called."""
 _LABEL = 0.95
 """A score that only the class's own label reaches."""
@@ -27,7 +28,8 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
     - `margin`: how far the next class is behind;
     - `is_label`: whether the name is the class's own label;
     - `is_general`: whether the class is a root of the TBox, true of so much that a better one may be missed;
-    - `is_company`: whether other objects or the size decided and not the words.
+    - `is_company`: whether other objects or the size decided and not the words;
+    - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it.
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
@@ -38,6 +40,7 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
         "is_label": float(first > _LABEL),
         "is_general": float(prediction.class_iri is not None and not tbox.by_iri[prediction.class_iri].parents),
         "is_company": float(not {"company", "geometry"}.isdisjoint(prediction.evidence)),
+        "is_foreign": float(prediction.class_iri is not None and prediction.class_iri not in home_names()),
     }
 
 
