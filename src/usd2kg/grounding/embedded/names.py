@@ -78,7 +78,10 @@ class NameReader:
         vocabulary = {word for word in taxonomy.words(_THING_DOMAINS) if len(word) > 3} | lexicon.vocabulary.keys()
         for word in sorted(vocabulary):
             self._by_length.setdefault(len(word), []).append(word)
+        # What a word is depends on nothing else, and stages say the same words over and over.
         self.correct = lru_cache(maxsize=65536)(self._correct)
+        self.is_place = lru_cache(maxsize=65536)(self._is_place)
+        self._describes = lru_cache(maxsize=65536)(self._describing)
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
@@ -153,10 +156,10 @@ class NameReader:
         A share of names by the word's first meaning, set by hand: materials, colours and shapes nearly always, codes
         mostly, flavours and places often, other things seldom. Before the last word only the first kind does.
         """
-        share = self._trailing(word)
+        share = self._describes(word)
         return share if is_last or share == _DESCRIBES else 0.0
 
-    def _trailing(self, word: str) -> float:
+    def _describing(self, word: str) -> float:
         if word in _PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
             return _DESCRIBES
         if word in _MOUNTS:
@@ -174,7 +177,7 @@ class NameReader:
     def _is_material(self, synset: int) -> bool:
         return any(self._taxonomy.name(up) in _MATERIALS for up, _ in self._taxonomy.walk_up(synset))
 
-    def is_place(self, word: str) -> bool:
+    def _is_place(self, word: str) -> bool:
         """Return whether a word may stand for a room, a building or an area."""
         return any(
             self._taxonomy.name(up) in _PLACES
