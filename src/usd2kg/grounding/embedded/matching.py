@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import exp, prod
+from math import log
 from typing import NamedTuple
 
+from usd2kg.grounding.embedded.heads import likelihood, propensity
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.sizes import surprise
@@ -19,20 +20,13 @@ _HOP_DECAY = 0.965
 _ROOT_SHARE = 0.75
 _RESPELLED = 0.9
 _PLACED = 0.95
-_COMPOUND = 1.6
-"""How much likelier a phrase ends where a term of several words ends."""
-_FIRST_CHUNK = 6.0
-"""How much likelier it ends with a first part of several words: `DiningChair_Velvet`."""
+_LEAST = 0.05
 _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
 _WRONG_SIZE, _RIGHT_SIZE = 0.05, 10.0
 """How much a size that is wrong or right for what a thing is called makes a reading less or more likely, at most."""
 _SIZE_POWER, _SIZE_OFFSET = 0.6, 0.3
 """How far `surprise` is heard: models of things vary more than things do, and many names are of parts."""
-_NO_USUAL_SIZE = 0.5
-"""What a reading keeps whose usual size is not known, beside one of the right size."""
-_GUESSED = 0.3
-"""What a reading keeps whose head was misspelt: a brand or a word of another language may look like it."""
 _AGREEING = 0.8
 """Other matches of a reading count for their classes if they score this much of its best."""
 _SMALLEST_PLACE = 2.0
@@ -113,36 +107,55 @@ class Matcher:
 
     def _reading(self, phrase: NamePhrase, end: int, parents: tuple[str, ...], size: Size | None) -> "_Reading | None":
         """Return the reading in which the phrase proper ends before word number `end`; None if that names nothing."""
+        found = self.features(phrase, end, parents, size)
+        if found is None:
+            return None
+        features, named = found
+        note = f" (the thing in “{' '.join(phrase.words)}”)" if phrase.words[end:] else ""
+        note += "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
+        share = _RESPELLED if phrase.corrections else 1.0
+        matches = [Match(match.class_iri, match.score * share, match.explanation + note) for match in named]
+        return _Reading(likelihood(features), matches)
+
+    def features(
+        self, phrase: NamePhrase, end: int, parents: tuple[str, ...], size: Size | None
+    ) -> tuple[dict[str, float], list[Match]] | None:
+        """Return the features of `heads` for the phrase that ends before word number `end`, and what it names there.
+
+        None if it names nothing.
+        """
         words, after = phrase.words[:end], phrase.words[end:]
         run, found = self._at_head(words, (*phrase.context, *_words_above(parents)))
         if not found:
             return None
-        best = max(match.score for match in found)
-        weight = best * prod(self._reader.trailing(word) for word in after)
-        if len(run) > 1:
-            weight *= _COMPOUND
-        elif len(phrase.words) > 1:
-            weight *= 1 - self._reader.trailing(run[-1], is_last=not after)
-        if any(read == run[-1] for _, read in phrase.corrections):
-            weight *= _GUESSED
-        if end == phrase.first_chunk:
-            weight *= _FIRST_CHUNK
-        fits = 1.0 if size is None else self._fit(run, size)
-        note = f" (the thing in “{' '.join(phrase.words)}”)" if after else ""
-        note += "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
-        share = _RESPELLED if phrase.corrections else 1.0
-        matches = [Match(match.class_iri, match.score * share, match.explanation + note) for match in found]
-        return _Reading(weight * fits, matches)
+        is_lone = len(run) == 1
+        fit = None if size is None else self._fit(run, size)
+        telling = 1 - self._reader.trailing(run[-1], is_last=not after) if is_lone and len(phrase.words) > 1 else 1.0
+        features = {
+            "score": log(max(match.score for match in found)),
+            "describing": sum(log(max(self._reader.trailing(word), _LEAST)) for word in after),
+            "telling": log(max(telling, _LEAST)),
+            "compound": float(not is_lone),
+            "first_part": float(end == phrase.first_chunk),
+            "size": fit or 0.0,
+            "no_usual_size": float(size is not None and fit is None),
+            "guessed": float(any(read == run[-1] for _, read in phrase.corrections)),
+            "behind": float(len(after)),
+            "propensity": propensity(run[-1]) if is_lone else 0.0,
+            "propensity_behind": sum(map(propensity, after)),
+            "place": float(self._reader.is_place(run[-1])),
+        }
+        return features, found
 
-    def _fit(self, run: tuple[str, ...], size: Size) -> float:
-        """Return how much likelier a size makes it that a thing is called so."""
+    def _fit(self, run: tuple[str, ...], size: Size) -> float | None:
+        """Return the logarithm of how much likelier a size makes it that a thing is called so; None if unknown."""
         if len(run) == 1 and max(size) < _SMALLEST_PLACE and self._reader.is_place(run[0]):
-            return _WRONG_SIZE
+            return log(_WRONG_SIZE)
         # Of a compound only its own size counts: a spice rack is no rack of usual size.
         value = surprise(size, "".join(run))
         if value is None:
-            return _NO_USUAL_SIZE
-        return max(_WRONG_SIZE, min(_RIGHT_SIZE, exp(_SIZE_POWER * value + _SIZE_OFFSET)))
+            return None
+        return max(log(_WRONG_SIZE), min(log(_RIGHT_SIZE), _SIZE_POWER * value + _SIZE_OFFSET))
 
     def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], list[Match]]:
         """Return the longest run of words that ends with the last one and is known, and its matches."""
