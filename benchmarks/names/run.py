@@ -2,9 +2,10 @@
 
 Usage: python benchmarks/names/run.py [ONTOLOGY]
 
-`kitchen.csv`, `home.csv` and `sim.csv` hold 260 different things each, written and labelled by the authors of this
-project before any answer was seen, by the conventions for SOMA-HOME. The grounder was improved on the errors in
-`kitchen` and `sim`; of `home` only the score was looked at. Without an ontology the built-in home TBox is used.
+Each list holds different things, written and labelled by the authors of this project before any answer was seen, by the
+conventions for SOMA-HOME. The grounder was improved on the errors in all but `unseen`, of which only the score was looked
+at: its rows were drawn by lot from those of `dwelling` and `work` before anybody saw them. Without an ontology the
+built-in home TBox is used.
 """
 
 import csv
@@ -18,7 +19,8 @@ from usd2kg.pipeline import open_tbox
 from usd2kg.scene import Box, NamingRegime, Scene, SceneObject, StageFrame
 
 HERE = Path(__file__).parent
-LISTS = ("kitchen", "home", "sim")
+TRAIN = ("kitchen", "home", "sim", "dwelling", "work")
+TEST = ("unseen",)
 
 
 class Thing(NamedTuple):
@@ -34,7 +36,7 @@ def main() -> None:
     """Measure and print."""
     tbox = open_tbox(Path(sys.argv[1]) if len(sys.argv) > 1 else None)
     print("list     n    semantic (also)  abbreviated (also)")
-    for name in LISTS:
+    for name in (*TRAIN, *TEST):
         things = load(HERE / f"{name}.csv", tbox)
         figures = [measure(things, tbox, regime) for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED)]
         print(f"{name:<8} {len(things)}  " + "     ".join(f"{exact:.1f} ({also:.1f})" for exact, also in figures))

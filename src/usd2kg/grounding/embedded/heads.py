@@ -25,6 +25,7 @@ FEATURES = {
     "no_usual_size": "whether nothing is known of the usual size of what is called so",
     "guessed": "whether the head was misspelt: a brand or a word of another language may look like it",
     "behind": "number of words behind it",
+    "glued": "whether a word is written on to the head, as in `RoomWindow`",
     "propensity": "`propensity` of the head, for a single word",
     "propensity_behind": "`propensity` of the words behind it, added up",
     "place": "whether it is a place, after which things are called",

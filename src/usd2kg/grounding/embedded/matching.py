@@ -141,6 +141,7 @@ class Matcher:
             "no_usual_size": float(size is not None and fit is None),
             "guessed": float(any(read == run[-1] for _, read in phrase.corrections)),
             "behind": float(len(after)),
+            "glued": float(phrase.is_glued(end)),
             "propensity": propensity(run[-1]) if is_lone else 0.0,
             "propensity_behind": sum(map(propensity, after)),
             "place": float(self._reader.is_place(run[-1])),

@@ -1,7 +1,7 @@
 """Reading an object's name as a noun phrase: which of its words says what it is."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 from rapidfuzz import process
@@ -59,6 +59,12 @@ class NamePhrase:
     """How many words stand before the first separator, if several do and more follow; else 0."""
     corrections: tuple[tuple[str, str], ...] = ()
     """(as written, as read) of the words that were corrected or split."""
+    glued: tuple[bool, ...] = ()
+    """For each word whether it is written on to the one before, as in `RoomWindow`; empty if that is unknown."""
+
+    def is_glued(self, at: int) -> bool:
+        """Return whether word number `at` is written on to the one before."""
+        return at < len(self.glued) and self.glued[at]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +72,8 @@ class _Token:
     text: str
     number: str
     """Digits written on to the word, without a separator; empty if none."""
+    is_glued: bool = field(default=False, compare=False)
+    """Whether it is written on to the word before."""
 
 
 class NameReader:
@@ -88,6 +96,7 @@ class NameReader:
         tokens = [token for token in _tokens(name) if is_telling(token.text)][:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
+        glued: list[bool] = []
         corrections: list[tuple[str, str]] = []
         translated = self._translated(tokens)
         if translated is not None:
@@ -100,10 +109,11 @@ class NameReader:
         for token in tokens:
             read = self._spelled_out(token.text) if is_spelled else self.correct(token.text)
             words.extend(read)
+            glued.extend([token.is_glued, *[True] * (len(read) - 1)])
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
         context = tuple(token.text for token in references)
-        return NamePhrase(tuple(words), context, _first_chunk(name, words), tuple(corrections))
+        return NamePhrase(tuple(words), context, _first_chunk(name, words), tuple(corrections), tuple(glued))
 
     def _spelled_out(self, word: str) -> tuple[str, ...]:
         """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""
@@ -259,9 +269,9 @@ def _tokens(name: str) -> list[_Token]:
         is_glued = start == at and start > 0
         at = start + len(part)
         if part.isdigit() and tokens and is_glued and name[start - 1].isalpha():
-            tokens[-1] = _Token(tokens[-1].text, part)
+            tokens[-1] = _Token(tokens[-1].text, part, tokens[-1].is_glued)
         elif not (is_amount and is_glued and len(part) < _LONG):
-            tokens.append(_Token(part.lower(), ""))
+            tokens.append(_Token(part.lower(), "", is_glued))
         # A number that stands apart may begin a measure: _6kg, _4tier; but Room1Door is a door.
         is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
     return tokens
