@@ -3,9 +3,9 @@
 Usage: python benchmarks/names/run.py [ONTOLOGY]
 
 Each list holds different things, written and labelled by the authors of this project before any answer was seen, by the
-conventions for SOMA-HOME. The grounder was improved on the errors in all but `unseen`, of which only the score was looked
-at: its rows were drawn by lot from those of `dwelling` and `work` before anybody saw them. Without an ontology the
-built-in home TBox is used.
+conventions for SOMA-HOME. The grounder was improved on the errors in all but `unseen`, of which only the score was
+looked at: its rows were drawn by lot from those of `dwelling` and `work` before anybody saw them. Without an ontology
+the built-in home TBox is used.
 """
 
 import csv

@@ -397,18 +397,18 @@ def test_ten_thousand_objects_take_seconds(home_tbox: TBox):
 
 class TestSize:
     def test_size_tells_the_head_of_a_name(self, home_tbox: TBox):
-        """A mug on a shelf, and a shelf for mugs."""
-        mug = ground_view(ObjectView(name="mug_shelf", size=(0.1, 0.08, 0.1)), home_tbox)
-        shelf = ground_view(ObjectView(name="mug_shelf", size=(1.8, 0.8, 0.75)), home_tbox)
-        assert (local(mug), local(shelf)) == ("Cup", "DesignedFurniture")
+        """A bowl for the table, and a table for bowls."""
+        bowl = ground_view(ObjectView(name="bowl_table", size=(0.1, 0.08, 0.1)), home_tbox)
+        table = ground_view(ObjectView(name="bowl_table", size=(1.8, 0.8, 0.75)), home_tbox)
+        assert (local(bowl), local(table)) == ("Bowl", "Table")
 
     def test_size_tells_what_an_abbreviation_is_short_for(self, home_tbox: TBox):
         cup = ground_view(ObjectView(name="mg", is_masked=True, size=(0.12, 0.09, 0.1)), home_tbox)
         assert local(cup) == "Cup"
 
     def test_a_thing_that_is_turned_is_known_by_its_own_extent(self, home_tbox: TBox):
-        view = ObjectView(name="mug_shelf", size=(1.8, 0.8, 0.75), oriented_size=(0.1, 0.08, 0.1))
-        assert local(ground_view(view, home_tbox)) == "Cup"
+        view = ObjectView(name="bowl_table", size=(1.8, 0.8, 0.75), oriented_size=(0.1, 0.08, 0.1))
+        assert local(ground_view(view, home_tbox)) == "Bowl"
 
     def test_heads_that_agree_add_up(self, home_tbox: TBox):
         one = ground_view(ObjectView(name="door_handle_lever"), home_tbox)

@@ -17,10 +17,8 @@ __all__ = ["FEATURES", "likelihood", "propensity"]
 
 FEATURES = {
     "score": "logarithm of the score of the best class at this end",
-    "describing": "logarithm of how likely each word behind it does no more than describe, added up",
     "telling": "logarithm of how likely the head itself does more than describe, for a single word",
     "compound": "whether a term of several words ends here",
-    "first_part": "whether a first part of several words ends here: `DiningChair_Velvet`",
     "size": "logarithm of how much likelier the size makes it that a thing is called so",
     "no_usual_size": "whether nothing is known of the usual size of what is called so",
     "guessed": "whether the head was misspelt: a brand or a word of another language may look like it",

@@ -133,10 +133,8 @@ class Matcher:
         telling = 1 - self._reader.trailing(run[-1], is_last=not after) if is_lone and len(phrase.words) > 1 else 1.0
         features = {
             "score": log(max(match.score for match in found)),
-            "describing": sum(log(max(self._reader.trailing(word), _LEAST)) for word in after),
             "telling": log(max(telling, _LEAST)),
             "compound": float(not is_lone),
-            "first_part": float(end == phrase.first_chunk),
             "size": fit or 0.0,
             "no_usual_size": float(size is not None and fit is None),
             "guessed": float(any(read == run[-1] for _, read in phrase.corrections)),

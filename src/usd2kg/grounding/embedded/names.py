@@ -1,6 +1,5 @@
 """Reading an object's name as a noun phrase: which of its words says what it is."""
 
-import re
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -55,11 +54,9 @@ class NamePhrase:
     """Modifiers first, the head noun last; empty if the name says nothing."""
     context: tuple[str, ...] = ()
     """Words of the name that refer to the thing's parent or place (`cabinet10` in `cabinet10_drawer`)."""
-    first_chunk: int = 0
-    """How many words stand before the first separator, if several do and more follow; else 0."""
     corrections: tuple[tuple[str, str], ...] = ()
     """(as written, as read) of the words that were corrected or split."""
-    glued: tuple[bool, ...] = ()
+    glued: tuple[bool, ...] = field(default=(), compare=False)
     """For each word whether it is written on to the one before, as in `RoomWindow`; empty if that is unknown."""
 
     def is_glued(self, at: int) -> bool:
@@ -113,7 +110,7 @@ class NameReader:
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
         context = tuple(token.text for token in references)
-        return NamePhrase(tuple(words), context, _first_chunk(name, words), tuple(corrections), tuple(glued))
+        return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
     def _spelled_out(self, word: str) -> tuple[str, ...]:
         """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""
@@ -286,14 +283,6 @@ def _repeated(parent: str, tokens: list[_Token]) -> list[_Token]:
     telling = {token.text for token in above if is_telling(token.text)}
     is_whole = telling <= {token.text for token in tokens}
     return [token for token in above if is_whole or token.number]
-
-
-def _first_chunk(name: str, words: list[str]) -> int:
-    """Return the number of words before the first separator, if several do and others follow; else 0."""
-    chunks = [[t for t in _tokens(chunk) if is_telling(t.text)] for chunk in re.split(r"[^\w]|_", name)]
-    counts = [len(chunk) for chunk in chunks if chunk]
-    is_whole = bool(counts) and sum(counts) == len(words)
-    return counts[0] if is_whole and len(counts) > 1 and counts[0] > 1 else 0
 
 
 def _is_reference(token: _Token, above: set[_Token]) -> bool:

@@ -1,0 +1,54 @@
+"""Which word of a name is its head."""
+
+import json
+import math
+from importlib.resources import files
+
+import pytest
+
+from tests.grounding.records import ground_names, local
+from usd2kg.grounding.embedded.heads import FEATURES, likelihood, propensity
+from usd2kg.grounding.embedded.lexicon import home_names
+from usd2kg.ontology import TBox
+
+FITTED = json.loads((files("usd2kg.grounding") / "data" / "heads.json").read_text("utf-8"))
+
+
+def test_there_is_a_weight_for_each_feature():
+    assert FITTED["weights"].keys() == FEATURES.keys()
+    assert FITTED["accepted_when_left_out"] > 0.9
+
+
+def test_the_likelihood_is_the_exponential_of_the_weighted_sum():
+    weights = FITTED["weights"]
+    features = dict.fromkeys(FEATURES, 0.0)
+    assert likelihood(features) == 1.0
+    expected = math.exp(2 * weights["behind"] + 0.5 * weights["size"])
+    assert likelihood({**features, "behind": 2.0, "size": 0.5}) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("name", "sign"), [("score", 1), ("compound", 1), ("size", 1), ("glued", -1), ("guessed", -1)])
+def test_what_was_learned_is_what_one_expects(name: str, sign: int):
+    assert sign * FITTED["weights"][name] > 0
+
+
+def test_propensity_counts_where_a_word_stands_in_names_of_several():
+    names = [name.lower().split() for found in home_names().values() for name in found]
+    ends = sum(1 for words in names if len(words) > 1 and words[-1] == "oil")
+    within = sum(words[:-1].count("oil") for words in names)
+    assert propensity("oil") == pytest.approx(math.log((ends + 1) / (within + 1)))
+    assert propensity("xqzv") == 0.0
+
+
+def test_heads_in_front_and_at_the_end(home_tbox: TBox):
+    expected = {
+        "RoomWindow_01": "DesignedComponent",
+        "KitchenCabinet_02": "KitchenCabinet",
+        "bowl_salad_oak": "Bowl",
+        "plate_blue_porcelain": "Plate",
+        "teapot_lid": "Lid",
+        "door_fridge_upper": "Door",
+        "hingeleftdoor": "Door",
+    }
+    found = dict(zip(expected, map(local, ground_names(list(expected), home_tbox)), strict=True))
+    assert found == expected
