@@ -8,7 +8,7 @@ from tests.grounding.records import SOMA, make_class, make_object, make_scene, m
 from usd2kg.grounding.embedded import context
 from usd2kg.grounding.embedded.context import SizeBeliefs, Votes, ask_company, siblings_as_company
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder, _run_for
-from usd2kg.grounding.embedded.matching import Match
+from usd2kg.grounding.embedded.matching import Match, Size
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, Companion, NamingRegime, Nearness, ObjectView, view_objects
 
@@ -21,7 +21,7 @@ def near(name: str, nearness: Nearness = NEXT, distance: float | None = 0.1) -> 
     return Companion(name, ("Room",), nearness, distance)
 
 
-def by_first_word(name: str, parents: tuple[str, ...]) -> list[Match]:
+def by_first_word(name: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
     """Take `cup-0.8` for a cup with score 0.8, and give a second class that is not to be counted."""
     word, _, score = name.partition("-")
     first = Match(word, float(score or 1), "")
@@ -101,15 +101,15 @@ def test_the_heaviest_vote_is_remembered_for_each_class():
     assert votes(beside, far).heaviest == {"cup": beside}
 
 
-def test_companions_are_classified_with_the_names_above_them():
+def test_companions_are_classified_with_the_names_above_them_and_their_size():
     asked = []
 
-    def classify(name: str, parents: tuple[str, ...]) -> list[Match]:
-        asked.append((name, parents))
+    def classify(name: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
+        asked.append((name, parents, size))
         return []
 
-    ask_company([Companion("cabinet", ("World", "Kitchen"), NEXT, None)], classify)
-    assert asked == [("cabinet", ("World", "Kitchen"))]
+    ask_company([Companion("cabinet", ("World", "Kitchen"), NEXT, None, (0.6, 0.6, 0.9))], classify)
+    assert asked == [("cabinet", ("World", "Kitchen"), (0.6, 0.6, 0.9))]
 
 
 def test_the_order_of_the_companions_makes_no_difference_to_the_shares():
@@ -192,7 +192,7 @@ def test_a_tbox_of_other_things_has_no_beliefs():
 
 def test_beliefs_follow_the_names_that_the_nouns_match():
     # A TBox with two classes: everything is a Small thing by its name, or a Large one.
-    def classify(noun: str, parents: tuple[str, ...]) -> list[Match]:
+    def classify(noun: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
         return {"mug": [Match("small", 1, "")], "refrigerator": [Match("large", 1, "")]}.get(noun, [])
 
     beliefs = SizeBeliefs(classify)

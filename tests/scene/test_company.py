@@ -103,7 +103,16 @@ def test_objects_of_other_families_between_do_not_count():
 def test_companions_know_the_names_above_and_no_distance_without_sizes():
     scene = things("/World/Kitchen/cup", "/World/Kitchen/plate")
     (plate,) = company_of(scene, "/World/Kitchen/cup").companions()
-    assert plate == Companion("plate", ("World", "Kitchen"), NEXT, None)
+    assert plate == Companion("plate", ("World", "Kitchen"), NEXT, None, None)
+
+
+def test_companions_know_their_own_size():
+    scene = make_scene(
+        make_object("/W/cup", box=Box((0, 0, 0), (0.1, 0.1, 0.1))),
+        make_object("/W/oven", box=Box((0, 0, 0), (0.9, 0.6, 0.6)), oriented_size=(0.6, 0.6, 0.6)),
+    )
+    (oven,) = company_of(scene, "/W/cup").companions()
+    assert oven.size == (0.6, 0.6, 0.6)
 
 
 def test_objects_at_the_root_are_a_family():

@@ -49,6 +49,8 @@ class Companion:
     nearness: Nearness
     distance: float | None
     """How much the sizes differ, see `size_distance`; None where one of them is unknown."""
+    size: Vector | None = None
+    """Its own extent in metres, along its own axes where those are turned."""
 
 
 def size_distance(one: Vector, other: Vector) -> float:
@@ -167,7 +169,7 @@ class Company:
     def _companion(self, index: int, nearness: Nearness) -> Companion:
         obj, own, other = self._stage.objects[index], self._size_of(self._index), self._size_of(index)
         distance = size_distance(own, other) if own and other else None
-        return Companion(obj.name, tuple(name for name in _above(obj).split("/") if name), nearness, distance)
+        return Companion(obj.name, tuple(name for name in _above(obj).split("/") if name), nearness, distance, other)
 
 
 def companies(scene: Scene) -> list[Company]:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from usd2kg.grounding.embedded.frequencies import thing_prior
-from usd2kg.grounding.embedded.matching import Match
+from usd2kg.grounding.embedded.matching import Match, Size
 from usd2kg.grounding.embedded.sizes import log_likelihoods, thing_nouns
 from usd2kg.ontology import ClassIRI
 from usd2kg.scene import Companion, Nearness
@@ -42,8 +42,8 @@ class Votes(NamedTuple):
     """Class → the companion that spoke for it with most weight."""
 
 
-Classify = Callable[[str, tuple[str, ...]], Sequence[Match]]
-"""Gives the classes for a name and the names above it, best first."""
+Classify = Callable[[str, tuple[str, ...], Size | None], Sequence[Match]]
+"""Gives the classes for a name, the names above it and the thing's size in metres, best first."""
 
 
 def siblings_as_company(names: Iterable[str], parents: tuple[str, ...]) -> list[Companion]:
@@ -56,7 +56,7 @@ def ask_company(companions: Iterable[Companion], classify: Classify) -> Votes:
     totals: dict[ClassIRI, float] = {}
     heaviest: dict[ClassIRI, tuple[float, Companion]] = {}
     for companion in companions:
-        matches = classify(companion.name, companion.parents)
+        matches = classify(companion.name, companion.parents, companion.size)
         if not matches or matches[0].score < _CLEAREST:
             continue
         iri, weight = matches[0].class_iri, _weight(companion) * matches[0].score
@@ -82,7 +82,7 @@ class SizeBeliefs:
 
     def __init__(self, classify: Classify) -> None:
         nouns = thing_nouns()
-        matches = [classify(noun, ()) for noun in nouns]
+        matches = [classify(noun, (), None) for noun in nouns]
         self.classes = tuple(sorted({found[0].class_iri for found in matches if found}))
         places = {iri: place for place, iri in enumerate(self.classes)}
         self._rows = np.array([row for row, found in enumerate(matches) if found], dtype=int)
