@@ -1,7 +1,8 @@
 """usd2kg ground: the mapping of prims to classes, without a graph."""
 
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -9,7 +10,11 @@ from usd2kg.cli.options import (
     AbbreviatedLength,
     Abstains,
     ClassSizes,
+    ClassTree,
+    CompletionsFile,
     Dictionary,
+    DryRun,
+    EachObject,
     EveryPrim,
     Evidence,
     Exclude,
@@ -18,15 +23,27 @@ from usd2kg.cli.options import (
     Include,
     Kinds,
     MetresPerUnit,
+    Model,
     ObjectList,
+    ObjectsPerPrompt,
     OntologyFile,
+    PromptStrategy,
+    Refresh,
     Regime,
     SceneFile,
+    Thinking,
     TimeCode,
+    TokenBudget,
     UpAxis,
     read_options,
 )
-from usd2kg.cli.output import emit, talk
+from usd2kg.cli.output import emit, printable, talk
+from usd2kg.errors import GroundingError
+
+if TYPE_CHECKING:
+    from usd2kg.grounding import Grounder, Grounding
+    from usd2kg.grounding.llm.grounder import RunReport
+    from usd2kg.grounding.llm.prompts import Batch
 
 __all__ = ["ground_command"]
 
@@ -35,6 +52,16 @@ def ground_command(
     scene: SceneFile,
     ontology: OntologyFile = None,
     grounder: GrounderName = "embedded",
+    model: Model = None,
+    strategy: PromptStrategy = "B",
+    objects_per_prompt: ObjectsPerPrompt = 1,
+    class_tree: ClassTree = False,
+    thinking: Thinking = False,
+    each_object: EachObject = False,
+    token_budget: TokenBudget = None,
+    completions: CompletionsFile = None,
+    refresh: Refresh = False,
+    dry_run: DryRun = False,
     dictionary: Dictionary = None,
     abstain: Abstains = False,
     class_sizes: ClassSizes = None,
@@ -60,29 +87,85 @@ def ground_command(
     from usd2kg import grounding  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
-    from usd2kg.scene import read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.scene import read_scene, view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     groups = grounding.parse_evidence(evidence) if evidence is not None else None
     naming_regime = grounding.parse_regime(regime)
     grounding.check_format(file_format)
     if output is not None:
         check_writable(output)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain)
-    wanted = grounding.read_paths(paths) if paths is not None else None
-    tbox = open_tbox(ontology)
-    options = read_options(
-        metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
-    )
-    found = read_scene(scene, paths=wanted, options=options)
-    result = grounding.ground(
-        found,
-        tbox,
-        chosen,
-        regime=naming_regime,
-        evidence=groups,
-        paths=wanted,
-        abbreviated_length=abbreviated_length,
-    )
+    with ExitStack() as stack:
+        asker = None
+        if model is not None:
+            from usd2kg.grounding.llm.settings import LLMSettings, open_llm_grounder  # noqa: PLC0415
+
+            settings = LLMSettings(
+                model=model,
+                strategy=strategy,
+                objects_per_prompt=objects_per_prompt,
+                is_tree=class_tree,
+                is_thinking=thinking,
+                is_each_object=each_object,
+                token_budget=token_budget,
+                completions=completions,
+                is_refreshed=refresh,
+            )
+            asker = stack.enter_context(open_llm_grounder(settings, is_dry=dry_run))
+        elif dry_run:
+            raise GroundingError("--dry-run shows the prompts for a model; say which one with --model")
+        chosen: Grounder = asker or grounding.make_grounder(
+            grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain
+        )
+        wanted = grounding.read_paths(paths) if paths is not None else None
+        tbox = open_tbox(ontology)
+        options = read_options(
+            metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
+        )
+        found = read_scene(scene, paths=wanted, options=options)
+        if asker is not None and dry_run:
+            views = view_objects(found, naming_regime, groups, abbreviated_length)
+            shown = [view for obj, view in views if wanted is None or obj.prim_path in wanted]
+            _show_plan(asker.plan(shown, tbox), len(shown), output)
+            return
+        result = grounding.ground(
+            found,
+            tbox,
+            chosen,
+            regime=naming_regime,
+            evidence=groups,
+            paths=wanted,
+            abbreviated_length=abbreviated_length,
+        )
     emit(grounding.format_mapping(result, tbox, file_format), output)
     for path in found.missing_paths:
         talk(f"{scene}: there is no prim {path}; its row has the status missing")
+    if asker is not None:
+        _tell_cost(asker.report, result)
+
+
+def _show_plan(batches: "list[Batch]", object_count: int, output: Path | None) -> None:
+    """Print the prompts that would be sent, what they share once, and their size on stderr."""
+    from usd2kg.grounding.llm.prompts import estimate_tokens  # noqa: PLC0415
+
+    lines: list[str] = []
+    told: str | None = None
+    for number, batch in enumerate(batches, start=1):
+        if batch.request.system != told:
+            told = batch.request.system
+            lines.append(f"=== instructions ===\n{told}\n")
+        lines.append(f"=== prompt {number} of {len(batches)} ===\n{batch.request.user}\n")
+    emit(printable("\n".join(lines)), output)
+    tokens = sum(estimate_tokens(batch.request.system + batch.request.user) for batch in batches)
+    share = tokens / max(1, object_count)
+    talk(f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens ({share:,.0f} an object)")
+
+
+def _tell_cost(report: "RunReport", result: "Grounding") -> None:
+    unread = sum(1 for prediction in result.predictions if prediction.class_iri is None)
+    usage = report.usage
+    talk(
+        f"{report.objects} objects by {report.prompts} prompts: {report.completions} completions asked for, "
+        f"{report.cached} known before, {report.repairs} repairs, {report.degenerate} degenerate, "
+        f"{report.failed} prompts failed, {unread} objects without a class; {usage.input_tokens:,} input tokens "
+        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens, {report.seconds:.1f} s"
+    )

@@ -12,7 +12,11 @@ __all__ = [
     "AbbreviatedLength",
     "Abstains",
     "ClassSizes",
+    "ClassTree",
+    "CompletionsFile",
     "Dictionary",
+    "DryRun",
+    "EachObject",
     "EveryPrim",
     "Evidence",
     "Exclude",
@@ -22,12 +26,18 @@ __all__ = [
     "JsonOutput",
     "Kinds",
     "MetresPerUnit",
+    "Model",
     "ObjectList",
+    "ObjectsPerPrompt",
     "OntologyFile",
+    "PromptStrategy",
+    "Refresh",
     "Regime",
     "SceneFile",
     "Shapes",
+    "Thinking",
     "TimeCode",
+    "TokenBudget",
     "UpAxis",
     "read_options",
 ]
@@ -41,6 +51,37 @@ GrounderName = Annotated[
     str,
     typer.Option("--grounder", help="Who chooses the classes: embedded (default), dictionary, embedding or volume."),
 ]
+Model = Annotated[
+    str | None,
+    typer.Option(
+        "--model",
+        help="Ask a language model instead: google:NAME, anthropic:NAME, openai:NAME, or openai:NAME@URL for a server "
+        "that speaks OpenAI's protocol. Keys come from the environment.",
+    ),
+]
+PromptStrategy = Annotated[
+    str,
+    typer.Option(
+        "--strategy", help="What a model is shown: A the name, B the context too (default), C to reason first."
+    ),
+]
+ObjectsPerPrompt = Annotated[
+    int, typer.Option("--objects-per-prompt", min=1, help="Objects that one prompt asks about; default: 1.")
+]
+ClassTree = Annotated[bool, typer.Option("--class-tree", help="Show a model the classes as a tree instead of a list.")]
+Thinking = Annotated[bool, typer.Option("--thinking", help="Let a model reason by itself before it answers.")]
+EachObject = Annotated[
+    bool, typer.Option("--each-object", help="Ask about each object, alike ones too; default: once for alike ones.")
+]
+TokenBudget = Annotated[
+    int | None, typer.Option("--token-budget", min=1, help="Tokens after which a model is asked no more.")
+]
+CompletionsFile = Annotated[
+    Path | None,
+    typer.Option("--completions", help="File that keeps what models said; default: $USD2KG_CACHE or the user's cache."),
+]
+Refresh = Annotated[bool, typer.Option("--refresh", help="Ask a model again for what it has said before.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Print the prompts for a model and their tokens; ask nobody.")]
 Abstains = Annotated[
     bool,
     typer.Option(

@@ -190,7 +190,7 @@ class _Writer:
         yield from self._annotated(
             (node, RDF.type, ox.NamedNode(prediction.class_iri)),
             [
-                (SSSOM.confidence, number(prediction.confidence or 0.0)),
+                *([(SSSOM.confidence, number(prediction.confidence))] if prediction.confidence is not None else []),
                 (U2K.status, text(prediction.status.value)),
                 (U2K.grounder, text(prediction.grounder)),
                 *((U2K.evidence, text(group)) for group in prediction.evidence),

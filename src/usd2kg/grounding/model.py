@@ -44,7 +44,7 @@ class Prediction:
     class_iri: ClassIRI | None
     """None unless the status is grounded or superclass."""
     confidence: float | None
-    """Probability that the class is right, from 0 to 1; None where there is no class."""
+    """Probability that the class is right, from 0 to 1; None where there is no class, or nobody knows."""
     status: Status
     grounder: str
     """Id of the grounder that decided."""

@@ -1,0 +1,1 @@
+"""Grounding by large language models: prompts, clients, the cache of completions, the grounder."""

@@ -1,0 +1,348 @@
+"""Completions kept on disk, so that no prompt is paid for twice and a run can be replayed without keys.
+
+The cache is one SQLite file in WAL mode, with `-wal` and `-shm` beside it while it is in use (move them with it).
+A completion is committed before `put` returns: it outlives the process, even one that is killed.
+WAL needs a local disk: where the home folder is a network drive, set USD2KG_CACHE to a file on a local one.
+
+Instructions with the TBox, and schemas, are shared by the requests of a run; the cache holds each once.
+"""
+
+import hashlib
+import json
+import os
+import sqlite3
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, fields
+from pathlib import Path
+from threading import Lock, RLock
+from types import NoneType, TracebackType
+from typing import Any, NamedTuple, Self
+
+from usd2kg.errors import GroundingError, OutputError
+from usd2kg.files import write_whole
+from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+
+__all__ = ["CompletionCache", "default_cache_path", "request_key"]
+
+_KEY_FORMAT = "usd2kg-request/1"
+_APPLICATION_ID = int.from_bytes(b"u2kg")
+_FILE_VERSION = 1
+_BUSY_SECONDS = 60.0
+_SCHEMA = (
+    "CREATE TABLE IF NOT EXISTS shared (digest TEXT PRIMARY KEY, text TEXT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS completions (key TEXT PRIMARY KEY, system TEXT NOT NULL REFERENCES shared,"
+    " schema TEXT NOT NULL REFERENCES shared, rest TEXT NOT NULL, completion TEXT NOT NULL)",
+    f"PRAGMA application_id = {_APPLICATION_ID}",
+    f"PRAGMA user_version = {_FILE_VERSION}",
+)
+_EXPORT = (
+    "SELECT key, system.text, schema.text, rest, completion FROM completions"
+    " JOIN shared AS system ON system.digest = completions.system"
+    " JOIN shared AS schema ON schema.digest = completions.schema ORDER BY key"
+)
+_LINE = {"key": (str,), "model": (str,), "request": (dict,), "completion": (dict,)}
+_REQUEST = {
+    "system": (str,),
+    "user": (str,),
+    "schema": (dict,),
+    "most_tokens": (int,),
+    "temperature": (float,),
+    "is_thinking": (bool,),
+    "sample": (int,),
+}
+_COMPLETION = {
+    "text": (str,),
+    "finish": (str,),
+    "usage": (dict,),
+    "mean_logprob": (float, NoneType),
+    "thinking": (str,),
+}
+_USAGE = {"input_tokens": (int,), "cached_tokens": (int,), "output_tokens": (int,)}
+_UNREADABLE = (ValueError, OverflowError, RecursionError)
+_creating = Lock()
+
+
+class _Row(NamedTuple):
+    shared: tuple[tuple[str, str], ...]
+    """Digest and text of what other requests may hold too."""
+    values: tuple[str, str, str, str, str]
+    """The row of `completions`."""
+
+
+def default_cache_path() -> Path:
+    """Return where completions are kept unless the user says otherwise.
+
+    That is `$USD2KG_CACHE` where it is set, else `usd2kg/completions.sqlite` in the user's cache folder:
+    `%LOCALAPPDATA%` on Windows, elsewhere `$XDG_CACHE_HOME` or `~/.cache` (XDG Base Directory Specification 0.8,
+    by which a relative `$XDG_CACHE_HOME` counts for nothing).
+
+    Raises:
+        GroundingError: the user has no home folder.
+    """
+    if chosen := os.environ.get("USD2KG_CACHE"):
+        return Path(chosen)
+    is_windows = sys.platform == "win32"
+    folder = Path(os.environ.get("LOCALAPPDATA" if is_windows else "XDG_CACHE_HOME", ""))
+    if not folder.is_absolute():
+        try:
+            folder = Path.home() / ("AppData/Local" if is_windows else ".cache")
+        except RuntimeError as error:
+            raise GroundingError(
+                f"cache of completions: {error}; set USD2KG_CACHE to a file to keep them in"
+            ) from error
+    return folder / "usd2kg" / "completions.sqlite"
+
+
+def request_key(model: str, request: Request) -> str:
+    """Return the address of a completion: `sha256:` and the hex digest of the model and every field of the request.
+
+    The order of the schema's properties counts: models answer in it.
+    """
+    parts = {"format": _KEY_FORMAT, "model": model, "request": _request_fields(request)}
+    return "sha256:" + _digest(json.dumps(parts, separators=(",", ":"), default=_as_dict, allow_nan=False))
+
+
+class CompletionCache:
+    """The completions of all runs, by `request_key`.
+
+    Threads may share one; processes open one each on the same path. All methods raise GroundingError where the file
+    is damaged, foreign, or held by another program for longer than a minute.
+    """
+
+    path: Path
+    """The file, with links resolved."""
+
+    def __init__(self, path: Path) -> None:
+        """Open the cache, with its folders where they are missing, readable by the user alone."""
+        self.path = path.resolve()
+        self._lock = RLock()
+        _create_file(self.path)
+        with self._translated():
+            self._connection = sqlite3.connect(
+                self.path, timeout=_BUSY_SECONDS, isolation_level=None, check_same_thread=False
+            )
+            try:
+                self._prepare()
+            except BaseException:
+                self._connection.close()
+                raise
+
+    def get(self, model: str, request: Request) -> Completion | None:
+        """Return what the model said to this request, None where it was never asked."""
+        key = request_key(model, request)
+        with self._lock, self._translated():
+            row = self._connection.execute("SELECT completion FROM completions WHERE key = ?", (key,)).fetchone()
+        if row is None:
+            return None
+        try:
+            return _read_completion(json.loads(row[0]))
+        except _UNREADABLE as error:
+            raise GroundingError(f"{self.path}: completion {key} is damaged ({error}); {_remedy()}") from error
+
+    def put(self, model: str, request: Request, completion: Completion, *, replace: bool = False) -> None:
+        """Keep a completion, degenerate and cut-off ones too: they were paid for.
+
+        A completion that is there already stays, unless `replace`. Two halves of a surrogate pair come back as the
+        character that they make; all other text comes back as it is.
+        """
+        row = _make_row(model, request, completion)
+        with self._transaction("BEGIN IMMEDIATE"):
+            self._insert(row, replace=replace)
+
+    def export_recording(self, path: Path) -> int:
+        """Write all completions with their requests as JSON Lines in UTF-8, sorted by key, and return how many.
+
+        Two caches with the same content give the same bytes.
+
+        Raises:
+            OutputError: the file cannot be written.
+        """
+        if path.resolve() == self.path:
+            raise OutputError(f"{path}: is the cache itself; choose another file for the recording")
+        with self._lock, self._translated():
+            lines = [_format_line(*row) for row in self._connection.execute(_EXPORT)]
+        write_whole(path, b"".join(lines))
+        return len(lines)
+
+    def import_recording(self, path: Path) -> int:
+        """Add the completions of a recording, and return how many were new; those that are there already stay.
+
+        Raises:
+            GroundingError: the file or one of its lines cannot be read; then nothing is added.
+        """
+        try:
+            with path.open("rb") as file, self._transaction("BEGIN IMMEDIATE"):
+                before = len(self)
+                for number, line in enumerate(file, start=1):
+                    self._insert(_make_row(*_read_line(path, number, line)))
+                return len(self) - before
+        except OSError as error:
+            raise GroundingError(
+                f"{path}: cannot be read as a recording of completions ({error.strerror}); check its name"
+            ) from error
+
+    def close(self) -> None:
+        """Close the file; the cache can no longer be used."""
+        with self._lock:
+            self._connection.close()
+
+    def __len__(self) -> int:
+        with self._lock, self._translated():
+            (count,) = self._connection.execute("SELECT count(*) FROM completions").fetchone()
+        return int(count)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _prepare(self) -> None:
+        with self._transaction("BEGIN"):
+            (tables,) = self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
+            (application,) = self._connection.execute("PRAGMA application_id").fetchone()
+            (version,) = self._connection.execute("PRAGMA user_version").fetchone()
+        is_new = (tables, application, version) == (0, 0, 0)
+        if not is_new and application != _APPLICATION_ID:
+            raise GroundingError(f"{self.path}: is the database of another program; {_remedy()}")
+        if not is_new and version != _FILE_VERSION:
+            raise GroundingError(f"{self.path}: has format {version}, expected {_FILE_VERSION}; {_remedy()}")
+        self._switch_to_wal()
+        # A killed process loses nothing by this; a power cut may lose the last completions, never the file.
+        self._connection.execute("PRAGMA synchronous = NORMAL")
+        if is_new:
+            with self._transaction("BEGIN IMMEDIATE"):
+                for statement in _SCHEMA:
+                    self._connection.execute(statement)
+
+    def _switch_to_wal(self) -> None:
+        # SQLite does not wait here where several processes open a new file at once: it gives up at once.
+        deadline = time.monotonic() + _BUSY_SECONDS
+        while True:
+            try:
+                self._connection.execute("PRAGMA journal_mode = WAL")
+                return
+            except sqlite3.OperationalError as error:
+                if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or time.monotonic() > deadline:
+                    raise
+                time.sleep(0.01)
+
+    def _insert(self, row: _Row, *, replace: bool = False) -> None:
+        how = "REPLACE" if replace else "IGNORE"
+        self._connection.executemany("INSERT OR IGNORE INTO shared VALUES (?, ?)", row.shared)
+        self._connection.execute(f"INSERT OR {how} INTO completions VALUES (?, ?, ?, ?, ?)", row.values)
+
+    @contextmanager
+    def _transaction(self, begin: str) -> Iterator[None]:
+        with self._lock, self._translated():
+            try:
+                self._connection.execute(begin)
+                yield
+                self._connection.execute("COMMIT")
+            except BaseException:
+                if self._connection.in_transaction:
+                    self._connection.execute("ROLLBACK")
+                raise
+
+    @contextmanager
+    def _translated(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.ProgrammingError:
+            raise
+        except sqlite3.OperationalError as error:
+            raise GroundingError(
+                f"{self.path}: the cache of completions cannot be used ({error}); end what else holds it, check its"
+                " permissions and the free space, or set USD2KG_CACHE to another file"
+            ) from error
+        except sqlite3.DatabaseError as error:
+            raise GroundingError(f"{self.path}: is damaged or no cache ({error}); {_remedy()}") from error
+
+
+def _create_file(path: Path) -> None:
+    # Never opened where it exists: closing it would drop the locks that this process's other connections hold on it.
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with _creating, suppress(FileExistsError):
+            path.touch(mode=0o600, exist_ok=False)
+    except OSError as error:
+        raise GroundingError(
+            f"{path}: the cache of completions cannot be created ({error}); set USD2KG_CACHE to another file"
+        ) from error
+
+
+def _remedy() -> str:
+    return "move it away to start an empty cache, or set USD2KG_CACHE to another file"
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _as_dict(value: object) -> dict[str, Any]:
+    if isinstance(value, Mapping):
+        return dict(value)
+    raise TypeError(f"{type(value).__name__} is not JSON")
+
+
+def _to_json(value: object) -> str:
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), default=_as_dict)
+    # Lone surrogates stand in strings only, where what this makes of them is JSON's own escape.
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def _request_fields(request: Request) -> dict[str, Any]:
+    values = {f.name: getattr(request, f.name) for f in fields(Request)}
+    return {**values, "temperature": float(request.temperature)}
+
+
+def _make_row(model: str, request: Request, completion: Completion) -> _Row:
+    values = _request_fields(request)
+    system, schema = (_to_json(values.pop(name)) for name in ("system", "schema"))
+    shared = ((_digest(system), system), (_digest(schema), schema))
+    said = asdict(completion)
+    if completion.mean_logprob is not None:
+        said["mean_logprob"] = float(completion.mean_logprob)
+    rest = _to_json({"model": model, **values})
+    return _Row(shared, (request_key(model, request), shared[0][0], shared[1][0], rest, _to_json(said)))
+
+
+def _format_line(key: str, system: str, schema: str, rest: str, completion: str) -> bytes:
+    values = {"system": json.loads(system), "schema": json.loads(schema), **json.loads(rest)}
+    request = {name: values[name] for name in _REQUEST}
+    line = {"key": key, "model": values["model"], "request": request, "completion": json.loads(completion)}
+    return f"{_to_json(line)}\n".encode()
+
+
+def _read_line(path: Path, number: int, line: bytes) -> tuple[str, Request, Completion]:
+    try:
+        data = _checked(json.loads(line.decode("utf-8")), _LINE, "the line")
+        model, request = data["model"], Request(**_checked(data["request"], _REQUEST, "request"))
+        if data["key"] != request_key(model, request):
+            raise ValueError("the key is not that of its model and request")
+        return model, request, _read_completion(data["completion"])
+    except _UNREADABLE as error:
+        raise GroundingError(
+            f"{path}: line {number} is no recorded completion ({error}); nothing was imported;"
+            " expected the file as the cache exported it: export it again or remove the line"
+        ) from error
+
+
+def _read_completion(data: Any) -> Completion:
+    values = dict(_checked(data, _COMPLETION, "completion"))
+    usage = Usage(**_checked(values.pop("usage"), _USAGE, "usage"))
+    return Completion(finish=Finish(values.pop("finish")), usage=usage, **values)
+
+
+def _checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict[str, Any]:
+    if not isinstance(data, dict) or data.keys() != kinds.keys():
+        raise ValueError(f"{what} should be an object with {', '.join(kinds)}")
+    for name, expected in kinds.items():
+        if type(data[name]) not in expected:
+            raise ValueError(f"{name} of {what} is {str(data[name])[:40]!r}, expected {expected[0].__name__}")
+    return data
