@@ -105,3 +105,49 @@ def test_what_cannot_be_asked_is_told_before_anything_is_read(run: Run, kitchen:
     assert done.code == 2
     assert told in done.err
     assert done.out == ""
+
+
+def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, write_stage):
+    things = component("Cup", cube("mesh", size=0.1)), component("xqzv", cube("mesh", size=7))
+    scene = write_stage(xform("Kitchen", *things))
+    with serve(openai_reply(json.dumps({"1": {"class": "Bowl"}}))) as server:
+        model = f"openai:test@{server.url}/v1"
+        plan = run("ground", scene, "--model", model, "--cascade", "0.7", "--dry-run")
+        done = run("ground", scene, "--model", model, "--cascade", "0.7")
+        assert len(server.received) == 1
+    assert "1 prompts for 1 objects" in plan.err
+    assert classes(done.out) == {"/Kitchen/Cup": "Cup", "/Kitchen/xqzv": "Bowl"}
+    assert "1 objects sure by embedded, 1 decided by the model, 0 left as it was" in done.err
+
+
+def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
+    with serve(openai_reply(cup())) as server:
+        model = f"openai:test@{server.url}/v1"
+        run("ground", kitchen, "--model", model, "--shortlist", "3")
+        offered = server.received[0].body["response_format"]["json_schema"]["schema"]["properties"]["1"]
+    assert "Cup" in offered["properties"]["class"]["enum"]
+    assert "DesignedArtifact" in offered["properties"]["class"]["enum"]
+    assert len(offered["properties"]["class"]["enum"]) < 25
+
+
+def test_a_recording_is_replayed_without_key_or_server(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):
+    with serve(openai_reply(cup())) as server:
+        model = f"openai:test@{server.url}/v1"
+        first = run("ground", kitchen, "--model", model)
+    exported = run("completions", "export", "said.jsonl")
+    assert "2 completions written" in exported.err
+    assert KEY not in Path("said.jsonl").read_text("utf-8")
+    monkeypatch.delenv("OPENAI_API_KEY")
+    imported = run("completions", "import", "said.jsonl", "--completions", "elsewhere.sqlite")
+    assert "2 new completions" in imported.err
+    again = run("ground", kitchen, "--model", model, "--replay", "--completions", "elsewhere.sqlite")
+    assert again.out == first.out
+    empty = run("ground", kitchen, "--model", model, "--replay", "--completions", "empty.sqlite", "--format", "json")
+    explanations = {found["explanation"] for found in json.loads(empty.out)["predictions"]}
+    assert any("is not kept; leave out --replay" in text for text in explanations)
+
+
+def test_a_cascade_without_a_model_is_told(run: Run, kitchen: Path):
+    done = run("ground", kitchen, "--cascade", "0.5")
+    assert (done.code, done.out) == (2, "")
+    assert "--cascade is about asking a model; say which one with --model" in done.err

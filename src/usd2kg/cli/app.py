@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli import build, demo, evaluate, ground, inspect, ontology, query, render
+from usd2kg.cli import build, completions, demo, evaluate, ground, inspect, ontology, query, render
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import Usd2kgError
 
@@ -34,6 +34,7 @@ app.command("render")(render.render_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")
+app.add_typer(completions.app, name="completions")
 
 
 def _print_version(is_wanted: bool) -> None:

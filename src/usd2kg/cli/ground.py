@@ -9,6 +9,7 @@ import typer
 from usd2kg.cli.options import (
     AbbreviatedLength,
     Abstains,
+    Cascade,
     ClassSizes,
     ClassTree,
     CompletionsFile,
@@ -24,13 +25,17 @@ from usd2kg.cli.options import (
     Kinds,
     MetresPerUnit,
     Model,
+    MoreEvidence,
     ObjectList,
     ObjectsPerPrompt,
     OntologyFile,
     PromptStrategy,
     Refresh,
     Regime,
+    Replay,
     SceneFile,
+    Shortlist,
+    Shuffle,
     Thinking,
     TimeCode,
     TokenBudget,
@@ -41,7 +46,7 @@ from usd2kg.cli.output import emit, printable, talk
 from usd2kg.errors import GroundingError
 
 if TYPE_CHECKING:
-    from usd2kg.grounding import Grounder, Grounding
+    from usd2kg.grounding import Grounding
     from usd2kg.grounding.llm.grounder import RunReport
     from usd2kg.grounding.llm.prompts import Batch
 
@@ -58,9 +63,14 @@ def ground_command(
     class_tree: ClassTree = False,
     thinking: Thinking = False,
     each_object: EachObject = False,
+    more_evidence: MoreEvidence = False,
+    shuffle: Shuffle = None,
+    shortlist: Shortlist = None,
+    cascade: Cascade = None,
     token_budget: TokenBudget = None,
     completions: CompletionsFile = None,
     refresh: Refresh = False,
+    replay: Replay = False,
     dry_run: DryRun = False,
     dictionary: Dictionary = None,
     abstain: Abstains = False,
@@ -106,16 +116,20 @@ def ground_command(
                 is_tree=class_tree,
                 is_thinking=thinking,
                 is_each_object=each_object,
+                has_more_evidence=more_evidence,
+                shuffle_seed=shuffle,
+                shortlist=shortlist,
                 token_budget=token_budget,
                 completions=completions,
                 is_refreshed=refresh,
+                is_replayed=replay,
             )
             asker = stack.enter_context(open_llm_grounder(settings, is_dry=dry_run))
-        elif dry_run:
-            raise GroundingError("--dry-run shows the prompts for a model; say which one with --model")
-        chosen: Grounder = asker or grounding.make_grounder(
-            grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain
-        )
+        elif dry_run or cascade is not None:
+            option = "--dry-run" if dry_run else "--cascade"
+            raise GroundingError(f"{option} is about asking a model; say which one with --model")
+        own = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain)
+        tiers = grounding.CascadeGrounder(own, asker, cascade) if asker and cascade is not None else None
         wanted = grounding.read_paths(paths) if paths is not None else None
         tbox = open_tbox(ontology)
         options = read_options(
@@ -125,12 +139,15 @@ def ground_command(
         if asker is not None and dry_run:
             views = view_objects(found, naming_regime, groups, abbreviated_length)
             shown = [view for obj, view in views if wanted is None or obj.prim_path in wanted]
+            if tiers is not None:
+                answers = own.ground_views([("", view) for view in shown], tbox)
+                shown = [shown[index] for index in tiers.unsure(answers)]
             _show_plan(asker.plan(shown, tbox), len(shown), output)
             return
         result = grounding.ground(
             found,
             tbox,
-            chosen,
+            tiers or asker or own,
             regime=naming_regime,
             evidence=groups,
             paths=wanted,
@@ -139,6 +156,9 @@ def ground_command(
     emit(grounding.format_mapping(result, tbox, file_format), output)
     for path in found.missing_paths:
         talk(f"{scene}: there is no prim {path}; its row has the status missing")
+    if tiers is not None:
+        told = tiers.report
+        talk(f"{told.sure} objects sure by {grounder}, {told.decided} decided by the model, {told.kept} left as it was")
     if asker is not None:
         _tell_cost(asker.report, result)
 

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AbbreviatedLength",
     "Abstains",
+    "Cascade",
     "ClassSizes",
     "ClassTree",
     "CompletionsFile",
@@ -27,14 +28,18 @@ __all__ = [
     "Kinds",
     "MetresPerUnit",
     "Model",
+    "MoreEvidence",
     "ObjectList",
     "ObjectsPerPrompt",
     "OntologyFile",
     "PromptStrategy",
     "Refresh",
     "Regime",
+    "Replay",
     "SceneFile",
     "Shapes",
+    "Shortlist",
+    "Shuffle",
     "Thinking",
     "TimeCode",
     "TokenBudget",
@@ -81,6 +86,27 @@ CompletionsFile = Annotated[
     typer.Option("--completions", help="File that keeps what models said; default: $USD2KG_CACHE or the user's cache."),
 ]
 Refresh = Annotated[bool, typer.Option("--refresh", help="Ask a model again for what it has said before.")]
+MoreEvidence = Annotated[
+    bool, typer.Option("--more-evidence", help="Show a model asset, labels, materials, parts and documentation too.")
+]
+Shuffle = Annotated[
+    int | None, typer.Option("--shuffle", help="Show a model the classes in a random order with this seed.")
+]
+Shortlist = Annotated[
+    int | None,
+    typer.Option(
+        "--shortlist", min=1, help="Offer a model only so many classes that the embedded grounder likes best."
+    ),
+]
+Cascade = Annotated[
+    float | None,
+    typer.Option(
+        "--cascade", min=0, max=1, help="Ask a model only where the embedded grounder is less confident than this."
+    ),
+]
+Replay = Annotated[
+    bool, typer.Option("--replay", help="Take from a model only what it has said before; ask nobody, no key needed.")
+]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Print the prompts for a model and their tokens; ask nobody.")]
 Abstains = Annotated[
     bool,

@@ -1,6 +1,7 @@
 """From a Scene and a TBox to a Grounding: a class for every object, how sure, and why."""
 
 from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
+from usd2kg.grounding.cascade import CascadeGrounder
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
 from usd2kg.grounding.registry import GROUNDERS, make_grounder
@@ -9,6 +10,7 @@ __all__ = [
     "GROUNDERS",
     "MAPPING_FORMATS",
     "Candidate",
+    "CascadeGrounder",
     "Grounder",
     "Grounding",
     "Prediction",

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field, replace
 from threading import Lock
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.prompts import Batch, PromptOptions, Strategy, build_requests
 from usd2kg.grounding.model import Prediction, Status
-from usd2kg.ontology import TBox
+from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ObjectView
 
 __all__ = ["LLMGrounder", "RunReport", "distinct_views"]
@@ -57,6 +58,7 @@ class LLMGrounder:
         cache: CompletionCache | None = None,
         is_refreshed: bool = False,
         is_once_each: bool = True,
+        shortlist: int | None = None,
         workers: int = 4,
         token_budget: int | None = None,
     ) -> None:
@@ -68,12 +70,14 @@ class LLMGrounder:
             cache: where completions are kept; None for nowhere.
             is_refreshed: ask even for what is in the cache, and keep the new completion.
             is_once_each: ask once about objects whose prompts would differ in a number alone.
+            shortlist: offer for each object only so many classes that the embedded grounder thinks of first, with
+                those above them and the roots; None offers all.
             workers: prompts that are on their way at the same time.
             token_budget: input and output tokens after which nothing more is asked.
         """
         self._client, self._options, self._cache = client, options, cache
         self._is_refreshed, self._is_once_each, self._workers = is_refreshed, is_once_each, workers
-        self._budget = token_budget
+        self._shortlist, self._budget = shortlist, token_budget
         self._lock = Lock()
         self._failures = 0
         self.report = RunReport()
@@ -89,13 +93,15 @@ class LLMGrounder:
             "once_each": str(self._is_once_each).lower(),
             "thinking": str(self._options.is_thinking).lower(),
             "temperature": f"{self._options.temperature:g}",
+            **({"shortlist": str(self._shortlist)} if self._shortlist is not None else {}),
             **({"shuffle": str(self._options.shuffle_seed)} if self._options.shuffle_seed is not None else {}),
         }
 
     def plan(self, views: Sequence[ObjectView], tbox: TBox) -> list[Batch]:
         """Return the prompts that `ground_views` would send, repairs left out."""
         asked = [views[indices[0]] for indices in self._groups(views)]
-        return build_requests(asked, tbox, self._options)
+        offered = _shortlists(asked, tbox, self._shortlist) if self._shortlist is not None else None
+        return build_requests(asked, tbox, self._options, offered)
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
@@ -212,6 +218,13 @@ def _result(
     found = future.result()
     assert len(found) == len(batch.indices)
     return found
+
+
+def _shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
+    """Return for each view the classes that the embedded grounder thinks of first, all above them, and the roots."""
+    first = EmbeddedGrounder().ground_views([("", view) for view in views], tbox)
+    likely = [[candidate.class_iri for candidate in found.candidates[:most]] for found in first]
+    return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
 
 
 def distinct_views(views: Sequence[ObjectView], strategy: Strategy) -> list[list[int]]:

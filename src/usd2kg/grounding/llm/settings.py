@@ -1,9 +1,10 @@
 """What a user says about asking a model, and the grounder made from it."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypedDict
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
@@ -25,10 +26,23 @@ class LLMSettings:
     is_tree: bool = False
     is_thinking: bool = False
     is_each_object: bool = False
+    has_more_evidence: bool = False
+    """Show what the study does not: labels, documentation, asset, materials, parts."""
+    shuffle_seed: int | None = None
+    """Seed of a random order of the classes; None for the alphabet."""
+    shortlist: int | None = None
+    """Classes of the embedded grounder that are offered for each object; None for all."""
     token_budget: int | None = None
     completions: Path | None = None
     """File of the cache; None for the user's."""
     is_refreshed: bool = False
+    is_replayed: bool = False
+    """Take only what is in the cache, and ask nobody."""
+
+
+class _Form(TypedDict):
+    is_once_each: bool
+    shortlist: int | None
 
 
 @contextmanager
@@ -43,21 +57,25 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
         is_tree=settings.is_tree,
         objects_per_prompt=settings.objects_per_prompt,
         is_thinking=settings.is_thinking,
+        has_more_evidence=settings.has_more_evidence,
+        shuffle_seed=settings.shuffle_seed,
     )
+    form: _Form = {"is_once_each": not settings.is_each_object, "shortlist": settings.shortlist}
     if is_dry:
-        yield LLMGrounder(_NoClient(settings.model), options, is_once_each=not settings.is_each_object)
+        yield LLMGrounder(_NoClient(settings.model), options, **form)
         return
-    with (
-        make_client(settings.model) as client,
-        CompletionCache(settings.completions or default_cache_path()) as cache,
-    ):
+    with ExitStack() as stack:
+        cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
+        client: Client = (
+            _NoClient(settings.model) if settings.is_replayed else stack.enter_context(make_client(settings.model))
+        )
         yield LLMGrounder(
             client,
             options,
             cache=cache,
             is_refreshed=settings.is_refreshed,
-            is_once_each=not settings.is_each_object,
             token_budget=settings.token_budget,
+            **form,
         )
 
 
@@ -73,4 +91,4 @@ class _NoClient(Client):
     model: str
 
     def complete(self, request: Request) -> Completion:
-        raise GroundingError(f"a dry run does not ask {self.model}")
+        raise GroundingError(f"not asked: what {self.model} says to this is not kept; leave out --replay to ask it")
