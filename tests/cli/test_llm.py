@@ -1,4 +1,4 @@
-"""usd2kg ground --model: a language model behind a real local server."""
+"""usd2kg ground --grounder llm-B:MODEL: a language model behind a real local server."""
 
 import csv
 import io
@@ -10,6 +10,9 @@ import pytest
 from tests.cli.conftest import Run
 from tests.grounding.llm.servers import openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
+from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.prompts import Strategy
+from usd2kg.grounding.llm.settings import parse_llm_name
 
 KEY = "sk-very-secret-4711"
 
@@ -37,10 +40,10 @@ def cup(count: int = 1) -> str:
 
 def test_a_model_grounds_a_scene_and_a_rerun_costs_nothing(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
-        model = f"openai:test@{server.url}/v1"
-        first = run("ground", kitchen, "--model", model)
+        model = f"llm-B:openai:test@{server.url}/v1"
+        first = run("ground", kitchen, "--grounder", model)
         asked = len(server.received)
-        again = run("ground", kitchen, "--model", model)
+        again = run("ground", kitchen, "--grounder", model)
     assert first.code == again.code == 0
     assert classes(first.out) == {f"/Kitchen/{name}": "Cup" for name in ("mug_1", "mug_2", "jar")}
     assert again.out == first.out
@@ -53,7 +56,7 @@ def test_a_model_grounds_a_scene_and_a_rerun_costs_nothing(run: Run, kitchen: Pa
 
 def test_the_schema_on_the_wire_offers_the_classes_of_the_ontology_alone(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
-        run("ground", kitchen, "--model", f"openai:test@{server.url}/v1", "--strategy", "c")
+        run("ground", kitchen, "--grounder", f"llm-c:openai:test@{server.url}/v1")
         body = server.received[0].body
     row = body["response_format"]["json_schema"]["schema"]["properties"]["1"]
     assert list(row["properties"]) == ["reasoning", "class"]
@@ -64,14 +67,14 @@ def test_the_schema_on_the_wire_offers_the_classes_of_the_ontology_alone(run: Ru
 
 def test_many_objects_in_a_prompt_save_prompts(run: Run, kitchen: Path):
     with serve(openai_reply(cup(2))) as server:
-        done = run("ground", kitchen, "--model", f"openai:test@{server.url}/v1", "--objects-per-prompt", "10")
+        done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--objects-per-prompt", "10")
         assert len(server.received) == 1
     assert set(classes(done.out).values()) == {"Cup"}
 
 
 def test_a_dry_run_prints_prompts_and_asks_nobody(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
-        done = run("ground", kitchen, "--model", f"openai:test@{server.url}/v1", "--dry-run")
+        done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--dry-run")
         assert server.received == []
     assert done.code == 0
     assert done.out.count("=== prompt ") == 2
@@ -81,7 +84,7 @@ def test_a_dry_run_prints_prompts_and_asks_nobody(run: Run, kitchen: Path):
 
 def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run, kitchen: Path):
     with serve(refuse(401, f"bad key {KEY}")) as server:
-        done = run("ground", kitchen, "--model", f"openai:test@{server.url}/v1", "--format", "json")
+        done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--format", "json")
     predictions = json.loads(done.out)["predictions"]
     assert {p["status"] for p in predictions} == {"failed"}
     assert "status 401" in predictions[0]["explanation"]
@@ -92,12 +95,9 @@ def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (("--model", "nobody:model"), "expected google:NAME, anthropic:NAME or openai:NAME"),
-        (
-            ("--model", "openai:x@http://localhost:1/v1", "--strategy", "D"),
-            "strategy 'D' is unknown; expected A, B or C",
-        ),
-        (("--dry-run",), "say which one with --model"),
+        (("--grounder", "llm-B:nobody:model"), "expected google:NAME, anthropic:NAME or openai:NAME"),
+        (("--grounder", "llm-D:openai:x@http://localhost:1/v1"), "expected llm-A:MODEL, llm-B:MODEL or llm-C:MODEL"),
+        (("--dry-run",), "say which one with --grounder"),
     ],
 )
 def test_what_cannot_be_asked_is_told_before_anything_is_read(run: Run, kitchen: Path, arguments, told: str):
@@ -111,19 +111,19 @@ def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, w
     things = component("Cup", cube("mesh", size=0.1)), component("xqzv", cube("mesh", size=7))
     scene = write_stage(xform("Kitchen", *things))
     with serve(openai_reply(json.dumps({"1": {"class": "Bowl"}}))) as server:
-        model = f"openai:test@{server.url}/v1"
-        plan = run("ground", scene, "--model", model, "--cascade", "0.7", "--dry-run")
-        done = run("ground", scene, "--model", model, "--cascade", "0.7")
+        model = f"llm-B:openai:test@{server.url}/v1"
+        plan = run("ground", scene, "--grounder", model, "--cascade", "0.7", "--dry-run")
+        done = run("ground", scene, "--grounder", model, "--cascade", "0.7")
         assert len(server.received) == 1
     assert "1 prompts for 1 objects" in plan.err
     assert classes(done.out) == {"/Kitchen/Cup": "Cup", "/Kitchen/xqzv": "Bowl"}
-    assert "1 objects sure by embedded, 1 decided by the model, 0 left as it was" in done.err
+    assert "1 objects sure by themselves, 1 decided by the model, 0 left as it was" in done.err
 
 
 def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
-        model = f"openai:test@{server.url}/v1"
-        run("ground", kitchen, "--model", model, "--shortlist", "3")
+        model = f"llm-B:openai:test@{server.url}/v1"
+        run("ground", kitchen, "--grounder", model, "--shortlist", "3")
         offered = server.received[0].body["response_format"]["json_schema"]["schema"]["properties"]["1"]
     assert "Cup" in offered["properties"]["class"]["enum"]
     assert "DesignedArtifact" in offered["properties"]["class"]["enum"]
@@ -132,17 +132,17 @@ def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
 
 def test_a_recording_is_replayed_without_key_or_server(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):
     with serve(openai_reply(cup())) as server:
-        model = f"openai:test@{server.url}/v1"
-        first = run("ground", kitchen, "--model", model)
+        model = f"llm-B:openai:test@{server.url}/v1"
+        first = run("ground", kitchen, "--grounder", model)
     exported = run("completions", "export", "said.jsonl")
     assert "2 completions written" in exported.err
     assert KEY not in Path("said.jsonl").read_text("utf-8")
     monkeypatch.delenv("OPENAI_API_KEY")
     imported = run("completions", "import", "said.jsonl", "--completions", "elsewhere.sqlite")
     assert "2 new completions" in imported.err
-    again = run("ground", kitchen, "--model", model, "--replay", "--completions", "elsewhere.sqlite")
+    again = run("ground", kitchen, "--grounder", model, "--replay", "--completions", "elsewhere.sqlite")
     assert again.out == first.out
-    empty = run("ground", kitchen, "--model", model, "--replay", "--completions", "empty.sqlite", "--format", "json")
+    empty = run("ground", kitchen, "--grounder", model, "--replay", "--completions", "empty.sqlite", "--format", "json")
     explanations = {found["explanation"] for found in json.loads(empty.out)["predictions"]}
     assert any("is not kept; leave out --replay" in text for text in explanations)
 
@@ -150,4 +150,34 @@ def test_a_recording_is_replayed_without_key_or_server(run: Run, kitchen: Path, 
 def test_a_cascade_without_a_model_is_told(run: Run, kitchen: Path):
     done = run("ground", kitchen, "--cascade", "0.5")
     assert (done.code, done.out) == (2, "")
-    assert "--cascade is about asking a model; say which one with --model" in done.err
+    assert "--cascade is about asking a model; say which one with --grounder" in done.err
+
+
+def test_building_and_scoring_take_a_model_too(run: Run, kitchen: Path):
+    Path("gold.csv").write_text("path,class,also\n/Kitchen/mug_1,Cup,\n/Kitchen/jar,Jar,\n", "utf-8")
+    with serve(openai_reply(cup())) as server:
+        model = f"llm-B:openai:test@{server.url}/v1"
+        built = run("build", kitchen, "--grounder", model, "-o", "kitchen.ttl")
+        scored = run("eval", "run", kitchen, "--gold", "gold.csv", "--grounder", model, "--json")
+    assert built.code == scored.code == 0
+    graph = Path("kitchen.ttl").read_text("utf-8")
+    assert graph.count("SOMA-HOME.owl#Cup>") + graph.count("home:Cup") + graph.count("soma_home:Cup") >= 3
+    assert json.loads(scored.out)["ema"] == 50.0
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("llm-A:google:gemini-2.5-flash", ("google:gemini-2.5-flash", Strategy.NAME_ONLY)),
+        ("llm-c:openai:x@http://localhost:8000/v1", ("openai:x@http://localhost:8000/v1", Strategy.CHAIN_OF_THOUGHT)),
+        ("llm:openai:x", ("openai:x", Strategy.CONTEXT)),
+    ],
+)
+def test_a_grounder_is_named_by_strategy_and_model(name: str, expected: tuple[str, Strategy]):
+    assert parse_llm_name(name) == expected
+
+
+@pytest.mark.parametrize("name", ["llm-D:openai:x", "llm-AB:openai:x", "llm-B:", "llm-B"])
+def test_other_names_are_refused(name: str):
+    with pytest.raises(GroundingError, match="expected llm-A:MODEL"):
+        parse_llm_name(name)

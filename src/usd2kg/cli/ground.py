@@ -24,12 +24,10 @@ from usd2kg.cli.options import (
     Include,
     Kinds,
     MetresPerUnit,
-    Model,
     MoreEvidence,
     ObjectList,
     ObjectsPerPrompt,
     OntologyFile,
-    PromptStrategy,
     Refresh,
     Regime,
     Replay,
@@ -57,8 +55,6 @@ def ground_command(
     scene: SceneFile,
     ontology: OntologyFile = None,
     grounder: GrounderName = "embedded",
-    model: Model = None,
-    strategy: PromptStrategy = "B",
     objects_per_prompt: ObjectsPerPrompt = 1,
     class_tree: ClassTree = False,
     thinking: Thinking = False,
@@ -106,12 +102,11 @@ def ground_command(
         check_writable(output)
     with ExitStack() as stack:
         asker = None
-        if model is not None:
-            from usd2kg.grounding.llm.settings import LLMSettings, open_llm_grounder  # noqa: PLC0415
+        if grounding.is_llm_name(grounder):
+            from usd2kg.grounding.llm.settings import LLMSettings, open_llm_grounder, parse_llm_name  # noqa: PLC0415
 
             settings = LLMSettings(
-                model=model,
-                strategy=strategy,
+                *parse_llm_name(grounder),
                 objects_per_prompt=objects_per_prompt,
                 is_tree=class_tree,
                 is_thinking=thinking,
@@ -127,8 +122,10 @@ def ground_command(
             asker = stack.enter_context(open_llm_grounder(settings, is_dry=dry_run))
         elif dry_run or cascade is not None:
             option = "--dry-run" if dry_run else "--cascade"
-            raise GroundingError(f"{option} is about asking a model; say which one with --model")
-        own = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain)
+            raise GroundingError(f"{option} is about asking a model; say which one with --grounder llm-B:MODEL")
+        own = grounding.make_grounder(
+            "embedded" if asker else grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain
+        )
         tiers = grounding.CascadeGrounder(own, asker, cascade) if asker and cascade is not None else None
         wanted = grounding.read_paths(paths) if paths is not None else None
         tbox = open_tbox(ontology)
@@ -158,7 +155,7 @@ def ground_command(
         talk(f"{scene}: there is no prim {path}; its row has the status missing")
     if tiers is not None:
         told = tiers.report
-        talk(f"{told.sure} objects sure by {grounder}, {told.decided} decided by the model, {told.kept} left as it was")
+        talk(f"{told.sure} objects sure by themselves, {told.decided} decided by the model, {told.kept} left as it was")
     if asker is not None:
         _tell_cost(asker.report, result)
 

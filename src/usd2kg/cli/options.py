@@ -27,12 +27,10 @@ __all__ = [
     "JsonOutput",
     "Kinds",
     "MetresPerUnit",
-    "Model",
     "MoreEvidence",
     "ObjectList",
     "ObjectsPerPrompt",
     "OntologyFile",
-    "PromptStrategy",
     "Refresh",
     "Regime",
     "Replay",
@@ -54,20 +52,11 @@ OntologyFile = Annotated[
 ]
 GrounderName = Annotated[
     str,
-    typer.Option("--grounder", help="Who chooses the classes: embedded (default), dictionary, embedding or volume."),
-]
-Model = Annotated[
-    str | None,
     typer.Option(
-        "--model",
-        help="Ask a language model instead: google:NAME, anthropic:NAME, openai:NAME, or openai:NAME@URL for a server "
-        "that speaks OpenAI's protocol. Keys come from the environment.",
-    ),
-]
-PromptStrategy = Annotated[
-    str,
-    typer.Option(
-        "--strategy", help="What a model is shown: A the name, B the context too (default), C to reason first."
+        "--grounder",
+        help="Who chooses the classes: embedded (default), dictionary, embedding, volume, or a language model: "
+        "llm-A:MODEL is shown names, llm-B:MODEL the context too, llm-C:MODEL reasons first. MODEL is google:NAME, "
+        "anthropic:NAME, openai:NAME, or openai:NAME@URL for a server that speaks OpenAI's protocol.",
     ),
 ]
 ObjectsPerPrompt = Annotated[

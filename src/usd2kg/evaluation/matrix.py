@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import EvaluationError, GroundingError
-from usd2kg.grounding import GROUNDERS, parse_evidence
+from usd2kg.grounding import GROUNDERS, is_llm_name, parse_evidence
 from usd2kg.scene import NamingRegime
 
 __all__ = ["STUDY_ABLATION", "Cell", "Matrix", "SceneSpec", "read_matrix"]
@@ -111,9 +111,10 @@ def read_matrix(path: Path) -> Matrix:
     if not scenes:
         raise EvaluationError(f"{path}: names no scene; expected at least one [[scene]] with path and gold")
     grounders = tuple(data.get("grounders", GROUNDERS))
-    unknown = [name for name in grounders if name not in GROUNDERS]
+    unknown = [name for name in grounders if name not in GROUNDERS and not is_llm_name(name)]
     if unknown:
-        raise EvaluationError(f"{path}: grounder {unknown[0]!r} is unknown; expected {', '.join(GROUNDERS)}")
+        known = f"{', '.join(GROUNDERS)}, or llm-B:MODEL"
+        raise EvaluationError(f"{path}: grounder {unknown[0]!r} is unknown; expected {known}")
     try:
         regimes = tuple(NamingRegime(name) for name in data.get("regimes", list(NamingRegime)))
     except (ValueError, GroundingError) as error:

@@ -4,7 +4,7 @@ from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
 from usd2kg.grounding.cascade import CascadeGrounder
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
-from usd2kg.grounding.registry import GROUNDERS, make_grounder
+from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
 
 __all__ = [
     "GROUNDERS",
@@ -18,6 +18,7 @@ __all__ = [
     "check_format",
     "format_mapping",
     "ground",
+    "is_llm_name",
     "make_grounder",
     "parse_evidence",
     "parse_regime",

@@ -5,10 +5,15 @@ from pathlib import Path
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.base import Grounder
 
-__all__ = ["GROUNDERS", "make_grounder"]
+__all__ = ["GROUNDERS", "is_llm_name", "make_grounder"]
 
 GROUNDERS = ("embedded", "dictionary", "embedding", "volume")
-"""Names that `make_grounder` knows; the first is the default."""
+"""Names that `make_grounder` knows; the first is the default. Beside them it knows `llm-B:MODEL` and the like."""
+
+
+def is_llm_name(name: str) -> bool:
+    """Return whether a grounder's name is of a language model."""
+    return name.startswith(("llm-", "llm:"))
 
 
 def make_grounder(
@@ -17,7 +22,7 @@ def make_grounder(
     """Return the grounder of that name.
 
     Args:
-        name: one of `GROUNDERS`.
+        name: one of `GROUNDERS`, or a strategy and a language model: `llm-B:google:gemini-2.5-flash`.
         dictionary: for `dictionary`, a CSV file `name,class` of the user's own.
         class_sizes: for `volume`, a CSV file of usual sizes of the user's own.
         abstains: for `embedded`, take the class above where the candidates are split.
@@ -50,4 +55,8 @@ def make_grounder(
         from usd2kg.grounding.volume import VolumeGrounder  # noqa: PLC0415
 
         return VolumeGrounder.from_csv(class_sizes) if class_sizes else VolumeGrounder()
-    raise GroundingError(f"grounder {name!r} is unknown; expected one of {', '.join(GROUNDERS)}")
+    if is_llm_name(name):
+        from usd2kg.grounding.llm.settings import make_llm_grounder  # noqa: PLC0415
+
+        return make_llm_grounder(name)
+    raise GroundingError(f"grounder {name!r} is unknown; expected one of {', '.join(GROUNDERS)}, or llm-B:MODEL")

@@ -1,5 +1,6 @@
 """What a user says about asking a model, and the grounder made from it."""
 
+import weakref
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
 
-__all__ = ["LLMSettings", "open_llm_grounder"]
+__all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +22,7 @@ class LLMSettings:
     """Which model is asked, how, and for how much."""
 
     model: str
-    strategy: str = "B"
+    strategy: Strategy = Strategy.CONTEXT
     objects_per_prompt: int = 1
     is_tree: bool = False
     is_thinking: bool = False
@@ -53,7 +54,7 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
         GroundingError: the strategy or model is unknown, a key is missing, the cache cannot be opened.
     """
     options = PromptOptions(
-        strategy=_strategy(settings.strategy),
+        strategy=settings.strategy,
         is_tree=settings.is_tree,
         objects_per_prompt=settings.objects_per_prompt,
         is_thinking=settings.is_thinking,
@@ -79,11 +80,33 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
         )
 
 
-def _strategy(text: str) -> Strategy:
-    try:
-        return Strategy(text.upper())
-    except ValueError as error:
-        raise GroundingError(f"strategy {text!r} is unknown; expected A, B or C") from error
+def parse_llm_name(name: str) -> tuple[str, Strategy]:
+    """Return model and strategy of a grounder's name: `llm-C:google:gemini-2.5-flash`; without a letter it is B.
+
+    Raises:
+        GroundingError: it is no such name.
+    """
+    kind, _, model = name.partition(":")
+    letter = kind.removeprefix("llm").removeprefix("-").upper() or Strategy.CONTEXT.value
+    if letter not in set(Strategy) or not model:
+        raise GroundingError(
+            f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL or llm-C:MODEL, "
+            "with a MODEL like google:gemini-2.5-flash or openai:NAME@http://localhost:8000/v1"
+        )
+    return model, Strategy(letter)
+
+
+def make_llm_grounder(name: str) -> LLMGrounder:
+    """Return the grounder of such a name, with the user's cache; it is closed when nobody holds it any more.
+
+    Raises:
+        GroundingError: the name or model is unknown, a key is missing, the cache cannot be opened.
+    """
+    model, strategy = parse_llm_name(name)
+    stack = ExitStack()
+    grounder = stack.enter_context(open_llm_grounder(LLMSettings(model, strategy)))
+    weakref.finalize(grounder, stack.close)
+    return grounder
 
 
 @dataclass(frozen=True, slots=True)
