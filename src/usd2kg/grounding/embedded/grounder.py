@@ -43,7 +43,9 @@ _NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
 _COMPANY = 0.8
 """How far the company is trusted to tell the class, as a share of what the name would be."""
 _WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
-_SIZE_FLOOR, _SIZE_POWER, _NO_SIZE = 0.05, 0.2, 0.3
+_SIZE_FLOOR, _NO_SIZE = 0.05, 0.3
+_SIZE_POWER, _SIZE_POWER_ALONE = 0.2, 0.45
+"""How far the size is heard beside a company, whose votes heed it already, and without one."""
 _SIZE_TRUST = 0.3
 _SUITED = 3
 """The classes that are considered for their size alone."""
@@ -180,13 +182,14 @@ class _Run:
         # The more a name says, the less is asked of the company; what an abbreviation seems to say is often wrong.
         said_best = 0.0 if view.is_masked else max((finding.match.score for finding in words), default=0.0)
         power = _COMPANY_POWER * (1 - said_best)
+        size_power = _SIZE_POWER if view.company is not None else _SIZE_POWER_ALONE
         suited = sorted(by_size, key=lambda iri: (-by_size[iri][1], iri))[:_SUITED]
         for iri in dict.fromkeys([*by_words, *by_company, *suited]):
             experts = [found[iri] for found in (by_words, by_company) if iri in found]
             said, seen = (found[iri].match.score if iri in found else 0.0 for found in (by_words, by_company))
             fit, share = by_size.get(iri, (_NO_SIZE, 0.0))
             heard = (seen + _COMPANY_FLOOR * (_SHARE_FLOOR + share)) ** power
-            weight = (said + _WORDS_FLOOR) * heard * (fit + _SIZE_FLOOR) ** _SIZE_POWER
+            weight = (said + _WORDS_FLOOR) * heard * (fit + _SIZE_FLOOR) ** size_power
             finding = max(experts, key=lambda found: found.match.score, default=None)
             weighed[iri] = (weight, finding or _Finding("geometry", Match(iri, share, self._size_text(iri))))
         total = sum(weight for weight, _ in weighed.values())
