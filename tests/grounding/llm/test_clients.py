@@ -105,6 +105,16 @@ class TestOpenAI:
             assert client.attempts == 3
         assert first.mean_logprob is None and second.mean_logprob is None
 
+    @pytest.mark.parametrize("status", [400, 422, 500])
+    def test_a_server_of_the_older_form_gets_the_schema_in_its_words_from_then_on(self, status: int):
+        refusal = servers.refuse(status, "'loc': ('body', 'response_format', 'type'), 'input': 'json_schema'")
+        with servers.serve(refusal, servers.openai_reply("{}")) as server, _connect(server, "openai:m") as client:
+            client.complete(REQUEST)
+            client.complete(REQUEST)
+            forms = [received.body["response_format"] for received in server.received]
+        assert [form["type"] for form in forms] == ["json_schema", "json_object", "json_object"]
+        assert forms[1] == forms[2] == {"type": "json_object", "schema": dict(REQUEST.schema)}
+
     def test_another_refusal_is_not_asked_again(self):
         text, attempts, url = _fail("openai:m", servers.refuse(400, "context of 4096 tokens exceeded"), retries=3)
 

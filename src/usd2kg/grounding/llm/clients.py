@@ -142,6 +142,8 @@ class HttpClient:
         self._retries = retries
         self._timeout_s = timeout_s
         self._offers_logprobs = address.provider == "openai"
+        self._knows_json_schema = address.is_compatible
+        """Whether to ask for a JSON Schema in OpenAI's words, as long as the server has not refused them."""
         self._background = _Background()
         self._close = weakref.finalize(self, self._background.stop, http.aclose)
 
@@ -182,6 +184,9 @@ class HttpClient:
     async def _send(self, request: Request) -> Completion | Failure:
         asks_logprobs = self._offers_logprobs and _is_sampled(self._served, request.is_thinking)
         outcome = await self._ask(request, asks_logprobs)
+        if self._knows_json_schema and isinstance(outcome, Failure) and _refuses_json_schema(outcome):
+            self._knows_json_schema = False
+            outcome = await self._ask(request, asks_logprobs)
         if asks_logprobs and isinstance(outcome, Failure) and _refuses_logprobs(outcome):
             self._offers_logprobs = False
             outcome = await self._ask(request, False)
@@ -191,16 +196,22 @@ class HttpClient:
         from pydantic_ai import direct  # noqa: PLC0415 - the extra may be missing
         from pydantic_ai.exceptions import AgentRunError, UserError  # noqa: PLC0415
         from pydantic_ai.messages import ModelRequest  # noqa: PLC0415
+        from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
 
         settings = _make_settings(self._address, self._served, request, asks_logprobs)
         settings |= {"timeout": self._timeout_s, "request_timeout": self._timeout_s, "max_retries": 0}
+        parameters = _make_parameters(self._served, request, self._address.is_compatible)
+        if self._address.is_compatible and not self._knows_json_schema:
+            parameters = ModelRequestParameters()
+            body = {**settings.get("extra_body", {}), "response_format": _older_format(request)}
+            settings |= {"extra_body": body}
         self.attempts += 1
         try:
             response = await direct.model_request(
                 self._served,
                 [ModelRequest.user_text_prompt(request.user, instructions=request.system)],
                 model_settings=cast("ModelSettings", settings),
-                model_request_parameters=_make_parameters(self._served, request, self._address.is_compatible),
+                model_request_parameters=parameters,
                 instrument=False,
             )
         except AgentRunError as error:
@@ -439,6 +450,16 @@ def _read_completion(response: "ModelResponse") -> Completion:
 def _average_logprob(details: Mapping[str, Any]) -> float | None:
     logprobs = [float(token["logprob"]) for token in details.get("logprobs", ())]
     return fmean(logprobs) if logprobs else None
+
+
+def _older_format(request: Request) -> dict[str, Any]:
+    """The schema in the words of llama-cpp-python's server, which enforces it by a grammar."""
+    return {"type": "json_object", "schema": dict(request.schema)}
+
+
+def _refuses_json_schema(failure: Failure) -> bool:
+    # llama-cpp-python's server answers 500 for a form of answer that it does not know.
+    return failure.status in (400, 422, 500) and "response_format" in failure.message
 
 
 def _refuses_logprobs(failure: Failure) -> bool:
