@@ -11,7 +11,7 @@ import pytest
 
 from tests.grounding.llm import servers
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm import clients
+from usd2kg.grounding.llm import addresses
 from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.retry import Failure, Redactor, Retries
@@ -161,7 +161,7 @@ class TestOpenAIItself:
 
     def _receive(self, monkeypatch: pytest.MonkeyPatch, name: str, request: Request, *replies) -> list[dict]:
         with servers.serve(*replies, servers.openai_reply("{}")) as server:
-            monkeypatch.setitem(clients._ADDRESSES, "openai", server.url)
+            monkeypatch.setitem(addresses.ADDRESSES, "openai", server.url)
             with make_client(f"openai:{name}", environment=KEYS, retries=0) as client:
                 client.complete(request)
             return [received.body for received in server.received]

@@ -11,71 +11,25 @@ import threading
 import time
 import weakref
 from collections.abc import Callable, Coroutine, Mapping
-from dataclasses import dataclass
-from ipaddress import ip_address
-from statistics import fmean
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
-from urllib.parse import urlsplit
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.addresses import KEY_VARIABLES, Address, find_key, parse_address
+from usd2kg.grounding.llm.completion import Completion, Request
 from usd2kg.grounding.llm.retry import Failure, Redactor, Retries, advise, read_failure
+from usd2kg.grounding.llm.wire import is_sampled, make_parameters, make_settings, older_format, read_completion
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient
-    from pydantic_ai.messages import ModelResponse
-    from pydantic_ai.models import Model, ModelRequestParameters
+    from pydantic_ai.models import Model
     from pydantic_ai.settings import ModelSettings
 
 __all__ = ["HttpClient", "make_client"]
 
 _T = TypeVar("_T")
 
-_KEY_VARIABLES = {
-    "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
-    "anthropic": ("ANTHROPIC_API_KEY",),
-    "openai": ("OPENAI_API_KEY",),
-}
-_ADDRESSES = {
-    "google": "https://generativelanguage.googleapis.com",
-    "anthropic": "https://api.anthropic.com",
-    "openai": "https://api.openai.com/v1",
-}
-_EXPECTED = (
-    "expected google:NAME, anthropic:NAME or openai:NAME, with @http://HOST:PORT/v1 behind it for another server"
-)
 _LONGEST_CONNECT_S = 10.0
-_NO_KEY = "none"
-"""Sent to loopback servers without a key, as the library insists on one."""
-
-_LEAST_REASONING_TOKENS = 1024
-"""https://platform.claude.com/docs/en/build-with-claude/extended-thinking: the smallest budget of Claude models."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Address:
-    """A model string, taken apart."""
-
-    model: str
-    provider: str
-    name: str
-    url: str
-    is_own_server: bool
-    """Whether the user named the server."""
-
-    @property
-    def is_loopback(self) -> bool:
-        host = urlsplit(self.url).hostname or ""
-        try:
-            return ip_address(host).is_loopback
-        except ValueError:
-            return host == "localhost" or host.endswith(".localhost")
-
-    @property
-    def is_compatible(self) -> bool:
-        """Whether this is a server that speaks OpenAI's language without being OpenAI's."""
-        return self.provider == "openai" and self.is_own_server
 
 
 def make_client(
@@ -100,11 +54,9 @@ def make_client(
     Raises:
         GroundingError: the model is malformed, its key is missing, or the extra `llm` is not installed.
     """
-    address = _parse(model)
-    key = _find_key(address, environment)
-    redact = Redactor(
-        [key, *(environment.get(name, "").strip() for names in _KEY_VARIABLES.values() for name in names)]
-    )
+    address = parse_address(model)
+    key = find_key(address, environment)
+    redact = Redactor([key, *(environment.get(name, "").strip() for names in KEY_VARIABLES.values() for name in names)])
     try:
         http = _open_http(address, timeout_s)
         served = _SERVED[address.provider](address, key, http)
@@ -126,7 +78,7 @@ class HttpClient:
 
     def __init__(
         self,
-        address: _Address,
+        address: Address,
         served: "Model[Any]",
         http: "AsyncClient",
         redact: Redactor,
@@ -182,7 +134,7 @@ class HttpClient:
         return outcome
 
     async def _send(self, request: Request) -> Completion | Failure:
-        asks_logprobs = self._offers_logprobs and _is_sampled(self._served, request.is_thinking)
+        asks_logprobs = self._offers_logprobs and is_sampled(self._served, request.is_thinking)
         outcome = await self._ask(request, asks_logprobs)
         if self._knows_json_schema and isinstance(outcome, Failure) and _refuses_json_schema(outcome):
             self._knows_json_schema = False
@@ -198,12 +150,12 @@ class HttpClient:
         from pydantic_ai.messages import ModelRequest  # noqa: PLC0415
         from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
 
-        settings = _make_settings(self._address, self._served, request, asks_logprobs)
+        settings = make_settings(self._address, self._served, request, asks_logprobs)
         settings |= {"timeout": self._timeout_s, "request_timeout": self._timeout_s, "max_retries": 0}
-        parameters = _make_parameters(self._served, request, self._address.is_compatible)
+        parameters = make_parameters(self._served, request, self._address.is_compatible)
         if self._address.is_compatible and not self._knows_json_schema:
             parameters = ModelRequestParameters()
-            body = {**settings.get("extra_body", {}), "response_format": _older_format(request)}
+            body = {**settings.get("extra_body", {}), "response_format": older_format(request)}
             settings |= {"extra_body": body}
         self.attempts += 1
         try:
@@ -218,12 +170,12 @@ class HttpClient:
             return read_failure(error, self._redact)
         except UserError as error:
             return Failure(self._redact(str(error)))
-        return _read_completion(response)
+        return read_completion(response)
 
     def _explain(self, failure: Failure, tries: int) -> str:
         status = "no readable answer" if failure.status is None else f"status {failure.status}"
         after = "" if tries == 1 else f" after {tries} tries"
-        key_variable = _KEY_VARIABLES[self._address.provider][0]
+        key_variable = KEY_VARIABLES[self._address.provider][0]
         return (
             f"model '{self.model}': {self._address.url}: {status}{after}: {failure.message}; "
             f"{advise(failure, key_variable)}"
@@ -270,50 +222,7 @@ class _Background:
             self._thread.join()
 
 
-def _parse(model: str) -> _Address:
-    provider, _, rest = model.partition(":")
-    # A model's name may hold an @, an address begins with a scheme.
-    at = max(rest.find("@http://"), rest.find("@https://"))
-    name, url = (rest, None) if at < 0 else (rest[:at], rest[at + 1 :].rstrip("/"))
-    if provider not in _ADDRESSES or not name or any(map(str.isspace, model)):
-        raise GroundingError(f"model '{Redactor([])(model)}': no provider and name in it; {_EXPECTED}")
-    if url is not None:
-        _check_url(provider, name, url)
-    return _Address(model, provider, name, url or _ADDRESSES[provider], url is not None)
-
-
-def _check_url(provider: str, name: str, url: str) -> None:
-    try:
-        parts = urlsplit(url)
-        is_address = bool(parts.hostname) and parts.port != 0
-    except ValueError:
-        is_address = False
-    # The address itself is not repeated: what is wrong with it may be a password inside.
-    if not is_address:
-        raise GroundingError(f"model '{provider}:{name}@…': no host and port in its address; {_EXPECTED}")
-    if parts.username is not None or parts.query or parts.fragment:
-        raise GroundingError(
-            f"model '{provider}:{name}@…': its address holds a user, a query or a fragment; "
-            f"expected scheme, host, port and path alone, put the key into {_KEY_VARIABLES[provider][0]}"
-        )
-
-
-def _find_key(address: _Address, environment: Mapping[str, str]) -> str:
-    names = _KEY_VARIABLES[address.provider]
-    key = next((key for name in names if (key := environment.get(name, "").strip())), "")
-    if not key and not address.is_loopback:
-        raise GroundingError(
-            f"model '{address.model}': no key in the environment; expected one, set {' or '.join(names)}"
-        )
-    if not (key.isascii() and key.isprintable()):
-        raise GroundingError(
-            f"model '{address.model}': the key holds characters that no header can; "
-            f"expected printable ASCII, set {' or '.join(names)} anew"
-        )
-    return key or _NO_KEY
-
-
-def _open_http(address: _Address, timeout_s: float) -> "AsyncClient":
+def _open_http(address: Address, timeout_s: float) -> "AsyncClient":
     import httpx2  # noqa: PLC0415 - the extra may be missing
     from pydantic_ai.models import create_async_httpx2_client  # noqa: PLC0415
 
@@ -323,14 +232,14 @@ def _open_http(address: _Address, timeout_s: float) -> "AsyncClient":
     return create_async_httpx2_client(timeout=timeout, transport=transport)
 
 
-def _serve_google(address: _Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _serve_google(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
     from pydantic_ai.models.google import GoogleModel  # noqa: PLC0415
     from pydantic_ai.providers.google import GoogleProvider  # noqa: PLC0415
 
     return GoogleModel(address.name, provider=GoogleProvider(api_key=key, base_url=address.url, http_client=http))
 
 
-def _serve_anthropic(address: _Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _serve_anthropic(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
     from anthropic import AsyncAnthropic  # noqa: PLC0415
     from pydantic_ai.models.anthropic import AnthropicModel  # noqa: PLC0415
     from pydantic_ai.providers.anthropic import AnthropicProvider  # noqa: PLC0415
@@ -339,7 +248,7 @@ def _serve_anthropic(address: _Address, key: str, http: "AsyncClient") -> "Model
     return AnthropicModel(address.name, provider=AnthropicProvider(anthropic_client=client))
 
 
-def _serve_openai(address: _Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _serve_openai(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
     from pydantic_ai.models.openai import OpenAIChatModel  # noqa: PLC0415
     from pydantic_ai.profiles.openai import OpenAIModelProfile  # noqa: PLC0415
     from pydantic_ai.providers.openai import OpenAIProvider  # noqa: PLC0415
@@ -358,103 +267,11 @@ def _serve_openai(address: _Address, key: str, http: "AsyncClient") -> "Model[An
     return OpenAIChatModel(address.name, provider=provider, profile=plain if address.is_compatible else None)
 
 
-_SERVED: dict[str, Callable[[_Address, str, "AsyncClient"], "Model[Any]"]] = {
+_SERVED: dict[str, Callable[[Address, str, "AsyncClient"], "Model[Any]"]] = {
     "google": _serve_google,
     "anthropic": _serve_anthropic,
     "openai": _serve_openai,
 }
-
-
-def _make_parameters(served: "Model[Any]", request: Request, is_compatible: bool) -> "ModelRequestParameters":
-    """How the answer must look: enforced by the server where it can, in the prompt where it cannot."""
-    from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
-    from pydantic_ai.output import OutputObjectDefinition  # noqa: PLC0415
-
-    is_enforced = served.profile.get("supports_json_schema_output", False)
-    # At OpenAI's own the library finds out whether strict mode takes the schema.
-    answer = OutputObjectDefinition(dict(request.schema), name="answer", strict=True if is_compatible else None)
-    return ModelRequestParameters(output_mode="native" if is_enforced else "prompted", output_object=answer)
-
-
-def _make_settings(address: _Address, served: "Model[Any]", request: Request, asks_logprobs: bool) -> dict[str, Any]:
-    """What goes with the prompt, in the library's words."""
-    settings: dict[str, Any] = {"max_tokens": request.most_tokens}
-    if _is_sampled(served, request.is_thinking):
-        settings["temperature"] = request.temperature
-    if asks_logprobs:
-        settings["openai_logprobs"] = True
-    if served.profile.get("supports_thinking", False):
-        settings["thinking"] = request.is_thinking
-    if address.provider == "anthropic":
-        return settings | {"anthropic_cache_instructions": True} | _budget_reasoning(address, served, request)
-    if address.is_compatible:
-        settings |= _switch_reasoning(address, request.is_thinking)
-    return settings | {"seed": request.sample}
-
-
-def _is_sampled(served: "Model[Any]", is_thinking: bool) -> bool:
-    """Whether the model takes a temperature: some that reason refuse it, with a warning or a status 400."""
-    profile = cast("Mapping[str, Any]", served.profile)
-    if profile.get("openai_supports_reasoning", False):
-        efforts = profile.get("openai_reasoning_efforts")
-        can_stop = profile.get("openai_supports_reasoning_effort_none", False) if efforts is None else "none" in efforts
-        return can_stop and not is_thinking
-    if served.system == "anthropic":
-        always = profile.get("thinking_always_enabled", False)
-        return not (is_thinking or always or profile.get("anthropic_disallows_sampling_settings", False))
-    return True
-
-
-def _budget_reasoning(address: _Address, served: "Model[Any]", request: Request) -> dict[str, Any]:
-    """Half of the output tokens for models of Anthropic that need to be told how long they may reason."""
-    profile = cast("Mapping[str, Any]", served.profile)
-    if not request.is_thinking or profile.get("anthropic_supports_adaptive_thinking", False):
-        return {}
-    budget = request.most_tokens // 2
-    if budget < _LEAST_REASONING_TOKENS:
-        raise GroundingError(
-            f"model '{address.model}': {request.most_tokens} output tokens leave no room to think; "
-            f"expected at least {2 * _LEAST_REASONING_TOKENS}, allow more or switch thinking off"
-        )
-    return {"anthropic_thinking": {"type": "enabled", "budget_tokens": budget}}
-
-
-def _switch_reasoning(address: _Address, is_thinking: bool) -> dict[str, Any]:
-    """The field of the request that turns reasoning on or off, which every server names its own way.
-
-    Left out when off, save for Qwen models: they reason unless told not to.
-    """
-    if not is_thinking and "qwen" not in address.name.lower():
-        return {}
-    host = urlsplit(address.url).hostname or ""
-    if host.endswith(".aliyuncs.com"):
-        return {"extra_body": {"enable_thinking": is_thinking}}
-    if host == "openrouter.ai":
-        return {"extra_body": {"reasoning": {"enabled": is_thinking}}}
-    return {"extra_body": {"chat_template_kwargs": {"enable_thinking": is_thinking}}}
-
-
-def _read_completion(response: "ModelResponse") -> Completion:
-    from pydantic_ai.messages import TextPart, ThinkingPart  # noqa: PLC0415
-
-    usage = response.usage
-    return Completion(
-        "".join(part.content for part in response.parts if isinstance(part, TextPart)),
-        Finish.LENGTH if response.finish_reason == "length" else Finish.STOP,
-        Usage(usage.input_tokens, usage.cache_read_tokens, usage.output_tokens),
-        _average_logprob(response.provider_details or {}),
-        "".join(part.content for part in response.parts if isinstance(part, ThinkingPart)),
-    )
-
-
-def _average_logprob(details: Mapping[str, Any]) -> float | None:
-    logprobs = [float(token["logprob"]) for token in details.get("logprobs", ())]
-    return fmean(logprobs) if logprobs else None
-
-
-def _older_format(request: Request) -> dict[str, Any]:
-    """The schema in the words of llama-cpp-python's server, which enforces it by a grammar."""
-    return {"type": "json_object", "schema": dict(request.schema)}
 
 
 def _refuses_json_schema(failure: Failure) -> bool:
