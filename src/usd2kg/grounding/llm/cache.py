@@ -14,7 +14,7 @@ import sqlite3
 import sys
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import asdict, fields
 from pathlib import Path
 from threading import Lock, RLock
@@ -120,15 +120,13 @@ class CompletionCache:
         self.path = path.resolve()
         self._lock = RLock()
         _create_file(self.path)
-        with self._translated():
+        with self._translated(), ExitStack() as unless_ready:
             self._connection = sqlite3.connect(
                 self.path, timeout=_BUSY_SECONDS, isolation_level=None, check_same_thread=False
             )
-            try:
-                self._prepare()
-            except BaseException:
-                self._connection.close()
-                raise
+            unless_ready.callback(self._connection.close)
+            self._prepare()
+            unless_ready.pop_all()
 
     def get(self, model: str, request: Request) -> Completion | None:
         """Return what the model said to this request, None where it was never asked."""
@@ -244,10 +242,10 @@ class CompletionCache:
                 self._connection.execute(begin)
                 yield
                 self._connection.execute("COMMIT")
-            except BaseException:
+            finally:
+                # Still open only where something went wrong.
                 if self._connection.in_transaction:
                     self._connection.execute("ROLLBACK")
-                raise
 
     @contextmanager
     def _translated(self) -> Iterator[None]:
