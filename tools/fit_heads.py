@@ -126,8 +126,7 @@ def ends(
     """Yield the ends of a name as each reader has them, with its size and without, where there is a right choice."""
     for reader, known_size in product(readers, (size, None)):
         phrase = reader.names.read(text, parents)
-        at = range(1, len(phrase.words) + 1)
-        found = [end for end in (reader.matcher.features(phrase, e, parents, known_size) for e in at) if end]
+        found = [(features, named) for _, features, named in reader.matcher.ends(phrase, parents, known_size)]
         best = [max(matches, key=lambda match: match.score).class_iri for _, matches in found]
         right = np.array([iri in accepted for iri in best], dtype=bool)
         if len(found) > 1 and right.any():

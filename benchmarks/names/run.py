@@ -19,7 +19,7 @@ from usd2kg.pipeline import open_tbox
 from usd2kg.scene import Box, NamingRegime, Scene, SceneObject, StageFrame
 
 HERE = Path(__file__).parent
-TRAIN = ("kitchen", "home", "sim", "dwelling", "work")
+TRAIN = ("kitchen", "home", "sim", "dwelling", "work", "rooms")
 TEST = ("unseen",)
 
 

@@ -8,7 +8,8 @@ from tests.grounding.records import SOMA, make_class, make_object, make_scene, m
 from usd2kg.grounding.embedded import context
 from usd2kg.grounding.embedded.context import SizeBeliefs, Votes, ask_company, siblings_as_company
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder, _run_for
-from usd2kg.grounding.embedded.matching import Match, Size
+from usd2kg.grounding.embedded.matching import Size
+from usd2kg.grounding.embedded.naming import Match
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, Companion, NamingRegime, Nearness, ObjectView, view_objects
 

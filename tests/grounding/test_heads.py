@@ -44,7 +44,7 @@ def test_heads_in_front_and_at_the_end(home_tbox: TBox):
     expected = {
         "RoomWindow_01": "DesignedComponent",
         "KitchenCabinet_02": "KitchenCabinet",
-        "bowl_salad_oak": "Bowl",
+        "bowl_salad_oak": "SaladBowl",
         "plate_blue_porcelain": "Plate",
         "teapot_lid": "Lid",
         "door_fridge_upper": "Door",

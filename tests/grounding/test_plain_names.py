@@ -21,7 +21,7 @@ PLAINEST = [
     ("LaptopComputer", "Appliance"),
     ("armchair", "Armchair"),
     ("Sofa_01", "Sofa"),
-    ("Bottle_Water", "Bottle"),
+    ("Bottle_Water", "WaterBottle"),
     ("WaterBottle", "WaterBottle"),
     ("wine_glass_3", "WineGlass"),
     ("TrashCan", "TrashContainer"),

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from usd2kg.grounding.embedded.frequencies import thing_prior
-from usd2kg.grounding.embedded.matching import Match, Size
+from usd2kg.grounding.embedded.matching import Size
+from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.sizes import log_likelihoods, thing_nouns
 from usd2kg.ontology import ClassIRI
 from usd2kg.scene import Companion, Nearness

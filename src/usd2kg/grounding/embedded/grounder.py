@@ -14,8 +14,9 @@ from usd2kg.grounding.embedded.calibration import features_of, probability
 from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company, siblings_as_company
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.matching import Match, Matcher
+from usd2kg.grounding.embedded.matching import Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
+from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox

@@ -26,6 +26,8 @@ FEATURES = {
     "glued": "whether a word is written on to the head, as in `RoomWindow`",
     "propensity": "`propensity` of the head, for a single word",
     "propensity_behind": "`propensity` of the words behind it, added up",
+    "linked": "whether a term that ends later holds the head, as `swab jar` does in `cotton_swab_jar`",
+    "turned": "whether the word that tells its kind stands behind the head, as in `plate_dinner`",
     "place": "whether it is a place, after which things are called",
 }
 """Name → what it is."""

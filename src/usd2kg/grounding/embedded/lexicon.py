@@ -58,6 +58,8 @@ class Lexicon:
     """Single word → the number of terms that hold it."""
     default: ClassIRI
     """The class that is true of most things: the root with the most classes below it."""
+    listed: frozenset[ClassIRI]
+    """The classes whose further terms are known: those of the home vocabulary, if it is used."""
 
 
 @lru_cache(maxsize=1)
@@ -107,6 +109,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         anchors=anchors,
         vocabulary=Counter(word for term in terms.values() for word in term.text.split()),
         default=_default_class(tbox, taxonomy),
+        listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
     )
 
 

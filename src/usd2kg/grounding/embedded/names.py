@@ -8,7 +8,7 @@ from rapidfuzz.distance import OSA
 
 from usd2kg.grounding.embedded.abbreviations import usual_abbreviations
 from usd2kg.grounding.embedded.frequencies import thing_prior
-from usd2kg.grounding.embedded.lexicon import Lexicon
+from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.languages import translate
 from usd2kg.words import is_telling, split_identifier
@@ -185,11 +185,10 @@ class NameReader:
         return any(self._taxonomy.name(up) in _MATERIALS for up, _ in self._taxonomy.walk_up(synset))
 
     def _is_place(self, word: str) -> bool:
-        """Return whether a word may stand for a room, a building or an area."""
-        return any(
-            self._taxonomy.name(up) in _PLACES
-            for sense in self._taxonomy.senses(word)[:3]
-            for up, _ in self._taxonomy.walk_up(sense.synset)
+        """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
+        sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
+        return sense is not None and any(
+            self._taxonomy.name(up) in _PLACES for up, _ in self._taxonomy.walk_up(sense.synset)
         )
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:

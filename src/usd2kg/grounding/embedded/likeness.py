@@ -1,0 +1,123 @@
+"""Which class a name is likely of that is in no list: learned from the names of the home vocabulary.
+
+A multinomial logit (McFadden, 1974) over the words of a name and what they are kinds of: a `spice shaker` is a
+container although nobody wrote it down, as other shakers are. The weights are in `data/likeness.npz`, written by
+`tools/fit_likeness.py`.
+"""
+
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.grounding.embedded.lexicon import home_names, sense_weight
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.ontology import ClassIRI
+
+__all__ = ["features_of", "likely_classes", "similar_name"]
+
+_MOST = 4
+"""Classes that are told for a name."""
+_SENSES = (1.0, 0.5)
+"""What the likeliest meanings of a word count, the likeliest first."""
+_ENDING, _BEGINNING = 0.7, 0.5
+_ENDINGS = (3, 4, 5)
+_BEGINNING_LETTERS = 4
+
+
+class _Model(NamedTuple):
+    """The weights."""
+
+    rows: Mapping[str, int]
+    """Feature → row."""
+    weights: NDArray[np.int8]
+    """(features, classes), in units of `unit`."""
+    unit: float
+    intercepts: NDArray[np.float64]
+    """(classes,)"""
+    classes: tuple[ClassIRI, ...]
+
+
+def likely_classes(words: tuple[str, ...]) -> tuple[tuple[ClassIRI, float], ...]:
+    """Return the likeliest classes of the built-in home TBox for a name, each with its probability, best first.
+
+    Args:
+        words: in lower case, modifiers first, the head noun last and singular.
+    """
+    model = _load_model()
+    known = [(model.rows[name], value) for name, value in features_of(words).items() if name in model.rows]
+    if not known:
+        return ()
+    rows, values = zip(*known, strict=True)
+    logits = model.intercepts + model.unit * (np.array(values) @ model.weights[list(rows)])
+    shares = np.exp(logits - logits.max())
+    shares /= shares.sum()
+    best = np.argsort(-shares, kind="stable")[:_MOST]
+    return tuple((model.classes[place], float(shares[place])) for place in best)
+
+
+def features_of(words: tuple[str, ...]) -> dict[str, float]:
+    """Return the features of a name: its words, what they are kinds of, and the letters of its head."""
+    *modifiers, head = words
+    features = {f"head {head}": 1.0, **_kinds("head", head)}
+    for count in _ENDINGS:
+        features[f"ending {head[-count:]}"] = _ENDING
+    features[f"beginning {head[:_BEGINNING_LETTERS]}"] = _BEGINNING
+    if modifiers:
+        features["modified"] = 1.0
+        features[f"pair {modifiers[-1]} {head}"] = 1.0
+        features |= _kinds("pair", modifiers[-1] + head)
+    for modifier in modifiers:
+        features[f"modifier {modifier}"] = 1.0
+        for name, value in _kinds("modifier", modifier).items():
+            features[name] = max(value, features.get(name, 0.0))
+    return features
+
+
+@lru_cache(maxsize=65536)
+def _kinds(role: str, word: str) -> Mapping[str, float]:
+    """Return the synsets above the likeliest meanings of a word, as features."""
+    taxonomy = load_taxonomy()
+    senses = sorted(taxonomy.senses(taxonomy.singular(word)), key=sense_weight, reverse=True)
+    features: dict[str, float] = {}
+    for sense, value in zip(senses, _SENSES, strict=False):
+        for synset, _ in taxonomy.walk_up(sense.synset):
+            features.setdefault(f"{role} {synset}", value)
+    return features
+
+
+def similar_name(words: tuple[str, ...], class_iri: ClassIRI) -> str | None:
+    """Return a name of the class in the home vocabulary with the same head, or None.
+
+    >>> from usd2kg.ontology import load_home_tbox
+    >>> similar_name(("gherkin", "jar"), load_home_tbox().resolve("Jar"))
+    'jar'
+    """
+    return _names_by_head().get((words[-1], class_iri))
+
+
+@lru_cache(maxsize=1)
+def _names_by_head() -> Mapping[tuple[str, ClassIRI], str]:
+    return {(head, iri): name for head, iri, name in reversed(list(_heads()))}
+
+
+def _heads() -> Iterator[tuple[str, ClassIRI, str]]:
+    for iri, names in home_names().items():
+        for name in names:
+            yield name.lower().split()[-1], iri, name
+
+
+@lru_cache(maxsize=1)
+def _load_model() -> _Model:
+    with (files("usd2kg.grounding") / "data" / "likeness.npz").open("rb") as file, np.load(file) as arrays:
+        features, classes = (bytes(arrays[name]).decode("utf-8").split("\n") for name in ("features", "classes"))
+        return _Model(
+            rows={name: row for row, name in enumerate(features)},
+            weights=arrays["weights"],
+            unit=float(arrays["unit"]),
+            intercepts=arrays["intercepts"].astype(np.float64),
+            classes=tuple(classes),
+        )
