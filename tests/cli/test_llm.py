@@ -12,7 +12,7 @@ from tests.cli.conftest import Run
 from tests.grounding.llm.servers import openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.prompts import Strategy
+from usd2kg.grounding.llm.options import Strategy
 from usd2kg.grounding.llm.settings import parse_llm_name
 
 KEY = "sk-very-secret-4711"

@@ -162,7 +162,7 @@ def ground_command(
 
 def _show_plan(batches: "list[Batch]", object_count: int, output: Path | None) -> None:
     """Print the prompts that would be sent, what they share once, and their size on stderr."""
-    from usd2kg.grounding.llm.prompts import estimate_tokens  # noqa: PLC0415
+    from usd2kg.grounding.llm.text import estimate_tokens  # noqa: PLC0415
 
     lines: list[str] = []
     told: str | None = None

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
-from usd2kg.grounding.llm.prompts import Batch, PromptOptions, Strategy, build_requests
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Status
 from usd2kg.scene import ObjectView
 

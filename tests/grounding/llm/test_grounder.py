@@ -15,7 +15,7 @@ from usd2kg.grounding import Status, ground
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.grounder import LLMGrounder, distinct_views
-from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, NamingRegime, ObjectView, Scene
 
@@ -91,8 +91,8 @@ def test_masked_objects_are_never_taken_for_each_other(home_tbox: TBox):
 
 def test_size_keeps_objects_apart_where_the_model_is_shown_it():
     views = [ObjectView(name="box_1", size=(1, 1, 1)), ObjectView(name="box_2", size=(2, 1, 1))]
-    assert distinct_views(views, Strategy.NAME_ONLY) == [[0, 1]]
-    assert distinct_views(views, Strategy.CONTEXT) == [[0], [1]]
+    assert distinct_views(views, PromptOptions(strategy=Strategy.NAME_ONLY)) == [[0, 1]]
+    assert distinct_views(views, PromptOptions(strategy=Strategy.CONTEXT)) == [[0], [1]]
 
 
 def test_an_invented_class_is_asked_for_once_more(home_tbox: TBox):

@@ -9,7 +9,8 @@ from typing import Any
 
 from usd2kg.errors import OntologyError
 from usd2kg.grounding.llm.completion import Request
-from usd2kg.grounding.llm.prompts import Batch, fill_template, quote
+from usd2kg.grounding.llm.prompts import Batch
+from usd2kg.grounding.llm.text import fill_template, quote
 from usd2kg.grounding.model import Status
 from usd2kg.ontology import ClassIRI, TBox, compact_iri
 

@@ -36,6 +36,8 @@ class Request:
     """Whether a model that can reason before it answers does."""
     sample: int = 0
     """Which of several completions of one prompt this is."""
+    images: tuple[bytes, ...] = ()
+    """PNG pictures, shown after the user's text."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,8 @@ from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
-from usd2kg.grounding.llm.prompts import Batch, PromptOptions, Strategy, build_requests
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ObjectView
@@ -119,7 +120,7 @@ class LLMGrounder:
         return [found[index] for index in range(len(views))]
 
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
-        return distinct_views(views, self._options.strategy) if self._is_once_each else [[i] for i in range(len(views))]
+        return distinct_views(views, self._options) if self._is_once_each else [[i] for i in range(len(views))]
 
     def _answers(self, batches: list[Batch], tbox: TBox) -> Iterator[list[tuple[Answer, Completion | None]]]:
         with ThreadPoolExecutor(max_workers=self._workers) as pool:
@@ -227,7 +228,7 @@ def _shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list
     return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
 
 
-def distinct_views(views: Sequence[ObjectView], strategy: Strategy) -> list[list[int]]:
+def distinct_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
     """Return the indices of views in groups that one answer serves: they differ in numbers and in where they stand.
 
     By strategy A only the name counts; by B and C also the names above and the size, to the centimetre. A masked view
@@ -235,7 +236,8 @@ def distinct_views(views: Sequence[ObjectView], strategy: Strategy) -> list[list
     """
     groups: dict[object, list[int]] = {}
     for index, view in enumerate(views):
-        key: object = index if view.is_masked else _signature(view, strategy)
+        strategy = options.strategy.for_name(view.name, is_thinking=options.is_thinking)
+        key: object = index if view.is_masked else (strategy, _signature(view, strategy))
         groups.setdefault(key, []).append(index)
     return list(groups.values())
 

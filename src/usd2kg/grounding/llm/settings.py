@@ -12,7 +12,7 @@ from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
-from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
 
 __all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
 

@@ -1,0 +1,55 @@
+"""What a prompt tells of the objects."""
+
+from collections.abc import Iterator
+from itertools import islice
+
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.text import quote
+from usd2kg.scene import ObjectView
+
+__all__ = ["describe"]
+
+
+def describe(view: ObjectView, options: PromptOptions) -> Iterator[str]:
+    """Yield the lines that tell of an object; none if nothing is known."""
+    return (f"{key}: {value}" for key, value in _evidence(view, options) if value)
+
+
+def _evidence(view: ObjectView, options: PromptOptions) -> Iterator[tuple[str, str]]:
+    """Yield (key, value) of all that the strategy tells; the value is empty where it is unknown."""
+    yield "name", quote(view.name) if view.name else ""
+    if options.strategy is Strategy.NAME_ONLY:
+        return
+    if view.size is not None:
+        # The world is z-up: the second axis is the depth.
+        width, depth, height = view.size
+        yield "box (w, h, d) in metres", " x ".join(map(_number, (width, height, depth)))
+    if view.mass_kg is not None:
+        yield "mass in kg", _number(view.mass_kg)
+    if view.position is not None:
+        yield "position (x, y, z) in metres", ", ".join(map(_number, view.position))
+    yield "parent path, outermost first", " / ".join(map(quote, view.parents))
+    left_out = len(view.siblings) - options.most_siblings
+    more = f" and {left_out} more" if left_out > 0 else ""
+    yield "siblings", ", ".join(map(quote, islice(view.siblings, options.most_siblings))) + more
+    if options.has_more_evidence:
+        yield from _more_evidence(view)
+
+
+def _more_evidence(view: ObjectView) -> Iterator[tuple[str, str]]:
+    yield "display name", quote(view.display_name) if view.display_name else ""
+    yield "documentation", quote(view.documentation) if view.documentation else ""
+    if view.oriented_size is not None:
+        yield "extents along its own axes in metres", " x ".join(map(_number, view.oriented_size))
+    for key in ("labels", "asset", "materials", "parts"):
+        yield key, ", ".join(map(quote, getattr(view, key)))
+
+
+def _number(value: float) -> str:
+    """Return millimetres or grams exactly, and what is small to a hundredth of them.
+
+    >>> [_number(value) for value in (1.9, 0.08125, 12.00049, -0.000001)]
+    ['1.9', '0.08125', '12', '0']
+    """
+    decimals = 3 if abs(value) >= 0.1 else 5
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".rstrip("0").rstrip(".")
