@@ -2,6 +2,7 @@
 
 from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
 from usd2kg.grounding.cascade import CascadeGrounder
+from usd2kg.grounding.decisions import PERSON, format_queue, read_decisions, unsure_of
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
@@ -9,6 +10,7 @@ from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
 __all__ = [
     "GROUNDERS",
     "MAPPING_FORMATS",
+    "PERSON",
     "Candidate",
     "CascadeGrounder",
     "Grounder",
@@ -17,11 +19,14 @@ __all__ = [
     "Status",
     "check_format",
     "format_mapping",
+    "format_queue",
     "ground",
     "is_llm_name",
     "make_grounder",
     "parse_evidence",
     "parse_regime",
+    "read_decisions",
     "read_grounding",
     "read_paths",
+    "unsure_of",
 ]

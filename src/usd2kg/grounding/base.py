@@ -5,8 +5,9 @@ from importlib.metadata import version
 from typing import Protocol
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.decisions import decided
 from usd2kg.grounding.model import Grounding, Prediction, Status
-from usd2kg.ontology import TBox
+from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, ObjectView, Scene, view_objects
 
 __all__ = ["Grounder", "ground", "parse_evidence", "parse_regime"]
@@ -42,6 +43,7 @@ def ground(
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
+    decisions: Mapping[str, ClassIRI] | None = None,
     abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Grounding:
     """Return a class of `tbox` for each object of `scene`.
@@ -52,6 +54,7 @@ def ground(
         grounder: who chooses: a grounder, or the name of one.
         regime: how the names are masked.
         evidence: names of the evidence groups that may be used; all by default.
+        decisions: prim path → class for what a person has decided; the grounder is not asked about it.
         abbreviated_length: letters kept of each word in the abbreviated regime.
         paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
     """
@@ -62,8 +65,9 @@ def ground(
         grounder = make_grounder(grounder)
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
-    found = [(path, views[path]) for path in wanted if path in views]
-    by_path = {p.prim_path: p for p in grounder.ground_views(found, tbox)}
+    known = {path: decided(path, iri) for path, iri in (decisions or {}).items() if path in views}
+    found = [(path, views[path]) for path in wanted if path in views and path not in known]
+    by_path = known | {p.prim_path: p for p in grounder.ground_views(found, tbox)}
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,

@@ -1,0 +1,90 @@
+"""What people decide, and what they are asked about."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from tests.grounding.records import make_object, make_scene
+from usd2kg.errors import GroundingError
+from usd2kg.grounding import (
+    PERSON,
+    Candidate,
+    Grounding,
+    Prediction,
+    Status,
+    format_queue,
+    ground,
+    read_decisions,
+    unsure_of,
+)
+from usd2kg.ontology import TBox
+
+
+def prediction(path: str, iri: str | None, confidence: float | None, *others: str, why: str = "so") -> Prediction:
+    status = Status.GROUNDED if iri else Status.FAILED
+    candidates = tuple(Candidate(other, 0.5) for other in ((iri, *others) if iri else ()))
+    return Prediction(path, iri, confidence, status, "embedded", why, candidates=candidates)
+
+
+def grounding_of(*predictions: Prediction) -> Grounding:
+    return Grounding("s", "h", "o", "h", "embedded", {}, True, "0", predictions)
+
+
+def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tmp_path: Path):
+    cup, bowl, box = (home_tbox.resolve(name) for name in ("Cup", "Bowl", "Box"))
+    found = grounding_of(
+        prediction("/a", cup, 0.95),
+        prediction("/b", bowl, 0.4, cup, box, why="=HYPERLINK(evil)"),
+        prediction("/c", None, None),
+        prediction("/d", box, 0.1),
+        Prediction("/gone", None, None, Status.MISSING, "embedded", "there is no such prim"),
+    )
+    queue = unsure_of(found, 0.6)
+    assert [p.prim_path for p in queue] == ["/c", "/d", "/b"]
+    text = format_queue(queue, home_tbox)
+    rows = list(csv.DictReader(text.splitlines()))
+    assert rows[2] == {
+        "path": "/b",
+        "decision": "",
+        "answer": "Bowl",
+        "confidence": "0.4000",
+        "alternatives": "Cup|Box",
+        "explanation": "'=HYPERLINK(evil)",
+    }
+    assert rows[0]["answer"] == rows[0]["confidence"] == ""
+    file = tmp_path / "queue.csv"
+    file.write_text(text.replace("/c,,", "/c,Plate,").replace("/b,,", f"/b,{cup},"), "utf-8")
+    assert read_decisions(file, home_tbox) == {"/c": home_tbox.resolve("Plate"), "/b": cup}
+
+
+def test_the_grounder_is_not_asked_about_what_a_person_decided(home_tbox: TBox):
+    knife = home_tbox.resolve("Knife")
+    scene = make_scene(make_object("/K/Cup"), make_object("/K/Bowl"))
+    found = ground(scene, home_tbox, decisions={"/K/Cup": knife, "/elsewhere": knife})
+    assert [p.prim_path for p in found.predictions] == ["/K/Cup", "/K/Bowl"]
+    decided, asked = found.predictions
+    assert (decided.class_iri, decided.confidence, decided.grounder) == (knife, 1.0, PERSON)
+    assert asked.class_iri == home_tbox.resolve("Bowl")
+    assert asked.grounder == "embedded"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("prim,class\n/a,Cup\n", "line 1 has the columns prim, class"),
+        ("path,decision\n/a,Cups\n", "line 2: .*Cups"),
+        ("path,class\n/a,Cup\n/a,Bowl\n", "line 3: /a has two decisions"),
+        ("", "line 1 has the columns nothing"),
+    ],
+)
+def test_bad_files_say_where(home_tbox: TBox, tmp_path: Path, text: str, message: str):
+    file = tmp_path / "decisions.csv"
+    file.write_text(text, "utf-8")
+    with pytest.raises(GroundingError, match=message):
+        read_decisions(file, home_tbox)
+
+
+def test_a_missing_file_says_so(home_tbox: TBox, tmp_path: Path):
+    with pytest.raises(GroundingError, match="cannot be read as decisions"):
+        read_decisions(tmp_path / "none.csv", home_tbox)
