@@ -135,9 +135,9 @@ def ground_command(
         found = read_scene(scene, paths=wanted, options=options)
         if asker is not None and dry_run:
             views = view_objects(found, naming_regime, groups, abbreviated_length)
-            shown = [view for obj, view in views if wanted is None or obj.prim_path in wanted]
+            shown = [(obj.prim_path, view) for obj, view in views if wanted is None or obj.prim_path in wanted]
             if tiers is not None:
-                answers = own.ground_views([("", view) for view in shown], tbox)
+                answers = own.ground_views(shown, tbox)
                 shown = [shown[index] for index in tiers.unsure(answers)]
             _show_plan(asker.plan(shown, tbox), len(shown), output)
             return

@@ -3,7 +3,9 @@
 import json
 import math
 import re
+import signal
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -213,3 +215,88 @@ def test_settings_tell_the_model_and_the_form_of_the_prompts():
     settings = LLMGrounder(Model(always("Cup")), PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT)).settings
     assert settings["model"] == "test:model"
     assert settings["strategy"] == "C"
+
+
+class TestSamples:
+    """Several completions of one prompt."""
+
+    @staticmethod
+    def saying(*names: str) -> Model:
+        """Return a model that says another name to each sample."""
+        return Model(
+            lambda request: json.dumps({number: {"class": names[request.sample]} for number in numbers(request)})
+        )
+
+    def test_the_class_that_most_name_is_taken_with_their_share(self, home_tbox: TBox):
+        model = self.saying("Bowl", "Cup", "Cup", "nonsense")
+        grounder = LLMGrounder(model, PromptOptions(temperature=0.7), samples=4)
+        (found,) = ground(kitchen("thing"), home_tbox, grounder).predictions
+        assert found.class_iri == home_tbox.resolve("Cup")
+        assert found.confidence == 0.5
+        assert [(c.class_iri, c.score) for c in found.candidates] == [
+            (home_tbox.resolve("Cup"), 0.5),
+            (home_tbox.resolve("Bowl"), 0.25),
+        ]
+        assert sorted({request.sample for request in model.requests}) == [0, 1, 2, 3]
+
+    def test_repeated_runs_are_told_apart_by_the_first_sample(self, home_tbox: TBox, tmp_path: Path):
+        model = self.saying("Bowl", "Cup", "Plate")
+        with CompletionCache(tmp_path / "cache.sqlite") as cache:
+            runs = [
+                ground(
+                    kitchen("thing"),
+                    home_tbox,
+                    LLMGrounder(model, PromptOptions(temperature=0.7), cache=cache, first_sample=number),
+                )
+                for number in (0, 1, 0)
+            ]
+        assert [run.predictions[0].class_iri for run in runs] == [
+            home_tbox.resolve(name) for name in ("Bowl", "Cup", "Bowl")
+        ]
+        assert len(model.requests) == 2
+        assert [run.settings.get("first_sample") for run in runs] == [None, "1", None]
+
+    def test_nobody_names_a_class(self, home_tbox: TBox):
+        grounder = LLMGrounder(self.saying("no", "nor this"), PromptOptions(temperature=0.7), samples=2)
+        (found,) = ground(kitchen("thing"), home_tbox, grounder).predictions
+        assert (found.class_iri, found.confidence, found.status) == (None, None, Status.UNREADABLE)
+
+    @pytest.mark.parametrize(("samples", "temperature"), [(0, 0.7), (3, 0.0)])
+    def test_samples_that_cannot_be(self, samples: int, temperature: float):
+        with pytest.raises(GroundingError, match=f"{samples} samples"):
+            LLMGrounder(self.saying("Cup"), PromptOptions(temperature=temperature), samples=samples)
+
+
+def test_an_interruption_keeps_what_is_done(home_tbox: TBox):
+    class Interrupted(Model):
+        def complete(self, request: Request) -> Completion:
+            if len(self.requests) == 2:
+                signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+                time.sleep(0.3)
+            return super().complete(request)
+
+    heard: list[tuple[int, int]] = []
+    names = [f"thing{letter}" for letter in "abcdef"]
+    grounder = LLMGrounder(
+        Interrupted(always("Cup")), PromptOptions(), workers=1, progress=lambda done, count: heard.append((done, count))
+    )
+    found = ground(kitchen(*names), home_tbox, grounder).predictions
+    assert grounder.report.is_interrupted
+    lost = [p for p in found if p.class_iri is None]
+    # What was on its way is waited for.
+    assert len(lost) == 3
+    assert all(p.status is Status.FAILED and "interrupted" in p.explanation for p in lost)
+    assert heard[-1] == (6, 6)
+
+
+def test_pictures_are_asked_for_once_each(home_tbox: TBox):
+    model = Model(always("Cup"))
+    asked: list[str] = []
+
+    def picture(path: str) -> bytes | None:
+        asked.append(path)
+        return b"png" if path.endswith("Mug") else None
+
+    ground(kitchen("Mug", "Vase"), home_tbox, LLMGrounder(model, PromptOptions(), picture=picture))
+    assert sorted(asked) == ["/World/Mug", "/World/Vase"]
+    assert sorted(request.images for request in model.requests) == [(), (b"png",)]

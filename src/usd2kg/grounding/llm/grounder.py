@@ -2,8 +2,8 @@
 
 import math
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field, replace
 from threading import Lock
 
@@ -13,7 +13,8 @@ from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, r
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
-from usd2kg.grounding.llm.prompts import Batch, build_requests
+from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
+from usd2kg.grounding.llm.voting import Reply, vote
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ObjectView
@@ -22,6 +23,7 @@ __all__ = ["LLMGrounder", "RunReport", "distinct_views"]
 
 _FAILURES_IN_A_ROW = 3
 """After so many without an answer between, the model is not asked again."""
+_INTERRUPTED = Answer(None, Status.FAILED, "", "not asked: the run was interrupted; the same command goes on with it")
 
 
 @dataclass(slots=True)
@@ -43,6 +45,12 @@ class RunReport:
     usage: Usage = field(default_factory=Usage)
     """Tokens of what was asked for; what is cached costs nothing."""
     seconds: float = 0.0
+    is_interrupted: bool = False
+    """Whether the user stopped it before all was asked."""
+
+
+def _say_nothing(done: int, count: int) -> None:
+    """Tell nobody how far a run is."""
 
 
 class LLMGrounder:
@@ -62,6 +70,11 @@ class LLMGrounder:
         shortlist: int | None = None,
         workers: int = 4,
         token_budget: int | None = None,
+        samples: int = 1,
+        first_sample: int = 0,
+        examples: Sequence[Example] = (),
+        picture: Callable[[str], bytes | None] | None = None,
+        progress: Callable[[int, int], None] = _say_nothing,
     ) -> None:
         """Make the grounder.
 
@@ -75,10 +88,24 @@ class LLMGrounder:
                 those above them and the roots; None offers all.
             workers: prompts that are on their way at the same time.
             token_budget: input and output tokens after which nothing more is asked.
+            samples: completions that are asked for each prompt; the class that most of them name is taken.
+            first_sample: the number of the first; repeated runs with other numbers are not served from the cache.
+            examples: objects that a person has named, shown in each prompt.
+            picture: gives the PNG picture of a prim, or None where there is none; pictures are sent if it is given.
+            progress: told the number of objects that are done and of all, whenever some more are done.
+
+        Raises:
+            GroundingError: there are no samples, or several that would all be the same.
         """
+        if samples < 1:
+            raise GroundingError(f"{samples} samples of each prompt; expected 1 or more")
+        if samples > 1 and options.temperature == 0:
+            raise GroundingError(f"{samples} samples at temperature 0 are all the same; expected a temperature above 0")
         self._client, self._options, self._cache = client, options, cache
         self._is_refreshed, self._is_once_each, self._workers = is_refreshed, is_once_each, workers
         self._shortlist, self._budget = shortlist, token_budget
+        self._samples, self._first_sample = samples, first_sample
+        self._examples, self._picture, self._progress = examples, picture, progress
         self._lock = Lock()
         self._failures = 0
         self.report = RunReport()
@@ -95,45 +122,73 @@ class LLMGrounder:
             "thinking": str(self._options.is_thinking).lower(),
             "temperature": f"{self._options.temperature:g}",
             **({"shortlist": str(self._shortlist)} if self._shortlist is not None else {}),
+            **({"samples": str(self._samples)} if self._samples > 1 else {}),
+            **({"first_sample": str(self._first_sample)} if self._first_sample else {}),
+            **({"examples": str(len(self._examples))} if self._examples else {}),
+            **({"pictures": "true"} if self._picture is not None else {}),
             **({"shuffle": str(self._options.shuffle_seed)} if self._options.shuffle_seed is not None else {}),
         }
 
-    def plan(self, views: Sequence[ObjectView], tbox: TBox) -> list[Batch]:
-        """Return the prompts that `ground_views` would send, repairs left out."""
-        asked = [views[indices[0]] for indices in self._groups(views)]
-        offered = _shortlists(asked, tbox, self._shortlist) if self._shortlist is not None else None
-        return build_requests(asked, tbox, self._options, offered)
+    def plan(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Batch]:
+        """Return the prompts that `ground_views` would send once for each sample, repairs left out."""
+        asked = [views[indices[0]] for indices in self._groups([view for _, view in views])]
+        shown = [view for _, view in asked]
+        offered = _shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None
+        return build_requests(
+            shown, tbox, self._options, offered, examples=self._examples, pictures=self._pictures(asked)
+        )
+
+    def _pictures(self, asked: Sequence[tuple[str, ObjectView]]) -> dict[int, bytes]:
+        if self._picture is None:
+            return {}
+        drawn = {index: self._picture(path) for index, (path, _) in enumerate(asked)}
+        return {index: picture for index, picture in drawn.items() if picture is not None}
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
-        """Return one prediction for each (prim path, view)."""
+        """Return one prediction for each (prim path, view); where the user interrupts, those that are there."""
         start = time.monotonic()
         groups = self._groups([view for _, view in views])
-        batches = self.plan([view for _, view in views], tbox)
+        batches = self.plan(views, tbox)
         self.report.objects += len(views)
         self.report.prompts += len(batches)
         found: dict[int, Prediction] = {}
-        for batch, answers in zip(batches, self._answers(batches, tbox), strict=True):
-            for index, (answer, completion) in zip(batch.indices, answers, strict=True):
+        for batch, replies in self._replies(batches, tbox):
+            for index, reply in zip(batch.indices, replies, strict=True):
                 for member in groups[index]:
-                    found[member] = self._prediction(views[member][0], answer, completion)
+                    found[member] = self._prediction(views[member][0], reply)
+            self._progress(len(found), len(views))
         self.report.seconds += time.monotonic() - start
         return [found[index] for index in range(len(views))]
 
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
         return distinct_views(views, self._options) if self._is_once_each else [[i] for i in range(len(views))]
 
-    def _answers(self, batches: list[Batch], tbox: TBox) -> Iterator[list[tuple[Answer, Completion | None]]]:
+    def _replies(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[Reply]]]:
+        """Yield the batches as they are answered; after an interruption nothing more is asked."""
+        left = dict(enumerate(batches))
         with ThreadPoolExecutor(max_workers=self._workers) as pool:
-            pending = [pool.submit(self._ask, batch, tbox) for batch in batches]
+            pending = {pool.submit(self._ask, batch, tbox): index for index, batch in left.items()}
             try:
-                for batch, future in zip(batches, pending, strict=True):
-                    yield _result(future, batch)
+                for future in as_completed(pending):
+                    yield left.pop(pending[future]), future.result()
             except KeyboardInterrupt:
-                for future in pending:
-                    future.cancel()
-                raise
+                self.report.is_interrupted = True
+                pool.shutdown(wait=False, cancel_futures=True)
+        # What was on its way when the user interrupted is there by now.
+        for future, index in pending.items():
+            if index in left:
+                batch = left[index]
+                yield batch, [Reply(_INTERRUPTED, None)] * len(batch.indices) if future.cancelled() else future.result()
 
-    def _ask(self, batch: Batch, tbox: TBox) -> list[tuple[Answer, Completion | None]]:
+    def _ask(self, batch: Batch, tbox: TBox) -> list[Reply]:
+        numbers = range(self._first_sample, self._first_sample + self._samples)
+        samples = [self._ask_once(_sample_of(batch, number), tbox) for number in numbers]
+        return [vote(replies) for replies in zip(*samples, strict=True)]
+
+    def _ask_once(self, batch: Batch, tbox: TBox) -> list[Reply]:
+        return [Reply(answer, self._confidence(answer, completion)) for answer, completion in self._say(batch, tbox)]
+
+    def _say(self, batch: Batch, tbox: TBox) -> list[tuple[Answer, Completion | None]]:
         try:
             completion = self._complete(batch.request)
         except GroundingError as error:
@@ -199,26 +254,29 @@ class LLMGrounder:
         if failures >= _FAILURES_IN_A_ROW:
             raise GroundingError(f"not asked: {failures} prompts in a row were not answered; see the first of them")
 
-    def _prediction(self, path: str, answer: Answer, completion: Completion | None) -> Prediction:
+    @staticmethod
+    def _confidence(answer: Answer, completion: Completion | None) -> float | None:
         logprob = completion.mean_logprob if completion is not None else None
-        is_sure = answer.class_iri is not None and logprob is not None
+        if answer.class_iri is None or logprob is None:
+            return None
+        return round(math.exp(min(0.0, logprob)), 4)
+
+    def _prediction(self, path: str, reply: Reply) -> Prediction:
+        answer = reply.answer
         return Prediction(
             prim_path=path,
             class_iri=answer.class_iri,
-            confidence=round(math.exp(min(0.0, logprob)), 4) if is_sure and logprob is not None else None,
+            confidence=reply.confidence,
             status=answer.status,
             grounder=self.name,
             explanation=answer.problem or answer.reasoning or f"{self._client.model} says so",
             evidence=("name",) if self._options.strategy is Strategy.NAME_ONLY else (),
+            candidates=reply.candidates,
         )
 
 
-def _result(
-    future: "Future[list[tuple[Answer, Completion | None]]]", batch: Batch
-) -> list[tuple[Answer, Completion | None]]:
-    found = future.result()
-    assert len(found) == len(batch.indices)
-    return found
+def _sample_of(batch: Batch, number: int) -> Batch:
+    return replace(batch, request=replace(batch.request, sample=number))
 
 
 def _shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
