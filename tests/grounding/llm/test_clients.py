@@ -76,7 +76,8 @@ class TestOpenAI:
             "max_tokens": 4000,
             "seed": 3,
             "logprobs": True,
-            "stream": False,
+            "stream": True,
+            "stream_options": {"include_usage": True},
         }
 
     def test_schema_keeps_the_order_of_its_properties(self):
@@ -202,7 +203,7 @@ class TestGoogle:
     def test_request_asks_for_the_schema(self):
         _, (received,) = _complete("google:gemini-2.5-flash", servers.gemini_reply("{}"))
 
-        assert received.path == "/v1beta/models/gemini-2.5-flash:generateContent"
+        assert received.path == "/v1beta/models/gemini-2.5-flash:streamGenerateContent?alt=sse"
         assert received.headers["x-goog-api-key"] == "google-secret-1"
         assert received.body["systemInstruction"]["parts"] == [{"text": "the classes"}]
         assert received.body["contents"] == [{"role": "user", "parts": [{"text": "the objects"}]}]
@@ -339,7 +340,7 @@ class TestRetries:
     @pytest.mark.parametrize("fault", ["broken", "hanging", "not JSON from a proxy"])
     def test_faults_on_the_way_are_tried_again(self, model: str, fault: str):
         first = {
-            "broken": replace(ANSWERS[model], is_broken=True),
+            "broken": servers.broken_off(ANSWERS[model], after=2),
             "hanging": servers.Reply(hangs=True),
             "not JSON from a proxy": servers.Reply("<html>Bad Gateway", 502, is_raw=True),
         }[fault]
@@ -389,7 +390,8 @@ class TestRetries:
     def test_answer_that_is_not_json_is_told(self, model: str):
         text, attempts, _ = _fail(model, servers.Reply("<html>", is_raw=True), retries=2)
 
-        assert attempts == 1
+        # Once as a stream, and where that brings nothing once as a whole.
+        assert attempts == (1 if model.startswith("google") else 2)
         assert "no readable answer: " in text
         assert text.endswith("expected an answer in the provider's format, check the address and the options")
 

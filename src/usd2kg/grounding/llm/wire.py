@@ -1,6 +1,7 @@
 """A request in the words of pydantic-ai and of the servers behind it, and the completion in ours."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from statistics import fmean
 from typing import TYPE_CHECKING, Any, cast
 from urllib.parse import urlsplit
@@ -8,6 +9,7 @@ from urllib.parse import urlsplit
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.addresses import Address
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.prompts import estimate_tokens
 
 if TYPE_CHECKING:
     from pydantic_ai.messages import ModelResponse
@@ -88,17 +90,38 @@ def _switch_reasoning(address: Address, is_thinking: bool) -> dict[str, Any]:
     return {"extra_body": {"chat_template_kwargs": {"enable_thinking": is_thinking}}}
 
 
-def read_completion(response: "ModelResponse") -> Completion:
-    """Return the library's response as a completion."""
+def read_completion(
+    response: "ModelResponse", request: Request, provider: str, cut: Finish | None = None
+) -> Completion:
+    """Return the library's response as a completion.
+
+    Args:
+        response: what came, whole or not.
+        request: what was asked.
+        provider: in whose format.
+        cut: why we ended it before the server did; None where the server ended it.
+    """
     from pydantic_ai.messages import TextPart, ThinkingPart  # noqa: PLC0415
 
+    text = "".join(part.content for part in response.parts if isinstance(part, TextPart))
+    thinking = "".join(part.content for part in response.parts if isinstance(part, ThinkingPart))
+    finish = Finish.LENGTH if response.finish_reason == "length" else Finish.STOP
     usage = response.usage
-    return Completion(
-        "".join(part.content for part in response.parts if isinstance(part, TextPart)),
-        Finish.LENGTH if response.finish_reason == "length" else Finish.STOP,
-        Usage(usage.input_tokens, usage.cache_read_tokens, usage.output_tokens),
-        _average_logprob(response.provider_details or {}),
-        "".join(part.content for part in response.parts if isinstance(part, ThinkingPart)),
+    counted = Usage(usage.input_tokens, usage.cache_read_tokens, usage.output_tokens)
+    if cut is not None and provider != "google":
+        # Only Gemini counts as it goes; what Anthropic's servers tell at the start of a message is a stand-in.
+        counted = replace(counted, output_tokens=0)
+    if cut is not None or usage.unmeasured_requests:
+        counted = _estimate_missing(counted, request, thinking + text)
+    return Completion(text, cut or finish, counted, _average_logprob(response.provider_details or {}), thinking)
+
+
+def _estimate_missing(counted: Usage, request: Request, said: str) -> Usage:
+    """Return the counts, with an estimate of about four bytes a token for those that the server did not tell."""
+    return replace(
+        counted,
+        input_tokens=counted.input_tokens or estimate_tokens(request.system + request.user),
+        output_tokens=counted.output_tokens or estimate_tokens(said),
     )
 
 
