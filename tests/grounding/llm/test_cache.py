@@ -18,8 +18,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from usd2kg.errors import GroundingError, OutputError
-from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path, request_key
+from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.records import request_key
 
 MODEL = "google:gemini-2.5-flash"
 SCHEMA = {"type": "object", "properties": {"reasoning": {"type": "string"}, "class": {"enum": ["Cup", "Fork"]}}}
