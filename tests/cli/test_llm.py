@@ -3,13 +3,15 @@
 import csv
 import io
 import json
+import re
+from itertools import repeat
 from pathlib import Path
 
 import pyoxigraph as ox
 import pytest
 
 from tests.cli.conftest import Run
-from tests.grounding.llm.servers import openai_reply, refuse, serve
+from tests.grounding.llm.servers import Reply, openai_events, openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.prompts import Strategy
@@ -81,6 +83,22 @@ def test_a_dry_run_prints_prompts_and_asks_nobody(run: Run, kitchen: Path):
     assert done.out.count("=== prompt ") == 2
     assert 'name: "mug_1"' in done.out
     assert "2 prompts for 3 objects, about" in done.err
+
+
+def test_a_model_that_loops_is_cut_off_and_its_tokens_are_told_as_estimated(run: Run, kitchen: Path):
+    with serve(Reply(events=lambda: openai_events(repeat("la la la ")))) as server:
+        done = run("ground", kitchen, "--grounder", f"llm-A:openai:test@{server.url}/v1", "--format", "json")
+    assert {found["status"] for found in json.loads(done.out)["predictions"]} == {"unreadable"}
+    # Two prompts and their repairs.
+    assert "2 repairs, 4 degenerate" in done.err
+    assert re.search(r" output tokens \([0-9,]+ of all estimated\), ", done.err)
+
+
+def test_confidence_is_what_the_server_tells_of_the_class(run: Run, kitchen: Path):
+    tokens = [('{"1": {"class": "', -0.5), ("C", -0.25), ("up", -0.25), ('"}}', -0.5)]
+    with serve(openai_reply(cup(), tokens=tokens)) as server:
+        done = run("ground", kitchen, "--grounder", f"llm-A:openai:test@{server.url}/v1", "--format", "json")
+    assert {found["confidence"] for found in json.loads(done.out)["predictions"]} == {0.6065}
 
 
 def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run, kitchen: Path):

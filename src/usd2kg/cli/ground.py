@@ -180,9 +180,11 @@ def _show_plan(batches: "list[Batch]", object_count: int, output: Path | None) -
 def _tell_cost(report: "RunReport", result: "Grounding") -> None:
     unread = sum(1 for prediction in result.predictions if prediction.class_iri is None)
     usage = report.usage
+    guessed = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
     talk(
         f"{report.objects} objects by {report.prompts} prompts: {report.completions} completions asked for, "
         f"{report.cached} known before, {report.repairs} repairs, {report.degenerate} degenerate, "
         f"{report.failed} prompts failed, {unread} objects without a class; {usage.input_tokens:,} input tokens "
-        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens, {report.seconds:.1f} s"
+        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens{guessed}, "
+        f"{report.seconds:.1f} s"
     )

@@ -2,7 +2,7 @@
 
 import json
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -184,16 +184,20 @@ ANTHROPIC_USAGE = {
 }
 
 
-def openai_reply(text: str, *, finish: str = "stop", logprobs: list[float] | None = None, thinking: str = "") -> Reply:
+Token = tuple[str | bytes, float]
+"""What a token adds and the logarithm of its probability; bytes where it ends within a character."""
+
+
+def openai_reply(text: str, *, finish: str = "stop", tokens: Sequence[Token] = (), thinking: str = "") -> Reply:
     """Chat completions: 100 input tokens of which 60 were cached, 7 output tokens."""
     message = {"role": "assistant", "content": text} | ({"reasoning_content": thinking} if thinking else {})
     choice: dict = {"index": 0, "message": message, "finish_reason": finish}
-    if logprobs is not None:
-        choice["logprobs"] = _openai_logprobs(logprobs)
+    if tokens:
+        choice["logprobs"] = _openai_logprobs(tokens)
     head = {"id": "c1", "created": 1, "model": "m"}
     return Reply(
         {**head, "object": "chat.completion", "choices": [choice], "usage": OPENAI_USAGE},
-        events=lambda: openai_events(pieces(text), finish=finish, logprobs=logprobs, thinking=thinking),
+        events=lambda: openai_events(pieces(text), finish=finish, tokens=tokens, thinking=thinking),
     )
 
 
@@ -201,7 +205,7 @@ def openai_events(
     texts: Iterable[str],
     *,
     finish: str | None = "stop",
-    logprobs: list[float] | None = None,
+    tokens: Sequence[Token] = (),
     thinking: str = "",
     usage: dict | None = OPENAI_USAGE,
 ) -> Iterator[str]:
@@ -216,8 +220,8 @@ def openai_events(
         yield chunk({"reasoning_content": piece})
     for piece in texts:
         yield chunk({"content": piece})
-    if logprobs is not None:
-        yield chunk({}, logprobs=_openai_logprobs(logprobs))
+    for token in tokens:
+        yield chunk({}, logprobs=_openai_logprobs([token]))
     if finish is not None:
         yield chunk({}, finish_reason=finish)
     if usage is not None:
@@ -225,9 +229,14 @@ def openai_events(
     yield "data: [DONE]\n\n"
 
 
-def _openai_logprobs(logprobs: list[float]) -> dict:
-    tokens = [{"token": "t", "logprob": value, "bytes": None, "top_logprobs": []} for value in logprobs]
-    return {"content": tokens, "refusal": None}
+def _openai_logprobs(tokens: Sequence[Token]) -> dict:
+    def told(text: str | bytes, logprob: float) -> dict:
+        raw = text if isinstance(text, bytes) else text.encode()
+        # OpenAI names a token that is no text by its bytes.
+        name = text if isinstance(text, str) else "bytes:" + "".join(f"\\x{byte:02x}" for byte in text)
+        return {"token": name, "logprob": logprob, "bytes": list(raw), "top_logprobs": []}
+
+    return {"content": [told(*token) for token in tokens], "refusal": None}
 
 
 def gemini_reply(text: str, *, finish: str = "STOP", thinking: str = "") -> Reply:

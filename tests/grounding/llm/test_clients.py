@@ -76,6 +76,7 @@ class TestOpenAI:
             "max_tokens": 4000,
             "seed": 3,
             "logprobs": True,
+            "top_logprobs": 1,
             "stream": True,
             "stream_options": {"include_usage": True},
         }
@@ -86,25 +87,50 @@ class TestOpenAI:
         schema = received.body["response_format"]["json_schema"]["schema"]
         assert list(schema["properties"]) == ["reasoning", "class"]
 
-    def test_completion_carries_usage_thinking_and_the_mean_logprob(self):
-        reply = servers.openai_reply('{"class": "Cup"}', logprobs=[-0.1, -0.3, -0.2], thinking="a handle")
+    def test_completion_carries_usage_thinking_and_the_tokens(self):
+        tokens = [('{"class": "', -0.1), ("Cup", -0.3), ('"}', -0.2)]
+        reply = servers.openai_reply('{"class": "Cup"}', tokens=tokens, thinking="a handle")
 
         completion, _ = _complete("openai:m", reply)
 
         assert completion.text == '{"class": "Cup"}'
         assert completion.finish is Finish.STOP
         assert completion.usage == Usage(input_tokens=100, cached_tokens=60, output_tokens=7)
+        assert completion.tokens == tuple(tokens)
         assert completion.mean_logprob == pytest.approx(-0.2)
         assert completion.thinking == "a handle"
 
-    def test_refused_logprobs_are_left_out_from_then_on(self):
-        replies = servers.refuse(400, "logprobs is not supported"), servers.openai_reply("{}")
+    @pytest.mark.parametrize("is_streamed", [True, False])
+    def test_a_token_that_ends_within_a_character_leaves_it_to_the_next(self, is_streamed: bool):
+        tokens = [("Caf", -0.1), (b"\xc3", -0.2), (b"\xa9", -0.3), ("!", -0.4)]
+        reply = servers.openai_reply("Café!", tokens=tokens)
+        if not is_streamed:
+            reply = replace(reply, events=None)
+
+        completion, _ = _complete("openai:m", reply)
+
+        assert completion.tokens == (("Caf", -0.1), ("", -0.2), ("é", -0.3), ("!", -0.4))
+
+    @pytest.mark.parametrize("odd", [{"bytes": [300]}, {"bytes": "Cup"}, {"logprob": None}])
+    def test_tokens_that_are_told_in_a_way_of_its_own_are_left_out(self, odd: dict):
+        token = {"token": "Cup", "logprob": -0.1, "bytes": None, "top_logprobs": []} | odd
+        choice = {"index": 0, "delta": {"content": "Cup"}, "finish_reason": "stop", "logprobs": {"content": [token]}}
+        chunk = servers.sse({"id": "c1", "object": "chat.completion.chunk", "created": 1, "choices": [choice]})
+
+        completion, _ = _complete("openai:m", servers.Reply(events=lambda: [chunk]))
+
+        assert (completion.text, completion.tokens) == ("Cup", ())
+
+    @pytest.mark.parametrize("status", [400, 403, 422, 500])
+    def test_refused_logprobs_are_left_out_from_then_on(self, status: int):
+        replies = servers.refuse(status, "logprobs is not supported"), servers.openai_reply("{}")
         with servers.serve(*replies) as server, _connect(server, "openai:m") as client:
             first, second = client.complete(REQUEST), client.complete(REQUEST)
 
             assert [received.body.get("logprobs") for received in server.received] == [True, None, None]
             assert client.attempts == 3
-        assert first.mean_logprob is None and second.mean_logprob is None
+        assert first.tokens == second.tokens == ()
+        assert first.mean_logprob is None
 
     @pytest.mark.parametrize("status", [400, 422, 500])
     def test_a_server_of_the_older_form_gets_the_schema_in_its_words_from_then_on(self, status: int):
@@ -113,6 +139,7 @@ class TestOpenAI:
             client.complete(REQUEST)
             client.complete(REQUEST)
             forms = [received.body["response_format"] for received in server.received]
+            assert ["top_logprobs" in received.body for received in server.received] == [True, False, False]
         assert [form["type"] for form in forms] == ["json_schema", "json_object", "json_object"]
         assert forms[1] == forms[2] == {"type": "json_object", "schema": dict(REQUEST.schema)}
 
@@ -172,7 +199,7 @@ class TestOpenAIItself:
 
         assert (body["temperature"], body["logprobs"], body["max_completion_tokens"]) == (0.5, True, 4000)
         assert body["response_format"]["json_schema"]["strict"] is True
-        assert not {"reasoning_effort", "chat_template_kwargs", "max_tokens"} & body.keys()
+        assert not {"reasoning_effort", "chat_template_kwargs", "max_tokens", "top_logprobs"} & body.keys()
 
     @pytest.mark.parametrize("is_thinking", [True, False])
     def test_models_that_always_reason_get_none(self, is_thinking: bool, monkeypatch: pytest.MonkeyPatch):
@@ -231,7 +258,7 @@ class TestGoogle:
     def test_completion_counts_thoughts_as_output(self):
         completion, _ = _complete("google:gemini-2.5-flash", servers.gemini_reply("{}", thinking="a blade"))
 
-        assert completion == Completion("{}", Finish.STOP, Usage(100, 60, 7 + 5), None, "a blade")
+        assert completion == Completion("{}", Finish.STOP, Usage(100, 60, 7 + 5), (), "a blade")
 
     def test_older_key_variable_works(self):
         _, (received,) = _complete(
@@ -290,7 +317,7 @@ class TestAnthropic:
 
         completion, _ = _complete("anthropic:claude-haiku-4-5", reply)
 
-        assert completion == Completion("{}", Finish.STOP, Usage(40 + 60, 60, 7), None, "a blade")
+        assert completion == Completion("{}", Finish.STOP, Usage(40 + 60, 60, 7), (), "a blade")
 
     def test_model_without_schemas_gets_it_in_the_prompt(self):
         _, (received,) = _complete("anthropic:claude-unheard-of", servers.anthropic_reply("{}"))

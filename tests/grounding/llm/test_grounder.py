@@ -27,15 +27,18 @@ class Model:
 
     model = "test:model"
 
-    def __init__(self, say: Say, *, finish: Finish = Finish.STOP, logprob: float | None = None) -> None:
-        self.say, self.finish, self.logprob = say, finish, logprob
+    def __init__(self, say: Say, *, finish: Finish = Finish.STOP, probability: float | None = None) -> None:
+        """Every character is a token of that probability."""
+        self.say, self.finish, self.probability = say, finish, probability
         self.requests: list[Request] = []
         self.lock = threading.Lock()
 
     def complete(self, request: Request) -> Completion:
         with self.lock:
             self.requests.append(request)
-        return Completion(self.say(request), self.finish, Usage(100, 40, 10), self.logprob)
+        text = self.say(request)
+        tokens = tuple((letter, math.log(self.probability)) for letter in text) if self.probability else ()
+        return Completion(text, self.finish, Usage(100, 40, 10), tokens)
 
 
 def numbers(request: Request) -> list[str]:
@@ -129,12 +132,21 @@ def test_in_a_batch_only_what_was_wrong_is_mended(home_tbox: TBox):
     assert answers(kitchen("mug", "beaker"), home_tbox, grounder) == ["Cup", "Cup"]
 
 
-def test_confidence_is_the_mean_probability_of_the_tokens(home_tbox: TBox):
-    model = Model(always("Cup"), logprob=math.log(0.8))
+def test_confidence_is_the_probability_of_the_class(home_tbox: TBox):
+    model = Model(always("Cup"), probability=0.8)
     [sure] = ground(kitchen("mug"), home_tbox, LLMGrounder(model, PromptOptions())).predictions
-    assert sure.confidence == pytest.approx(0.8)
+    assert sure.confidence == pytest.approx(0.8**3)
     [unsure] = ground(kitchen("mug"), home_tbox, LLMGrounder(Model(always("Cup")), PromptOptions())).predictions
     assert unsure.confidence is None
+
+
+def test_each_object_of_a_prompt_has_a_confidence_of_its_own(home_tbox: TBox):
+    def say(request: Request) -> str:
+        return json.dumps({"1": {"class": "Cup"}, "2": {"class": "Spoon"}, "3": {"class": "Chalice"}, "4": None})
+
+    grounder = LLMGrounder(Model(say, probability=0.9), PromptOptions(objects_per_prompt=4))
+    found = ground(kitchen("muga", "spoon", "cupa", "what"), home_tbox, grounder).predictions
+    assert [p.confidence for p in found] == [pytest.approx(0.9**3), pytest.approx(0.9**5, abs=1e-4), None, None]
 
 
 class TestTrouble:

@@ -79,7 +79,7 @@ class TestWhole:
         completion, server = complete(model, REPLIES[model](CUP, thinking="a handle"))
 
         output = 12 if model == GOOGLE else 7
-        assert completion == Completion(CUP, Finish.STOP, Usage(100, 60, output), None, "a handle")
+        assert completion == Completion(CUP, Finish.STOP, Usage(100, 60, output), (), "a handle")
         assert server.received[0].asks_for_stream
         assert server.events_sent > 4
 
@@ -93,10 +93,12 @@ class TestWhole:
             completion, _ = complete(model, REPLIES[model]('{"cl', finish=finish))
             assert (completion.text, completion.finish) == ('{"cl', Finish.LENGTH)
 
-    def test_logprobs_are_collected_from_the_pieces(self):
-        completion, _ = complete(OPENAI, servers.openai_reply(CUP, logprobs=[-0.1, -0.3, -0.2]))
+    def test_tokens_are_collected_from_the_pieces(self):
+        tokens = [('{"class": "', -0.1), ("Cup", -0.3), ('"}', -0.2)]
 
-        assert completion.mean_logprob == pytest.approx(-0.2)
+        completion, _ = complete(OPENAI, servers.openai_reply(CUP, tokens=tokens))
+
+        assert completion.tokens == tuple(tokens)
 
     def test_a_server_that_never_says_why_it_ended_is_believed_by_its_count(self):
         completion, _ = complete(OPENAI, streaming(OPENAI, lambda: [CUP], finish=None))
@@ -106,7 +108,14 @@ class TestWhole:
     def test_a_server_that_does_not_count_gets_an_estimate(self):
         completion, _ = complete(OPENAI, streaming(OPENAI, lambda: [CUP], usage=None))
 
-        assert completion.usage == Usage(6, 0, 4)
+        assert completion.usage == Usage(6, 0, 4, estimated_tokens=10)
+
+    def test_a_server_that_tells_the_tokens_has_them_counted(self):
+        tokens = [('{"class": "', -0.1), ("Cup", -0.3), ('"}', -0.2)]
+
+        completion, _ = complete(OPENAI, streaming(OPENAI, lambda: [CUP], usage=None, tokens=tokens))
+
+        assert completion.usage == Usage(6, 0, 3, estimated_tokens=6)
 
     @every_format
     def test_an_empty_answer_is_an_answer(self, model: str):
@@ -138,7 +147,11 @@ class TestCutOff:
         # Looked at every 500 characters: 63 pieces of eight. Gemini counts pieces as it goes, four bytes elsewhere.
         assert completion.text == "la la la" * 63
         assert completion.finish is Finish.DEGENERATE
-        expected = {OPENAI: Usage(6, 0, 126), GOOGLE: Usage(100, 60, 63), ANTHROPIC: Usage(100, 60, 126)}
+        expected = {
+            OPENAI: Usage(6, 0, 126, estimated_tokens=132),
+            GOOGLE: Usage(100, 60, 63),
+            ANTHROPIC: Usage(100, 60, 126, estimated_tokens=126),
+        }
         assert completion.usage == expected[model]
         assert sent < 200
         assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []

@@ -31,8 +31,8 @@ class Abilities:
 
 
 def _refuses_logprobs(failure: Failure) -> bool:
-    # OpenAI answers 403 for models that do not offer them, servers that check fields 422.
-    return failure.status in (400, 403, 422) and "logprob" in failure.message.lower()
+    # OpenAI answers 403 for models that do not offer them, servers that check fields 422, llama-cpp-python's 500.
+    return failure.status in (400, 403, 422, 500) and "logprob" in failure.message.lower()
 
 
 def _refuses_json_schemas(failure: Failure) -> bool:

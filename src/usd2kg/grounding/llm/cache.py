@@ -5,6 +5,9 @@ A completion is committed before `put` returns: it outlives the process, even on
 WAL needs a local disk: where the home folder is a network drive, set USD2KG_CACHE to a file on a local one.
 
 Instructions with the TBox, and schemas, are shared by the requests of a run; the cache holds each once.
+
+A file of format 1 is brought to format 2 when it is opened: all completions stay, without the mean log-probability that
+stood in place of the tokens'. Versions of usd2kg that only know format 1 refuse the file from then on.
 """
 
 import json
@@ -23,12 +26,21 @@ from usd2kg.errors import GroundingError, OutputError
 from usd2kg.files import write_whole
 from usd2kg.grounding.llm.completion import Completion, Request
 from usd2kg.grounding.llm.recordings import format_line, read_line
-from usd2kg.grounding.llm.records import UNREADABLE, Row, make_row, read_completion, request_fields, request_key
+from usd2kg.grounding.llm.records import (
+    UNREADABLE,
+    Row,
+    make_row,
+    read_completion,
+    request_fields,
+    request_key,
+    to_json,
+    upgrade_completion,
+)
 
 __all__ = ["CompletionCache", "default_cache_path"]
 
 _APPLICATION_ID = int.from_bytes(b"u2kg")
-_FILE_VERSION = 1
+_FILE_VERSION = 2
 _BUSY_SECONDS = 60.0
 _SCHEMA = (
     "CREATE TABLE IF NOT EXISTS shared (digest TEXT PRIMARY KEY, text TEXT NOT NULL)",
@@ -172,7 +184,7 @@ class CompletionCache:
         is_new = (tables, application, version) == (0, 0, 0)
         if not is_new and application != _APPLICATION_ID:
             raise GroundingError(f"{self.path}: is the database of another program; {_remedy()}")
-        if not is_new and version != _FILE_VERSION:
+        if not is_new and version not in (1, _FILE_VERSION):
             raise GroundingError(f"{self.path}: has format {version}, expected {_FILE_VERSION}; {_remedy()}")
         self._switch_to_wal()
         # A killed process loses nothing by this; a power cut may lose the last completions, never the file.
@@ -181,6 +193,15 @@ class CompletionCache:
             with self._transaction("BEGIN IMMEDIATE"):
                 for statement in _SCHEMA:
                     self._connection.execute(statement)
+        elif version == 1:
+            self._upgrade()
+
+    def _upgrade(self) -> None:
+        self._connection.create_function("upgraded", 1, _upgraded, deterministic=True)
+        with self._transaction("BEGIN IMMEDIATE"):
+            # Another process may have been first; what it has brought up to date comes through unchanged.
+            self._connection.execute("UPDATE completions SET completion = upgraded(completion)")
+            self._connection.execute(f"PRAGMA user_version = {_FILE_VERSION}")
 
     def _switch_to_wal(self) -> None:
         # SQLite does not wait here where several processes open a new file at once: it gives up at once.
@@ -236,6 +257,14 @@ def _create_file(path: Path) -> None:
         raise GroundingError(
             f"{path}: the cache of completions cannot be created ({error}); set USD2KG_CACHE to another file"
         ) from error
+
+
+def _upgraded(text: str) -> str:
+    try:
+        return to_json(upgrade_completion(json.loads(text)))
+    except UNREADABLE:
+        # A damaged one is told of when it is asked for.
+        return text
 
 
 def _remedy() -> str:

@@ -172,6 +172,8 @@ class HttpClient:
         parameters = make_parameters(self._served, request, self._address.is_compatible)
         if self._address.is_compatible and not asked.json_schemas:
             parameters = ModelRequestParameters()
+            # llama-cpp-python's server would sort its whole vocabulary for each token, longer than that takes to come.
+            settings.pop("openai_top_logprobs", None)
             body = {**settings.get("extra_body", {}), "response_format": older_format(request)}
             settings |= {"extra_body": body}
         return {

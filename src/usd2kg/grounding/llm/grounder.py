@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from threading import Lock
 
@@ -112,55 +112,51 @@ class LLMGrounder:
         self.report.prompts += len(batches)
         found: dict[int, Prediction] = {}
         for batch, answers in zip(batches, self._answers(batches, tbox), strict=True):
-            for index, (answer, completion) in zip(batch.indices, answers, strict=True):
+            for index, answer in zip(batch.indices, answers, strict=True):
                 for member in groups[index]:
-                    found[member] = self._prediction(views[member][0], answer, completion)
+                    found[member] = self._prediction(views[member][0], answer)
         self.report.seconds += time.monotonic() - start
         return [found[index] for index in range(len(views))]
 
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
         return distinct_views(views, self._options.strategy) if self._is_once_each else [[i] for i in range(len(views))]
 
-    def _answers(self, batches: list[Batch], tbox: TBox) -> Iterator[list[tuple[Answer, Completion | None]]]:
+    def _answers(self, batches: list[Batch], tbox: TBox) -> Iterator[list[Answer]]:
         with ThreadPoolExecutor(max_workers=self._workers) as pool:
             pending = [pool.submit(self._ask, batch, tbox) for batch in batches]
             try:
-                for batch, future in zip(batches, pending, strict=True):
-                    yield _result(future, batch)
+                for future in pending:
+                    yield future.result()
             except KeyboardInterrupt:
                 for future in pending:
                     future.cancel()
                 raise
 
-    def _ask(self, batch: Batch, tbox: TBox) -> list[tuple[Answer, Completion | None]]:
+    def _ask(self, batch: Batch, tbox: TBox) -> list[Answer]:
         try:
             completion = self._complete(batch.request)
         except GroundingError as error:
             with self._lock:
                 self.report.failed += 1
-            return [(Answer(None, Status.FAILED, "", str(error)), None) for _ in batch.indices]
-        found = [(answer, completion) for answer in self._read(completion, batch, tbox)]
-        if any(answer.status is Status.UNREADABLE for answer, _ in found):
-            return self._repair(batch, completion, found, tbox)
-        return list(found)
+            return [Answer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
+        answers = self._read(completion, batch, tbox)
+        if any(answer.status is Status.UNREADABLE for answer in answers):
+            return self._repair(batch, completion, answers, tbox)
+        return answers
 
-    def _repair(
-        self, batch: Batch, completion: Completion, found: list[tuple[Answer, Completion]], tbox: TBox
-    ) -> list[tuple[Answer, Completion | None]]:
+    def _repair(self, batch: Batch, completion: Completion, answers: list[Answer], tbox: TBox) -> list[Answer]:
         """Ask once more for what could not be read; what was right before stays."""
         try:
-            second = self._complete(repair_request(batch, completion.text, [answer for answer, _ in found]))
+            second = self._complete(repair_request(batch, completion.text, answers))
         except GroundingError:
-            return list(found)
+            return answers
         with self._lock:
             self.report.repairs += 1
         mended = self._read(second, batch, tbox)
-        return [
-            (new, second) if old[0].status is Status.UNREADABLE else old for old, new in zip(found, mended, strict=True)
-        ]
+        return [new if old.status is Status.UNREADABLE else old for old, new in zip(answers, mended, strict=True)]
 
     def _read(self, completion: Completion, batch: Batch, tbox: TBox) -> list[Answer]:
-        answers = parse_answers(completion.text, batch, tbox)
+        answers = parse_answers(completion.text, batch, tbox, completion.tokens)
         if completion.finish is not Finish.STOP or is_degenerate(completion.text):
             with self._lock:
                 self.report.degenerate += 1
@@ -198,26 +194,17 @@ class LLMGrounder:
         if failures >= _FAILURES_IN_A_ROW:
             raise GroundingError(f"not asked: {failures} prompts in a row were not answered; see the first of them")
 
-    def _prediction(self, path: str, answer: Answer, completion: Completion | None) -> Prediction:
-        logprob = completion.mean_logprob if completion is not None else None
-        is_sure = answer.class_iri is not None and logprob is not None
+    def _prediction(self, path: str, answer: Answer) -> Prediction:
+        is_known = answer.class_iri is not None and answer.logprob is not None
         return Prediction(
             prim_path=path,
             class_iri=answer.class_iri,
-            confidence=round(math.exp(min(0.0, logprob)), 4) if is_sure and logprob is not None else None,
+            confidence=round(math.exp(min(0.0, answer.logprob or 0.0)), 4) if is_known else None,
             status=answer.status,
             grounder=self.name,
             explanation=answer.problem or answer.reasoning or f"{self._client.model} says so",
             evidence=("name",) if self._options.strategy is Strategy.NAME_ONLY else (),
         )
-
-
-def _result(
-    future: "Future[list[tuple[Answer, Completion | None]]]", batch: Batch
-) -> list[tuple[Answer, Completion | None]]:
-    found = future.result()
-    assert len(found) == len(batch.indices)
-    return found
 
 
 def _shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:

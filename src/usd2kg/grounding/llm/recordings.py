@@ -4,7 +4,16 @@ import json
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.records import REQUEST, UNREADABLE, Row, checked, make_row, read_completion, to_json
+from usd2kg.grounding.llm.records import (
+    REQUEST,
+    UNREADABLE,
+    Row,
+    checked,
+    make_row,
+    read_completion,
+    to_json,
+    upgrade_completion,
+)
 
 __all__ = ["format_line", "read_line"]
 
@@ -20,7 +29,7 @@ def format_line(key: str, system: str, schema: str, rest: str, completion: str) 
 
 
 def read_line(path: Path, number: int, line: bytes) -> Row:
-    """Return what one line of a recording tells to keep.
+    """Return what one line of a recording tells to keep; recordings of format 1 are read too.
 
     Raises:
         GroundingError: it is no such line, or its key is not that of its request.
@@ -28,7 +37,11 @@ def read_line(path: Path, number: int, line: bytes) -> Row:
     try:
         data = checked(json.loads(line.decode("utf-8")), _LINE, "the line")
         request = checked(data["request"], REQUEST, "request")
-        row = make_row(data["model"], {name: request[name] for name in REQUEST}, read_completion(data["completion"]))
+        row = make_row(
+            data["model"],
+            {name: request[name] for name in REQUEST},
+            read_completion(upgrade_completion(data["completion"])),
+        )
         if data["key"] != row.values[0]:
             raise ValueError("the key is not that of its model and request")
     except UNREADABLE as error:

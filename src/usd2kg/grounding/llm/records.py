@@ -4,7 +4,6 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, fields
-from types import NoneType
 from typing import Any, NamedTuple
 
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
@@ -19,6 +18,7 @@ __all__ = [
     "request_fields",
     "request_key",
     "to_json",
+    "upgrade_completion",
 ]
 
 _KEY_FORMAT = "usd2kg-request/1"
@@ -36,10 +36,10 @@ _COMPLETION = {
     "text": (str,),
     "finish": (str,),
     "usage": (dict,),
-    "mean_logprob": (float, NoneType),
+    "tokens": (list,),
     "thinking": (str,),
 }
-_USAGE = {"input_tokens": (int,), "cached_tokens": (int,), "output_tokens": (int,)}
+_USAGE = {"input_tokens": (int,), "cached_tokens": (int,), "output_tokens": (int,), "estimated_tokens": (int,)}
 UNREADABLE = (ValueError, OverflowError, RecursionError)
 """What reading JSON raises that is not what was written."""
 
@@ -77,10 +77,14 @@ def make_row(model: str, values: Mapping[str, Any], completion: Completion) -> R
     rest = {"model": model, **values}
     system, schema = (to_json(rest.pop(name)) for name in ("system", "schema"))
     shared = ((_digest(system), system), (_digest(schema), schema))
-    said = asdict(completion)
-    if completion.mean_logprob is not None:
-        said["mean_logprob"] = float(completion.mean_logprob)
-    return Row(shared, (_key(model, values), shared[0][0], shared[1][0], to_json(rest), to_json(said)))
+    said = to_json(_completion_fields(completion))
+    return Row(shared, (_key(model, values), shared[0][0], shared[1][0], to_json(rest), said))
+
+
+def _completion_fields(completion: Completion) -> dict[str, Any]:
+    values: dict[str, Any] = {f.name: getattr(completion, f.name) for f in fields(Completion)}
+    tokens = [(piece, float(logprob)) for piece, logprob in completion.tokens]
+    return {**values, "usage": asdict(completion.usage), "tokens": tokens}
 
 
 def read_completion(data: Any) -> Completion:
@@ -91,7 +95,29 @@ def read_completion(data: Any) -> Completion:
     """
     values = dict(checked(data, _COMPLETION, "completion"))
     usage = Usage(**checked(values.pop("usage"), _USAGE, "usage"))
-    return Completion(finish=Finish(values.pop("finish")), usage=usage, **values)
+    tokens = tuple(map(_read_token, values.pop("tokens")))
+    return Completion(finish=Finish(values.pop("finish")), usage=usage, tokens=tokens, **values)
+
+
+def _read_token(data: Any) -> tuple[str, float]:
+    match data:
+        case [str(piece), float(logprob)]:
+            return piece, logprob
+    raise ValueError(f"a token is {str(data)[:40]!r}, expected its text and a number")
+
+
+def upgrade_completion(data: Any) -> Any:
+    """Return a completion that was kept in format 1 in today's.
+
+    That format kept the mean of the tokens' log-probabilities alone. It is dropped, as no class's own can be told from
+    it: the completion stays, without token probabilities. What is in no such format comes back as it is.
+    """
+    if not isinstance(data, dict) or not isinstance(data.get("usage"), dict):
+        return data
+    if "mean_logprob" not in data or "tokens" in data:
+        return data
+    kept = {name: value for name, value in data.items() if name != "mean_logprob"}
+    return kept | {"tokens": [], "usage": data["usage"] | {"estimated_tokens": 0}}
 
 
 def checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """A request in the words of pydantic-ai and of the servers behind it, and the completion in ours."""
 
-from collections.abc import Mapping
+from codecs import getincrementaldecoder
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from statistics import fmean
 from typing import TYPE_CHECKING, Any, cast
 from urllib.parse import urlsplit
 
@@ -39,6 +39,9 @@ def make_settings(address: Address, served: "Model[Any]", request: Request, asks
         settings["temperature"] = request.temperature
     if asks_logprobs:
         settings["openai_logprobs"] = True
+        if address.is_compatible:
+            # llama.cpp's server tells those of twenty other tokens for each unless it is told how many.
+            settings["openai_top_logprobs"] = 1
     if served.profile.get("supports_thinking", False):
         settings["thinking"] = request.is_thinking
     if address.provider == "anthropic":
@@ -111,23 +114,34 @@ def read_completion(
     if cut is not None and provider != "google":
         # Only Gemini counts as it goes; what Anthropic's servers tell at the start of a message is a stand-in.
         counted = replace(counted, output_tokens=0)
+    tokens = _read_tokens(response.provider_details or {})
+    if not counted.output_tokens:
+        counted = replace(counted, output_tokens=len(tokens))
     if cut is not None or usage.unmeasured_requests:
-        counted = _estimate_missing(counted, request, thinking + text)
-    return Completion(text, cut or finish, counted, _average_logprob(response.provider_details or {}), thinking)
+        counted += _estimate_missing(counted, request, thinking + text)
+    return Completion(text, cut or finish, counted, tokens, thinking)
 
 
 def _estimate_missing(counted: Usage, request: Request, said: str) -> Usage:
-    """Return the counts, with an estimate of about four bytes a token for those that the server did not tell."""
-    return replace(
-        counted,
-        input_tokens=counted.input_tokens or estimate_tokens(request.system + request.user),
-        output_tokens=counted.output_tokens or estimate_tokens(said),
-    )
+    """Return an estimate of about four bytes a token for the counts that the server did not tell."""
+    input_tokens = 0 if counted.input_tokens else estimate_tokens(request.system + request.user)
+    output_tokens = 0 if counted.output_tokens else estimate_tokens(said)
+    return Usage(input_tokens, 0, output_tokens, input_tokens + output_tokens)
 
 
-def _average_logprob(details: Mapping[str, Any]) -> float | None:
-    logprobs = [float(token["logprob"]) for token in details.get("logprobs", ())]
-    return fmean(logprobs) if logprobs else None
+def _read_tokens(details: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
+    """Return the text and log-probability of each token; nothing where a server tells them in a way of its own."""
+    decode = getincrementaldecoder("utf-8")("replace").decode
+    try:
+        return tuple((_piece(token, decode), float(token["logprob"])) for token in details.get("logprobs", ()))
+    except (LookupError, TypeError, ValueError):
+        return ()
+
+
+def _piece(token: Mapping[str, Any], decode: Callable[[bytes], str]) -> str:
+    """Return the text that a token adds: its bytes tell it where it ends within a character, its name does not."""
+    raw = token.get("bytes")
+    return str(token["token"]) if raw is None else decode(bytes(raw))
 
 
 def older_format(request: Request) -> dict[str, Any]:
