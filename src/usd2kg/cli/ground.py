@@ -1,6 +1,7 @@
 """usd2kg ground: the mapping of prims to classes, without a graph."""
 
 from contextlib import ExitStack
+from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,6 +10,7 @@ import typer
 from usd2kg.cli.options import (
     AbbreviatedLength,
     Abstains,
+    Budget,
     Cascade,
     ClassSizes,
     ClassTree,
@@ -28,6 +30,7 @@ from usd2kg.cli.options import (
     ObjectList,
     ObjectsPerPrompt,
     OntologyFile,
+    Price,
     Refresh,
     Regime,
     Replay,
@@ -46,6 +49,7 @@ from usd2kg.errors import GroundingError
 if TYPE_CHECKING:
     from usd2kg.grounding import Grounding
     from usd2kg.grounding.llm.grounder import RunReport
+    from usd2kg.grounding.llm.prices import Tariff
     from usd2kg.grounding.llm.prompts import Batch
 
 __all__ = ["ground_command"]
@@ -64,6 +68,8 @@ def ground_command(
     shortlist: Shortlist = None,
     cascade: Cascade = None,
     token_budget: TokenBudget = None,
+    budget: Budget = None,
+    price: Price = None,
     completions: CompletionsFile = None,
     refresh: Refresh = False,
     replay: Replay = False,
@@ -115,14 +121,15 @@ def ground_command(
                 shuffle_seed=shuffle,
                 shortlist=shortlist,
                 token_budget=token_budget,
+                budget=None if budget is None else Decimal(str(budget)),
+                price=price,
                 completions=completions,
                 is_refreshed=refresh,
                 is_replayed=replay,
             )
             asker = stack.enter_context(open_llm_grounder(settings, is_dry=dry_run))
-        elif dry_run or cascade is not None:
-            option = "--dry-run" if dry_run else "--cascade"
-            raise GroundingError(f"{option} is about asking a model; say which one with --grounder llm-B:MODEL")
+        else:
+            _refuse({"--dry-run": dry_run or None, "--cascade": cascade, "--budget": budget, "--price": price})
         own = grounding.make_grounder(
             "embedded" if asker else grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain
         )
@@ -139,7 +146,7 @@ def ground_command(
             if tiers is not None:
                 answers = own.ground_views([("", view) for view in shown], tbox)
                 shown = [shown[index] for index in tiers.unsure(answers)]
-            _show_plan(asker.plan(shown, tbox), len(shown), output)
+            _show_plan(asker.plan(shown, tbox), len(shown), asker.tariff, output)
             return
         result = grounding.ground(
             found,
@@ -160,9 +167,16 @@ def ground_command(
         _tell_cost(asker.report, result)
 
 
-def _show_plan(batches: "list[Batch]", object_count: int, output: Path | None) -> None:
-    """Print the prompts that would be sent, what they share once, and their size on stderr."""
-    from usd2kg.grounding.llm.prompts import estimate_tokens  # noqa: PLC0415
+def _refuse(options: dict[str, object]) -> None:
+    """Raise an error for the first of the options that was given."""
+    for option, value in options.items():
+        if value is not None:
+            raise GroundingError(f"{option} is about asking a model; say which one with --grounder llm-B:MODEL")
+
+
+def _show_plan(batches: "list[Batch]", object_count: int, tariff: "Tariff | None", output: Path | None) -> None:
+    """Print the prompts that would be sent, what they share once, and their size and price on stderr."""
+    from usd2kg.grounding.llm.prices import estimate_usage, format_price  # noqa: PLC0415
 
     lines: list[str] = []
     told: str | None = None
@@ -172,19 +186,27 @@ def _show_plan(batches: "list[Batch]", object_count: int, output: Path | None) -
             lines.append(f"=== instructions ===\n{told}\n")
         lines.append(f"=== prompt {number} of {len(batches)} ===\n{batch.request.user}\n")
     emit(printable("\n".join(lines)), output)
-    tokens = sum(estimate_tokens(batch.request.system + batch.request.user) for batch in batches)
+    usages = [estimate_usage(batch) for batch in batches]
+    tokens = sum(usage.input_tokens for usage in usages)
     share = tokens / max(1, object_count)
-    talk(f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens ({share:,.0f} an object)")
+    price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"
+    talk(
+        f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens ({share:,.0f} an object) "
+        f"and {sum(usage.output_tokens for usage in usages):,} output tokens, {price}"
+    )
 
 
 def _tell_cost(report: "RunReport", result: "Grounding") -> None:
+    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
+
     unread = sum(1 for prediction in result.predictions if prediction.class_iri is None)
     usage = report.usage
     guessed = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
+    price = "price unknown" if report.price is None else format_price(report.price)
     talk(
         f"{report.objects} objects by {report.prompts} prompts: {report.completions} completions asked for, "
         f"{report.cached} known before, {report.repairs} repairs, {report.degenerate} degenerate, "
         f"{report.failed} prompts failed, {unread} objects without a class; {usage.input_tokens:,} input tokens "
-        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens{guessed}, "
+        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens{guessed}, {price}, "
         f"{report.seconds:.1f} s"
     )

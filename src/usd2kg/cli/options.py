@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AbbreviatedLength",
     "Abstains",
+    "Budget",
     "Cascade",
     "ClassSizes",
     "ClassTree",
@@ -31,6 +32,7 @@ __all__ = [
     "ObjectList",
     "ObjectsPerPrompt",
     "OntologyFile",
+    "Price",
     "Refresh",
     "Regime",
     "Replay",
@@ -69,6 +71,17 @@ EachObject = Annotated[
 ]
 TokenBudget = Annotated[
     int | None, typer.Option("--token-budget", min=1, help="Tokens after which a model is asked no more.")
+]
+Budget = Annotated[
+    float | None, typer.Option("--budget", min=0, help="US dollars after which a model is asked no more.")
+]
+Price = Annotated[
+    str | None,
+    typer.Option(
+        "--price",
+        metavar="INPUT/OUTPUT",
+        help="What a model's tokens cost, in US dollars per million; default: the list price, where there is one.",
+    ),
 ]
 CompletionsFile = Annotated[
     Path | None,

@@ -26,7 +26,7 @@ MODEL = "google:gemini-2.5-flash"
 SCHEMA = {"type": "object", "properties": {"reasoning": {"type": "string"}, "class": {"enum": ["Cup", "Fork"]}}}
 REQUEST = Request("Classes: Cup, Fork", "/World/cup_01", SCHEMA)
 TOKENS = (('{"class": "', -0.125), ("Cup", -0.5), ('"}', 0.0))
-COMPLETION = Completion('{"class": "Cup"}', Finish.STOP, Usage(12, 8, 5, 2), TOKENS, "A cup.")
+COMPLETION = Completion('{"class": "Cup"}', Finish.STOP, Usage(12, 8, 5, 2, 3), TOKENS, "A cup.")
 SPAWN = multiprocessing.get_context("spawn")
 
 
@@ -60,7 +60,7 @@ TOKENS_OF_A_TEXT = st.lists(st.tuples(TEXTS, st.floats(max_value=0, allow_nan=Fa
         Completion,
         TEXTS,
         st.sampled_from(Finish),
-        st.builds(Usage, COUNTS, COUNTS, COUNTS, COUNTS),
+        st.builds(Usage, COUNTS, COUNTS, COUNTS, COUNTS, COUNTS),
         TOKENS_OF_A_TEXT,
         TEXTS,
     ),
@@ -473,7 +473,13 @@ def test_a_recording_is_sorted_readable_and_the_same_whatever_the_order(tmp_path
         "completion": {
             "text": '{"class": "Cup"}',
             "finish": "stop",
-            "usage": {"input_tokens": 12, "cached_tokens": 8, "output_tokens": 5, "estimated_tokens": 2},
+            "usage": {
+                "input_tokens": 12,
+                "cached_tokens": 8,
+                "output_tokens": 5,
+                "estimated_tokens": 2,
+                "written_tokens": 3,
+            },
             "tokens": [['{"class": "', -0.125], ["Cup", -0.5], ['"}', 0.0]],
             "thinking": "A cup.",
         },

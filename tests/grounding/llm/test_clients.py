@@ -319,6 +319,14 @@ class TestAnthropic:
 
         assert completion == Completion("{}", Finish.STOP, Usage(40 + 60, 60, 7), (), "a blade")
 
+    def test_completion_tells_what_was_written_into_the_cache(self):
+        reply = servers.anthropic_reply("{}")
+        reply.body["usage"] = servers.ANTHROPIC_USAGE | {"cache_creation_input_tokens": 30}
+
+        completion, _ = _complete("anthropic:claude-haiku-4-5", replace(reply, events=None))
+
+        assert completion.usage == Usage(40 + 60 + 30, 60, 7, written_tokens=30)
+
     def test_model_without_schemas_gets_it_in_the_prompt(self):
         _, (received,) = _complete("anthropic:claude-unheard-of", servers.anthropic_reply("{}"))
 

@@ -5,6 +5,7 @@ import math
 import re
 import threading
 from collections.abc import Callable
+from decimal import Decimal
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from usd2kg.grounding import Status, ground
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.grounder import LLMGrounder, distinct_views
+from usd2kg.grounding.llm.prices import parse_price
 from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, NamingRegime, ObjectView, Scene
@@ -176,7 +178,57 @@ class TestTrouble:
         grounder = LLMGrounder(model, PromptOptions(), workers=1, token_budget=200)
         found = ground(kitchen("muga", "mugb", "mugc"), home_tbox, grounder).predictions
         assert [p.status for p in found] == [Status.GROUNDED, Status.GROUNDED, Status.FAILED]
-        assert re.search(r"220 tokens are used of a budget of 200", found[2].explanation)
+        assert re.search(r"220 tokens are used of a budget of 200; raise --token-budget", found[2].explanation)
+
+
+class TestPrice:
+    """A prompt of the test model has 100 tokens, of which 40 are cached by the server, and 10 come back."""
+
+    TARIFF = staticmethod(parse_price("1000/5000"))
+    """A tenth of a dollar for a prompt, a twentieth for its answer."""
+
+    def test_the_price_of_a_run_is_the_sum(self, home_tbox: TBox):
+        grounder = LLMGrounder(Model(always("Cup")), PromptOptions(), tariff=self.TARIFF)
+        ground(kitchen("muga", "mugb"), home_tbox, grounder)
+        assert grounder.report.price == Decimal("0.30")
+
+    def test_repairs_are_paid_too(self, home_tbox: TBox):
+        grounder = LLMGrounder(Model(always("Chalice")), PromptOptions(), tariff=self.TARIFF)
+        ground(kitchen("mug"), home_tbox, grounder)
+        assert grounder.report.price == Decimal("0.30")
+
+    def test_what_is_known_costs_nothing(self, home_tbox: TBox, tmp_path: Path):
+        with CompletionCache(tmp_path / "said.sqlite") as cache:
+            prices = []
+            for _ in range(2):
+                grounder = LLMGrounder(Model(always("Cup")), PromptOptions(), cache=cache, tariff=self.TARIFF)
+                ground(kitchen("mug"), home_tbox, grounder)
+                prices.append(grounder.report.price)
+        assert prices == [Decimal("0.15"), Decimal(0)]
+
+    def test_without_a_tariff_the_price_is_unknown(self, home_tbox: TBox):
+        grounder = LLMGrounder(Model(always("Cup")), PromptOptions())
+        ground(kitchen("mug"), home_tbox, grounder)
+        assert grounder.report.price is None
+
+    def test_a_budget_stops_and_keeps_what_is_done(self, home_tbox: TBox):
+        grounder = LLMGrounder(
+            Model(always("Cup")), PromptOptions(), workers=1, tariff=self.TARIFF, budget=Decimal("0.30")
+        )
+        found = ground(kitchen("muga", "mugb", "mugc"), home_tbox, grounder).predictions
+        assert [p.status for p in found] == [Status.GROUNDED, Status.GROUNDED, Status.FAILED]
+        assert found[2].explanation == "not asked: $0.3000 are spent of a budget of $0.3000; raise --budget"
+
+    def test_a_budget_of_nothing_takes_what_is_known(self, home_tbox: TBox, tmp_path: Path):
+        options = PromptOptions(strategy=Strategy.NAME_ONLY)
+        with CompletionCache(tmp_path / "said.sqlite") as cache:
+            ground(kitchen("mug"), home_tbox, LLMGrounder(Model(always("Cup")), options, cache=cache))
+            broke = LLMGrounder(Model(always("Bowl")), options, cache=cache, tariff=self.TARIFF, budget=Decimal(0))
+            assert answers(kitchen("mug", "bowl"), home_tbox, broke) == ["Cup", None]
+
+    def test_a_budget_needs_a_price(self):
+        with pytest.raises(GroundingError, match=r"its price is not known; .*state it with --price INPUT/OUTPUT"):
+            LLMGrounder(Model(always("Cup")), PromptOptions(), budget=Decimal(1))
 
 
 class TestCache:

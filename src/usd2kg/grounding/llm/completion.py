@@ -49,6 +49,8 @@ class Usage:
     output_tokens: int = 0
     estimated_tokens: int = 0
     """Those of input and output that we estimate, as the server did not count them: about one for four bytes."""
+    written_tokens: int = 0
+    """Those of the input that the server wrote into its cache, which costs more at Anthropic's."""
 
     def __add__(self, other: "Usage") -> "Usage":
         return Usage(
@@ -56,6 +58,7 @@ class Usage:
             self.cached_tokens + other.cached_tokens,
             self.output_tokens + other.output_tokens,
             self.estimated_tokens + other.estimated_tokens,
+            self.written_tokens + other.written_tokens,
         )
 
 

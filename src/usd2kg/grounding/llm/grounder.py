@@ -5,6 +5,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from threading import Lock
 
 from usd2kg.errors import GroundingError
@@ -12,6 +13,7 @@ from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.prompts import Batch, PromptOptions, Strategy, build_requests
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
@@ -41,6 +43,11 @@ class RunReport:
     """Prompts that nobody answered."""
     usage: Usage = field(default_factory=Usage)
     """Tokens of what was asked for; what is cached costs nothing."""
+    price: Decimal | None = None
+    """US dollars for these tokens, repairs among them; None where the model's price is not known.
+
+    What a server may ask for requests that failed is not in it.
+    """
     seconds: float = 0.0
 
 
@@ -61,6 +68,8 @@ class LLMGrounder:
         shortlist: int | None = None,
         workers: int = 4,
         token_budget: int | None = None,
+        tariff: Tariff | None = None,
+        budget: Decimal | None = None,
     ) -> None:
         """Make the grounder.
 
@@ -74,13 +83,24 @@ class LLMGrounder:
                 those above them and the roots; None offers all.
             workers: prompts that are on their way at the same time.
             token_budget: input and output tokens after which nothing more is asked.
+            tariff: what tokens cost; None where that is not known.
+            budget: US dollars after which nothing more is asked. Prompts that are on their way then are paid, too.
+
+        Raises:
+            GroundingError: there is a budget, but no tariff.
         """
+        if budget is not None and tariff is None:
+            raise GroundingError(
+                f"model '{client.model}': its price is not known; expected one for --budget, "
+                "state it with --price INPUT/OUTPUT in dollars per million tokens"
+            )
         self._client, self._options, self._cache = client, options, cache
         self._is_refreshed, self._is_once_each, self._workers = is_refreshed, is_once_each, workers
-        self._shortlist, self._budget = shortlist, token_budget
+        self._shortlist, self._token_budget = shortlist, token_budget
+        self.tariff, self._budget = tariff, budget
         self._lock = Lock()
         self._failures = 0
-        self.report = RunReport()
+        self.report = RunReport(price=None if tariff is None else Decimal(0))
 
     @property
     def settings(self) -> Mapping[str, str]:
@@ -181,6 +201,8 @@ class LLMGrounder:
             self._failures = 0
             self.report.completions += 1
             self.report.usage += completion.usage
+            if self.tariff is not None and self.report.price is not None:
+                self.report.price += self.tariff(completion.usage)
         if self._cache is not None:
             self._cache.put(self._client.model, request, completion, replace=self._is_refreshed)
         return completion
@@ -188,9 +210,15 @@ class LLMGrounder:
     def _check_going_on(self) -> None:
         with self._lock:
             used = self.report.usage.input_tokens + self.report.usage.output_tokens
-            failures = self._failures
-        if self._budget is not None and used >= self._budget:
-            raise GroundingError(f"not asked: {used} tokens are used of a budget of {self._budget}; raise --budget")
+            paid, failures = self.report.price, self._failures
+        if self._token_budget is not None and used >= self._token_budget:
+            raise GroundingError(
+                f"not asked: {used} tokens are used of a budget of {self._token_budget}; raise --token-budget"
+            )
+        if self._budget is not None and paid is not None and paid >= self._budget:
+            raise GroundingError(
+                f"not asked: {format_price(paid)} are spent of a budget of {format_price(self._budget)}; raise --budget"
+            )
         if failures >= _FAILURES_IN_A_ROW:
             raise GroundingError(f"not asked: {failures} prompts in a row were not answered; see the first of them")
 

@@ -39,7 +39,13 @@ _COMPLETION = {
     "tokens": (list,),
     "thinking": (str,),
 }
-_USAGE = {"input_tokens": (int,), "cached_tokens": (int,), "output_tokens": (int,), "estimated_tokens": (int,)}
+_USAGE = {
+    "input_tokens": (int,),
+    "cached_tokens": (int,),
+    "output_tokens": (int,),
+    "estimated_tokens": (int,),
+    "written_tokens": (int,),
+}
 UNREADABLE = (ValueError, OverflowError, RecursionError)
 """What reading JSON raises that is not what was written."""
 
@@ -117,7 +123,7 @@ def upgrade_completion(data: Any) -> Any:
     if "mean_logprob" not in data or "tokens" in data:
         return data
     kept = {name: value for name, value in data.items() if name != "mean_logprob"}
-    return kept | {"tokens": [], "usage": data["usage"] | {"estimated_tokens": 0}}
+    return kept | {"tokens": [], "usage": data["usage"] | {"estimated_tokens": 0, "written_tokens": 0}}
 
 
 def checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict[str, Any]:

@@ -4,6 +4,7 @@ import weakref
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from decimal import Decimal
 from pathlib import Path
 from typing import TypedDict
 
@@ -12,6 +13,7 @@ from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
+from usd2kg.grounding.llm.prices import Tariff, find_tariff, parse_price
 from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
 
 __all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
@@ -34,6 +36,10 @@ class LLMSettings:
     shortlist: int | None = None
     """Classes of the embedded grounder that are offered for each object; None for all."""
     token_budget: int | None = None
+    price: str | None = None
+    """Dollars for a million tokens, as INPUT/OUTPUT; None for the list price."""
+    budget: Decimal | None = None
+    """US dollars."""
     completions: Path | None = None
     """File of the cache; None for the user's."""
     is_refreshed: bool = False
@@ -44,6 +50,8 @@ class LLMSettings:
 class _Form(TypedDict):
     is_once_each: bool
     shortlist: int | None
+    tariff: Tariff | None
+    budget: Decimal | None
 
 
 @contextmanager
@@ -51,8 +59,10 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
     """Open a grounder, its connections and its cache; a dry one plans its prompts and cannot ask.
 
     Raises:
-        GroundingError: the strategy or model is unknown, a key is missing, the cache cannot be opened.
+        GroundingError: the strategy or model is unknown, a key is missing, the cache cannot be opened, a price is
+            malformed or, though there is a budget in dollars, unknown.
     """
+    tariff = find_tariff(settings.model) if settings.price is None else parse_price(settings.price)
     options = PromptOptions(
         strategy=settings.strategy,
         is_tree=settings.is_tree,
@@ -61,7 +71,12 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
         has_more_evidence=settings.has_more_evidence,
         shuffle_seed=settings.shuffle_seed,
     )
-    form: _Form = {"is_once_each": not settings.is_each_object, "shortlist": settings.shortlist}
+    form: _Form = {
+        "is_once_each": not settings.is_each_object,
+        "shortlist": settings.shortlist,
+        "tariff": tariff,
+        "budget": settings.budget,
+    }
     if is_dry:
         yield LLMGrounder(_NoClient(settings.model), options, **form)
         return

@@ -110,7 +110,9 @@ def read_completion(
     thinking = "".join(part.content for part in response.parts if isinstance(part, ThinkingPart))
     finish = Finish.LENGTH if response.finish_reason == "length" else Finish.STOP
     usage = response.usage
-    counted = Usage(usage.input_tokens, usage.cache_read_tokens, usage.output_tokens)
+    counted = Usage(
+        usage.input_tokens, usage.cache_read_tokens, usage.output_tokens, written_tokens=usage.cache_write_tokens
+    )
     if cut is not None and provider != "google":
         # Only Gemini counts as it goes; what Anthropic's servers tell at the start of a message is a stand-in.
         counted = replace(counted, output_tokens=0)
