@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+from dataclasses import replace
 from itertools import repeat
 from pathlib import Path
 
@@ -111,6 +112,18 @@ class TestPrice:
         assert done.code == 0
         assert {p["explanation"] for p in found} == {"not asked: $0 are spent of a budget of $0; raise --budget"}
 
+    def test_a_budget_stops_and_keeps_what_is_done(self, run: Run, kitchen: Path):
+        options = ("--each-object", "--price", "10/100", "--budget", "0.001", "--concurrency", "1")
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, *options, "--format", "json")
+            assert len(server.received) == 1
+        found = json.loads(done.out)["predictions"]
+        assert done.code == 0
+        assert [p["status"] for p in found].count("grounded") == 1
+        told = "not asked: $0.0017 are spent of a budget of $0.0010; raise --budget"
+        assert [p["explanation"] for p in found].count(told) == 2
+
     def test_a_budget_without_a_price_is_told(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
@@ -134,6 +147,32 @@ class TestPrice:
         tokens = re.search(r"and (\d+) output tokens, about \$(\d+)\.00", stated.err)
         assert tokens is not None
         assert tokens[1] == tokens[2]
+
+
+class TestTraffic:
+    def test_requests_and_waits_are_told(self, run: Run, kitchen: Path):
+        with serve(refuse(429, "slow down", Retry_After="0"), openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, "--concurrency", "1")
+        assert "; 3 requests sent, 1 of them again, 1 waits of 0.0 s in all; " in done.err
+
+    def test_a_rate_spaces_them(self, run: Run, kitchen: Path):
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, "--requests-per-minute", "600", "--each-object")
+        # A tenth of a second and two, less what it took to get there.
+        assert re.search(r"; 3 requests sent, 0 of them again, [12] waits of 0\.[123] s in all; ", done.err)
+
+    @pytest.mark.parametrize("most", [1, 3])
+    def test_no_more_are_on_their_way_at_once_than_said(self, run: Run, kitchen: Path, most: int):
+        with serve(replace(openai_reply(cup()), pause_s=0.05)) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            run("ground", kitchen, "--grounder", model, "--each-object", "--concurrency", str(most))
+            assert server.most_at_once == most
+
+    def test_a_replay_sends_nothing(self, run: Run, kitchen: Path):
+        done = run("ground", kitchen, "--grounder", "llm-A:openai:gpt-4o", "--replay")
+        assert "; 0 requests sent, 0 of them again, 0 waits of 0.0 s in all; " in done.err
 
 
 def test_a_model_that_loops_is_cut_off_and_its_tokens_are_told_as_estimated(run: Run, kitchen: Path):

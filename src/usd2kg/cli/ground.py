@@ -3,10 +3,11 @@
 from contextlib import ExitStack
 from decimal import Decimal
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from usd2kg.cli.model_run import show_plan, tell_cost
 from usd2kg.cli.options import (
     AbbreviatedLength,
     Abstains,
@@ -15,6 +16,7 @@ from usd2kg.cli.options import (
     ClassSizes,
     ClassTree,
     CompletionsFile,
+    Concurrency,
     Dictionary,
     DryRun,
     EachObject,
@@ -34,6 +36,7 @@ from usd2kg.cli.options import (
     Refresh,
     Regime,
     Replay,
+    RequestsPerMinute,
     SceneFile,
     Shortlist,
     Shuffle,
@@ -43,14 +46,8 @@ from usd2kg.cli.options import (
     UpAxis,
     read_options,
 )
-from usd2kg.cli.output import emit, printable, talk
+from usd2kg.cli.output import emit, talk
 from usd2kg.errors import GroundingError
-
-if TYPE_CHECKING:
-    from usd2kg.grounding import Grounding
-    from usd2kg.grounding.llm.grounder import RunReport
-    from usd2kg.grounding.llm.prices import Tariff
-    from usd2kg.grounding.llm.prompts import Batch
 
 __all__ = ["ground_command"]
 
@@ -70,6 +67,8 @@ def ground_command(
     token_budget: TokenBudget = None,
     budget: Budget = None,
     price: Price = None,
+    concurrency: Concurrency = 4,
+    requests_per_minute: RequestsPerMinute = None,
     completions: CompletionsFile = None,
     refresh: Refresh = False,
     replay: Replay = False,
@@ -123,6 +122,8 @@ def ground_command(
                 token_budget=token_budget,
                 budget=None if budget is None else Decimal(str(budget)),
                 price=price,
+                concurrency=concurrency,
+                requests_per_minute=requests_per_minute,
                 completions=completions,
                 is_refreshed=refresh,
                 is_replayed=replay,
@@ -146,7 +147,7 @@ def ground_command(
             if tiers is not None:
                 answers = own.ground_views([("", view) for view in shown], tbox)
                 shown = [shown[index] for index in tiers.unsure(answers)]
-            _show_plan(asker.plan(shown, tbox), len(shown), asker.tariff, output)
+            show_plan(asker.plan(shown, tbox), len(shown), asker.tariff, output)
             return
         result = grounding.ground(
             found,
@@ -164,7 +165,7 @@ def ground_command(
         told = tiers.report
         talk(f"{told.sure} objects sure by themselves, {told.decided} decided by the model, {told.kept} left as it was")
     if asker is not None:
-        _tell_cost(asker.report, result)
+        tell_cost(asker.report, result)
 
 
 def _refuse(options: dict[str, object]) -> None:
@@ -172,41 +173,3 @@ def _refuse(options: dict[str, object]) -> None:
     for option, value in options.items():
         if value is not None:
             raise GroundingError(f"{option} is about asking a model; say which one with --grounder llm-B:MODEL")
-
-
-def _show_plan(batches: "list[Batch]", object_count: int, tariff: "Tariff | None", output: Path | None) -> None:
-    """Print the prompts that would be sent, what they share once, and their size and price on stderr."""
-    from usd2kg.grounding.llm.prices import estimate_usage, format_price  # noqa: PLC0415
-
-    lines: list[str] = []
-    told: str | None = None
-    for number, batch in enumerate(batches, start=1):
-        if batch.request.system != told:
-            told = batch.request.system
-            lines.append(f"=== instructions ===\n{told}\n")
-        lines.append(f"=== prompt {number} of {len(batches)} ===\n{batch.request.user}\n")
-    emit(printable("\n".join(lines)), output)
-    usages = [estimate_usage(batch) for batch in batches]
-    tokens = sum(usage.input_tokens for usage in usages)
-    share = tokens / max(1, object_count)
-    price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"
-    talk(
-        f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens ({share:,.0f} an object) "
-        f"and {sum(usage.output_tokens for usage in usages):,} output tokens, {price}"
-    )
-
-
-def _tell_cost(report: "RunReport", result: "Grounding") -> None:
-    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
-
-    unread = sum(1 for prediction in result.predictions if prediction.class_iri is None)
-    usage = report.usage
-    guessed = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
-    price = "price unknown" if report.price is None else format_price(report.price)
-    talk(
-        f"{report.objects} objects by {report.prompts} prompts: {report.completions} completions asked for, "
-        f"{report.cached} known before, {report.repairs} repairs, {report.degenerate} degenerate, "
-        f"{report.failed} prompts failed, {unread} objects without a class; {usage.input_tokens:,} input tokens "
-        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens{guessed}, {price}, "
-        f"{report.seconds:.1f} s"
-    )

@@ -16,6 +16,7 @@ __all__ = [
     "ClassSizes",
     "ClassTree",
     "CompletionsFile",
+    "Concurrency",
     "Dictionary",
     "DryRun",
     "EachObject",
@@ -36,6 +37,7 @@ __all__ = [
     "Refresh",
     "Regime",
     "Replay",
+    "RequestsPerMinute",
     "SceneFile",
     "Shapes",
     "Shortlist",
@@ -81,6 +83,15 @@ Price = Annotated[
         "--price",
         metavar="INPUT/OUTPUT",
         help="What a model's tokens cost, in US dollars per million; default: the list price, where there is one.",
+    ),
+]
+Concurrency = Annotated[
+    int, typer.Option("--concurrency", min=1, max=64, help="Prompts on their way to a model at once; default: 4.")
+]
+RequestsPerMinute = Annotated[
+    int | None,
+    typer.Option(
+        "--requests-per-minute", min=1, help="Requests that a model may be sent in a minute; default: any number."
     ),
 ]
 CompletionsFile = Annotated[

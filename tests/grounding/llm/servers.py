@@ -51,6 +51,9 @@ class FakeServer:
         self._lock = threading.Lock()
         self._is_closing = threading.Event()
         self.received: list[Received] = []
+        self._at_once = 0
+        self.most_at_once = 0
+        """Requests that were being answered at the same time."""
         self.events_sent = 0
         self.streams_cut_off = 0
         """Streams whose client was gone before their end."""
@@ -74,6 +77,17 @@ class FakeServer:
             self.received.append(received)
             return self._replies.pop(0) if len(self._replies) > 1 else self._replies[0]
 
+    @contextmanager
+    def _answering(self) -> Iterator[None]:
+        with self._lock:
+            self._at_once += 1
+            self.most_at_once = max(self.most_at_once, self._at_once)
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._at_once -= 1
+
     def _make_handler(self) -> type[BaseHTTPRequestHandler]:
         server = self
 
@@ -86,7 +100,10 @@ class FakeServer:
                 size = int(self.headers["Content-Length"])
                 headers = {name.lower(): value for name, value in self.headers.items()}
                 received = Received(self.path, headers, json.loads(self.rfile.read(size)), self.client_address[1])
-                reply = server._take(received)
+                with server._answering():
+                    self._reply(server._take(received), received)
+
+            def _reply(self, reply: Reply, received: Received) -> None:
                 if reply.hangs:
                     server._is_closing.wait()
                     self.close_connection = True

@@ -52,8 +52,8 @@ def _fail(model: str, *replies, **options) -> tuple[str, int, str]:
         with pytest.raises(GroundingError) as caught:
             client.complete(REQUEST)
         assert caught.value.__cause__ is None and caught.value.__context__ is None
-        assert client.attempts == len(server.received)
-        return str(caught.value), client.attempts, server.url
+        assert client.traffic.attempts == len(server.received)
+        return str(caught.value), client.traffic.attempts, server.url
 
 
 class TestOpenAI:
@@ -128,7 +128,7 @@ class TestOpenAI:
             first, second = client.complete(REQUEST), client.complete(REQUEST)
 
             assert [received.body.get("logprobs") for received in server.received] == [True, None, None]
-            assert client.attempts == 3
+            assert client.traffic.attempts == 3
         assert first.tokens == second.tokens == ()
         assert first.mean_logprob is None
 
@@ -310,7 +310,7 @@ class TestAnthropic:
             ):
                 client.complete(request)
 
-            assert client.attempts == 0 and server.received == []
+            assert client.traffic.attempts == 0 and server.received == []
 
     def test_completion_counts_cached_tokens_as_input(self):
         reply = servers.anthropic_reply("{}", thinking="a blade")
@@ -440,7 +440,7 @@ class TestRetries:
             with pytest.raises(GroundingError, match="no readable answer after 3 tries: "):
                 client.complete(REQUEST)
 
-            assert client.attempts == 3
+            assert client.traffic.attempts == 3
         assert waits == [1.0, 2.0]
 
     def test_bound_of_a_wait_is_a_minute(self):
@@ -496,7 +496,7 @@ class TestModelStrings:
         model = f"openai:org/m@v2@http://{host}:8000/v1"
         with make_client(model, environment={}) as client:
             assert client.model == model
-            assert client.attempts == 0
+            assert client.traffic.attempts == 0
 
     def test_missing_extra_names_its_install_command(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "pydantic_ai.models", None)
@@ -549,7 +549,7 @@ class TestLife:
                 completions = list(pool.map(lambda _: client.complete(REQUEST).text, range(40)))
 
             assert completions == ["{}"] * 40
-            assert client.attempts == len(server.received) == 40
+            assert client.traffic.attempts == len(server.received) == 40
 
     def test_threads_count_their_own_tries(self):
         def fail(client: HttpClient) -> str:
@@ -563,7 +563,7 @@ class TestLife:
             ThreadPoolExecutor(4) as pool,
         ):
             texts = list(pool.map(fail, [client] * 8))
-            assert client.attempts == 16
+            assert client.traffic.attempts == 16
         assert all("status 500 after 2 tries: oops" in text for text in texts)
 
     def test_works_inside_an_event_loop(self):

@@ -22,6 +22,7 @@ from usd2kg.grounding.llm.completion import Completion, Request
 from usd2kg.grounding.llm.providers import closing_responses, open_http, serve_model
 from usd2kg.grounding.llm.retry import Failure, Redactor, Retries, advise, read_failure
 from usd2kg.grounding.llm.streaming import ask_for_stream
+from usd2kg.grounding.llm.traffic import Pace, Traffic
 from usd2kg.grounding.llm.wire import is_sampled, make_parameters, make_settings, older_format, read_completion
 
 if TYPE_CHECKING:
@@ -39,6 +40,8 @@ def make_client(
     retries: int = 4,
     sleep: Callable[[float], object] = time.sleep,
     random: Callable[[], float] = random_numbers.random,
+    requests_per_minute: float | None = None,
+    clock: Callable[[], float] = time.monotonic,
 ) -> "HttpClient":
     """Return a client for the model; nothing is sent yet.
 
@@ -49,6 +52,8 @@ def make_client(
         retries: how often a request is sent again after 408, 409, 429, 5xx, a timeout or a broken connection.
         sleep: waits so many seconds between two requests.
         random: a number from 0 to 1, for the jitter.
+        requests_per_minute: how many requests may be sent, those sent again among them; None for any number.
+        clock: seconds since whenever, for the rate.
 
     Raises:
         GroundingError: the model is malformed, its key is missing, or the extra `llm` is not installed.
@@ -65,7 +70,10 @@ def make_client(
             f"model '{model}': the module {missing} is not installed; "
             "expected the extra `llm`, run pip install 'usd2kg[llm]'"
         ) from error
-    return HttpClient(address, served, http, redact, Retries(retries, sleep, random), timeout_s)
+    traffic = Traffic()
+    wait = traffic.counting(sleep)
+    pace = Pace(requests_per_minute, wait, clock)
+    return HttpClient(address, served, http, redact, Retries(retries, wait, random), pace, traffic, timeout_s)
 
 
 class HttpClient:
@@ -82,15 +90,18 @@ class HttpClient:
         http: "AsyncClient",
         redact: Redactor,
         retries: Retries,
+        pace: Pace,
+        traffic: Traffic,
         timeout_s: float,
     ) -> None:
         self.model = address.model
-        self.attempts = 0
-        """HTTP requests sent so far, failed ones among them."""
+        self.traffic = traffic
+        """What was sent so far."""
         self._address = address
         self._served = served
         self._redact = redact
         self._retries = retries
+        self._pace = pace
         self._timeout_s = timeout_s
         self._abilities = Abilities(logprobs=address.provider == "openai", json_schemas=address.is_compatible)
         self._background = Background()
@@ -122,7 +133,8 @@ class HttpClient:
         def send() -> Completion | Failure:
             nonlocal tries
             tries += 1
-            return self._background.run(self._send(request))
+            self.traffic.add(retries=1 if tries > 1 else 0)
+            return self._send(request)
 
         outcome = self._retries.run(send)
         if isinstance(outcome, Failure):
@@ -130,25 +142,30 @@ class HttpClient:
             raise GroundingError(self._explain(outcome, tries))
         return outcome
 
-    async def _send(self, request: Request) -> Completion | Failure:
+    def _send(self, request: Request) -> Completion | Failure:
         """Send a request, again without what the server refuses; what it refused once it is not asked for again."""
         asked = self._abilities
         if not is_sampled(self._served, request.is_thinking):
             asked = replace(asked, logprobs=False)
-        outcome = await self._ask(request, asked)
+        outcome = self._send_once(request, asked)
         while isinstance(outcome, Failure) and (rest := asked.without(outcome)) != asked:
-            # Other requests on their way may have found out more meanwhile.
+            # Other threads may have found out more meanwhile.
             self._abilities = self._abilities.without(outcome)
             asked = rest
-            outcome = await self._ask(request, asked)
+            outcome = self._send_once(request, asked)
         return outcome
 
-    async def _ask(self, request: Request, asked: Abilities) -> Completion | Failure:
+    def _send_once(self, request: Request, asked: Abilities) -> Completion | Failure:
+        prompt = self._make_prompt(request, asked)
+        self._pace.wait_for_turn()
+        self.traffic.add(attempts=1)
+        return self._background.run(self._ask(request, prompt, asked))
+
+    async def _ask(self, request: Request, prompt: dict[str, Any], asked: Abilities) -> Completion | Failure:
         from pydantic_ai import direct  # noqa: PLC0415 - the extra may be missing
         from pydantic_ai.exceptions import AgentRunError, UserError  # noqa: PLC0415
 
-        prompt, provider = self._make_prompt(request, asked), self._address.provider
-        self.attempts += 1
+        provider = self._address.provider
         try:
             async with asyncio.timeout(self._timeout_s), closing_responses():
                 if asked.streams:

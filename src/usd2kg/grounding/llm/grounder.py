@@ -15,6 +15,7 @@ from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.prompts import Batch, PromptOptions, Strategy, build_requests
+from usd2kg.grounding.llm.traffic import Traffic
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ObjectView
@@ -48,6 +49,8 @@ class RunReport:
 
     What a server may ask for requests that failed is not in it.
     """
+    traffic: Traffic = field(default_factory=Traffic)
+    """Requests and pauses that it took; none where the model is not asked over a network."""
     seconds: float = 0.0
 
 
@@ -70,6 +73,7 @@ class LLMGrounder:
         token_budget: int | None = None,
         tariff: Tariff | None = None,
         budget: Decimal | None = None,
+        traffic: Traffic | None = None,
     ) -> None:
         """Make the grounder.
 
@@ -85,6 +89,7 @@ class LLMGrounder:
             token_budget: input and output tokens after which nothing more is asked.
             tariff: what tokens cost; None where that is not known.
             budget: US dollars after which nothing more is asked. Prompts that are on their way then are paid, too.
+            traffic: where the client counts its requests.
 
         Raises:
             GroundingError: there is a budget, but no tariff.
@@ -100,7 +105,7 @@ class LLMGrounder:
         self.tariff, self._budget = tariff, budget
         self._lock = Lock()
         self._failures = 0
-        self.report = RunReport(price=None if tariff is None else Decimal(0))
+        self.report = RunReport(price=None if tariff is None else Decimal(0), traffic=traffic or Traffic())
 
     @property
     def settings(self) -> Mapping[str, str]:

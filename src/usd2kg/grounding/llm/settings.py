@@ -15,6 +15,7 @@ from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.prices import Tariff, find_tariff, parse_price
 from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
+from usd2kg.grounding.llm.traffic import Traffic
 
 __all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
 
@@ -40,6 +41,9 @@ class LLMSettings:
     """Dollars for a million tokens, as INPUT/OUTPUT; None for the list price."""
     budget: Decimal | None = None
     """US dollars."""
+    concurrency: int = 4
+    """Prompts that are on their way at the same time."""
+    requests_per_minute: int | None = None
     completions: Path | None = None
     """File of the cache; None for the user's."""
     is_refreshed: bool = False
@@ -82,17 +86,24 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
         return
     with ExitStack() as stack:
         cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
-        client: Client = (
-            _NoClient(settings.model) if settings.is_replayed else stack.enter_context(make_client(settings.model))
-        )
+        client, traffic = _open_client(settings, stack)
         yield LLMGrounder(
             client,
             options,
             cache=cache,
             is_refreshed=settings.is_refreshed,
+            workers=settings.concurrency,
             token_budget=settings.token_budget,
+            traffic=traffic,
             **form,
         )
+
+
+def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traffic]:
+    if settings.is_replayed:
+        return _NoClient(settings.model), Traffic()
+    client = make_client(settings.model, requests_per_minute=settings.requests_per_minute)
+    return stack.enter_context(client), client.traffic
 
 
 def parse_llm_name(name: str) -> tuple[str, Strategy]:
