@@ -1,12 +1,12 @@
 """build: the whole chain, from a scene and an ontology to a knowledge graph."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.grounding import Grounder, Grounding, ground
-from usd2kg.ontology import TBox, load_home_tbox, load_tbox
+from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox
 from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
 
 __all__ = ["BuildResult", "build", "open_tbox"]
@@ -23,13 +23,14 @@ class BuildResult:
 
 
 def build(
-    scene: Path | str,
+    scene: Scene | Path | str,
     ontology: TBox | Path | str | None = None,
     *,
     grounder: Grounder | str = "embedded",
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
+    decisions: Mapping[str, ClassIRI] | None = None,
     base: str | None = None,
     profile: str = "auto",
     options: ReadOptions | None = None,
@@ -37,22 +38,23 @@ def build(
     """Return the knowledge graph of a USD scene, and everything on the way to it.
 
     Args:
-        scene: the stage's root layer.
+        scene: the stage's root layer, or a scene that was read before.
         ontology: an OWL file, or a TBox that was loaded before; by default the built-in home TBox.
         grounder: a grounder, or the name of one.
         regime: how names are masked; for evaluation.
         evidence: the evidence groups that may be used, all by default.
-        paths: prims that are objects whatever the rules of selection say.
+        paths: prims that are objects whatever the rules of selection say; of a scene that is still to be read.
+        decisions: prim path → class for what a person has decided.
         base: IRI under which individuals lie.
         profile: how objects are written: auto, soma or plain.
-        options: what is to be read differently from what the stage says.
+        options: what is to be read differently from what the stage says; of a scene that is still to be read.
 
     Raises:
         Usd2kgError: an input cannot be read; the message says which, and what to do.
     """
-    read = read_scene(scene, paths=paths, options=options)
+    read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
-    grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence)
+    grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions)
     graph = instantiate(read, tbox, grounding, base=base, profile=profile)
     return BuildResult(read, tbox, grounding, graph)
 

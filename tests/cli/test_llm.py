@@ -3,13 +3,16 @@
 import csv
 import io
 import json
+import re
+from dataclasses import replace
+from itertools import repeat
 from pathlib import Path
 
 import pyoxigraph as ox
 import pytest
 
 from tests.cli.conftest import Run
-from tests.grounding.llm.servers import openai_reply, refuse, serve
+from tests.grounding.llm.servers import Reply, openai_events, openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.options import Strategy
@@ -83,6 +86,111 @@ def test_a_dry_run_prints_prompts_and_asks_nobody(run: Run, kitchen: Path):
     assert "2 prompts for 3 objects, about" in done.err
 
 
+class TestPrice:
+    """The server counts 100 tokens in and 7 out for each of two prompts."""
+
+    def test_a_stated_price_is_told(self, run: Run, kitchen: Path):
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            first = run("ground", kitchen, "--grounder", model, "--price", "10/100")
+            again = run("ground", kitchen, "--grounder", model, "--price", "10/100")
+        # 2 * (100 * 10 + 7 * 100) / 1,000,000
+        assert "14 output tokens, $0.0034, " in first.err
+        assert "0 output tokens, $0, " in again.err
+
+    def test_a_server_of_ones_own_has_none(self, run: Run, kitchen: Path):
+        with serve(openai_reply(cup())) as server:
+            done = run("ground", kitchen, "--grounder", f"llm-A:openai:gpt-4o@{server.url}/v1")
+        assert "14 output tokens, price unknown, " in done.err
+
+    def test_a_budget_that_is_spent_asks_nothing(self, run: Run, kitchen: Path):
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, "--price", "10/100", "--budget", "0", "--format", "json")
+            assert server.received == []
+        found = json.loads(done.out)["predictions"]
+        assert done.code == 0
+        assert {p["explanation"] for p in found} == {"not asked: $0 are spent of a budget of $0; raise --budget"}
+
+    def test_a_budget_stops_and_keeps_what_is_done(self, run: Run, kitchen: Path):
+        options = ("--each-object", "--price", "10/100", "--budget", "0.001", "--concurrency", "1")
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, *options, "--format", "json")
+            assert len(server.received) == 1
+        found = json.loads(done.out)["predictions"]
+        assert done.code == 0
+        assert [p["status"] for p in found].count("grounded") == 1
+        told = "not asked: $0.0017 are spent of a budget of $0.0010; raise --budget"
+        assert [p["explanation"] for p in found].count(told) == 2
+
+    def test_a_budget_without_a_price_is_told(self, run: Run, kitchen: Path):
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, "--budget", "1")
+            assert server.received == []
+        assert (done.code, done.out) == (2, "")
+        assert "its price is not known; expected one for --budget, state it with --price INPUT/OUTPUT" in done.err
+
+    def test_a_dry_run_estimates_it(self, run: Run, kitchen: Path):
+        done = run("ground", kitchen, "--grounder", "llm-A:google:gemini-2.5-flash", "--dry-run")
+        told = re.search(r"about ([\d,]+) input tokens \(.*\) and (\d+) output tokens, about \$(0\.\d{4})$", done.err)
+        assert told is not None
+        paid_in, paid_out = (int(told[group].replace(",", "")) for group in (1, 2))
+        assert float(told[3]) == pytest.approx((0.30 * paid_in + 2.50 * paid_out) / 1e6, abs=0.0001)
+
+    def test_a_dry_run_takes_a_stated_price(self, run: Run, kitchen: Path):
+        model = "llm-A:openai:test@http://localhost:1/v1"
+        unknown = run("ground", kitchen, "--grounder", model, "--dry-run")
+        stated = run("ground", kitchen, "--grounder", model, "--dry-run", "--price", "0/1000000")
+        assert unknown.err.endswith(" output tokens, price unknown\n")
+        tokens = re.search(r"and (\d+) output tokens, about \$(\d+)\.00", stated.err)
+        assert tokens is not None
+        assert tokens[1] == tokens[2]
+
+
+class TestTraffic:
+    def test_requests_and_waits_are_told(self, run: Run, kitchen: Path):
+        with serve(refuse(429, "slow down", Retry_After="0"), openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, "--concurrency", "1")
+        assert "; 3 requests sent, 1 of them again, 1 waits of 0.0 s in all; " in done.err
+
+    def test_a_rate_spaces_them(self, run: Run, kitchen: Path):
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            done = run("ground", kitchen, "--grounder", model, "--requests-per-minute", "600", "--each-object")
+        # A tenth of a second and two, less what it took to get there.
+        assert re.search(r"; 3 requests sent, 0 of them again, [12] waits of 0\.[123] s in all; ", done.err)
+
+    @pytest.mark.parametrize("most", [1, 3])
+    def test_no_more_are_on_their_way_at_once_than_said(self, run: Run, kitchen: Path, most: int):
+        with serve(replace(openai_reply(cup()), pause_s=0.05)) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            run("ground", kitchen, "--grounder", model, "--each-object", "--concurrency", str(most))
+            assert server.most_at_once == most
+
+    def test_a_replay_sends_nothing(self, run: Run, kitchen: Path):
+        done = run("ground", kitchen, "--grounder", "llm-A:openai:gpt-4o", "--replay")
+        assert "; 0 requests sent, 0 of them again, 0 waits of 0.0 s in all; " in done.err
+
+
+def test_a_model_that_loops_is_cut_off_and_its_tokens_are_told_as_estimated(run: Run, kitchen: Path):
+    with serve(Reply(events=lambda: openai_events(repeat("la la la ")))) as server:
+        done = run("ground", kitchen, "--grounder", f"llm-A:openai:test@{server.url}/v1", "--format", "json")
+    assert {found["status"] for found in json.loads(done.out)["predictions"]} == {"unreadable"}
+    # Two prompts and their repairs.
+    assert "2 repairs, 4 degenerate" in done.err
+    assert re.search(r" output tokens \([0-9,]+ of all estimated\), ", done.err)
+
+
+def test_confidence_is_what_the_server_tells_of_the_class(run: Run, kitchen: Path):
+    tokens = [('{"1": {"class": "', -0.5), ("C", -0.25), ("up", -0.25), ('"}}', -0.5)]
+    with serve(openai_reply(cup(), tokens=tokens)) as server:
+        done = run("ground", kitchen, "--grounder", f"llm-A:openai:test@{server.url}/v1", "--format", "json")
+    assert {found["confidence"] for found in json.loads(done.out)["predictions"]} == {0.6065}
+
+
 def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run, kitchen: Path):
     with serve(refuse(401, f"bad key {KEY}")) as server:
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--format", "json")
@@ -98,7 +206,10 @@ def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run
     [
         (("--grounder", "llm-B:nobody:model"), "expected google:NAME, anthropic:NAME or openai:NAME"),
         (("--grounder", "llm-D:openai:x@http://localhost:1/v1"), "expected llm-A:MODEL, llm-B:MODEL or llm-C:MODEL"),
-        (("--dry-run",), "say which one with --grounder"),
+        (("--dry-run",), "--dry-run is about asking a model; say which one with --grounder"),
+        (("--budget", "0"), "--budget is about asking a model; say which one with --grounder"),
+        (("--price", "1/2"), "--price is about asking a model; say which one with --grounder"),
+        (("--grounder", "llm-A:openai:x@http://localhost:1/v1", "--price", "1"), "--price '1': no two prices in it"),
     ],
 )
 def test_what_cannot_be_asked_is_told_before_anything_is_read(run: Run, kitchen: Path, arguments, told: str):
@@ -125,10 +236,10 @@ def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
         model = f"llm-B:openai:test@{server.url}/v1"
         run("ground", kitchen, "--grounder", model, "--shortlist", "3")
-        offered = server.received[0].body["response_format"]["json_schema"]["schema"]["properties"]["1"]
-    assert "Cup" in offered["properties"]["class"]["enum"]
-    assert "DesignedArtifact" in offered["properties"]["class"]["enum"]
-    assert len(offered["properties"]["class"]["enum"]) < 25
+        schemas = [received.body["response_format"]["json_schema"]["schema"] for received in server.received]
+    offered = [schema["properties"]["1"]["properties"]["class"]["enum"] for schema in schemas]
+    assert any("Cup" in names for names in offered)
+    assert all("DesignedArtifact" in names and len(names) < 25 for names in offered)
 
 
 def test_a_recording_is_replayed_without_key_or_server(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):

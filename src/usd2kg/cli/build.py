@@ -6,27 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from usd2kg.cli.options import (
-    Abstains,
-    Dictionary,
-    EveryPrim,
-    Evidence,
-    Exclude,
-    ExpandInstancers,
-    GrounderName,
-    Include,
-    JsonOutput,
-    Kinds,
-    MetresPerUnit,
-    ObjectList,
-    OntologyFile,
-    Regime,
-    TimeCode,
-    UpAxis,
-    read_options,
-)
+from usd2kg.cli.grounding_run import GroundingOptions, open_run
+from usd2kg.cli.groups import with_groups
+from usd2kg.cli.model_options import ModelOptions
+from usd2kg.cli.options import JsonOutput, OntologyFile, ReadingOptions
 from usd2kg.cli.output import print_json, talk
-from usd2kg.errors import OutputError, Usd2kgError
+from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
 if TYPE_CHECKING:
     from usd2kg.pipeline import BuildResult
@@ -36,23 +21,13 @@ __all__ = ["build_command", "summarize", "summary_text"]
 _CONFIDENCE_BANDS = ((0.8, "0.8 and more"), (0.5, "0.5 to 0.8"), (0.0, "below 0.5"))
 
 
+@with_groups
 def build_command(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="One or more USD stages.")],
+    chosen: GroundingOptions,
+    asked: ModelOptions,
+    reading: ReadingOptions,
     ontology: OntologyFile = None,
-    grounder: GrounderName = "embedded",
-    dictionary: Dictionary = None,
-    abstain: Abstains = False,
-    regime: Regime = "semantic",
-    evidence: Evidence = None,
-    metres_per_unit: MetresPerUnit = None,
-    up_axis: UpAxis = None,
-    time_code: TimeCode = None,
-    expand_instancers: ExpandInstancers = False,
-    include: Include = None,
-    exclude: Exclude = None,
-    kind: Kinds = None,
-    objects: ObjectList = None,
-    every_prim: EveryPrim = False,
     base: Annotated[
         str | None,
         typer.Option("--base", help="IRI under which the individuals lie, ending in / or #; default: by file name."),
@@ -69,16 +44,14 @@ def build_command(
     json: JsonOutput = False,
 ) -> None:
     """Build the knowledge graph of a scene: read it, ground its objects, relate them, write RDF."""
-    from usd2kg import grounding  # noqa: PLC0415
     from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.scene import read_scene  # noqa: PLC0415
 
+    if asked.dry_run:
+        raise GroundingError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
     targets = _targets(scenes, output)
-    groups = grounding.parse_evidence(evidence) if evidence is not None else None
-    naming_regime = grounding.parse_regime(regime)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary, abstains=abstain)
-    options = read_options(
-        metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
-    )
+    groups, naming_regime = chosen.groups, chosen.naming_regime
+    options = reading.read_options()
     tbox = open_tbox(ontology)
     for note in tbox.notes:
         talk(f"{note.code}: {note.message}")
@@ -86,17 +59,20 @@ def build_command(
     for scene, target in zip(scenes, targets, strict=True):
         start = time.perf_counter()
         try:
-            result = build(
-                scene,
-                tbox,
-                grounder=chosen,
-                regime=naming_regime,
-                evidence=groups,
-                base=base,
-                profile=profile,
-                options=options,
-            )
+            read = read_scene(scene, options=options)
+            with open_run(chosen, asked, read, tbox, scene, options) as run:
+                result = build(
+                    read,
+                    tbox,
+                    grounder=run.grounder,
+                    regime=naming_regime,
+                    evidence=groups,
+                    decisions=run.decisions,
+                    base=base,
+                    profile=profile,
+                )
             _write(result, target)
+            run.tell(result.grounding, asked, tbox)
         except Usd2kgError as error:
             # One bad scene must not cost the others; with one scene it is simply the error.
             if len(scenes) == 1:

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli.options import CompletionsFile
+from usd2kg.cli.model_options import CompletionsFile
 from usd2kg.cli.output import talk
 
 __all__ = ["app"]

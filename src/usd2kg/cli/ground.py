@@ -1,188 +1,72 @@
 """usd2kg ground: the mapping of prims to classes, without a graph."""
 
-from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from usd2kg.cli.options import (
-    AbbreviatedLength,
-    Abstains,
-    Cascade,
-    ClassSizes,
-    ClassTree,
-    CompletionsFile,
-    Dictionary,
-    DryRun,
-    EachObject,
-    EveryPrim,
-    Evidence,
-    Exclude,
-    ExpandInstancers,
-    GrounderName,
-    Include,
-    Kinds,
-    MetresPerUnit,
-    MoreEvidence,
-    ObjectList,
-    ObjectsPerPrompt,
-    OntologyFile,
-    Refresh,
-    Regime,
-    Replay,
-    SceneFile,
-    Shortlist,
-    Shuffle,
-    Thinking,
-    TimeCode,
-    TokenBudget,
-    UpAxis,
-    read_options,
-)
-from usd2kg.cli.output import emit, printable, talk
-from usd2kg.errors import GroundingError
-
-if TYPE_CHECKING:
-    from usd2kg.grounding import Grounding
-    from usd2kg.grounding.llm.grounder import RunReport
-    from usd2kg.grounding.llm.prompts import Batch
+from usd2kg.cli.grounding_run import GroundingOptions, open_run
+from usd2kg.cli.groups import with_groups
+from usd2kg.cli.model_options import ModelOptions
+from usd2kg.cli.options import AbbreviatedLength, OntologyFile, ReadingOptions, SceneFile
+from usd2kg.cli.output import emit, talk
 
 __all__ = ["ground_command"]
 
+_INTERRUPTED = 130
+"""Exit code of a program that the user stopped: 128 and the signal's number."""
 
+
+@with_groups
 def ground_command(
     scene: SceneFile,
+    chosen: GroundingOptions,
+    asked: ModelOptions,
+    reading: ReadingOptions,
     ontology: OntologyFile = None,
-    grounder: GrounderName = "embedded",
-    objects_per_prompt: ObjectsPerPrompt = 1,
-    class_tree: ClassTree = False,
-    thinking: Thinking = False,
-    each_object: EachObject = False,
-    more_evidence: MoreEvidence = False,
-    shuffle: Shuffle = None,
-    shortlist: Shortlist = None,
-    cascade: Cascade = None,
-    token_budget: TokenBudget = None,
-    completions: CompletionsFile = None,
-    refresh: Refresh = False,
-    replay: Replay = False,
-    dry_run: DryRun = False,
-    dictionary: Dictionary = None,
-    abstain: Abstains = False,
-    class_sizes: ClassSizes = None,
-    regime: Regime = "semantic",
     abbreviated_length: AbbreviatedLength = 4,
-    evidence: Evidence = None,
     paths: Annotated[
         Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
     ] = None,
-    metres_per_unit: MetresPerUnit = None,
-    up_axis: UpAxis = None,
-    time_code: TimeCode = None,
-    expand_instancers: ExpandInstancers = False,
-    include: Include = None,
-    exclude: Exclude = None,
-    kind: Kinds = None,
-    objects: ObjectList = None,
-    every_prim: EveryPrim = False,
     file_format: Annotated[str, typer.Option("--format", help="csv (default) or json.")] = "csv",
     output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write; default: stdout.")] = None,
 ) -> None:
     """Ground the objects of a scene: print path, class, label, confidence, status and grounder of each."""
     from usd2kg import grounding  # noqa: PLC0415
+    from usd2kg.cli.model_run import show_plan  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import read_scene, view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
-    groups = grounding.parse_evidence(evidence) if evidence is not None else None
-    naming_regime = grounding.parse_regime(regime)
+    groups, naming_regime = chosen.groups, chosen.naming_regime
     grounding.check_format(file_format)
-    if output is not None:
-        check_writable(output)
-    with ExitStack() as stack:
-        asker = None
-        if grounding.is_llm_name(grounder):
-            from usd2kg.grounding.llm.settings import LLMSettings, open_llm_grounder, parse_llm_name  # noqa: PLC0415
-
-            settings = LLMSettings(
-                *parse_llm_name(grounder),
-                objects_per_prompt=objects_per_prompt,
-                is_tree=class_tree,
-                is_thinking=thinking,
-                is_each_object=each_object,
-                has_more_evidence=more_evidence,
-                shuffle_seed=shuffle,
-                shortlist=shortlist,
-                token_budget=token_budget,
-                completions=completions,
-                is_refreshed=refresh,
-                is_replayed=replay,
-            )
-            asker = stack.enter_context(open_llm_grounder(settings, is_dry=dry_run))
-        elif dry_run or cascade is not None:
-            option = "--dry-run" if dry_run else "--cascade"
-            raise GroundingError(f"{option} is about asking a model; say which one with --grounder llm-B:MODEL")
-        own = grounding.make_grounder(
-            "embedded" if asker else grounder, dictionary=dictionary, class_sizes=class_sizes, abstains=abstain
-        )
-        tiers = grounding.CascadeGrounder(own, asker, cascade) if asker and cascade is not None else None
-        wanted = grounding.read_paths(paths) if paths is not None else None
-        tbox = open_tbox(ontology)
-        options = read_options(
-            metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
-        )
-        found = read_scene(scene, paths=wanted, options=options)
-        if asker is not None and dry_run:
+    for target in (output, asked.queue):
+        if target is not None:
+            check_writable(target)
+    wanted = grounding.read_paths(paths) if paths is not None else None
+    tbox = open_tbox(ontology)
+    options = reading.read_options()
+    found = read_scene(scene, paths=wanted, options=options)
+    with open_run(chosen, asked, found, tbox, scene, options) as run:
+        if run.model is not None and asked.dry_run:
             views = view_objects(found, naming_regime, groups, abbreviated_length)
             shown = [(obj.prim_path, view) for obj, view in views if wanted is None or obj.prim_path in wanted]
-            if tiers is not None:
-                answers = own.ground_views(shown, tbox)
-                shown = [shown[index] for index in tiers.unsure(answers)]
-            _show_plan(asker.plan(shown, tbox), len(shown), output)
+            open_views = run.unsure(shown, tbox)
+            show_plan(run.model.plan(open_views, tbox), len(open_views), run.model.tariff, output)
             return
         result = grounding.ground(
             found,
             tbox,
-            tiers or asker or own,
+            run.grounder,
             regime=naming_regime,
             evidence=groups,
             paths=wanted,
+            decisions=run.decisions,
             abbreviated_length=abbreviated_length,
         )
     emit(grounding.format_mapping(result, tbox, file_format), output)
     for path in found.missing_paths:
         talk(f"{scene}: there is no prim {path}; its row has the status missing")
-    if tiers is not None:
-        told = tiers.report
-        talk(f"{told.sure} objects sure by themselves, {told.decided} decided by the model, {told.kept} left as it was")
-    if asker is not None:
-        _tell_cost(asker.report, result)
-
-
-def _show_plan(batches: "list[Batch]", object_count: int, output: Path | None) -> None:
-    """Print the prompts that would be sent, what they share once, and their size on stderr."""
-    from usd2kg.grounding.llm.text import estimate_tokens  # noqa: PLC0415
-
-    lines: list[str] = []
-    told: str | None = None
-    for number, batch in enumerate(batches, start=1):
-        if batch.request.system != told:
-            told = batch.request.system
-            lines.append(f"=== instructions ===\n{told}\n")
-        lines.append(f"=== prompt {number} of {len(batches)} ===\n{batch.request.user}\n")
-    emit(printable("\n".join(lines)), output)
-    tokens = sum(estimate_tokens(batch.request.system + batch.request.user) for batch in batches)
-    share = tokens / max(1, object_count)
-    talk(f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens ({share:,.0f} an object)")
-
-
-def _tell_cost(report: "RunReport", result: "Grounding") -> None:
-    unread = sum(1 for prediction in result.predictions if prediction.class_iri is None)
-    usage = report.usage
-    talk(
-        f"{report.objects} objects by {report.prompts} prompts: {report.completions} completions asked for, "
-        f"{report.cached} known before, {report.repairs} repairs, {report.degenerate} degenerate, "
-        f"{report.failed} prompts failed, {unread} objects without a class; {usage.input_tokens:,} input tokens "
-        f"({usage.cached_tokens:,} of them cached), {usage.output_tokens:,} output tokens, {report.seconds:.1f} s"
-    )
+    run.tell(result, asked, tbox)
+    if run.model is not None and run.model.report.is_interrupted:
+        raise typer.Exit(_INTERRUPTED)

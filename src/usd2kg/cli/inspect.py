@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from usd2kg.cli.groups import with_groups
 from usd2kg.cli.object_rows import (
     HOLLOW,
     joint_rows,
@@ -20,21 +21,7 @@ from usd2kg.cli.object_rows import (
     size_text,
     tight_text,
 )
-from usd2kg.cli.options import (
-    EveryPrim,
-    Exclude,
-    ExpandInstancers,
-    Include,
-    JsonOutput,
-    Kinds,
-    MetresPerUnit,
-    ObjectList,
-    SceneFile,
-    Shapes,
-    TimeCode,
-    UpAxis,
-    read_options,
-)
+from usd2kg.cli.options import JsonOutput, ReadingOptions, SceneFile, Shapes
 from usd2kg.cli.output import emit, format_table, print_json, printable
 from usd2kg.errors import SceneError
 
@@ -51,8 +38,10 @@ _VARYING = re.compile(r"""'[^']*'|"[^"]*"|<[^>]*>|/\S+|\w+(?::\w+)+|[-+]?\d[\d.,
 """What differs between messages that say the same: quotations, paths, names of properties, numbers."""
 
 
+@with_groups
 def inspect_command(
     scene: SceneFile,
+    reading: ReadingOptions,
     why: Annotated[
         str | None,
         typer.Option(
@@ -60,23 +49,12 @@ def inspect_command(
         ),
     ] = None,
     shapes: Shapes = False,
-    metres_per_unit: MetresPerUnit = None,
-    up_axis: UpAxis = None,
-    time_code: TimeCode = None,
-    expand_instancers: ExpandInstancers = False,
-    include: Include = None,
-    exclude: Exclude = None,
-    kind: Kinds = None,
-    objects: ObjectList = None,
-    every_prim: EveryPrim = False,
     json: JsonOutput = False,
 ) -> None:
     """List the objects of a scene with their evidence, what was left out and why, and diagnostics."""
     from usd2kg.scene import describe_shapes, read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
-    options = read_options(
-        metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
-    )
+    options = reading.read_options()
     if why is not None:
         _explain(scene, why, options, json)
         return

@@ -1,5 +1,6 @@
 """Arguments and options that several commands share."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,13 +12,8 @@ if TYPE_CHECKING:
 __all__ = [
     "AbbreviatedLength",
     "Abstains",
-    "Cascade",
     "ClassSizes",
-    "ClassTree",
-    "CompletionsFile",
     "Dictionary",
-    "DryRun",
-    "EachObject",
     "EveryPrim",
     "Evidence",
     "Exclude",
@@ -27,22 +23,14 @@ __all__ = [
     "JsonOutput",
     "Kinds",
     "MetresPerUnit",
-    "MoreEvidence",
     "ObjectList",
-    "ObjectsPerPrompt",
     "OntologyFile",
-    "Refresh",
+    "ReadingOptions",
     "Regime",
-    "Replay",
     "SceneFile",
     "Shapes",
-    "Shortlist",
-    "Shuffle",
-    "Thinking",
     "TimeCode",
-    "TokenBudget",
     "UpAxis",
-    "read_options",
 ]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A USD stage: .usd, .usda, .usdc or .usdz.")]
@@ -55,48 +43,10 @@ GrounderName = Annotated[
     typer.Option(
         "--grounder",
         help="Who chooses the classes: embedded (default), dictionary, embedding, volume, or a language model: "
-        "llm-A:MODEL is shown names, llm-B:MODEL the context too, llm-C:MODEL reasons first. MODEL is google:NAME, "
+        "llm-A:MODEL is shown names, llm-B:MODEL the context too, llm-C:MODEL reasons first, llm-auto:MODEL goes by the name. MODEL is google:NAME, "
         "anthropic:NAME, openai:NAME, or openai:NAME@URL for a server that speaks OpenAI's protocol.",
     ),
 ]
-ObjectsPerPrompt = Annotated[
-    int, typer.Option("--objects-per-prompt", min=1, help="Objects that one prompt asks about; default: 1.")
-]
-ClassTree = Annotated[bool, typer.Option("--class-tree", help="Show a model the classes as a tree instead of a list.")]
-Thinking = Annotated[bool, typer.Option("--thinking", help="Let a model reason by itself before it answers.")]
-EachObject = Annotated[
-    bool, typer.Option("--each-object", help="Ask about each object, alike ones too; default: once for alike ones.")
-]
-TokenBudget = Annotated[
-    int | None, typer.Option("--token-budget", min=1, help="Tokens after which a model is asked no more.")
-]
-CompletionsFile = Annotated[
-    Path | None,
-    typer.Option("--completions", help="File that keeps what models said; default: $USD2KG_CACHE or the user's cache."),
-]
-Refresh = Annotated[bool, typer.Option("--refresh", help="Ask a model again for what it has said before.")]
-MoreEvidence = Annotated[
-    bool, typer.Option("--more-evidence", help="Show a model asset, labels, materials, parts and documentation too.")
-]
-Shuffle = Annotated[
-    int | None, typer.Option("--shuffle", help="Show a model the classes in a random order with this seed.")
-]
-Shortlist = Annotated[
-    int | None,
-    typer.Option(
-        "--shortlist", min=1, help="Offer a model only so many classes that the embedded grounder likes best."
-    ),
-]
-Cascade = Annotated[
-    float | None,
-    typer.Option(
-        "--cascade", min=0, max=1, help="Ask a model only where the embedded grounder is less confident than this."
-    ),
-]
-Replay = Annotated[
-    bool, typer.Option("--replay", help="Take from a model only what it has said before; ask nobody, no key needed.")
-]
-DryRun = Annotated[bool, typer.Option("--dry-run", help="Print the prompts for a model and their tokens; ask nobody.")]
 Abstains = Annotated[
     bool,
     typer.Option(
@@ -159,31 +109,35 @@ ObjectList = Annotated[
 EveryPrim = Annotated[bool, typer.Option("--every-prim", help="Every prim that is or holds geometry is an object.")]
 
 
-def read_options(
-    metres_per_unit: float | None,
-    up_axis: str | None,
-    time: float | None,
-    expand_instancers: bool,
-    include: list[str] | None,
-    exclude: list[str] | None,
-    kinds: list[str] | None,
-    objects: Path | None,
-    every_prim: bool,
-) -> "ReadOptions":
-    """Return how the stage is to be read, as the user says it on the command line."""
-    from usd2kg.grounding import read_paths  # noqa: PLC0415
-    from usd2kg.scene import ReadOptions, SelectionOverrides  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+@dataclass(frozen=True)
+class ReadingOptions:
+    """How the stage is to be read."""
 
-    return ReadOptions(
-        metres_per_unit=metres_per_unit,
-        up_axis=up_axis,
-        time=time,
-        expand_instancers=expand_instancers,
-        selection=SelectionOverrides(
-            include=tuple(include or ()),
-            exclude=tuple(exclude or ()),
-            kinds=tuple(kinds or ()),
-            only=tuple(read_paths(objects)) if objects is not None else (),
-            is_every_prim=every_prim,
-        ),
-    )
+    metres_per_unit: MetresPerUnit = None
+    up_axis: UpAxis = None
+    time_code: TimeCode = None
+    expand_instancers: ExpandInstancers = False
+    include: Include = None
+    exclude: Exclude = None
+    kind: Kinds = None
+    objects: ObjectList = None
+    every_prim: EveryPrim = False
+
+    def read_options(self) -> "ReadOptions":
+        """Return the same for the reader."""
+        from usd2kg.grounding import read_paths  # noqa: PLC0415
+        from usd2kg.scene import ReadOptions, SelectionOverrides  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+
+        return ReadOptions(
+            metres_per_unit=self.metres_per_unit,
+            up_axis=self.up_axis,
+            time=self.time_code,
+            expand_instancers=self.expand_instancers,
+            selection=SelectionOverrides(
+                include=tuple(self.include or ()),
+                exclude=tuple(self.exclude or ()),
+                kinds=tuple(self.kind or ()),
+                only=tuple(read_paths(self.objects)) if self.objects is not None else (),
+                is_every_prim=self.every_prim,
+            ),
+        )

@@ -4,13 +4,18 @@ import json
 import os
 import re
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
 
 from usd2kg.files import write_whole
 
-__all__ = ["emit", "format_table", "print_json", "printable", "talk"]
+if TYPE_CHECKING:
+    from usd2kg.grounding.llm.asking import RunReport
+
+__all__ = ["Progress", "emit", "format_table", "print_json", "printable", "talk"]
 
 _WIDEST = 60
 _STEERING = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
@@ -70,3 +75,42 @@ def _shorten(text: str) -> str:
         return text
     head = _WIDEST // 3
     return f"{text[:head]}…{text[len(text) - (_WIDEST - head - 1) :]}"
+
+
+class Progress:
+    """A line on stderr that tells how far a run is; only where a person watches, and gone when the run is over."""
+
+    def __init__(self) -> None:
+        self._start = time.monotonic()
+        self._report: RunReport | None = None
+        self._is_shown = sys.stderr.isatty()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._is_shown:
+            sys.stderr.write("\r\x1b[K")
+
+    def follow(self, report: "RunReport") -> None:
+        """Tell what this report counts, too."""
+        self._report = report
+
+    def objects(self, done: int, count: int) -> None:
+        """Show that so many objects of so many are done."""
+        if self._is_shown:
+            sys.stderr.write(f"\r\x1b[K{self.line(done, count)}")
+            sys.stderr.flush()
+
+    def line(self, done: int, count: int) -> str:
+        """Return the line: objects, their rate, and what they cost so far."""
+        rate = done / max(1e-9, time.monotonic() - self._start)
+        told = [f"{done} of {count} objects", f"{rate:.1f} a second"]
+        if self._report is not None:
+            usage = self._report.usage
+            told.append(f"{usage.input_tokens + usage.output_tokens:,} tokens")
+            if self._report.price is not None:
+                told.append(f"${self._report.price:.4f}")
+        return ", ".join(told)

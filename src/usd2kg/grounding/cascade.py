@@ -1,5 +1,6 @@
 """Two grounders in a row: the second is asked only where the first is unsure."""
 
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -22,6 +23,9 @@ class TierReport:
     """Those that the second one decided."""
     kept: int = 0
     """Those that the second one had no class for, so that the first one's stands."""
+    first_s: float = 0.0
+    second_s: float = 0.0
+    """Seconds that each took."""
 
 
 class CascadeGrounder:
@@ -43,18 +47,18 @@ class CascadeGrounder:
         """
         if not 0 <= least_confidence <= 1:
             raise GroundingError(f"a cascade at confidence {least_confidence}; expected a number from 0 to 1")
-        self._first, self._second, self._least = first, second, least_confidence
+        self.first, self.second, self._least = first, second, least_confidence
         self.report = TierReport()
 
     @property
     def settings(self) -> Mapping[str, str]:
         """The settings that its answers depend on."""
         return {
-            "first": self._first.name,
-            "second": self._second.name,
+            "first": self.first.name,
+            "second": self.second.name,
             "least_confidence": f"{self._least:g}",
-            **self._first.settings,
-            **self._second.settings,
+            **self.first.settings,
+            **self.second.settings,
         }
 
     def unsure(self, predictions: Sequence[Prediction]) -> list[int]:
@@ -63,9 +67,13 @@ class CascadeGrounder:
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
-        predictions = self._first.ground_views(views, tbox)
+        start = time.perf_counter()
+        predictions = self.first.ground_views(views, tbox)
         unsure = self.unsure(predictions)
-        second = self._second.ground_views([views[index] for index in unsure], tbox) if unsure else []
+        turn = time.perf_counter()
+        second = self.second.ground_views([views[index] for index in unsure], tbox) if unsure else []
+        self.report.first_s += turn - start
+        self.report.second_s += time.perf_counter() - turn
         self.report.sure += len(views) - len(unsure)
         for index, found in zip(unsure, second, strict=True):
             if found.class_iri is not None:

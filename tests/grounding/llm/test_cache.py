@@ -18,13 +18,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from usd2kg.errors import GroundingError, OutputError
-from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path, request_key
+from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.records import request_key
 
 MODEL = "google:gemini-2.5-flash"
 SCHEMA = {"type": "object", "properties": {"reasoning": {"type": "string"}, "class": {"enum": ["Cup", "Fork"]}}}
 REQUEST = Request("Classes: Cup, Fork", "/World/cup_01", SCHEMA)
-COMPLETION = Completion('{"class": "Cup"}', Finish.STOP, Usage(12, 8, 5), -0.25, "A cup.")
+TOKENS = (('{"class": "', -0.125), ("Cup", -0.5), ('"}', 0.0))
+COMPLETION = Completion('{"class": "Cup"}', Finish.STOP, Usage(12, 8, 5, 2, 3), TOKENS, "A cup.")
 SPAWN = multiprocessing.get_context("spawn")
 
 
@@ -39,7 +41,7 @@ TEXTS = st.text(st.characters(), max_size=40) | st.sampled_from(
     ["\x00", "a\x00b", "\ud83d", "🍴", "\u2028", '\\ud83d"', ""]
 )
 COUNTS = st.integers(0, 2**70)
-LOGPROBS = st.none() | st.floats(max_value=0, allow_nan=False)
+TOKENS_OF_A_TEXT = st.lists(st.tuples(TEXTS, st.floats(max_value=0, allow_nan=False)), max_size=4).map(tuple)
 
 
 @settings(max_examples=150, deadline=None)
@@ -55,7 +57,12 @@ LOGPROBS = st.none() | st.floats(max_value=0, allow_nan=False)
         COUNTS,
     ),
     said=st.builds(
-        Completion, TEXTS, st.sampled_from(Finish), st.builds(Usage, COUNTS, COUNTS, COUNTS), LOGPROBS, TEXTS
+        Completion,
+        TEXTS,
+        st.sampled_from(Finish),
+        st.builds(Usage, COUNTS, COUNTS, COUNTS, COUNTS, COUNTS),
+        TOKENS_OF_A_TEXT,
+        TEXTS,
     ),
     model=TEXTS,
 )
@@ -76,9 +83,9 @@ def test_two_halves_of_a_pair_come_back_as_their_character(cache):
     assert cache.get(MODEL, replace(REQUEST, user="😀")) == Completion("😀")
 
 
-def test_a_whole_number_as_mean_logprob_can_be_read_back(cache):
-    cache.put(MODEL, REQUEST, Completion("x", mean_logprob=0))
-    assert cache.get(MODEL, REQUEST) == Completion("x", mean_logprob=0.0)
+def test_a_whole_number_as_logprob_can_be_read_back(cache):
+    cache.put(MODEL, REQUEST, Completion("x", tokens=(("x", 0),)))
+    assert cache.get(MODEL, REQUEST) == Completion("x", tokens=(("x", 0.0),))
 
 
 def test_what_was_never_asked_is_none(cache):
@@ -304,10 +311,94 @@ def test_the_database_of_another_program_is_left_as_it_is(tmp_path: Path):
 def test_a_cache_of_a_later_format_is_refused(cache):
     cache.close()
     connection = sqlite3.connect(cache.path)
-    connection.execute("PRAGMA user_version = 2")
+    connection.execute("PRAGMA user_version = 3")
     connection.close()
-    with pytest.raises(GroundingError, match="has format 2, expected 1; move it away"):
+    with pytest.raises(GroundingError, match="has format 3, expected 2; move it away"):
         CompletionCache(cache.path)
+
+
+# As version 0.1.0 wrote it, by hand.
+OLD_COMPLETION = (
+    '{"text":"{\\"class\\": \\"Cup\\"} \\ud83d é","finish":"length","usage":{"input_tokens":12,"cached_tokens":8,'
+    '"output_tokens":5},"mean_logprob":-0.25,"thinking":"A cup."}'
+)
+UPGRADED = Completion('{"class": "Cup"} \ud83d é', Finish.LENGTH, Usage(12, 8, 5), (), "A cup.")
+
+
+def _age(path: Path, count: int) -> None:
+    """Make a cache as an older version left it."""
+    with CompletionCache(path) as cache:
+        for i in range(count):
+            cache.put(MODEL, _user(i), COMPLETION)
+    connection = sqlite3.connect(path)
+    with connection:
+        connection.execute("UPDATE completions SET completion = ?", (OLD_COMPLETION,))
+        connection.execute("PRAGMA user_version = 1")
+    connection.close()
+
+
+def test_a_cache_of_an_older_format_keeps_its_completions(tmp_path: Path):
+    path = tmp_path / "cache.sqlite"
+    _age(path, 3)
+    for _ in range(2):
+        with CompletionCache(path) as cache:
+            assert len(cache) == 3
+            assert [cache.get(MODEL, _user(i)) for i in range(3)] == [UPGRADED] * 3
+            cache.put(MODEL, REQUEST, COMPLETION)
+            assert cache.get(MODEL, REQUEST) == COMPLETION
+            path = cache.path
+        _forget(path, REQUEST)
+    connection = sqlite3.connect(path)
+    assert connection.execute("PRAGMA user_version").fetchone() == (2,)
+    connection.close()
+
+
+def _forget(path: Path, request: Request) -> None:
+    connection = sqlite3.connect(path)
+    with connection:
+        connection.execute("DELETE FROM completions WHERE key = ?", (request_key(MODEL, request),))
+    connection.close()
+
+
+def test_threads_that_open_an_older_cache_at_once_share_it(tmp_path: Path):
+    path = tmp_path / "cache.sqlite"
+    _age(path, 50)
+    found: list[Completion | None] = []
+
+    def read() -> None:
+        with CompletionCache(path) as cache:
+            found.extend(cache.get(MODEL, _user(i)) for i in range(50))
+
+    threads = [threading.Thread(target=read) for _ in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [UPGRADED] * 300
+
+
+def test_a_damaged_completion_of_an_older_cache_stays_as_it_is(tmp_path: Path):
+    path = tmp_path / "cache.sqlite"
+    _age(path, 2)
+    connection = sqlite3.connect(path)
+    with connection:
+        connection.execute("UPDATE completions SET completion = '{' WHERE key = ?", (request_key(MODEL, _user(0)),))
+    connection.close()
+    with CompletionCache(path) as cache:
+        assert cache.get(MODEL, _user(1)) == UPGRADED
+        with pytest.raises(GroundingError, match="is damaged"):
+            cache.get(MODEL, _user(0))
+
+
+def test_a_recording_of_an_older_format_is_imported(cache, tmp_path: Path):
+    with CompletionCache(tmp_path / "other.sqlite") as other:
+        other.put(MODEL, REQUEST, COMPLETION)
+        other.export_recording(tmp_path / "other.jsonl")
+    line = json.loads((tmp_path / "other.jsonl").read_text("utf-8"))
+    line["completion"] = json.loads(OLD_COMPLETION)
+    (tmp_path / "old.jsonl").write_text(json.dumps(line), "utf-8")
+    assert cache.import_recording(tmp_path / "old.jsonl") == 1
+    assert cache.get(MODEL, REQUEST) == UPGRADED
 
 
 def test_damaged_pages_are_an_error_that_names_the_file(cache):
@@ -382,8 +473,14 @@ def test_a_recording_is_sorted_readable_and_the_same_whatever_the_order(tmp_path
         "completion": {
             "text": '{"class": "Cup"}',
             "finish": "stop",
-            "usage": {"input_tokens": 12, "cached_tokens": 8, "output_tokens": 5},
-            "mean_logprob": -0.25,
+            "usage": {
+                "input_tokens": 12,
+                "cached_tokens": 8,
+                "output_tokens": 5,
+                "estimated_tokens": 2,
+                "written_tokens": 3,
+            },
+            "tokens": [['{"class": "', -0.125], ["Cup", -0.5], ['"}', 0.0]],
             "thinking": "A cup.",
         },
     }
@@ -430,6 +527,14 @@ BROKEN = {
         "sample of request is 'False', expected int",
     ),
     "unknown finish": (lambda line: _set(line, "completion", "finish", "tired"), "'tired' is not a valid Finish"),
+    "tokens of one part": (
+        lambda line: _set(line, "completion", "tokens", [["Cup"]]),
+        "a token is \"\\['Cup'\\]\", expected its text and a number",
+    ),
+    "a half of format 1": (
+        lambda line: _set(line, "completion", "mean_logprob", None),
+        "completion should be an object with text",
+    ),
     "no usage": (lambda line: _set(line, "completion", "usage", {}), "usage should be an object with input_tokens"),
 }
 

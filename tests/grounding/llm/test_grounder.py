@@ -7,17 +7,22 @@ import signal
 import threading
 import time
 from collections.abc import Callable
+from decimal import Decimal
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.grounding.records import make_object, make_scene
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Status, ground
+from usd2kg.grounding.llm.asking import Asker, Limits
 from usd2kg.grounding.llm.cache import CompletionCache
-from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
-from usd2kg.grounding.llm.grounder import LLMGrounder, distinct_views
+from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.grounder import LLMGrounder
+from usd2kg.grounding.llm.grouping import distinct_views
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prices import Tariff, parse_price
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, NamingRegime, ObjectView, Scene
 
@@ -29,15 +34,18 @@ class Model:
 
     model = "test:model"
 
-    def __init__(self, say: Say, *, finish: Finish = Finish.STOP, logprob: float | None = None) -> None:
-        self.say, self.finish, self.logprob = say, finish, logprob
+    def __init__(self, say: Say, *, finish: Finish = Finish.STOP, probability: float | None = None) -> None:
+        """Every character is a token of that probability."""
+        self.say, self.finish, self.probability = say, finish, probability
         self.requests: list[Request] = []
         self.lock = threading.Lock()
 
     def complete(self, request: Request) -> Completion:
         with self.lock:
             self.requests.append(request)
-        return Completion(self.say(request), self.finish, Usage(100, 40, 10), self.logprob)
+        text = self.say(request)
+        tokens = tuple((letter, math.log(self.probability)) for letter in text) if self.probability else ()
+        return Completion(text, self.finish, Usage(100, 40, 10), tokens)
 
 
 def numbers(request: Request) -> list[str]:
@@ -47,6 +55,23 @@ def numbers(request: Request) -> list[str]:
 
 def always(name: str) -> Say:
     return lambda request: json.dumps({number: {"class": name} for number in numbers(request)})
+
+
+def asking(
+    model: Client,
+    options: PromptOptions,
+    *,
+    cache: CompletionCache | None = None,
+    is_refreshed: bool = False,
+    token_budget: int | None = None,
+    tariff: Tariff | None = None,
+    budget: Decimal | None = None,
+    **form: Any,
+) -> LLMGrounder:
+    """Return a grounder that asks the model."""
+    limits = Limits(token_budget, budget)
+    asker = Asker(model, cache=cache, is_refreshed=is_refreshed, limits=limits, tariff=tariff)
+    return LLMGrounder(asker, options, **form)
 
 
 def kitchen(*names: str) -> Scene:
@@ -63,7 +88,7 @@ def test_each_object_gets_what_the_model_says(home_tbox: TBox):
         return json.dumps({n: {"class": "Bowl" if "bowl" in request.user else "Cup"} for n in numbers(request)})
 
     model = Model(say)
-    grounder = LLMGrounder(model, PromptOptions(strategy=Strategy.NAME_ONLY))
+    grounder = asking(model, PromptOptions(strategy=Strategy.NAME_ONLY))
     assert answers(kitchen("mug", "bowl"), home_tbox, grounder) == ["Cup", "Bowl"]
     assert len(model.requests) == grounder.report.completions == 2
     assert grounder.report.usage == Usage(200, 80, 20)
@@ -71,23 +96,23 @@ def test_each_object_gets_what_the_model_says(home_tbox: TBox):
 
 def test_many_objects_in_one_prompt(home_tbox: TBox):
     model = Model(always("Cup"))
-    grounder = LLMGrounder(model, PromptOptions(objects_per_prompt=10))
+    grounder = asking(model, PromptOptions(objects_per_prompt=10))
     assert answers(kitchen(*(f"mug{letter}" for letter in "abcdefgh")), home_tbox, grounder) == ["Cup"] * 8
     assert len(model.requests) == 1
 
 
 def test_objects_that_differ_in_a_number_are_asked_about_once(home_tbox: TBox):
     model = Model(always("Cup"))
-    assert answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, LLMGrounder(model, PromptOptions())) == ["Cup"] * 3
+    assert answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, asking(model, PromptOptions())) == ["Cup"] * 3
     assert len(model.requests) == 1
     each = Model(always("Cup"))
-    answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, LLMGrounder(each, PromptOptions(), is_once_each=False))
+    answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, asking(each, PromptOptions(), is_once_each=False))
     assert len(each.requests) == 3
 
 
 def test_masked_objects_are_never_taken_for_each_other(home_tbox: TBox):
     model = Model(always("Cup"))
-    ground(kitchen("mug", "oven"), home_tbox, LLMGrounder(model, PromptOptions()), regime=NamingRegime.OPAQUE)
+    ground(kitchen("mug", "oven"), home_tbox, asking(model, PromptOptions()), regime=NamingRegime.OPAQUE)
     assert len(model.requests) == 2
 
 
@@ -104,14 +129,14 @@ def test_an_invented_class_is_asked_for_once_more(home_tbox: TBox):
         said.append(request.user)
         return json.dumps({n: {"class": "Cup" if len(said) > 1 else "Chalice"} for n in numbers(request)})
 
-    grounder = LLMGrounder(Model(say), PromptOptions())
+    grounder = asking(Model(say), PromptOptions())
     assert answers(kitchen("mug"), home_tbox, grounder) == ["Cup"]
     assert grounder.report.repairs == 1
     assert "Chalice" in said[1]
 
 
 def test_what_stays_unreadable_is_counted_and_said(home_tbox: TBox):
-    grounder = LLMGrounder(Model(lambda _: "la " * 300, finish=Finish.LENGTH), PromptOptions())
+    grounder = asking(Model(lambda _: "la " * 300, finish=Finish.LENGTH), PromptOptions())
     [prediction] = ground(kitchen("mug"), home_tbox, grounder).predictions
     assert (prediction.class_iri, prediction.confidence, prediction.status) == (None, None, Status.UNREADABLE)
     assert prediction.explanation
@@ -127,16 +152,25 @@ def test_in_a_batch_only_what_was_wrong_is_mended(home_tbox: TBox):
         )
 
     model = Model(say)
-    grounder = LLMGrounder(model, PromptOptions(objects_per_prompt=2))
+    grounder = asking(model, PromptOptions(objects_per_prompt=2))
     assert answers(kitchen("mug", "beaker"), home_tbox, grounder) == ["Cup", "Cup"]
 
 
-def test_confidence_is_the_mean_probability_of_the_tokens(home_tbox: TBox):
-    model = Model(always("Cup"), logprob=math.log(0.8))
-    [sure] = ground(kitchen("mug"), home_tbox, LLMGrounder(model, PromptOptions())).predictions
-    assert sure.confidence == pytest.approx(0.8)
-    [unsure] = ground(kitchen("mug"), home_tbox, LLMGrounder(Model(always("Cup")), PromptOptions())).predictions
+def test_confidence_is_the_probability_of_the_class(home_tbox: TBox):
+    model = Model(always("Cup"), probability=0.8)
+    [sure] = ground(kitchen("mug"), home_tbox, asking(model, PromptOptions())).predictions
+    assert sure.confidence == pytest.approx(0.8**3)
+    [unsure] = ground(kitchen("mug"), home_tbox, asking(Model(always("Cup")), PromptOptions())).predictions
     assert unsure.confidence is None
+
+
+def test_each_object_of_a_prompt_has_a_confidence_of_its_own(home_tbox: TBox):
+    def say(request: Request) -> str:
+        return json.dumps({"1": {"class": "Cup"}, "2": {"class": "Spoon"}, "3": {"class": "Chalice"}, "4": None})
+
+    grounder = asking(Model(say, probability=0.9), PromptOptions(objects_per_prompt=4))
+    found = ground(kitchen("muga", "spoon", "cupa", "what"), home_tbox, grounder).predictions
+    assert [p.confidence for p in found] == [pytest.approx(0.9**3), pytest.approx(0.9**5, abs=1e-4), None, None]
 
 
 class TestTrouble:
@@ -147,7 +181,7 @@ class TestTrouble:
     def test_a_model_that_does_not_answer_fails_its_objects_and_is_left_alone(self, home_tbox: TBox):
         model = Model(self.broken)
         scene = kitchen(*(f"mug{letter}" for letter in "abcdefghij"))
-        grounder = LLMGrounder(model, PromptOptions(), workers=1)
+        grounder = asking(model, PromptOptions(), workers=1)
         predictions = ground(scene, home_tbox, grounder).predictions
         assert {p.status for p in predictions} == {Status.FAILED}
         assert predictions[0].explanation == "http://localhost:1: nobody answers"
@@ -158,15 +192,63 @@ class TestTrouble:
         def say(request: Request) -> str:
             return self.broken(request) if "bad" in request.user else always("Cup")(request)
 
-        grounder = LLMGrounder(Model(say), PromptOptions(strategy=Strategy.NAME_ONLY), workers=1)
+        grounder = asking(Model(say), PromptOptions(strategy=Strategy.NAME_ONLY), workers=1)
         assert answers(kitchen("muga", "bad", "mugb"), home_tbox, grounder) == ["Cup", None, "Cup"]
 
     def test_a_budget_stops_and_keeps_what_is_done(self, home_tbox: TBox):
         model = Model(always("Cup"))
-        grounder = LLMGrounder(model, PromptOptions(), workers=1, token_budget=200)
+        grounder = asking(model, PromptOptions(), workers=1, token_budget=200)
         found = ground(kitchen("muga", "mugb", "mugc"), home_tbox, grounder).predictions
         assert [p.status for p in found] == [Status.GROUNDED, Status.GROUNDED, Status.FAILED]
-        assert re.search(r"220 tokens are used of a budget of 200", found[2].explanation)
+        assert re.search(r"220 tokens are used of a budget of 200; raise --token-budget", found[2].explanation)
+
+
+class TestPrice:
+    """A prompt of the test model has 100 tokens, of which 40 are cached by the server, and 10 come back."""
+
+    TARIFF = staticmethod(parse_price("1000/5000"))
+    """A tenth of a dollar for a prompt, a twentieth for its answer."""
+
+    def test_the_price_of_a_run_is_the_sum(self, home_tbox: TBox):
+        grounder = asking(Model(always("Cup")), PromptOptions(), tariff=self.TARIFF)
+        ground(kitchen("muga", "mugb"), home_tbox, grounder)
+        assert grounder.report.price == Decimal("0.30")
+
+    def test_repairs_are_paid_too(self, home_tbox: TBox):
+        grounder = asking(Model(always("Chalice")), PromptOptions(), tariff=self.TARIFF)
+        ground(kitchen("mug"), home_tbox, grounder)
+        assert grounder.report.price == Decimal("0.30")
+
+    def test_what_is_known_costs_nothing(self, home_tbox: TBox, tmp_path: Path):
+        with CompletionCache(tmp_path / "said.sqlite") as cache:
+            prices = []
+            for _ in range(2):
+                grounder = asking(Model(always("Cup")), PromptOptions(), cache=cache, tariff=self.TARIFF)
+                ground(kitchen("mug"), home_tbox, grounder)
+                prices.append(grounder.report.price)
+        assert prices == [Decimal("0.15"), Decimal(0)]
+
+    def test_without_a_tariff_the_price_is_unknown(self, home_tbox: TBox):
+        grounder = asking(Model(always("Cup")), PromptOptions())
+        ground(kitchen("mug"), home_tbox, grounder)
+        assert grounder.report.price is None
+
+    def test_a_budget_stops_and_keeps_what_is_done(self, home_tbox: TBox):
+        grounder = asking(Model(always("Cup")), PromptOptions(), workers=1, tariff=self.TARIFF, budget=Decimal("0.30"))
+        found = ground(kitchen("muga", "mugb", "mugc"), home_tbox, grounder).predictions
+        assert [p.status for p in found] == [Status.GROUNDED, Status.GROUNDED, Status.FAILED]
+        assert found[2].explanation == "not asked: $0.3000 are spent of a budget of $0.3000; raise --budget"
+
+    def test_a_budget_of_nothing_takes_what_is_known(self, home_tbox: TBox, tmp_path: Path):
+        options = PromptOptions(strategy=Strategy.NAME_ONLY)
+        with CompletionCache(tmp_path / "said.sqlite") as cache:
+            ground(kitchen("mug"), home_tbox, asking(Model(always("Cup")), options, cache=cache))
+            broke = asking(Model(always("Bowl")), options, cache=cache, tariff=self.TARIFF, budget=Decimal(0))
+            assert answers(kitchen("mug", "bowl"), home_tbox, broke) == ["Cup", None]
+
+    def test_a_budget_needs_a_price(self):
+        with pytest.raises(GroundingError, match=r"its price is not known; .*state it with --price INPUT/OUTPUT"):
+            asking(Model(always("Cup")), PromptOptions(), budget=Decimal(1))
 
 
 class TestCache:
@@ -174,8 +256,8 @@ class TestCache:
         model = Model(always("Cup"))
         scene = kitchen("muga", "mugb")
         with CompletionCache(tmp_path / "said.sqlite") as cache:
-            first = ground(scene, home_tbox, LLMGrounder(model, PromptOptions(), cache=cache))
-            again = LLMGrounder(model, PromptOptions(), cache=cache)
+            first = ground(scene, home_tbox, asking(model, PromptOptions(), cache=cache))
+            again = asking(model, PromptOptions(), cache=cache)
             second = ground(scene, home_tbox, again)
         assert len(model.requests) == 2
         assert second.predictions == first.predictions
@@ -184,17 +266,17 @@ class TestCache:
     def test_refreshing_asks_again_and_keeps_the_new_answer(self, home_tbox: TBox, tmp_path: Path):
         scene = kitchen("mug")
         with CompletionCache(tmp_path / "said.sqlite") as cache:
-            ground(scene, home_tbox, LLMGrounder(Model(always("Cup")), PromptOptions(), cache=cache))
-            refreshed = LLMGrounder(Model(always("Bowl")), PromptOptions(), cache=cache, is_refreshed=True)
+            ground(scene, home_tbox, asking(Model(always("Cup")), PromptOptions(), cache=cache))
+            refreshed = asking(Model(always("Bowl")), PromptOptions(), cache=cache, is_refreshed=True)
             assert answers(scene, home_tbox, refreshed) == ["Bowl"]
-            later = LLMGrounder(Model(always("Plate")), PromptOptions(), cache=cache)
+            later = asking(Model(always("Plate")), PromptOptions(), cache=cache)
             assert answers(scene, home_tbox, later) == ["Bowl"]
 
     def test_another_strategy_is_another_question(self, home_tbox: TBox, tmp_path: Path):
         model = Model(always("Cup"))
         with CompletionCache(tmp_path / "said.sqlite") as cache:
             for strategy in (Strategy.NAME_ONLY, Strategy.CONTEXT):
-                ground(kitchen("mug"), home_tbox, LLMGrounder(model, PromptOptions(strategy=strategy), cache=cache))
+                ground(kitchen("mug"), home_tbox, asking(model, PromptOptions(strategy=strategy), cache=cache))
         assert len(model.requests) == 2
 
 
@@ -207,12 +289,12 @@ def test_a_name_that_gives_orders_changes_nothing_but_its_own_row(home_tbox: TBo
         obeyed = next(n for n, view in zip(numbers(request), ("mug", order, "cup"), strict=True) if view == order)
         return json.dumps({**found, obeyed: {"class": "Knife"}, "99": {"class": "Knife"}})
 
-    grounder = LLMGrounder(Model(say), PromptOptions(objects_per_prompt=3))
+    grounder = asking(Model(say), PromptOptions(objects_per_prompt=3))
     assert answers(kitchen("mug", order, "cup"), home_tbox, grounder) == ["Cup", "Knife", "Cup"]
 
 
 def test_settings_tell_the_model_and_the_form_of_the_prompts():
-    settings = LLMGrounder(Model(always("Cup")), PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT)).settings
+    settings = asking(Model(always("Cup")), PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT)).settings
     assert settings["model"] == "test:model"
     assert settings["strategy"] == "C"
 
@@ -229,7 +311,7 @@ class TestSamples:
 
     def test_the_class_that_most_name_is_taken_with_their_share(self, home_tbox: TBox):
         model = self.saying("Bowl", "Cup", "Cup", "nonsense")
-        grounder = LLMGrounder(model, PromptOptions(temperature=0.7), samples=4)
+        grounder = asking(model, PromptOptions(temperature=0.7), samples=4)
         (found,) = ground(kitchen("thing"), home_tbox, grounder).predictions
         assert found.class_iri == home_tbox.resolve("Cup")
         assert found.confidence == 0.5
@@ -246,7 +328,7 @@ class TestSamples:
                 ground(
                     kitchen("thing"),
                     home_tbox,
-                    LLMGrounder(model, PromptOptions(temperature=0.7), cache=cache, first_sample=number),
+                    asking(model, PromptOptions(temperature=0.7), cache=cache, first_sample=number),
                 )
                 for number in (0, 1, 0)
             ]
@@ -257,14 +339,14 @@ class TestSamples:
         assert [run.settings.get("first_sample") for run in runs] == [None, "1", None]
 
     def test_nobody_names_a_class(self, home_tbox: TBox):
-        grounder = LLMGrounder(self.saying("no", "nor this"), PromptOptions(temperature=0.7), samples=2)
+        grounder = asking(self.saying("no", "nor this"), PromptOptions(temperature=0.7), samples=2)
         (found,) = ground(kitchen("thing"), home_tbox, grounder).predictions
         assert (found.class_iri, found.confidence, found.status) == (None, None, Status.UNREADABLE)
 
     @pytest.mark.parametrize(("samples", "temperature"), [(0, 0.7), (3, 0.0)])
     def test_samples_that_cannot_be(self, samples: int, temperature: float):
         with pytest.raises(GroundingError, match=f"{samples} samples"):
-            LLMGrounder(self.saying("Cup"), PromptOptions(temperature=temperature), samples=samples)
+            asking(self.saying("Cup"), PromptOptions(temperature=temperature), samples=samples)
 
 
 def test_an_interruption_keeps_what_is_done(home_tbox: TBox):
@@ -277,7 +359,7 @@ def test_an_interruption_keeps_what_is_done(home_tbox: TBox):
 
     heard: list[tuple[int, int]] = []
     names = [f"thing{letter}" for letter in "abcdef"]
-    grounder = LLMGrounder(
+    grounder = asking(
         Interrupted(always("Cup")), PromptOptions(), workers=1, progress=lambda done, count: heard.append((done, count))
     )
     found = ground(kitchen(*names), home_tbox, grounder).predictions
@@ -297,6 +379,6 @@ def test_pictures_are_asked_for_once_each(home_tbox: TBox):
         asked.append(path)
         return b"png" if path.endswith("Mug") else None
 
-    ground(kitchen("Mug", "Vase"), home_tbox, LLMGrounder(model, PromptOptions(), picture=picture))
+    ground(kitchen("Mug", "Vase"), home_tbox, asking(model, PromptOptions(), picture=picture))
     assert sorted(asked) == ["/World/Mug", "/World/Vase"]
     assert sorted(request.images for request in model.requests) == [(), (b"png",)]

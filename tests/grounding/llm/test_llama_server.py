@@ -19,6 +19,7 @@ import pytest
 
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
 from usd2kg.grounding import Status, ground
+from usd2kg.grounding.llm.asking import Asker
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.grounder import LLMGrounder
@@ -78,9 +79,9 @@ def test_a_real_model_answers_with_classes_of_the_tbox_alone(server: str, strate
     )
     options = PromptOptions(strategy=strategy, most_tokens=300)
     with make_client(f"openai:smollm2@{server}") as client, CompletionCache(tmp_path / "said.sqlite") as cache:
-        grounder = LLMGrounder(client, options, cache=cache, workers=1)
+        grounder = LLMGrounder(Asker(client, cache=cache), options, workers=1)
         found = ground(scene, tbox, grounder).predictions
-        again = LLMGrounder(client, options, cache=cache, workers=1)
+        again = LLMGrounder(Asker(client, cache=cache), options, workers=1)
         assert ground(scene, tbox, again).predictions == found
     answered = [prediction for prediction in found if prediction.status is Status.GROUNDED]
     assert {prediction.class_iri for prediction in answered} <= set(tbox.by_iri)

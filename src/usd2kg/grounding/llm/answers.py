@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -10,7 +10,9 @@ from typing import Any
 from usd2kg.errors import OntologyError
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.prompts import Batch
+from usd2kg.grounding.llm.rows import Row, read_rows
 from usd2kg.grounding.llm.text import fill_template, quote
+from usd2kg.grounding.llm.token_sums import TokenSums
 from usd2kg.grounding.model import Status
 from usd2kg.ontology import ClassIRI, TBox, compact_iri
 
@@ -18,8 +20,6 @@ __all__ = ["Answer", "is_degenerate", "parse_answers", "repair_request"]
 
 _REFUSALS = frozenset({"none", "null", "unknown", "n/a"})
 _MOST_QUOTED = 400
-_MOST_STARTS = 200
-"""Braces that are tried as the start of a JSON object, from the front."""
 _SHORTEST_LOOP = 400
 """Characters at the end that must be of a loop."""
 _TURNS = 4
@@ -44,68 +44,42 @@ class Answer:
     """What it wrote before the class, empty if nothing."""
     problem: str = ""
     """One sentence on what is wrong; empty where nothing is. Texts of the model are quoted in it."""
+    logprob: float | None = None
+    """Natural logarithm of the probability that the model gave to the name of its class, letter by letter.
+
+    That is the sum over the tokens that spell the class in the JSON text, without its quotes: how it is quoted and what
+    follows are choices of form. Tokens that reach over its ends count whole. None where the server tells no token
+    probabilities, they do not join up to the text, or the row has no class.
+    """
 
 
-def parse_answers(text: str, batch: Batch, tbox: TBox) -> list[Answer]:
+def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[str, float]] = ()) -> list[Answer]:
     """Return one answer for each object of the batch, in order.
 
     Read are a JSON object, alone, fenced or after prose, and the whole rows of one that breaks off. Of several JSON
     objects the last of those with most rows counts.
+
+    Args:
+        text: what the model said.
+        batch: what it was asked.
+        tbox: the classes.
+        tokens: text and natural logarithm of the probability of each token of the text; empty where nobody told.
     """
-    rows = _read_rows(text, batch.numbers)
+    rows, sums = read_rows(text, batch.numbers), TokenSums(text, tokens)
     if not rows and not text.strip():
         problem = "the answer was empty"
     else:
         problem = "the answer has no row for it" if rows else "the answer has no readable JSON object"
-    return [
-        _read_row(rows[number], batch, tbox) if number in rows else Answer(None, Status.UNREADABLE, problem=problem)
-        for number in batch.numbers
-    ]
+    missing = Answer(None, Status.UNREADABLE, problem=problem)
+    return [_read_row(rows[number], batch, tbox, sums) if number in rows else missing for number in batch.numbers]
 
 
-def _read_rows(text: str, numbers: tuple[str, ...]) -> dict[str, Any]:
-    best: dict[str, Any] = {}
-    for found in _json_objects(text):
-        rows = {number: found[number] for number in numbers if number in found}
-        if not rows and len(numbers) == 1 and "class" in found:
-            rows = {numbers[0]: found}
-        if rows and len(rows) >= len(best):
-            best = rows
-    return best or _whole_rows(text, numbers)
+def _read_row(row: Row, batch: Batch, tbox: TBox, sums: TokenSums) -> Answer:
+    answer = _read_value(row.value, batch, tbox)
+    return replace(answer, logprob=sums.logprob(row.class_span)) if row.class_span is not None else answer
 
 
-def _json_objects(text: str) -> Iterator[dict[str, Any]]:
-    """Yield the JSON objects in a text that stand in no other, in order."""
-    start = text.find("{")
-    for _ in range(_MOST_STARTS):
-        if start < 0:
-            return
-        found, end = _decode(text, start)
-        if isinstance(found, dict):
-            yield found
-        start = text.find("{", max(end, start + 1))
-
-
-def _whole_rows(text: str, numbers: tuple[str, ...]) -> dict[str, Any]:
-    """Return the rows that were written out before the text broke off."""
-    rows = {}
-    for match in re.finditer(r'(?<!\\)"([0-9]{1,9})"\s*:\s*(?=[{"])', text):
-        if match[1] in numbers:
-            row, end = _decode(text, match.end())
-            if end > match.end():
-                rows[match[1]] = row
-    return rows
-
-
-def _decode(text: str, start: int) -> tuple[Any, int]:
-    """Return the JSON value that starts there and where it ends; that is `start` if there is none."""
-    try:
-        return json.JSONDecoder(strict=False).raw_decode(text, start)
-    except (ValueError, RecursionError):
-        return None, start
-
-
-def _read_row(row: Any, batch: Batch, tbox: TBox) -> Answer:
+def _read_value(row: Any, batch: Batch, tbox: TBox) -> Answer:
     reasoning, value = "", row
     if isinstance(row, dict):
         reasoning = row["reasoning"] if isinstance(row.get("reasoning"), str) else ""

@@ -5,31 +5,42 @@ A completion is committed before `put` returns: it outlives the process, even on
 WAL needs a local disk: where the home folder is a network drive, set USD2KG_CACHE to a file on a local one.
 
 Instructions with the TBox, and schemas, are shared by the requests of a run; the cache holds each once.
+
+A file of format 1 is brought to format 2 when it is opened: all completions stay, without the mean log-probability that
+stood in place of the tokens'. Versions of usd2kg that only know format 1 refuse the file from then on.
 """
 
-import hashlib
 import json
 import os
 import sqlite3
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import asdict, fields
 from pathlib import Path
 from threading import Lock, RLock
-from types import NoneType, TracebackType
-from typing import Any, NamedTuple, Self
+from types import TracebackType
+from typing import Self
 
 from usd2kg.errors import GroundingError, OutputError
 from usd2kg.files import write_whole
-from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.completion import Completion, Request
+from usd2kg.grounding.llm.recordings import format_line, read_line
+from usd2kg.grounding.llm.records import (
+    UNREADABLE,
+    Row,
+    make_row,
+    read_completion,
+    request_fields,
+    request_key,
+    to_json,
+    upgrade_completion,
+)
 
-__all__ = ["CompletionCache", "default_cache_path", "request_key"]
+__all__ = ["CompletionCache", "default_cache_path"]
 
-_KEY_FORMAT = "usd2kg-request/1"
 _APPLICATION_ID = int.from_bytes(b"u2kg")
-_FILE_VERSION = 1
+_FILE_VERSION = 2
 _BUSY_SECONDS = 60.0
 _SCHEMA = (
     "CREATE TABLE IF NOT EXISTS shared (digest TEXT PRIMARY KEY, text TEXT NOT NULL)",
@@ -43,33 +54,7 @@ _EXPORT = (
     " JOIN shared AS system ON system.digest = completions.system"
     " JOIN shared AS schema ON schema.digest = completions.schema ORDER BY key"
 )
-_LINE = {"key": (str,), "model": (str,), "request": (dict,), "completion": (dict,)}
-_REQUEST = {
-    "system": (str,),
-    "user": (str,),
-    "schema": (dict,),
-    "most_tokens": (int,),
-    "temperature": (float,),
-    "is_thinking": (bool,),
-    "sample": (int,),
-}
-_COMPLETION = {
-    "text": (str,),
-    "finish": (str,),
-    "usage": (dict,),
-    "mean_logprob": (float, NoneType),
-    "thinking": (str,),
-}
-_USAGE = {"input_tokens": (int,), "cached_tokens": (int,), "output_tokens": (int,)}
-_UNREADABLE = (ValueError, OverflowError, RecursionError)
 _creating = Lock()
-
-
-class _Row(NamedTuple):
-    shared: tuple[tuple[str, str], ...]
-    """Digest and text of what other requests may hold too."""
-    values: tuple[str, str, str, str, str]
-    """The row of `completions`."""
 
 
 def default_cache_path() -> Path:
@@ -94,15 +79,6 @@ def default_cache_path() -> Path:
                 f"cache of completions: {error}; set USD2KG_CACHE to a file to keep them in"
             ) from error
     return folder / "usd2kg" / "completions.sqlite"
-
-
-def request_key(model: str, request: Request) -> str:
-    """Return the address of a completion: `sha256:` and the hex digest of the model and every field of the request.
-
-    The order of the schema's properties counts: models answer in it.
-    """
-    parts = {"format": _KEY_FORMAT, "model": model, "request": _request_fields(request)}
-    return "sha256:" + _digest(json.dumps(parts, separators=(",", ":"), default=_as_dict, allow_nan=False))
 
 
 class CompletionCache:
@@ -136,8 +112,8 @@ class CompletionCache:
         if row is None:
             return None
         try:
-            return _read_completion(json.loads(row[0]))
-        except _UNREADABLE as error:
+            return read_completion(json.loads(row[0]))
+        except UNREADABLE as error:
             raise GroundingError(f"{self.path}: completion {key} is damaged ({error}); {_remedy()}") from error
 
     def put(self, model: str, request: Request, completion: Completion, *, replace: bool = False) -> None:
@@ -146,7 +122,7 @@ class CompletionCache:
         A completion that is there already stays, unless `replace`. Two halves of a surrogate pair come back as the
         character that they make; all other text comes back as it is.
         """
-        row = _make_row(model, request, completion)
+        row = make_row(model, request_fields(request), completion)
         with self._transaction("BEGIN IMMEDIATE"):
             self._insert(row, replace=replace)
 
@@ -161,7 +137,7 @@ class CompletionCache:
         if path.resolve() == self.path:
             raise OutputError(f"{path}: is the cache itself; choose another file for the recording")
         with self._lock, self._translated():
-            lines = [_format_line(*row) for row in self._connection.execute(_EXPORT)]
+            lines = [format_line(*row) for row in self._connection.execute(_EXPORT)]
         write_whole(path, b"".join(lines))
         return len(lines)
 
@@ -175,7 +151,7 @@ class CompletionCache:
             with path.open("rb") as file, self._transaction("BEGIN IMMEDIATE"):
                 before = len(self)
                 for number, line in enumerate(file, start=1):
-                    self._insert(_make_row(*_read_line(path, number, line)))
+                    self._insert(read_line(path, number, line))
                 return len(self) - before
         except OSError as error:
             raise GroundingError(
@@ -208,7 +184,7 @@ class CompletionCache:
         is_new = (tables, application, version) == (0, 0, 0)
         if not is_new and application != _APPLICATION_ID:
             raise GroundingError(f"{self.path}: is the database of another program; {_remedy()}")
-        if not is_new and version != _FILE_VERSION:
+        if not is_new and version not in (1, _FILE_VERSION):
             raise GroundingError(f"{self.path}: has format {version}, expected {_FILE_VERSION}; {_remedy()}")
         self._switch_to_wal()
         # A killed process loses nothing by this; a power cut may lose the last completions, never the file.
@@ -217,6 +193,15 @@ class CompletionCache:
             with self._transaction("BEGIN IMMEDIATE"):
                 for statement in _SCHEMA:
                     self._connection.execute(statement)
+        elif version == 1:
+            self._upgrade()
+
+    def _upgrade(self) -> None:
+        self._connection.create_function("upgraded", 1, _upgraded, deterministic=True)
+        with self._transaction("BEGIN IMMEDIATE"):
+            # Another process may have been first; what it has brought up to date comes through unchanged.
+            self._connection.execute("UPDATE completions SET completion = upgraded(completion)")
+            self._connection.execute(f"PRAGMA user_version = {_FILE_VERSION}")
 
     def _switch_to_wal(self) -> None:
         # SQLite does not wait here where several processes open a new file at once: it gives up at once.
@@ -230,7 +215,7 @@ class CompletionCache:
                     raise
                 time.sleep(0.01)
 
-    def _insert(self, row: _Row, *, replace: bool = False) -> None:
+    def _insert(self, row: Row, *, replace: bool = False) -> None:
         how = "REPLACE" if replace else "IGNORE"
         self._connection.executemany("INSERT OR IGNORE INTO shared VALUES (?, ?)", row.shared)
         self._connection.execute(f"INSERT OR {how} INTO completions VALUES (?, ?, ?, ?, ?)", row.values)
@@ -274,73 +259,13 @@ def _create_file(path: Path) -> None:
         ) from error
 
 
+def _upgraded(text: str) -> str:
+    try:
+        return to_json(upgrade_completion(json.loads(text)))
+    except UNREADABLE:
+        # A damaged one is told of when it is asked for.
+        return text
+
+
 def _remedy() -> str:
     return "move it away to start an empty cache, or set USD2KG_CACHE to another file"
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _as_dict(value: object) -> dict[str, Any]:
-    if isinstance(value, Mapping):
-        return dict(value)
-    raise TypeError(f"{type(value).__name__} is not JSON")
-
-
-def _to_json(value: object) -> str:
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), default=_as_dict)
-    # Lone surrogates stand in strings only, where what this makes of them is JSON's own escape.
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
-def _request_fields(request: Request) -> dict[str, Any]:
-    values = {f.name: getattr(request, f.name) for f in fields(Request)}
-    return {**values, "temperature": float(request.temperature)}
-
-
-def _make_row(model: str, request: Request, completion: Completion) -> _Row:
-    values = _request_fields(request)
-    system, schema = (_to_json(values.pop(name)) for name in ("system", "schema"))
-    shared = ((_digest(system), system), (_digest(schema), schema))
-    said = asdict(completion)
-    if completion.mean_logprob is not None:
-        said["mean_logprob"] = float(completion.mean_logprob)
-    rest = _to_json({"model": model, **values})
-    return _Row(shared, (request_key(model, request), shared[0][0], shared[1][0], rest, _to_json(said)))
-
-
-def _format_line(key: str, system: str, schema: str, rest: str, completion: str) -> bytes:
-    values = {"system": json.loads(system), "schema": json.loads(schema), **json.loads(rest)}
-    request = {name: values[name] for name in _REQUEST}
-    line = {"key": key, "model": values["model"], "request": request, "completion": json.loads(completion)}
-    return f"{_to_json(line)}\n".encode()
-
-
-def _read_line(path: Path, number: int, line: bytes) -> tuple[str, Request, Completion]:
-    try:
-        data = _checked(json.loads(line.decode("utf-8")), _LINE, "the line")
-        model, request = data["model"], Request(**_checked(data["request"], _REQUEST, "request"))
-        if data["key"] != request_key(model, request):
-            raise ValueError("the key is not that of its model and request")
-        return model, request, _read_completion(data["completion"])
-    except _UNREADABLE as error:
-        raise GroundingError(
-            f"{path}: line {number} is no recorded completion ({error}); nothing was imported;"
-            " expected the file as the cache exported it: export it again or remove the line"
-        ) from error
-
-
-def _read_completion(data: Any) -> Completion:
-    values = dict(_checked(data, _COMPLETION, "completion"))
-    usage = Usage(**_checked(values.pop("usage"), _USAGE, "usage"))
-    return Completion(finish=Finish(values.pop("finish")), usage=usage, **values)
-
-
-def _checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict[str, Any]:
-    if not isinstance(data, dict) or data.keys() != kinds.keys():
-        raise ValueError(f"{what} should be an object with {', '.join(kinds)}")
-    for name, expected in kinds.items():
-        if type(data[name]) not in expected:
-            raise ValueError(f"{name} of {what} is {str(data[name])[:40]!r}, expected {expected[0].__name__}")
-    return data

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from statistics import fmean
 from typing import Any, Protocol
 
 __all__ = ["Client", "Completion", "Finish", "Request", "Usage"]
@@ -42,18 +43,24 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """Tokens, as the server counts them."""
+    """Tokens, as the server counts them where it does."""
 
     input_tokens: int = 0
     cached_tokens: int = 0
     """Those of the input that the server had already read."""
     output_tokens: int = 0
+    estimated_tokens: int = 0
+    """Those of input and output that we estimate, as the server did not count them: about one for four bytes."""
+    written_tokens: int = 0
+    """Those of the input that the server wrote into its cache, which costs more at Anthropic's."""
 
     def __add__(self, other: "Usage") -> "Usage":
         return Usage(
             self.input_tokens + other.input_tokens,
             self.cached_tokens + other.cached_tokens,
             self.output_tokens + other.output_tokens,
+            self.estimated_tokens + other.estimated_tokens,
+            self.written_tokens + other.written_tokens,
         )
 
 
@@ -64,10 +71,19 @@ class Completion:
     text: str
     finish: Finish = Finish.STOP
     usage: Usage = field(default_factory=Usage)
-    mean_logprob: float | None = None
-    """Mean natural logarithm of the tokens' probabilities; None where the server does not tell."""
+    tokens: tuple[tuple[str, float], ...] = ()
+    """Text and natural logarithm of the probability of each token, in order; empty where the server does not tell.
+
+    Joined, the texts hold `text`, maybe with reasoning before and a mark of the end behind. A token that ends within a
+    character has none of it; the one that completes it has all.
+    """
     thinking: str = ""
     """What it reasoned before, where the server tells."""
+
+    @property
+    def mean_logprob(self) -> float | None:
+        """Mean natural logarithm of the tokens' probabilities; None where the server does not tell."""
+        return fmean(logprob for _, logprob in self.tokens) if self.tokens else None
 
 
 class Client(Protocol):

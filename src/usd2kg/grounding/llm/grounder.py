@@ -4,49 +4,23 @@ import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, field, replace
-from threading import Lock
+from dataclasses import replace
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
-from usd2kg.grounding.llm.cache import CompletionCache
-from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.asking import Asker, RunReport
+from usd2kg.grounding.llm.completion import Completion, Finish
+from usd2kg.grounding.llm.grouping import distinct_views, shortlists
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
 from usd2kg.grounding.llm.voting import Reply, vote
 from usd2kg.grounding.model import Prediction, Status
-from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.ontology import TBox
 from usd2kg.scene import ObjectView
 
-__all__ = ["LLMGrounder", "RunReport", "distinct_views"]
+__all__ = ["LLMGrounder"]
 
-_FAILURES_IN_A_ROW = 3
-"""After so many without an answer between, the model is not asked again."""
 _INTERRUPTED = Answer(None, Status.FAILED, "", "not asked: the run was interrupted; the same command goes on with it")
-
-
-@dataclass(slots=True)
-class RunReport:
-    """What a run cost and what went wrong; it grows while the run goes on."""
-
-    objects: int = 0
-    prompts: int = 0
-    """Different prompts, repairs left out."""
-    completions: int = 0
-    """Completions that the model was asked for."""
-    cached: int = 0
-    """Completions that were known already."""
-    repairs: int = 0
-    degenerate: int = 0
-    """Completions that looped, said nothing or ran into the limit."""
-    failed: int = 0
-    """Prompts that nobody answered."""
-    usage: Usage = field(default_factory=Usage)
-    """Tokens of what was asked for; what is cached costs nothing."""
-    seconds: float = 0.0
-    is_interrupted: bool = False
-    """Whether the user stopped it before all was asked."""
 
 
 def _say_nothing(done: int, count: int) -> None:
@@ -54,22 +28,19 @@ def _say_nothing(done: int, count: int) -> None:
 
 
 class LLMGrounder:
-    """Grounds by asking a model; what it has said once is not asked again."""
+    """Grounds by asking a model."""
 
     name = "llm"
     is_calibrated = False
 
     def __init__(
         self,
-        client: Client,
+        asker: Asker,
         options: PromptOptions,
         *,
-        cache: CompletionCache | None = None,
-        is_refreshed: bool = False,
         is_once_each: bool = True,
         shortlist: int | None = None,
         workers: int = 4,
-        token_budget: int | None = None,
         samples: int = 1,
         first_sample: int = 0,
         examples: Sequence[Example] = (),
@@ -79,15 +50,12 @@ class LLMGrounder:
         """Make the grounder.
 
         Args:
-            client: the model.
+            asker: who asks the model.
             options: strategy and form of the prompts.
-            cache: where completions are kept; None for nowhere.
-            is_refreshed: ask even for what is in the cache, and keep the new completion.
             is_once_each: ask once about objects whose prompts would differ in a number alone.
             shortlist: offer for each object only so many classes that the embedded grounder thinks of first, with
                 those above them and the roots; None offers all.
             workers: prompts that are on their way at the same time.
-            token_budget: input and output tokens after which nothing more is asked.
             samples: completions that are asked for each prompt; the class that most of them name is taken.
             first_sample: the number of the first; repeated runs with other numbers are not served from the cache.
             examples: objects that a person has named, shown in each prompt.
@@ -101,20 +69,22 @@ class LLMGrounder:
             raise GroundingError(f"{samples} samples of each prompt; expected 1 or more")
         if samples > 1 and options.temperature == 0:
             raise GroundingError(f"{samples} samples at temperature 0 are all the same; expected a temperature above 0")
-        self._client, self._options, self._cache = client, options, cache
-        self._is_refreshed, self._is_once_each, self._workers = is_refreshed, is_once_each, workers
-        self._shortlist, self._budget = shortlist, token_budget
+        self._asker, self._options = asker, options
+        self._is_once_each, self._shortlist, self._workers = is_once_each, shortlist, workers
         self._samples, self._first_sample = samples, first_sample
         self._examples, self._picture, self._progress = examples, picture, progress
-        self._lock = Lock()
-        self._failures = 0
-        self.report = RunReport()
+        self.tariff = asker.tariff
+
+    @property
+    def report(self) -> RunReport:
+        """What the run cost so far."""
+        return self._asker.report
 
     @property
     def settings(self) -> Mapping[str, str]:
         """The settings that its answers depend on."""
         return {
-            "model": self._client.model,
+            "model": self._asker.model,
             "strategy": self._options.strategy.value,
             "classes": "tree" if self._options.is_tree else "flat",
             "objects_per_prompt": str(self._options.objects_per_prompt),
@@ -133,10 +103,12 @@ class LLMGrounder:
         """Return the prompts that `ground_views` would send once for each sample, repairs left out."""
         asked = [views[indices[0]] for indices in self._groups([view for _, view in views])]
         shown = [view for _, view in asked]
-        offered = _shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None
-        return build_requests(
-            shown, tbox, self._options, offered, examples=self._examples, pictures=self._pictures(asked)
-        )
+        offered = shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None
+        pictures = self._pictures(asked)
+        return build_requests(shown, tbox, self._options, offered, examples=self._examples, pictures=pictures)
+
+    def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
+        return distinct_views(views, self._options) if self._is_once_each else [[i] for i in range(len(views))]
 
     def _pictures(self, asked: Sequence[tuple[str, ObjectView]]) -> dict[int, bytes]:
         if self._picture is None:
@@ -160,9 +132,6 @@ class LLMGrounder:
         self.report.seconds += time.monotonic() - start
         return [found[index] for index in range(len(views))]
 
-    def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
-        return distinct_views(views, self._options) if self._is_once_each else [[i] for i in range(len(views))]
-
     def _replies(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[Reply]]]:
         """Yield the batches as they are answered; after an interruption nothing more is asked."""
         left = dict(enumerate(batches))
@@ -182,84 +151,39 @@ class LLMGrounder:
 
     def _ask(self, batch: Batch, tbox: TBox) -> list[Reply]:
         numbers = range(self._first_sample, self._first_sample + self._samples)
-        samples = [self._ask_once(_sample_of(batch, number), tbox) for number in numbers]
-        return [vote(replies) for replies in zip(*samples, strict=True)]
+        samples = [self._sample(batch, number, tbox) for number in numbers]
+        return [vote([_reply(answer) for answer in answers]) for answers in zip(*samples, strict=True)]
 
-    def _ask_once(self, batch: Batch, tbox: TBox) -> list[Reply]:
-        return [Reply(answer, self._confidence(answer, completion)) for answer, completion in self._say(batch, tbox)]
-
-    def _say(self, batch: Batch, tbox: TBox) -> list[tuple[Answer, Completion | None]]:
+    def _sample(self, batch: Batch, number: int, tbox: TBox) -> list[Answer]:
+        batch = replace(batch, request=replace(batch.request, sample=number))
         try:
-            completion = self._complete(batch.request)
+            completion = self._asker.complete(batch.request)
         except GroundingError as error:
-            with self._lock:
+            with self._asker.lock:
                 self.report.failed += 1
-            return [(Answer(None, Status.FAILED, "", str(error)), None) for _ in batch.indices]
-        found = [(answer, completion) for answer in self._read(completion, batch, tbox)]
-        if any(answer.status is Status.UNREADABLE for answer, _ in found):
-            return self._repair(batch, completion, found, tbox)
-        return list(found)
-
-    def _repair(
-        self, batch: Batch, completion: Completion, found: list[tuple[Answer, Completion]], tbox: TBox
-    ) -> list[tuple[Answer, Completion | None]]:
-        """Ask once more for what could not be read; what was right before stays."""
-        try:
-            second = self._complete(repair_request(batch, completion.text, [answer for answer, _ in found]))
-        except GroundingError:
-            return list(found)
-        with self._lock:
-            self.report.repairs += 1
-        mended = self._read(second, batch, tbox)
-        return [
-            (new, second) if old[0].status is Status.UNREADABLE else old for old, new in zip(found, mended, strict=True)
-        ]
-
-    def _read(self, completion: Completion, batch: Batch, tbox: TBox) -> list[Answer]:
-        answers = parse_answers(completion.text, batch, tbox)
-        if completion.finish is not Finish.STOP or is_degenerate(completion.text):
-            with self._lock:
-                self.report.degenerate += 1
+            return [Answer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
+        answers = self._read(completion, batch, tbox)
+        if any(answer.status is Status.UNREADABLE for answer in answers):
+            return self._repair(batch, completion, answers, tbox)
         return answers
 
-    def _complete(self, request: Request) -> Completion:
-        known = None
-        if self._cache is not None and not self._is_refreshed:
-            known = self._cache.get(self._client.model, request)
-        if known is not None:
-            with self._lock:
-                self.report.cached += 1
-            return known
-        self._check_going_on()
+    def _repair(self, batch: Batch, completion: Completion, answers: list[Answer], tbox: TBox) -> list[Answer]:
+        """Ask once more for what could not be read; what was right before stays."""
         try:
-            completion = self._client.complete(request)
+            second = self._asker.complete(repair_request(batch, completion.text, answers))
         except GroundingError:
-            with self._lock:
-                self._failures += 1
-            raise
-        with self._lock:
-            self._failures = 0
-            self.report.completions += 1
-            self.report.usage += completion.usage
-        if self._cache is not None:
-            self._cache.put(self._client.model, request, completion, replace=self._is_refreshed)
-        return completion
+            return answers
+        with self._asker.lock:
+            self.report.repairs += 1
+        mended = self._read(second, batch, tbox)
+        return [new if old.status is Status.UNREADABLE else old for old, new in zip(answers, mended, strict=True)]
 
-    def _check_going_on(self) -> None:
-        with self._lock:
-            used = self.report.usage.input_tokens + self.report.usage.output_tokens
-            failures = self._failures
-        if self._budget is not None and used >= self._budget:
-            raise GroundingError(f"not asked: {used} tokens are used of a budget of {self._budget}; raise --budget")
-        if failures >= _FAILURES_IN_A_ROW:
-            raise GroundingError(f"not asked: {failures} prompts in a row were not answered; see the first of them")
-
-    @staticmethod
-    def _confidence(answer: Answer, completion: Completion | None) -> float | None:
-        logprob = completion.mean_logprob if completion is not None else None
-        if answer.class_iri is None or logprob is None:
-            return None
-        return round(math.exp(min(0.0, logprob)), 4)
+    def _read(self, completion: Completion, batch: Batch, tbox: TBox) -> list[Answer]:
+        answers = parse_answers(completion.text, batch, tbox, completion.tokens)
+        if completion.finish is not Finish.STOP or is_degenerate(completion.text):
+            with self._asker.lock:
+                self.report.degenerate += 1
+        return answers
 
     def _prediction(self, path: str, reply: Reply) -> Prediction:
         answer = reply.answer
@@ -269,44 +193,13 @@ class LLMGrounder:
             confidence=reply.confidence,
             status=answer.status,
             grounder=self.name,
-            explanation=answer.problem or answer.reasoning or f"{self._client.model} says so",
+            explanation=answer.problem or answer.reasoning or f"{self._asker.model} says so",
             evidence=("name",) if self._options.strategy is Strategy.NAME_ONLY else (),
             candidates=reply.candidates,
         )
 
 
-def _sample_of(batch: Batch, number: int) -> Batch:
-    return replace(batch, request=replace(batch.request, sample=number))
-
-
-def _shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
-    """Return for each view the classes that the embedded grounder thinks of first, all above them, and the roots."""
-    first = EmbeddedGrounder().ground_views([("", view) for view in views], tbox)
-    likely = [[candidate.class_iri for candidate in found.candidates[:most]] for found in first]
-    return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
-
-
-def distinct_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
-    """Return the indices of views in groups that one answer serves: they differ in numbers and in where they stand.
-
-    By strategy A only the name counts; by B and C also the names above and the size, to the centimetre. A masked view
-    is always alone: that it looks like another may be the mask's doing.
-    """
-    groups: dict[object, list[int]] = {}
-    for index, view in enumerate(views):
-        strategy = options.strategy.for_name(view.name, is_thinking=options.is_thinking)
-        key: object = index if view.is_masked else (strategy, _signature(view, strategy))
-        groups.setdefault(key, []).append(index)
-    return list(groups.values())
-
-
-def _signature(view: ObjectView, strategy: Strategy) -> object:
-    bare = replace(view, name=_stem(view.name), position=None, siblings=(), company=None)
-    if strategy is Strategy.NAME_ONLY:
-        return bare.name
-    size = tuple(round(side, 2) for side in sorted(view.own_size)) if view.own_size else None
-    return bare.name, tuple(map(_stem, view.parents)), size, view.mass_kg, view.asset
-
-
-def _stem(name: str) -> str:
-    return name.rstrip("0123456789_")
+def _reply(answer: Answer) -> Reply:
+    """Return a single answer, as sure as the tokens of its class are likely."""
+    is_known = answer.class_iri is not None and answer.logprob is not None
+    return Reply(answer, round(math.exp(min(0.0, answer.logprob or 0.0)), 4) if is_known else None)

@@ -102,7 +102,9 @@ def read_failure(error: "AgentRunError", redact: Redactor) -> Failure:
         if (error.retry_after or 0.0) > _LONGEST_ASKED_WAIT_S:
             message += f" (asks to wait {error.retry_after:.0f} s)"
         return Failure(message, status, _is_transient(status), error.retry_after)
-    return Failure(redact(str(error)), None, isinstance(error, ModelConnectionError | ModelRequestTimeout))
+    # Inside a stream the server had taken the request already: it is not to blame.
+    is_transient = error.in_stream or isinstance(error, ModelConnectionError | ModelRequestTimeout)
+    return Failure(redact(str(error)), None, is_transient)
 
 
 def advise(failure: Failure, key_variable: str) -> str:

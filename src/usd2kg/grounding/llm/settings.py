@@ -1,18 +1,22 @@
 """What a user says about asking a model, and the grounder made from it."""
 
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from decimal import Decimal
 from pathlib import Path
-from typing import TypedDict
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.asking import Asker, Limits
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prices import find_tariff, parse_price
+from usd2kg.grounding.llm.prompts import Example
+from usd2kg.grounding.llm.traffic import Traffic
 
 __all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
 
@@ -33,7 +37,20 @@ class LLMSettings:
     """Seed of a random order of the classes; None for the alphabet."""
     shortlist: int | None = None
     """Classes of the embedded grounder that are offered for each object; None for all."""
+    samples: int = 1
+    """Completions of each prompt; the class that most of them name is taken."""
+    first_sample: int = 0
+    """Number of the first of them; repeated runs have different ones."""
+    temperature: float | None = None
+    """None for 0, or 0.7 where there are several samples."""
     token_budget: int | None = None
+    price: str | None = None
+    """Dollars for a million tokens, as INPUT/OUTPUT; None for the list price."""
+    budget: Decimal | None = None
+    """US dollars."""
+    concurrency: int = 4
+    """Prompts that are on their way at the same time."""
+    requests_per_minute: int | None = None
     completions: Path | None = None
     """File of the cache; None for the user's."""
     is_refreshed: bool = False
@@ -41,43 +58,76 @@ class LLMSettings:
     """Take only what is in the cache, and ask nobody."""
 
 
-class _Form(TypedDict):
-    is_once_each: bool
-    shortlist: int | None
+_SAMPLING_TEMPERATURE = 0.7
+"""As in the paper on self-consistency (Wang et al., 2023)."""
 
 
 @contextmanager
-def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterator[LLMGrounder]:
+def open_llm_grounder(
+    settings: LLMSettings,
+    *,
+    is_dry: bool = False,
+    examples: Sequence[Example] = (),
+    picture: Callable[[str], bytes | None] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[LLMGrounder]:
     """Open a grounder, its connections and its cache; a dry one plans its prompts and cannot ask.
 
+    Args:
+        settings: which model is asked, how, and for how much.
+        is_dry: whether nobody is asked.
+        examples: objects that a person has named, shown in each prompt.
+        picture: gives the PNG picture of a prim; pictures are sent if it is given.
+        progress: told the number of objects that are done and of all.
+
     Raises:
-        GroundingError: the strategy or model is unknown, a key is missing, the cache cannot be opened.
+        GroundingError: the strategy or model is unknown, a key is missing, the cache cannot be opened, a price is
+            malformed or, though there is a budget in dollars, unknown.
     """
-    options = PromptOptions(
+    with ExitStack() as stack:
+        asker = _open_asker(settings, stack, is_dry=is_dry)
+        yield LLMGrounder(
+            asker,
+            _prompt_options(settings),
+            is_once_each=not settings.is_each_object,
+            shortlist=settings.shortlist,
+            workers=settings.concurrency,
+            samples=settings.samples,
+            first_sample=settings.first_sample,
+            examples=examples,
+            picture=picture,
+            **({"progress": progress} if progress is not None else {}),
+        )
+
+
+def _prompt_options(settings: LLMSettings) -> PromptOptions:
+    usual = _SAMPLING_TEMPERATURE if settings.samples > 1 else 0.0
+    return PromptOptions(
         strategy=settings.strategy,
         is_tree=settings.is_tree,
         objects_per_prompt=settings.objects_per_prompt,
         is_thinking=settings.is_thinking,
         has_more_evidence=settings.has_more_evidence,
         shuffle_seed=settings.shuffle_seed,
+        temperature=usual if settings.temperature is None else settings.temperature,
     )
-    form: _Form = {"is_once_each": not settings.is_each_object, "shortlist": settings.shortlist}
+
+
+def _open_asker(settings: LLMSettings, stack: ExitStack, *, is_dry: bool) -> Asker:
+    tariff = find_tariff(settings.model) if settings.price is None else parse_price(settings.price)
+    limits = Limits(settings.token_budget, settings.budget)
     if is_dry:
-        yield LLMGrounder(_NoClient(settings.model), options, **form)
-        return
-    with ExitStack() as stack:
-        cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
-        client: Client = (
-            _NoClient(settings.model) if settings.is_replayed else stack.enter_context(make_client(settings.model))
-        )
-        yield LLMGrounder(
-            client,
-            options,
-            cache=cache,
-            is_refreshed=settings.is_refreshed,
-            token_budget=settings.token_budget,
-            **form,
-        )
+        return Asker(_NoClient(settings.model), tariff=tariff, limits=limits)
+    cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
+    client, traffic = _open_client(settings, stack)
+    return Asker(client, cache=cache, is_refreshed=settings.is_refreshed, limits=limits, tariff=tariff, traffic=traffic)
+
+
+def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traffic]:
+    if settings.is_replayed:
+        return _NoClient(settings.model), Traffic()
+    client = make_client(settings.model, requests_per_minute=settings.requests_per_minute)
+    return stack.enter_context(client), client.traffic
 
 
 def parse_llm_name(name: str) -> tuple[str, Strategy]:
@@ -87,13 +137,14 @@ def parse_llm_name(name: str) -> tuple[str, Strategy]:
         GroundingError: it is no such name.
     """
     kind, _, model = name.partition(":")
-    letter = kind.removeprefix("llm").removeprefix("-").upper() or Strategy.CONTEXT.value
-    if letter not in set(Strategy) or not model:
+    said = kind.removeprefix("llm").removeprefix("-") or Strategy.CONTEXT.value
+    strategies = {strategy.value.lower(): strategy for strategy in Strategy}
+    if said.lower() not in strategies or not model:
         raise GroundingError(
-            f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL or llm-C:MODEL, "
-            "with a MODEL like google:gemini-2.5-flash or openai:NAME@http://localhost:8000/v1"
+            f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or "
+            "llm-auto:MODEL, with a MODEL like google:gemini-2.5-flash or openai:NAME@http://localhost:8000/v1"
         )
-    return model, Strategy(letter)
+    return model, strategies[said.lower()]
 
 
 def make_llm_grounder(name: str) -> LLMGrounder:

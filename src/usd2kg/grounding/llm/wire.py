@@ -1,13 +1,15 @@
 """A request in the words of pydantic-ai and of the servers behind it, and the completion in ours."""
 
-from collections.abc import Mapping
-from statistics import fmean
+from codecs import getincrementaldecoder
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 from urllib.parse import urlsplit
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.addresses import Address
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.text import estimate_tokens
 
 if TYPE_CHECKING:
     from pydantic_ai.messages import ModelResponse
@@ -37,6 +39,9 @@ def make_settings(address: Address, served: "Model[Any]", request: Request, asks
         settings["temperature"] = request.temperature
     if asks_logprobs:
         settings["openai_logprobs"] = True
+        if address.is_compatible:
+            # llama.cpp's server tells those of twenty other tokens for each unless it is told how many.
+            settings["openai_top_logprobs"] = 1
     if served.profile.get("supports_thinking", False):
         settings["thinking"] = request.is_thinking
     if address.provider == "anthropic":
@@ -88,23 +93,57 @@ def _switch_reasoning(address: Address, is_thinking: bool) -> dict[str, Any]:
     return {"extra_body": {"chat_template_kwargs": {"enable_thinking": is_thinking}}}
 
 
-def read_completion(response: "ModelResponse") -> Completion:
-    """Return the library's response as a completion."""
+def read_completion(
+    response: "ModelResponse", request: Request, provider: str, cut: Finish | None = None
+) -> Completion:
+    """Return the library's response as a completion.
+
+    Args:
+        response: what came, whole or not.
+        request: what was asked.
+        provider: in whose format.
+        cut: why we ended it before the server did; None where the server ended it.
+    """
     from pydantic_ai.messages import TextPart, ThinkingPart  # noqa: PLC0415
 
+    text = "".join(part.content for part in response.parts if isinstance(part, TextPart))
+    thinking = "".join(part.content for part in response.parts if isinstance(part, ThinkingPart))
+    finish = Finish.LENGTH if response.finish_reason == "length" else Finish.STOP
     usage = response.usage
-    return Completion(
-        "".join(part.content for part in response.parts if isinstance(part, TextPart)),
-        Finish.LENGTH if response.finish_reason == "length" else Finish.STOP,
-        Usage(usage.input_tokens, usage.cache_read_tokens, usage.output_tokens),
-        _average_logprob(response.provider_details or {}),
-        "".join(part.content for part in response.parts if isinstance(part, ThinkingPart)),
+    counted = Usage(
+        usage.input_tokens, usage.cache_read_tokens, usage.output_tokens, written_tokens=usage.cache_write_tokens
     )
+    if cut is not None and provider != "google":
+        # Only Gemini counts as it goes; what Anthropic's servers tell at the start of a message is a stand-in.
+        counted = replace(counted, output_tokens=0)
+    tokens = _read_tokens(response.provider_details or {})
+    if not counted.output_tokens:
+        counted = replace(counted, output_tokens=len(tokens))
+    if cut is not None or usage.unmeasured_requests:
+        counted += _estimate_missing(counted, request, thinking + text)
+    return Completion(text, cut or finish, counted, tokens, thinking)
 
 
-def _average_logprob(details: Mapping[str, Any]) -> float | None:
-    logprobs = [float(token["logprob"]) for token in details.get("logprobs", ())]
-    return fmean(logprobs) if logprobs else None
+def _estimate_missing(counted: Usage, request: Request, said: str) -> Usage:
+    """Return an estimate of about four bytes a token for the counts that the server did not tell."""
+    input_tokens = 0 if counted.input_tokens else estimate_tokens(request.system + request.user)
+    output_tokens = 0 if counted.output_tokens else estimate_tokens(said)
+    return Usage(input_tokens, 0, output_tokens, input_tokens + output_tokens)
+
+
+def _read_tokens(details: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
+    """Return the text and log-probability of each token; nothing where a server tells them in a way of its own."""
+    decode = getincrementaldecoder("utf-8")("replace").decode
+    try:
+        return tuple((_piece(token, decode), float(token["logprob"])) for token in details.get("logprobs", ()))
+    except (LookupError, TypeError, ValueError):
+        return ()
+
+
+def _piece(token: Mapping[str, Any], decode: Callable[[bytes], str]) -> str:
+    """Return the text that a token adds: its bytes tell it where it ends within a character, its name does not."""
+    raw = token.get("bytes")
+    return str(token["token"]) if raw is None else decode(bytes(raw))
 
 
 def older_format(request: Request) -> dict[str, Any]:

@@ -1,0 +1,125 @@
+"""Prices by hand: tokens times dollars for a million of them. List prices are those of the installed genai-prices."""
+
+import json
+import socket
+from decimal import Decimal
+
+import genai_prices
+import pytest
+
+from tests.grounding.records import make_class, make_tbox
+from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.completion import Usage
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prices import estimate_usage, find_tariff, parse_price
+from usd2kg.grounding.llm.prompts import build_requests
+from usd2kg.grounding.llm.text import estimate_tokens
+from usd2kg.scene import ObjectView
+
+
+@pytest.fixture(autouse=True)
+def no_network(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise AssertionError("prices are no reason to go to the network")
+
+    monkeypatch.setattr(socket.socket, "connect", refuse)
+
+
+class TestListPrices:
+    @pytest.mark.parametrize(
+        ("model", "paid_in", "cached", "paid_out"),
+        [
+            ("google:gemini-2.5-flash", "0.30", "0.03", "2.50"),
+            ("anthropic:claude-haiku-4-5", "1", "0.10", "5"),
+            ("openai:gpt-4o", "2.50", "1.25", "10"),
+            ("openai:openai/gpt-4o@https://openrouter.ai/api/v1", "2.50", "1.25", "10"),
+        ],
+    )
+    def test_input_cached_input_and_output_have_prices_of_their_own(
+        self, model: str, paid_in: str, cached: str, paid_out: str
+    ):
+        tariff = find_tariff(model)
+
+        assert tariff is not None
+        assert tariff(Usage(1000, 0, 0)) == Decimal(paid_in) / 1000
+        assert tariff(Usage(1000, 1000, 0)) == Decimal(cached) / 1000
+        assert tariff(Usage(0, 0, 1000)) == Decimal(paid_out) / 1000
+        expected = 600 * Decimal(paid_in) + 400 * Decimal(cached) + 50 * Decimal(paid_out)
+        assert tariff(Usage(1000, 400, 50)) == expected / 1_000_000
+
+    def test_what_anthropic_writes_into_its_cache_costs_a_quarter_more(self):
+        tariff = find_tariff("anthropic:claude-haiku-4-5")
+
+        assert tariff is not None
+        assert tariff(Usage(1000, 0, 0, written_tokens=1000)) == Decimal("0.00125")
+
+    def test_long_prompts_are_priced_one_by_one(self):
+        """Gemini 2.5 Pro costs twice as much a token from 200,000 on."""
+        tariff = find_tariff("google:gemini-2.5-pro")
+
+        assert tariff is not None
+        assert tariff(Usage(300_000)) > 2 * tariff(Usage(150_000))
+
+    def test_more_from_the_cache_than_was_sent_counts_as_all_of_it(self):
+        tariff = find_tariff("openai:gpt-4o")
+
+        assert tariff is not None
+        assert tariff(Usage(1000, 5000, 0, written_tokens=7)) == tariff(Usage(1000, 1000, 0))
+
+    @pytest.mark.parametrize(
+        "model",
+        [
+            "openai:gpt-4o@http://localhost:8000/v1",
+            "google:gemini-2.5-flash@http://127.0.0.1:1",
+            "openai:a-model-that-nobody-heard-of",
+            "gguf:/models/qwen.gguf",
+            "test:model",
+        ],
+    )
+    def test_servers_and_weights_of_ones_own_have_none(self, model: str):
+        assert find_tariff(model) is None
+
+    def test_prices_are_those_of_the_library(self):
+        listed = genai_prices.calc_price(
+            genai_prices.Usage(input_tokens=123, output_tokens=45), "gpt-4o", provider_id="openai"
+        )
+        tariff = find_tariff("openai:gpt-4o")
+
+        assert tariff is not None
+        assert tariff(Usage(123, 0, 45)) == listed.total_price
+
+
+class TestStatedPrices:
+    def test_input_and_output_are_told_for_a_million_tokens(self):
+        tariff = parse_price("0.30/2.50")
+
+        assert tariff(Usage(1_000_000, 400_000, 100_000)) == Decimal("0.55")
+        assert tariff(Usage(1, 0, 1)) == Decimal("0.0000028")
+        assert parse_price("0/0")(Usage(5, 0, 5)) == 0
+
+    @pytest.mark.parametrize("text", ["", "1", "1/2/3", "a/b", "-1/2", "nan/1", "1/inf", "0,3/2,5"])
+    def test_other_texts_are_refused(self, text: str):
+        with pytest.raises(GroundingError, match="expected INPUT/OUTPUT in dollars per million tokens"):
+            parse_price(text)
+
+
+class TestEstimate:
+    TBOX = make_tbox(make_class("Cup"), make_class("Plate"))
+    """The names have three and five letters: four on average."""
+
+    def test_an_answer_is_a_row_for_each_object(self):
+        views = [ObjectView(name="a"), ObjectView(name="b")]
+        [batch] = build_requests(views, self.TBOX, PromptOptions(objects_per_prompt=2))
+
+        usage = estimate_usage(batch)
+
+        answer = json.dumps({"1": {"class": "Bowl"}, "2": {"class": "Vase"}})
+        assert len(answer) == 48
+        sent = estimate_tokens(batch.request.system + batch.request.user)
+        assert usage == Usage(sent, 0, 12, estimated_tokens=sent + 12)
+
+    def test_reasoning_is_counted_where_it_is_asked_for(self):
+        options = PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT, objects_per_prompt=2)
+        [batch] = build_requests([ObjectView(name="a"), ObjectView(name="b")], self.TBOX, options)
+
+        assert estimate_usage(batch).output_tokens == 12 + 2 * 120

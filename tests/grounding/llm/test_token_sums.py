@@ -1,0 +1,52 @@
+"""The probability of a part of a text, against sums by hand."""
+
+import pytest
+
+from usd2kg.grounding.llm.token_sums import TokenSums
+
+TEXT = '{"1": {"class": "Cup"}}'
+CUP = (17, 20)
+
+
+def total(*tokens: tuple[str, float], text: str = TEXT, span: tuple[int, int] = CUP) -> float | None:
+    return TokenSums(text, tokens).logprob(span)
+
+
+def test_the_span_is_that_of_the_class():
+    assert TEXT[slice(*CUP)] == "Cup"
+
+
+def test_the_tokens_of_the_class_alone_count():
+    assert total(('{"1": {"class": "', -1), ("Cup", -0.25), ('"}}', -2)) == -0.25
+    assert total(('{"1": {"class": "', -1), ("C", -0.25), ("up", -0.5), ('"}}', -2)) == -0.75
+
+
+def test_tokens_that_reach_over_the_ends_count_whole():
+    assert total(('{"1": {"class":', -1), (' "C', -0.25), ("u", -0.5), ('p"}', -0.125), ("}", -2)) == -0.875
+    assert total((TEXT, -3)) == -3
+
+
+def test_text_before_and_behind_is_left_out():
+    tokens = [("<think>", -9), (TEXT, -9), ("</think>\n", -9), (TEXT[:17], -1), ("Cup", -0.25), (TEXT[20:], -1)]
+    assert total(*tokens, ("<|im_end|>", -9)) == -0.25
+
+
+def test_a_character_in_several_tokens_counts_all_of_them():
+    text = '"café"'
+    tokens = ('"', -1), ("caf", -0.25), ("", -0.5), ("é", -0.125), ('"', -1)
+    assert total(*tokens, text=text, span=(1, 5)) == -0.875
+    assert total(*tokens, text=text, span=(1, 4)) == -0.25
+    assert total(*tokens, text=text, span=(4, 5)) == -0.625
+
+
+@pytest.mark.parametrize(
+    "tokens",
+    [(), ((TEXT[:-1], -1),), (("Ġ" + TEXT.replace(" ", "Ġ"), -1),), ((TEXT.upper(), -1),)],
+)
+def test_tokens_that_do_not_join_up_tell_nothing(tokens):
+    assert total(*tokens) is None
+
+
+def test_an_empty_span_or_text_tells_nothing():
+    assert total((TEXT, -1), span=(17, 17)) is None
+    assert total(("Cup", -1), text="", span=(0, 0)) is None
