@@ -37,6 +37,8 @@ class Request:
     """Whether a model that can reason before it answers does."""
     sample: int = 0
     """Which of several completions of one prompt this is."""
+    images: tuple[bytes, ...] = ()
+    """PNG files that are shown after the text."""
 
 
 @dataclass(frozen=True, slots=True)
