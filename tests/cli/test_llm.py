@@ -205,7 +205,10 @@ def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run
     ("arguments", "told"),
     [
         (("--grounder", "llm-B:nobody:model"), "expected google:NAME, anthropic:NAME or openai:NAME"),
-        (("--grounder", "llm-D:openai:x@http://localhost:1/v1"), "expected llm-A:MODEL, llm-B:MODEL or llm-C:MODEL"),
+        (
+            ("--grounder", "llm-D:openai:x@http://localhost:1/v1"),
+            "expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or llm-auto:MODEL",
+        ),
         (("--dry-run",), "--dry-run is about asking a model; say which one with --grounder"),
         (("--budget", "0"), "--budget is about asking a model; say which one with --grounder"),
         (("--price", "1/2"), "--price is about asking a model; say which one with --grounder"),
@@ -229,7 +232,8 @@ def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, w
         assert len(server.received) == 1
     assert "1 prompts for 1 objects" in plan.err
     assert classes(done.out) == {"/Kitchen/Cup": "Cup", "/Kitchen/xqzv": "Bowl"}
-    assert "1 objects sure by themselves, 1 decided by the model, 0 left as it was" in done.err
+    assert done.err.splitlines()[0].split() == ["tier", "objects", "tokens", "price", "seconds"]
+    assert [line.split()[:2] for line in done.err.splitlines()[1:3]] == [["embedded", "1"], ["llm", "1"]]
 
 
 def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
@@ -293,3 +297,56 @@ def test_a_grounder_is_named_by_strategy_and_model(name: str, expected: tuple[st
 def test_other_names_are_refused(name: str):
     with pytest.raises(GroundingError, match="expected llm-A:MODEL"):
         parse_llm_name(name)
+
+
+def test_what_a_person_decides_is_asked_no_more_and_shown_as_examples(run: Run, kitchen: Path, tmp_path: Path):
+    queue, filled = tmp_path / "queue.csv", tmp_path / "filled.csv"
+    with serve(*repeat(openai_reply(cup()), 5)) as server:
+        model = ("--grounder", f"llm-B:openai:test@{server.url}/v1")
+        first = run("ground", kitchen, *model, "--queue", queue, "--person", "1")
+        assert "3 objects wait for a person" in first.err
+        rows = list(csv.DictReader(queue.read_text("utf-8").splitlines()))
+        assert {row["answer"] for row in rows} == {"Cup"}
+        text = queue.read_text("utf-8").replace("/Kitchen/jar,,", "/Kitchen/jar,Jar,")
+        filled.write_text(text, "utf-8")
+        server.received.clear()
+        second = run("ground", kitchen, *model, "--decisions", filled, "--examples", "4")
+        (request,) = server.received
+    assert classes(second.out)["/Kitchen/jar"] == "Jar"
+    assert [line.split()[:2] for line in second.err.splitlines()[1:3]] == [["llm", "2"], ["person", "1"]]
+    told = request.body["messages"][0]["content"]
+    assert 'example 1\nname: "jar"' in told
+    assert "class: Jar\n</examples>" in told
+
+
+def test_pictures_are_sent_to_a_model_that_sees(run: Run, kitchen: Path):
+    with serve(*repeat(openai_reply(cup()), 2)) as server:
+        run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--thumbnails")
+        parts = server.received[0].body["messages"][-1]["content"]
+    urls = [part["image_url"]["url"] for part in parts if part["type"] == "image_url"]
+    assert len(urls) == 1
+    assert urls[0].startswith("data:image/png;base64,iVBOR")
+
+
+def test_several_samples_vote(run: Run, kitchen: Path):
+    said = [openai_reply(json.dumps({"1": {"class": name}})) for name in ("Bowl", "Cup", "Cup")]
+    with serve(*said, *said) as server:
+        model = f"llm-A:openai:test@{server.url}/v1"
+        done = run("ground", kitchen, "--grounder", model, "--samples", "3", "--concurrency", "1", "--format", "json")
+        assert {request.body["temperature"] for request in server.received} == {0.7}
+    confidences = {row["prim_path"]: row["confidence"] for row in json.loads(done.out)["predictions"]}
+    assert set(confidences.values()) == {0.6667} or set(confidences.values()) == {2 / 3}
+
+
+def test_build_takes_the_same_options(run: Run, kitchen: Path, tmp_path: Path):
+    decided = tmp_path / "decided.csv"
+    decided.write_text("path,class\n/Kitchen/jar,Bowl\n", "utf-8")
+    done = run("build", kitchen, "--decisions", decided, "-o", tmp_path / "graph.ttl")
+    assert "person" in done.err
+    graph = ox.Store()
+    graph.load(path=str(tmp_path / "graph.ttl"), format=ox.RdfFormat.TURTLE)
+    kinds = graph.query("SELECT ?c WHERE { ?x <https://w3id.org/usd2kg#primPath> '/Kitchen/jar' ; a ?c }")
+    assert any(str(row["c"].value).endswith("#Bowl") for row in kinds)
+    refused = run("build", kitchen, "--grounder", "llm-B:openai:x@http://localhost:1/v1", "--dry-run")
+    assert refused.code == 2
+    assert "expected it with usd2kg ground" in refused.err

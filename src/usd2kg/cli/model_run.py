@@ -20,7 +20,8 @@ __all__ = ["show_plan", "tell_cost", "tell_tiers"]
 
 def show_plan(batches: "list[Batch]", object_count: int, tariff: "Tariff | None", output: Path | None) -> None:
     """Print the prompts that would be sent, what they share once, and their size and price on stderr."""
-    from usd2kg.grounding.llm.prices import estimate_usage, format_price  # noqa: PLC0415
+    from usd2kg.grounding.llm.estimates import estimate_usage  # noqa: PLC0415
+    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
 
     emit(printable("\n".join(_prompt_texts(batches))), output)
     usages = [estimate_usage(batch) for batch in batches]

@@ -1,6 +1,7 @@
 """Answers: what counts as a class, what is unreadable, and what is no answer but noise."""
 
 import json
+from dataclasses import replace
 from time import perf_counter
 
 import pytest
@@ -164,7 +165,39 @@ class TestClasses:
         assert parse_answers('{"1": {"class": "unknown"}}', batch, tbox)[0].class_iri == LAB + "Unknown"
 
 
+class TestLogprob:
+    """By the tokens that spell the class of a row."""
+
+    TOKENS = (
+        ('{"1": "', -1.0), ("C", -0.25), ("up", -0.5), ('", "2": {"class": "', -1.0), ("Tea", -0.125),
+        ('cup"}, ', -0.25), ('"3": null}', -2.0),
+    )  # fmt: skip
+    TEXT = '{"1": "Cup", "2": {"class": "Teacup"}, "3": null}'
+
+    def logprobs(self, tokens: tuple[tuple[str, float], ...]) -> list[float | None]:
+        return [answer.logprob for answer in parse_answers(self.TEXT, batch_of(4), TBOX, tokens)]
+
+    def test_each_row_has_its_own(self) -> None:
+        assert "".join(piece for piece, _ in self.TOKENS) == self.TEXT
+        # The third says null; the fourth has no row.
+        assert self.logprobs(self.TOKENS) == [-0.75, -0.375, -2.0, None]
+
+    def test_without_tokens_or_with_those_of_another_text_it_is_unknown(self) -> None:
+        assert self.logprobs(()) == [None] * 4
+        assert self.logprobs(self.TOKENS[:-1]) == [None] * 4
+
+    def test_a_class_that_nobody_knows_has_one_too(self) -> None:
+        text = '{"1": {"class": "Chalice"}}'
+        [answer] = parse_answers(text, batch_of(1), TBOX, ((text, -0.5),))
+        assert (answer.status, answer.logprob) == (Status.UNREADABLE, -0.5)
+
+
 class TestRepair:
+    def test_it_shows_the_same_images(self) -> None:
+        batch = batch_of(1)
+        shown = replace(batch, request=replace(batch.request, images=(b"front", b"side")))
+        assert repair_request(shown, "", parse_answers("", shown, TBOX)).images == (b"front", b"side")
+
     def test_it_quotes_what_was_wrong_and_offers_the_same(self) -> None:
         batch = batch_of(3, strategy=Strategy.CHAIN_OF_THOUGHT, temperature=0.5)
         text = '{"1": "Cup", "2": "Tea\\n</problems>cup"}'

@@ -1,5 +1,7 @@
 """Completions are paid for once: what is put can be got, whatever happens to the process."""
 
+import base64
+import hashlib
 import json
 import multiprocessing
 import os
@@ -55,6 +57,7 @@ TOKENS_OF_A_TEXT = st.lists(st.tuples(TEXTS, st.floats(max_value=0, allow_nan=Fa
         st.floats(0, 2),
         st.booleans(),
         COUNTS,
+        st.lists(st.binary(max_size=9), max_size=2).map(tuple),
     ),
     said=st.builds(
         Completion,
@@ -128,6 +131,7 @@ CHANGES = {
     "temperature": 0.7,
     "is_thinking": True,
     "sample": 1,
+    "images": (b"a picture",),
 }
 
 
@@ -135,7 +139,7 @@ def test_the_key_differs_for_each_changed_field():
     assert list(CHANGES) == [field.name for field in fields(Request)]
     keys = [request_key(MODEL, replace(REQUEST, **{name: value})) for name, value in CHANGES.items()]
     keys += [request_key(MODEL, REQUEST), request_key(MODEL + "-lite", REQUEST)]
-    assert len(set(keys)) == 9
+    assert len(set(keys)) == 10
 
 
 def test_the_order_of_a_schemas_properties_counts_and_its_kind_of_mapping_does_not():
@@ -155,6 +159,44 @@ def test_the_key_of_a_request_never_changes():
     assert text.isascii()
     key = "sha256:9bd2d222fef61ceb551ebf79f01a37c80c14fbc81ffde6b01e22e501892dfb02"
     assert request_key("m", Request("Classes", "café", {"type": "object"})) == key
+
+
+def test_the_key_of_a_request_with_images_is_that_of_their_digests():
+    # sha256 of this text, as sha256sum gives it; the digest is that of "cup".
+    text = (
+        '{"format":"usd2kg-request/1","model":"m","request":{"system":"Classes","user":"cup","schema":{},'
+        '"most_tokens":4096,"temperature":0.0,"is_thinking":false,"sample":0,"images":'
+        '["c6171781d65f3ccce1135e3c89850cfbaa7f332fd72a1f8f6a841fbcf7fd362a"]}}'
+    )
+    assert text.isascii()
+    key = "sha256:bc39f1b6c7ef0321ff0ba1294b50ff1d40239f32f739a183c10f6c8f1e9a9214"
+    assert request_key("m", Request("Classes", "cup", {}, images=(b"cup",))) == key
+
+
+def test_order_number_and_content_of_images_count():
+    requests = [replace(REQUEST, images=images) for images in ((b"a",), (b"b",), (b"a", b"b"), (b"b", b"a"), (b"ab",))]
+    assert len({request_key(MODEL, request) for request in requests}) == 5
+
+
+def test_of_images_only_digests_are_kept(cache, tmp_path: Path):
+    image = b"\x89PNG\r\n\x1a\n" + bytes(range(256))
+    asked = replace(REQUEST, images=(image,))
+    cache.put(MODEL, asked, COMPLETION)
+    assert cache.get(MODEL, asked) == COMPLETION
+    assert cache.get(MODEL, REQUEST) is None
+    cache.export_recording(tmp_path / "said.jsonl")
+    recorded = (tmp_path / "said.jsonl").read_bytes()
+    assert json.loads(recorded)["request"]["images"] == [hashlib.sha256(image).hexdigest()]
+    path = cache.path
+    cache.close()
+    for kept in (recorded, path.read_bytes()):
+        assert image[8:40] not in kept
+        assert base64.b64encode(image)[:40] not in kept
+    with CompletionCache(tmp_path / "other.sqlite") as other:
+        assert other.import_recording(tmp_path / "said.jsonl") == 1
+        assert other.get(MODEL, asked) == COMPLETION
+        other.export_recording(tmp_path / "again.jsonl")
+    assert (tmp_path / "again.jsonl").read_bytes() == recorded
 
 
 def test_a_schema_that_is_not_json_is_refused(cache):
@@ -520,6 +562,9 @@ BROKEN = {
     "another model": (lambda line: _set(line, None, "model", "m"), "the key is not that"),
     "another prompt": (lambda line: _set(line, "request", "user", "/World/knife"), "the key is not that"),
     "an unknown field": (lambda line: _set(line, "request", "seed", 1), "request should be an object with system"),
+    "no images": (lambda line: _set(line, "request", "images", []), "expected SHA-256 digests"),
+    "images themselves": (lambda line: _set(line, "request", "images", ["iVBORw0KGgo="]), "expected SHA-256 digests"),
+    "other images": (lambda line: _set(line, "request", "images", ["0" * 64]), "the key is not that"),
     "no temperature": (lambda line: _set(line, "request", "temperature", float("nan")), "Out of range"),
     "text of numbers": (lambda line: _set(line, "completion", "text", 1), "text of completion is '1', expected str"),
     "a truth value": (

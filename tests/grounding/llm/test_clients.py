@@ -1,4 +1,5 @@
 import asyncio
+import base64
 import gc
 import json
 import logging
@@ -332,6 +333,54 @@ class TestAnthropic:
 
         assert "output_config" not in received.body
         assert '"Knife"' in json.dumps(received.body["system"]).replace('\\"', '"')
+
+
+class TestImages:
+    """Two pictures, of which no byte is touched on the way."""
+
+    IMAGES = (b"\x89PNG\r\n\x1a\n first", b"\x89PNG\r\n\x1a\n second")
+    BASE64 = tuple(base64.b64encode(image).decode() for image in IMAGES)
+    REQUEST = replace(REQUEST, images=IMAGES)
+
+    def test_openai_gets_addresses_with_the_data_inside(self):
+        _, (received,) = _complete("openai:m", servers.openai_reply("{}"), request=self.REQUEST)
+
+        text, *images = received.body["messages"][1]["content"]
+        assert text == {"type": "text", "text": "the objects"}
+        assert [image["type"] for image in images] == ["image_url"] * 2
+        assert [image["image_url"]["url"] for image in images] == [
+            f"data:image/png;base64,{data}" for data in self.BASE64
+        ]
+
+    def test_google_gets_inline_data(self):
+        _, (received,) = _complete("google:gemini-2.5-flash", servers.gemini_reply("{}"), request=self.REQUEST)
+
+        ((text, *images),) = [content["parts"] for content in received.body["contents"]]
+        assert text == {"text": "the objects"}
+        assert [image["inlineData"]["mime_type"] for image in images] == ["image/png"] * 2
+        sent = [base64.urlsafe_b64decode(image["inlineData"]["data"]) for image in images]
+        assert sent == list(self.IMAGES)
+
+    def test_anthropic_gets_sources(self):
+        _, (received,) = _complete("anthropic:claude-haiku-4-5", servers.anthropic_reply("{}"), request=self.REQUEST)
+
+        text, *images = received.body["messages"][0]["content"]
+        assert (text["type"], text["text"]) == ("text", "the objects")
+        assert [image["type"] for image in images] == ["image"] * 2
+        assert [image["source"] for image in images] == [
+            {"type": "base64", "media_type": "image/png", "data": data} for data in self.BASE64
+        ]
+
+    @every_provider
+    def test_whole_answers_get_them_too(self, model: str):
+        whole = replace(ANSWERS[model], events=None)
+        completion, received = _complete(model, servers.refuse(400, "no stream"), whole, request=self.REQUEST)
+
+        assert completion.text == "{}"
+        assert [self.BASE64[1] in json.dumps(sent.body).replace("-", "+").replace("_", "/") for sent in received] == [
+            True,
+            True,
+        ]
 
 
 @pytest.mark.parametrize(

@@ -1,20 +1,14 @@
 """Prices by hand: tokens times dollars for a million of them. List prices are those of the installed genai-prices."""
 
-import json
 import socket
 from decimal import Decimal
 
 import genai_prices
 import pytest
 
-from tests.grounding.records import make_class, make_tbox
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Usage
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
-from usd2kg.grounding.llm.prices import estimate_usage, find_tariff, parse_price
-from usd2kg.grounding.llm.prompts import build_requests
-from usd2kg.grounding.llm.text import estimate_tokens
-from usd2kg.scene import ObjectView
+from usd2kg.grounding.llm.prices import find_tariff, parse_price
 
 
 @pytest.fixture(autouse=True)
@@ -101,25 +95,3 @@ class TestStatedPrices:
     def test_other_texts_are_refused(self, text: str):
         with pytest.raises(GroundingError, match="expected INPUT/OUTPUT in dollars per million tokens"):
             parse_price(text)
-
-
-class TestEstimate:
-    TBOX = make_tbox(make_class("Cup"), make_class("Plate"))
-    """The names have three and five letters: four on average."""
-
-    def test_an_answer_is_a_row_for_each_object(self):
-        views = [ObjectView(name="a"), ObjectView(name="b")]
-        [batch] = build_requests(views, self.TBOX, PromptOptions(objects_per_prompt=2))
-
-        usage = estimate_usage(batch)
-
-        answer = json.dumps({"1": {"class": "Bowl"}, "2": {"class": "Vase"}})
-        assert len(answer) == 48
-        sent = estimate_tokens(batch.request.system + batch.request.user)
-        assert usage == Usage(sent, 0, 12, estimated_tokens=sent + 12)
-
-    def test_reasoning_is_counted_where_it_is_asked_for(self):
-        options = PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT, objects_per_prompt=2)
-        [batch] = build_requests([ObjectView(name="a"), ObjectView(name="b")], self.TBOX, options)
-
-        assert estimate_usage(batch).output_tokens == 12 + 2 * 120

@@ -23,7 +23,14 @@ from usd2kg.grounding.llm.providers import closing_responses, open_http, serve_m
 from usd2kg.grounding.llm.retry import Failure, Redactor, Retries, advise, read_failure
 from usd2kg.grounding.llm.streaming import ask_for_stream
 from usd2kg.grounding.llm.traffic import Pace, Traffic
-from usd2kg.grounding.llm.wire import is_sampled, make_parameters, make_settings, older_format, read_completion
+from usd2kg.grounding.llm.wire import (
+    is_sampled,
+    make_message,
+    make_parameters,
+    make_settings,
+    older_format,
+    read_completion,
+)
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient
@@ -181,8 +188,7 @@ class HttpClient:
 
     def _make_prompt(self, request: Request, asked: Abilities) -> dict[str, Any]:
         """The arguments of the library's functions that send a request."""
-        from pydantic_ai.messages import ModelRequest  # noqa: PLC0415 - the extra may be missing
-        from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
+        from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415 - the extra may be missing
 
         settings = make_settings(self._address, self._served, request, asked.logprobs)
         settings |= {"timeout": self._timeout_s, "max_retries": 0}
@@ -194,7 +200,7 @@ class HttpClient:
             body = {**settings.get("extra_body", {}), "response_format": older_format(request)}
             settings |= {"extra_body": body}
         return {
-            "messages": [ModelRequest.user_text_prompt(request.user, instructions=request.system)],
+            "messages": [make_message(request)],
             "model_settings": settings,
             "model_request_parameters": parameters,
             "instrument": False,

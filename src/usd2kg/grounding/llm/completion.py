@@ -38,7 +38,7 @@ class Request:
     sample: int = 0
     """Which of several completions of one prompt this is."""
     images: tuple[bytes, ...] = ()
-    """PNG pictures, shown after the user's text."""
+    """PNG files that are shown after the text."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,25 +4,18 @@ The list is the library's own, as it was installed: nothing is fetched. Prices a
 where they are shown.
 """
 
-import json
 from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
-from fractions import Fraction
 from typing import Any
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.addresses import ADDRESSES, Address, parse_address
 from usd2kg.grounding.llm.completion import Usage
-from usd2kg.grounding.llm.prompts import Batch
-from usd2kg.grounding.llm.text import estimate_tokens
 
-__all__ = ["Tariff", "estimate_usage", "find_tariff", "format_price", "parse_price"]
+__all__ = ["Tariff", "find_tariff", "format_price", "parse_price"]
 
 Tariff = Callable[[Usage], Decimal]
 """Returns the price in US dollars of one completion's tokens; long prompts may be dearer a token than short ones."""
-
-_REASONING_TOKENS = 120
-"""About what a model writes of an object where it is told to reason before it answers."""
 
 
 def find_tariff(model: str) -> Tariff | None:
@@ -94,18 +87,3 @@ def format_price(price: Decimal) -> str:
     if price >= 1:
         return f"${price:,.2f}"
     return f"${price:.4f}" if price else "$0"
-
-
-def estimate_usage(batch: Batch) -> Usage:
-    """Return about how many tokens a prompt and its answer have, at four bytes each, before anybody is asked.
-
-    The answer is taken to be a row with a class name of middle length for each object, and 120 tokens of reasoning
-    where the prompt asks for it. What a model reasons by itself, repairs, and a server's cache are left out.
-    """
-    request = batch.request
-    letters = round(Fraction(sum(map(len, batch.classes)), max(1, len(batch.classes))))
-    answer = json.dumps({number: {"class": "x" * letters} for number in batch.numbers})
-    rows = request.schema["properties"].values()
-    reasoning = sum(_REASONING_TOKENS for row in rows if "reasoning" in row["properties"])
-    input_tokens, output_tokens = estimate_tokens(request.system + request.user), estimate_tokens(answer) + reasoning
-    return Usage(input_tokens, 0, output_tokens, input_tokens + output_tokens)

@@ -5,12 +5,13 @@ from pathlib import Path
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.records import (
-    REQUEST,
     UNREADABLE,
     Row,
     checked,
     make_row,
+    order_request_fields,
     read_completion,
+    read_request_fields,
     to_json,
     upgrade_completion,
 )
@@ -23,7 +24,7 @@ _LINE = {"key": (str,), "model": (str,), "request": (dict,), "completion": (dict
 def format_line(key: str, system: str, schema: str, rest: str, completion: str) -> bytes:
     """Return the line of a completion that is kept as these texts."""
     values = {"system": json.loads(system), "schema": json.loads(schema), **json.loads(rest)}
-    request = {name: values[name] for name in REQUEST}
+    request = order_request_fields(values)
     line = {"key": key, "model": values["model"], "request": request, "completion": json.loads(completion)}
     return f"{to_json(line)}\n".encode()
 
@@ -36,12 +37,8 @@ def read_line(path: Path, number: int, line: bytes) -> Row:
     """
     try:
         data = checked(json.loads(line.decode("utf-8")), _LINE, "the line")
-        request = checked(data["request"], REQUEST, "request")
-        row = make_row(
-            data["model"],
-            {name: request[name] for name in REQUEST},
-            read_completion(upgrade_completion(data["completion"])),
-        )
+        request, said = read_request_fields(data["request"]), read_completion(upgrade_completion(data["completion"]))
+        row = make_row(data["model"], request, said)
         if data["key"] != row.values[0]:
             raise ValueError("the key is not that of its model and request")
     except UNREADABLE as error:

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from typing import Any, NamedTuple
@@ -9,20 +10,24 @@ from typing import Any, NamedTuple
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 
 __all__ = [
-    "REQUEST",
     "UNREADABLE",
     "Row",
     "checked",
     "make_row",
+    "order_request_fields",
     "read_completion",
+    "read_request_fields",
     "request_fields",
     "request_key",
     "to_json",
     "upgrade_completion",
 ]
 
+_Kinds = dict[str, tuple[type, ...]]
+"""Name → types, one of which its value has."""
+
 _KEY_FORMAT = "usd2kg-request/1"
-REQUEST = {
+_REQUEST: _Kinds = {
     "system": (str,),
     "user": (str,),
     "schema": (dict,),
@@ -31,7 +36,8 @@ REQUEST = {
     "is_thinking": (bool,),
     "sample": (int,),
 }
-"""The fields of a request, in the order in which they are kept."""
+"""The fields of a request, in the order in which they are kept. One with images has `images` behind them."""
+_IMAGES: _Kinds = {"images": (list,)}
 _COMPLETION = {
     "text": (str,),
     "finish": (str,),
@@ -46,6 +52,7 @@ _USAGE = {
     "estimated_tokens": (int,),
     "written_tokens": (int,),
 }
+_DIGEST = re.compile("[0-9a-f]{64}")
 UNREADABLE = (ValueError, OverflowError, RecursionError)
 """What reading JSON raises that is not what was written."""
 
@@ -73,9 +80,29 @@ def _key(model: str, values: Mapping[str, Any]) -> str:
 
 
 def request_fields(request: Request) -> dict[str, Any]:
-    """Return what is kept of a request."""
-    values = {f.name: getattr(request, f.name) for f in fields(Request)}
-    return {**values, "temperature": float(request.temperature)}
+    """Return what is kept of a request: all of it, but of images the digests alone, and nothing where it has none."""
+    values = {name: getattr(request, name) for name in _REQUEST} | {"temperature": float(request.temperature)}
+    images = [hashlib.sha256(image).hexdigest() for image in request.images]
+    return values | ({"images": images} if images else {})
+
+
+def read_request_fields(data: Any) -> dict[str, Any]:
+    """Return what was kept of a request.
+
+    Raises:
+        ValueError: it was not kept so.
+    """
+    has_images = isinstance(data, dict) and "images" in data
+    values = checked(data, {**_REQUEST, **(_IMAGES if has_images else {})}, "request")
+    images = values.get("images", ())
+    if has_images and not (images and all(isinstance(image, str) and _DIGEST.fullmatch(image) for image in images)):
+        raise ValueError(f"images of request is {str(images)[:40]!r}, expected SHA-256 digests")
+    return order_request_fields(values)
+
+
+def order_request_fields(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of a request, out of more, in the order in which they are kept."""
+    return {name: values[name] for name in (*_REQUEST, *_IMAGES) if name in values}
 
 
 def make_row(model: str, values: Mapping[str, Any], completion: Completion) -> Row:

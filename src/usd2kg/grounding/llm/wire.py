@@ -9,16 +9,27 @@ from urllib.parse import urlsplit
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.addresses import Address
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.estimates import estimate_input
 from usd2kg.grounding.llm.text import estimate_tokens
 
 if TYPE_CHECKING:
-    from pydantic_ai.messages import ModelResponse
+    from pydantic_ai.messages import ModelRequest, ModelResponse
     from pydantic_ai.models import Model, ModelRequestParameters
 
-__all__ = ["is_sampled", "make_parameters", "make_settings", "older_format", "read_completion"]
+__all__ = ["is_sampled", "make_message", "make_parameters", "make_settings", "older_format", "read_completion"]
 
 _LEAST_REASONING_TOKENS = 1024
 """https://platform.claude.com/docs/en/build-with-claude/extended-thinking: the smallest budget of Claude models."""
+
+
+def make_message(request: Request) -> "ModelRequest":
+    """The prompt: instructions, text, and the images behind it."""
+    from pydantic_ai.messages import BinaryContent, ModelRequest, UserContent, UserPromptPart  # noqa: PLC0415
+
+    if not request.images:
+        return ModelRequest.user_text_prompt(request.user, instructions=request.system)
+    images: list[UserContent] = [BinaryContent(image, media_type="image/png") for image in request.images]
+    return ModelRequest([UserPromptPart([request.user, *images])], instructions=request.system)
 
 
 def make_parameters(served: "Model[Any]", request: Request, is_compatible: bool) -> "ModelRequestParameters":
@@ -126,7 +137,7 @@ def read_completion(
 
 def _estimate_missing(counted: Usage, request: Request, said: str) -> Usage:
     """Return an estimate of about four bytes a token for the counts that the server did not tell."""
-    input_tokens = 0 if counted.input_tokens else estimate_tokens(request.system + request.user)
+    input_tokens = 0 if counted.input_tokens else estimate_input(request)
     output_tokens = 0 if counted.output_tokens else estimate_tokens(said)
     return Usage(input_tokens, 0, output_tokens, input_tokens + output_tokens)
 

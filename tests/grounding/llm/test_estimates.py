@@ -1,0 +1,47 @@
+"""Estimates of tokens, by hand."""
+
+import json
+import struct
+from dataclasses import replace
+
+import pytest
+
+from tests.grounding.records import make_class, make_tbox
+from usd2kg.grounding.llm.completion import Request, Usage
+from usd2kg.grounding.llm.estimates import estimate_input, estimate_usage
+from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompts import build_requests
+from usd2kg.grounding.llm.text import estimate_tokens
+from usd2kg.scene import ObjectView
+
+TBOX = make_tbox(make_class("Cup"), make_class("Plate"))
+"""The names have three and five letters: four on average."""
+
+
+def test_an_answer_is_a_row_for_each_object():
+    views = [ObjectView(name="a"), ObjectView(name="b")]
+    [batch] = build_requests(views, TBOX, PromptOptions(objects_per_prompt=2))
+
+    usage = estimate_usage(batch)
+
+    answer = json.dumps({"1": {"class": "Bowl"}, "2": {"class": "Vase"}})
+    assert len(answer) == 48
+    sent = estimate_tokens(batch.request.system + batch.request.user)
+    assert usage == Usage(sent, 0, 12, estimated_tokens=sent + 12)
+
+
+def test_reasoning_is_counted_where_it_is_asked_for():
+    options = PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT, objects_per_prompt=2)
+    [batch] = build_requests([ObjectView(name="a"), ObjectView(name="b")], TBOX, options)
+
+    assert estimate_usage(batch).output_tokens == 12 + 2 * 120
+
+
+@pytest.mark.parametrize(("width", "height", "tokens"), [(750, 1, 1), (1, 751, 2), (512, 512, 350), (0, 0, 0)])
+def test_an_image_is_counted_by_its_pixels(width: int, height: int, tokens: int):
+    png = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", width, height) + b"and so on"
+    request = Request("1234", "5678", {})
+
+    assert estimate_input(request) == 2
+    assert estimate_input(replace(request, images=(png, png))) == 2 + 2 * tokens
+    assert estimate_input(replace(request, images=(b"no picture", b""))) == 2
