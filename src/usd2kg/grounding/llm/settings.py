@@ -2,7 +2,7 @@
 
 import weakref
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypedDict
@@ -12,9 +12,13 @@ from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
+from usd2kg.grounding.llm.local.client import is_local_model, open_local
 from usd2kg.grounding.llm.prompts import PromptOptions, Strategy
 
-__all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
+__all__ = ["LLMSettings", "make_llm_grounder", "open_client", "open_llm_grounder", "parse_llm_name"]
+
+_WORKERS = 4
+"""Prompts that are on their way to a server at the same time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,17 +71,28 @@ def open_llm_grounder(settings: LLMSettings, *, is_dry: bool = False) -> Iterato
         return
     with ExitStack() as stack:
         cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
-        client: Client = (
-            _NoClient(settings.model) if settings.is_replayed else stack.enter_context(make_client(settings.model))
-        )
+        client: Client = _NoClient(settings.model)
+        if not settings.is_replayed:
+            client = stack.enter_context(open_client(settings.model))
         yield LLMGrounder(
             client,
             options,
             cache=cache,
             is_refreshed=settings.is_refreshed,
+            # A model in this process serves one prompt at a time: others would only wait, and an interrupt for them.
+            workers=1 if is_local_model(settings.model) else _WORKERS,
             token_budget=settings.token_budget,
             **form,
         )
+
+
+def open_client(model: str) -> AbstractContextManager[Client]:
+    """Return a client for a model behind HTTP, or in this process where the string names a file of weights.
+
+    Raises:
+        GroundingError: the model is malformed, an extra, a key or the file is missing.
+    """
+    return open_local(model) if is_local_model(model) else make_client(model)
 
 
 def parse_llm_name(name: str) -> tuple[str, Strategy]:
@@ -91,7 +106,7 @@ def parse_llm_name(name: str) -> tuple[str, Strategy]:
     if letter not in set(Strategy) or not model:
         raise GroundingError(
             f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL or llm-C:MODEL, "
-            "with a MODEL like google:gemini-2.5-flash or openai:NAME@http://localhost:8000/v1"
+            "with a MODEL like google:gemini-2.5-flash, openai:NAME@http://localhost:8000/v1 or gguf:FILE"
         )
     return model, Strategy(letter)
 
