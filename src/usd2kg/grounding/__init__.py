@@ -3,7 +3,7 @@
 from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
 from usd2kg.grounding.cascade import CascadeGrounder
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
-from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
+from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "Grounder",
     "Grounding",
     "Prediction",
+    "Review",
     "Status",
     "check_format",
     "format_mapping",
