@@ -20,8 +20,8 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"{path}: is not writable; choose another output or change its permissions")
 
 
-def write_whole(path: Path, data: bytes) -> None:
-    """Write `data` to `path` so that a reader sees the old file or the whole new one, never a part.
+def write_whole(path: Path, *pieces: bytes | memoryview) -> None:
+    """Write `pieces` to `path`, joined, so that a reader sees the old file or the whole new one, never a part.
 
     A link stays a link: what it points to is written. Devices and pipes are written to as they are.
     """
@@ -29,12 +29,12 @@ def write_whole(path: Path, data: bytes) -> None:
     path = path.resolve()
     try:
         if path.exists() and not path.is_file():
-            path.write_bytes(data)
+            path.write_bytes(b"".join(pieces))
             return
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(data)
+                file.writelines(pieces)
             Path(temporary).chmod(_usual_mode())
             Path(temporary).replace(path)
         finally:

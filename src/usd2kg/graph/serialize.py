@@ -29,12 +29,19 @@ def graph_format(path: Path) -> ox.RdfFormat:
 
 def serialize_graph(graph: KnowledgeGraph, rdf_format: ox.RdfFormat) -> bytes:
     """Return the graph in a format, deterministically."""
+    return b"".join(_pieces(graph, rdf_format))
+
+
+def _pieces(graph: KnowledgeGraph, rdf_format: ox.RdfFormat) -> list[bytes | memoryview]:
+    """Return the file in pieces, so that a large one need not be copied."""
     if rdf_format != ox.RdfFormat.TURTLE:
-        return _bytes(ox.serialize(graph.triples, format=rdf_format))
+        return [_bytes(ox.serialize(graph.triples, format=rdf_format))]
     data = _bytes(ox.serialize(graph.triples, format=rdf_format, prefixes=graph.prefixes))
     # The serialiser writes its prefixes in an order that changes from run to run.
-    lines = data.split(b"\n", len(graph.prefixes))
-    return b"\n".join([*sorted(lines[:-1]), lines[-1]])
+    end = 0
+    for _ in graph.prefixes:
+        end = data.index(b"\n", end) + 1
+    return [*sorted(data[:end].splitlines(keepends=True)), memoryview(data)[end:]]
 
 
 def _bytes(data: bytes | None) -> bytes:
@@ -50,4 +57,4 @@ def write_graph(graph: KnowledgeGraph, path: Path | str) -> None:
         OutputError: the file cannot be written.
     """
     path = Path(path)
-    write_whole(path, serialize_graph(graph, graph_format(path)))
+    write_whole(path, *_pieces(graph, graph_format(path)))
