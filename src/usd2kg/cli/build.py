@@ -8,6 +8,8 @@ import typer
 
 from usd2kg.cli.options import (
     Abstains,
+    Annotations,
+    Colors,
     Dictionary,
     EveryPrim,
     Evidence,
@@ -17,12 +19,15 @@ from usd2kg.cli.options import (
     Include,
     JsonOutput,
     Kinds,
+    MergeImports,
     MetresPerUnit,
     ObjectList,
     OntologyFile,
     Regime,
     TimeCode,
+    TimeOfRun,
     UpAxis,
+    graph_options,
     read_options,
 )
 from usd2kg.cli.output import print_json, talk
@@ -60,6 +65,10 @@ def build_command(
     profile: Annotated[
         str, typer.Option("--profile", help="How objects are written: auto (default), soma or plain.")
     ] = "auto",
+    annotations: Annotations = "owl",
+    colors: Colors = "usd",
+    time_of_run: TimeOfRun = None,
+    merge_imports: MergeImports = False,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -79,6 +88,7 @@ def build_command(
     options = read_options(
         metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
     )
+    written = graph_options(annotations, colors, time_of_run)
     tbox = open_tbox(ontology)
     for note in tbox.notes:
         talk(f"{note.code}: {note.message}")
@@ -95,7 +105,13 @@ def build_command(
                 base=base,
                 profile=profile,
                 options=options,
+                graph_options=written,
+                merges_imports=merge_imports,
             )
+            for iri in result.graph.missing_imports:
+                talk(
+                    f"missing-import: <{iri}> is not at hand, so it is not merged in; put it beside the ontology's file"
+                )
             _write(result, target)
         except Usd2kgError as error:
             # One bad scene must not cost the others; with one scene it is simply the error.

@@ -1,19 +1,23 @@
 """Arguments and options that several commands share."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
+    from usd2kg.graph import GraphOptions
     from usd2kg.scene import ReadOptions
 
 __all__ = [
     "AbbreviatedLength",
     "Abstains",
+    "Annotations",
     "Cascade",
     "ClassSizes",
     "ClassTree",
+    "Colors",
     "CompletionsFile",
     "Dictionary",
     "DryRun",
@@ -26,6 +30,7 @@ __all__ = [
     "Include",
     "JsonOutput",
     "Kinds",
+    "MergeImports",
     "MetresPerUnit",
     "MoreEvidence",
     "ObjectList",
@@ -40,8 +45,10 @@ __all__ = [
     "Shuffle",
     "Thinking",
     "TimeCode",
+    "TimeOfRun",
     "TokenBudget",
     "UpAxis",
+    "graph_options",
     "read_options",
 ]
 
@@ -156,7 +163,48 @@ Kinds = Annotated[
 ObjectList = Annotated[
     Path | None, typer.Option("--objects", help="CSV file with a column path: just these prims are objects.")
 ]
+Annotations = Annotated[
+    str,
+    typer.Option(
+        "--annotations",
+        help="How statements are annotated with confidence and reasons: owl (default), or rdf12, the triple terms of "
+        "RDF 1.2, which OWL tools do not read.",
+    ),
+]
+Colors = Annotated[
+    str,
+    typer.Option(
+        "--colors",
+        help="How the soma profile writes colours: usd (default), or knowrob, as KnowRob asks for them, which makes "
+        "the graph inconsistent with SOMA.",
+    ),
+]
+TimeOfRun = Annotated[
+    str | None,
+    typer.Option(
+        "--time-of-run",
+        help="When the graph was made: now, or ISO 8601 with a time zone; default: SOURCE_DATE_EPOCH if that is set, "
+        "else no time, so that the same input gives the same bytes.",
+    ),
+]
+MergeImports = Annotated[
+    bool,
+    typer.Option(
+        "--merge-imports",
+        help="Put the ontology, all that it imports and usd2kg's vocabulary into the graph, so that it needs no other "
+        "file.",
+    ),
+]
 EveryPrim = Annotated[bool, typer.Option("--every-prim", help="Every prim that is or holds geometry is an object.")]
+
+
+def graph_options(annotations: str, colors: str, time_of_run: str | None) -> "GraphOptions":
+    """Return how the graph is to be written, as the user says it on the command line and in SOURCE_DATE_EPOCH."""
+    from usd2kg.graph import GraphOptions, read_epoch, read_time  # noqa: PLC0415
+
+    epoch = os.environ.get("SOURCE_DATE_EPOCH")
+    time = read_time(time_of_run) if time_of_run else read_epoch(epoch) if epoch else None
+    return GraphOptions(annotations, colors, time)
 
 
 def read_options(
