@@ -71,7 +71,8 @@ def rich_graph(profile: str) -> KnowledgeGraph:
         make_joint(prim_path=f"/Cup/{kind}", type=kind, body0="/Table", body1="/Cup")
         for kind in ("revolute", "prismatic", "spherical", "distance", "other")
     ]
-    joints.append(make_joint(prim_path="/Cup/fixed", type="fixed", body0="/Cup", body1="/Cup/handle"))
+    still = {"lower": None, "upper": None, "value": None}
+    joints.append(make_joint(prim_path="/Cup/fixed", type="fixed", body0="/Cup", body1="/Cup/handle", **still))
     joints.append(make_joint(prim_path="/Cup/x", is_enabled=False, is_excluded_from_articulation=True))
     joints.append(make_joint(prim_path="/Cup/slide", type="prismatic", lower=None))
     scene = replace(make_scene(cup, make_object("/Table"), make_object("/Ghost")), joints=tuple(joints), time=1.0)
