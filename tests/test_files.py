@@ -26,6 +26,24 @@ def test_an_old_file_is_replaced(tmp_path: Path):
     assert path.read_bytes() == b"new"
 
 
+def test_pieces_are_written_one_after_the_other(tmp_path: Path):
+    write_whole(tmp_path / "graph.ttl", (piece for piece in (b"one ", memoryview(b"and two")[4:], b"!")))
+    assert (tmp_path / "graph.ttl").read_bytes() == b"one two!"
+
+
+def test_a_piece_that_fails_leaves_the_old_file(tmp_path: Path):
+    def pieces():
+        yield b"half"
+        raise ValueError("no more")
+
+    path = tmp_path / "graph.ttl"
+    path.write_bytes(b"old")
+    with pytest.raises(ValueError, match="no more"):
+        write_whole(path, pieces())
+    assert path.read_bytes() == b"old"
+    assert [found.name for found in tmp_path.iterdir()] == ["graph.ttl"]
+
+
 def test_it_is_as_readable_as_any_other_file(tmp_path: Path):
     mask = os.umask(0o027)
     try:

@@ -22,6 +22,7 @@ COMMANDS = (
     ("ontology", "show"),
     ("ontology", "linearize"),
     ("ontology", "scope"),
+    ("ontology", "vocabulary"),
     ("eval",),
     ("eval", "run"),
     ("eval", "reproduce"),

@@ -2,6 +2,7 @@
 
 import os
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 from usd2kg.errors import OutputError
@@ -20,21 +21,23 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"{path}: is not writable; choose another output or change its permissions")
 
 
-def write_whole(path: Path, data: bytes) -> None:
-    """Write `data` to `path` so that a reader sees the old file or the whole new one, never a part.
+def write_whole(path: Path, data: bytes | Iterable[bytes | memoryview]) -> None:
+    """Write `data`, maybe in pieces, to `path`, so that a reader sees the old file or the whole new one, never a part.
 
     A link stays a link: what it points to is written. Devices and pipes are written to as they are.
     """
     check_writable(path)
     path = path.resolve()
+    pieces = (data,) if isinstance(data, bytes) else data
     try:
         if path.exists() and not path.is_file():
-            path.write_bytes(data)
+            with path.open("wb") as device:
+                device.writelines(pieces)
             return
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(data)
+                file.writelines(pieces)
             Path(temporary).chmod(_usual_mode())
             Path(temporary).replace(path)
         finally:

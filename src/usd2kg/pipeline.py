@@ -4,9 +4,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from usd2kg.graph import KnowledgeGraph, instantiate
+from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
 from usd2kg.grounding import Grounder, Grounding, ground
-from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox
+from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
 
 __all__ = ["BuildResult", "build", "open_tbox"]
@@ -34,6 +34,8 @@ def build(
     base: str | None = None,
     profile: str = "auto",
     options: ReadOptions | None = None,
+    graph_options: GraphOptions | None = None,
+    merges_imports: bool = False,
 ) -> BuildResult:
     """Return the knowledge graph of a USD scene, and everything on the way to it.
 
@@ -48,6 +50,9 @@ def build(
         base: IRI under which individuals lie.
         profile: how objects are written: auto, soma or plain.
         options: what is to be read differently from what the stage says; of a scene that is still to be read.
+        graph_options: how the graph is written, where that is not as usual.
+        merges_imports: whether the graph holds the ontology, all that it imports and our vocabulary, and so imports
+            nothing.
 
     Raises:
         Usd2kgError: an input cannot be read; the message says which, and what to do.
@@ -55,7 +60,9 @@ def build(
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
     grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions)
-    graph = instantiate(read, tbox, grounding, base=base, profile=profile)
+    graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options)
+    if merges_imports:
+        graph = merge_imports(graph, read_closure(tbox, graph.imports))
     return BuildResult(read, tbox, grounding, graph)
 
 

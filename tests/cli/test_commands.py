@@ -125,6 +125,56 @@ class TestBuild:
         run("build", room, "-o", "second.ttl")
         assert Path("first.ttl").read_bytes() == Path("second.ttl").read_bytes()
 
+    def test_triple_terms_on_request(self, run: Run, room: Path):
+        assert run("build", room, "--annotations", "rdf12", "-o", "g.nt").code == 0
+        lines = Path("g.nt").read_text("utf-8").splitlines()
+        assert sum("#reifies> <<( " in line for line in lines) == 7, "four types and three relations"
+        assert not [line for line in lines if "annotatedSource" in line]
+
+    def test_a_time_on_request_or_from_the_environment(self, run: Run, room: Path, monkeypatch: pytest.MonkeyPatch):
+        ended = "SELECT ?t { ?r prov:endedAtTime ?t }"
+        assert run("build", room, "-o", "g.ttl", "--time-of-run", "2026-07-15T14:00:00+02:00").code == 0
+        assert load_graph(Path("g.ttl")).sparql(ended).rows == (("2026-07-15T12:00:00Z",),)
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
+        assert run("build", room, "-o", "g.ttl").code == 0
+        assert load_graph(Path("g.ttl")).sparql(ended).rows == (("1970-01-02T00:00:00Z",),)
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", "")
+        assert run("build", room, "-o", "g.ttl").code == 0
+        assert load_graph(Path("g.ttl")).sparql(ended).rows == ()
+
+    @pytest.mark.parametrize(
+        ("arguments", "message"),
+        [
+            (["--time-of-run", "noon"], "time 'noon'"),
+            (["--annotations", "rdfstar"], "annotations 'rdfstar' is unknown; expected one of owl, rdf12"),
+            (["--colors", "rgb"], "colors 'rgb' is unknown; expected one of usd, knowrob"),
+        ],
+    )
+    def test_a_wrong_value_is_one_line_and_no_file(self, run: Run, room: Path, arguments: list[str], message: str):
+        done = run("build", room, *arguments)
+        assert done.code == 2
+        assert done.err.startswith(f"usd2kg: {message}")
+        assert len(done.err.splitlines()) == 1
+        assert list(Path().iterdir()) == []
+
+    def test_a_graph_that_needs_no_other_file(self, run: Run, room: Path, lab: Path):
+        done = run("build", room, "--ontology", lab, "--merge-imports", "-o", "g.ttl")
+        assert (done.code, "missing-import" in done.err) == (0, False)
+        store = load_graph(Path("g.ttl"))
+        assert store.sparql("ASK { ?o owl:imports ?i }").rows == (("false",),)
+        bench = "ASK { <https://lab.example/onto#Bench> rdfs:comment 'To work at.'@en }"
+        assert store.sparql(bench).rows == (("true",),)
+        assert store.sparql("ASK { u2k:near a owl:SymmetricProperty }").rows == (("true",),)
+
+    def test_what_could_not_be_merged_in_is_told(self, run: Run, room: Path):
+        done = run("build", room, "--merge-imports")
+        assert done.code == 0
+        missing = [line for line in done.err.splitlines() if line.startswith("missing-import: ")]
+        assert [line.split()[1] for line in missing] == [
+            "<http://www.ease-crc.org/ont/SOMA-HOME.owl>",
+            "<https://ease-crc.org/ont/USD.owl>",
+        ]
+
     def test_the_source_is_not_touched(self, run: Run, room: Path):
         before = room.read_bytes()
         run("build", room)
@@ -297,6 +347,12 @@ class TestOntology:
         tree = run("ontology", "linearize", lab, "--tree").out
         assert len(tree.splitlines()) >= 3
         assert tree != flat
+
+    def test_vocabulary_is_an_ontology_of_our_own_terms(self, run: Run):
+        done = run("ontology", "vocabulary")
+        assert (done.code, done.err) == (0, "")
+        facts = {str(quad.triple) for quad in ox.parse(done.out, format=ox.RdfFormat.TURTLE)}
+        assert any("<https://w3id.org/usd2kg>" in fact and "owl#Ontology" in fact for fact in facts)
 
     def test_the_built_in_ontology_is_the_default(self, run: Run):
         done = run("ontology", "scope")

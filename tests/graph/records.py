@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import pyoxigraph as ox
@@ -56,9 +57,10 @@ def predict(tbox: TBox, path: str, name: str | None) -> Prediction:
 
 
 def build_graph(tbox: TBox, placed: Iterable[tuple[SceneObject, str | None]], **options: Any) -> KnowledgeGraph:
-    """Return the graph of (object, local name of its class) pairs."""
+    """Return the graph of (object, local name of its class) pairs, and of the scene's `joints`."""
     pairs = list(placed)
     scene = make_scene(*(obj for obj, _ in pairs), source="scenes/room one.usda")
+    scene = replace(scene, joints=tuple(options.pop("joints", ())))
     classes = {obj.prim_path: name for obj, name in pairs if name is not None}
     options.setdefault("base", BASE)
     return instantiate(scene, tbox, ground_as(tbox, scene, classes), **options)
@@ -81,6 +83,17 @@ def select(store: ox.Store, query: str) -> list[tuple[str | None, ...]]:
     found = store.query(query, prefixes={**PREFIXES, "k": BASE})
     rows = [tuple(None if term is None else term.value for term in row) for row in found]
     return sorted(rows, key=str)
+
+
+def said_of(store: ox.Store, statement: str) -> dict[str, str | None]:
+    """Return what annotates a statement, by property; of several values of one property the last."""
+    subject, predicate, value = statement.split(maxsplit=2)
+    rows = select(
+        store,
+        f"SELECT ?p ?v {{ ?x a owl:Axiom ; owl:annotatedSource {subject} ; owl:annotatedProperty {predicate} ;"
+        f" owl:annotatedTarget {value} ; ?p ?v . FILTER(!STRSTARTS(STR(?p), STR(owl:)) && ?p != rdf:type) }}",
+    )
+    return {str(name): text for name, text in rows}
 
 
 def ask(store: ox.Store, query: str) -> bool:

@@ -10,7 +10,7 @@ import pytest
 
 from tests.graph.records import build_graph, thing
 from usd2kg.errors import GraphError, OutputError
-from usd2kg.graph import KnowledgeGraph, graph_format, serialize_graph, write_graph
+from usd2kg.graph import KnowledgeGraph, graph_format, serialize, serialize_graph, write_graph
 from usd2kg.ontology import TBox
 
 CUP = thing("/Room/Cup", (0, 0, 0), (0.1, 0.1, 0.1))
@@ -66,6 +66,17 @@ def test_n_triples_is_one_line_each(graph: KnowledgeGraph):
     lines = serialize_graph(graph, ox.RdfFormat.N_TRIPLES).decode().splitlines()
     assert len(lines) == len(graph.triples)
     assert all(line.endswith(" .") for line in lines)
+
+
+@pytest.mark.parametrize("rdf_format", [ox.RdfFormat.TURTLE, ox.RdfFormat.N_TRIPLES])
+def test_a_large_graph_is_written_in_pieces_that_say_the_same(
+    graph: KnowledgeGraph, rdf_format: ox.RdfFormat, monkeypatch: pytest.MonkeyPatch
+):
+    whole = serialize_graph(graph, rdf_format)
+    monkeypatch.setattr(serialize, "_CHUNK", 3)
+    assert len(graph.triples) > 30
+    # Pieces end where the subject changes, so that even the layout is the same.
+    assert serialize_graph(graph, rdf_format) == whole
 
 
 @pytest.mark.parametrize(

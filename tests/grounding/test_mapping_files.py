@@ -11,7 +11,16 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, make_class, make_tbox
 from usd2kg.errors import GroundingError
-from usd2kg.grounding import Candidate, Grounding, Prediction, Status, format_mapping, read_grounding, read_paths
+from usd2kg.grounding import (
+    Candidate,
+    Grounding,
+    Prediction,
+    Review,
+    Status,
+    format_mapping,
+    read_grounding,
+    read_paths,
+)
 
 TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label='cup, "tall"'))
 
@@ -45,6 +54,13 @@ SMALL = make_grounding(
     Prediction("/Küche/y", None, None, Status.REFUSED, "dictionary", "not in the dictionary"),
     Prediction("/Küche/z", None, None, Status.MISSING, "embedded", "no such prim"),
 )
+REVIEWED = SMALL.predictions[1].reviewed(
+    LAB + "Cup",
+    "https://orcid.org/0000-0001-2345-6789",
+    confidence=0.9,
+    comment="it is one",
+    time="2026-07-15T12:00:00Z",
+)
 
 
 class TestCsv:
@@ -74,6 +90,16 @@ class TestJson:
         path = tmp_path / "mapping.json"
         path.write_text(format_mapping(SMALL, TBOX, "json"), encoding="utf-8")
         assert read_grounding(path) == SMALL
+
+    def test_a_review_is_read_back_and_older_files_have_none(self, tmp_path: Path):
+        path = tmp_path / "mapping.json"
+        text = format_mapping(make_grounding(REVIEWED), TBOX, "json")
+        path.write_text(text, encoding="utf-8")
+        assert read_grounding(path).predictions == (REVIEWED,)
+        data = json.loads(text)
+        del data["predictions"][0]["review"]
+        path.write_text(json.dumps(data), encoding="utf-8")
+        assert read_grounding(path).predictions[0].review is None
 
     def test_its_types_are_those_of_the_records(self, tmp_path: Path):
         path = tmp_path / "mapping.json"
@@ -142,6 +168,27 @@ class TestJson:
     def test_a_missing_file_is_an_error(self, tmp_path: Path):
         with pytest.raises(GroundingError, match=r"none\.json"):
             read_grounding(tmp_path / "none.json")
+
+
+class TestReview:
+    def test_a_decision_overrides_the_prediction_and_keeps_it(self):
+        assert (REVIEWED.class_iri, REVIEWED.confidence, REVIEWED.status) == (LAB + "Cup", 0.9, Status.REVIEWED)
+        assert REVIEWED.review == Review(
+            reviewer="https://orcid.org/0000-0001-2345-6789",
+            predicted_class=LAB + "Thing",
+            predicted_confidence=0.1,
+            predicted_status=Status.SUPERCLASS,
+            comment="it is one",
+            time="2026-07-15T12:00:00Z",
+        )
+        assert (REVIEWED.grounder, REVIEWED.explanation) == ("embedded", "nothing is known")
+
+    def test_a_second_decision_keeps_what_the_grounder_said_not_the_first(self):
+        again = REVIEWED.reviewed(None, "Ada", comment="no class fits")
+        assert (again.class_iri, again.confidence, again.status) == (None, None, Status.REVIEWED)
+        assert again.review is not None
+        assert (again.review.reviewer, again.review.comment, again.review.time) == ("Ada", "no class fits", "")
+        assert (again.review.predicted_class, again.review.predicted_status) == (LAB + "Thing", Status.SUPERCLASS)
 
 
 def test_an_unknown_format_is_an_error():

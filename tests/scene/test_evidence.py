@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.scene.usda import METRES, component, cube, header, prim, rigid, xform
+from tests.scene.usda import METRES, component, cube, header, ops, prim, rigid, xform
 from usd2kg.scene import read_scene
 
 MASS = 'prepend apiSchemas = ["PhysicsMassAPI"]'
@@ -61,6 +61,49 @@ def test_masses_are_kilograms(read):
     assert thing(read, heavy("a", 250), layer=layer).mass_kg == pytest.approx(0.25)
 
 
+# --- centre of mass ----------------------------------------------------------------------------------
+
+
+def center(x, y, z):
+    return f"point3f physics:centerOfMass = ({x}, {y}, {z})"
+
+
+def test_center_of_mass_is_in_the_world(read):
+    # Turned by 90° about z: (1, 0, 0) of the thing is (0, 1, 0); moved by (10, 0, 0).
+    turned = ops(("double3", "translate", (10, 0, 0)), ("float", "rotateZ", 90))
+    obj = thing(read, "float physics:mass = 2", center(1, 0, 0.5), turned, cube("a"), meta=[MASS])
+    assert obj.center_of_mass == pytest.approx((10, 1, 0.5))
+
+
+def test_center_of_mass_on_a_y_up_stage_in_centimetres(read):
+    # (10, 20, 30) cm, y up, is (0.1, -0.3, 0.2) m.
+    layer = header(metersPerUnit=0.01, upAxis="Y")
+    obj = thing(read, "float physics:mass = 2", center(10, 20, 30), cube("a"), meta=[MASS], layer=layer)
+    assert obj.center_of_mass == pytest.approx((0.1, -0.3, 0.2))
+
+
+def test_center_of_mass_of_the_parts_is_weighted(read):
+    # (3 × (1, 0, 0) + 1 × (0, 0, 2)) / 4
+    obj = thing(read, heavy("a", 3, center(1, 0, 0)), heavy("b", 1, center(0, 0, 2)), cube("c"))
+    assert obj.center_of_mass == pytest.approx((0.75, 0, 0.5))
+
+
+def test_center_of_mass_is_unknown_where_one_part_does_not_say(read):
+    assert thing(read, heavy("a", 3, center(1, 0, 0)), heavy("b", 1)).center_of_mass is None
+    assert thing(read, heavy("a", 3)).center_of_mass is None
+
+
+def test_center_of_mass_without_a_mass_is_the_prims_own(read):
+    assert thing(read, center(1, 2, 3), cube("a"), meta=[MASS]).center_of_mass == pytest.approx((1, 2, 3))
+
+
+@pytest.mark.parametrize("value", ["(-inf, -inf, -inf)", "(nan, 0, 0)"])
+def test_center_of_mass_that_is_not_finite_is_none(read, value):
+    # UsdPhysics: minus infinity is the fallback, to be derived.
+    line = f"point3f physics:centerOfMass = {value}"
+    assert thing(read, "float physics:mass = 2", line, cube("a"), meta=[MASS]).center_of_mass is None
+
+
 # --- asset -------------------------------------------------------------------------------------------
 
 
@@ -95,6 +138,49 @@ def test_without_arcs_there_is_no_asset(read):
     internal = prim("", "Copy", meta=["references = </World/Thing>"])
     scene = read(xform("World", component("Thing", cube("a")), internal))
     assert [obj.asset for obj in scene.objects] == [(), ()]
+
+
+# --- geometry file -----------------------------------------------------------------------------------
+
+
+def asset_file(write_stage, name):
+    return write_stage('(\n    defaultPrim = "A"\n)\n' + xform("A", cube("mesh")), name)
+
+
+@pytest.mark.parametrize("arc", ["references", "prepend payload"])
+def test_geometry_file_is_relative_to_the_stage(read, write_stage, arc):
+    asset_file(write_stage, "props/chair.usda")
+    tree = xform("World", prim("", "Thing", meta=[f"{arc} = @./props/chair.usda@"]), cube("other"))
+    assert read(tree).by_path["/World/Thing"].geometry_file == "props/chair.usda"
+
+
+def test_geometry_file_that_a_sublayer_names_is_relative_to_the_stage_too(read, write_stage):
+    asset_file(write_stage, "rooms/props/chair.usda")
+    room = xform("World", prim("", "Thing", meta=["references = @props/chair.usda@"]), cube("other"))
+    write_stage(room, "rooms/room.usda")
+    scene = read("", layer=METRES.replace("(\n", "(\n    subLayers = [@rooms/room.usda@]\n"))
+    assert scene.by_path["/World/Thing"].geometry_file == "rooms/props/chair.usda"
+
+
+def test_geometry_file_elsewhere_is_as_authored(read):
+    tree = xform("World", prim("", "Thing", meta=["references = @https://assets.example/chair.usd@"]), cube("o"))
+    assert read(tree).by_path["/World/Thing"].geometry_file == "https://assets.example/chair.usd"
+
+
+def test_geometry_file_of_a_body_is_that_of_the_only_asset_below_it(read, write_stage):
+    asset_file(write_stage, "chair.usda")
+    asset_file(write_stage, "table.usda")
+    visual = prim("", "visual", meta=["references = @chair.usda@"])
+    twice = prim("", "again", meta=["references = @chair.usda@"])
+    other = prim("", "other", meta=["references = @table.usda@"])
+    assert thing(read, visual, twice).geometry_file == "chair.usda"
+    assert thing(read, visual, other).geometry_file == "", "two files: neither is the geometry of the whole"
+
+
+def test_without_files_there_is_no_geometry_file(read):
+    internal = prim("", "Copy", meta=["references = </World/Thing>"])
+    scene = read(xform("World", component("Thing", cube("a")), internal))
+    assert [obj.geometry_file for obj in scene.objects] == ["", ""]
 
 
 # --- materials ---------------------------------------------------------------------------------------

@@ -71,6 +71,7 @@ def test_a_hinge(read):
         body1="/Door",
         axis="Z",
         axis_vector=(0.0, 0.0, 1.0),
+        origin=(0.0, 0.0, 0.0),
         direction="vertical",
         lower=0.0,
         upper=math.pi / 2,
@@ -177,6 +178,32 @@ def test_axis_of_a_joint_to_the_world_is_told_by_the_moved_body(read):
     found = only(read(*world(revolute(axis("Z"), body0=None), door=[turned])))
     assert found.body0 is None
     assert found.axis_vector == pytest.approx((0, -1, 0), abs=1e-6)
+
+
+def test_origin_is_that_of_the_joint_frame_in_the_still_body(read):
+    # The cabinet is at (1, 2, 0), turned by 90° about z and twice its size: (0.5, 0, 1) in it is (1, 3, 2).
+    placed = ops(("double3", "translate", (1, 2, 0)), ("float", "rotateZ", 90), ("float3", "scale", (2, 2, 2)))
+    hinge = revolute("point3f physics:localPos0 = (0.5, 0, 1)", "point3f physics:localPos1 = (9, 9, 9)")
+    assert only(read(*world(hinge, cabinet=[placed]))).origin == pytest.approx((1, 3, 2))
+
+
+def test_origin_of_a_joint_to_the_world_is_told_by_the_moved_body(read):
+    hinge = revolute("point3f physics:localPos1 = (0, 0, 1)", body0=None)
+    assert only(read(*world(hinge, door=[move(0, 4, 0)]))).origin == pytest.approx((0, 4, 1))
+
+
+def test_origin_on_a_y_up_stage_in_centimetres(read):
+    # (100, 200, 300) cm, y up, is (1, -3, 2) m; a joint without an axis has an origin too.
+    ball = joint("PhysicsSphericalJoint", "point3f physics:localPos0 = (100, 200, 300)")
+    assert only(read(*world(ball), frame=Y_UP, layer=CENTIMETRES_Y_UP)).origin == pytest.approx((1, -3, 2))
+
+
+def test_origin_that_nobody_authored_is_that_of_the_body(read):
+    assert only(read(*world(revolute(), cabinet=[move(1, 0, 0)]))).origin == pytest.approx((1, 0, 0))
+
+
+def test_origin_that_is_not_finite_is_none(read):
+    assert only(read(*world(revolute("point3f physics:localPos0 = (nan, 0, 0)")))).origin is None
 
 
 @pytest.mark.parametrize(

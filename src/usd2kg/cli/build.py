@@ -9,7 +9,7 @@ import typer
 from usd2kg.cli.grounding_run import GroundingOptions, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
-from usd2kg.cli.options import JsonOutput, OntologyFile, ReadingOptions
+from usd2kg.cli.options import JsonOutput, MergeImports, OntologyFile, ReadingOptions, WritingOptions
 from usd2kg.cli.output import print_json, talk
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
@@ -27,6 +27,7 @@ def build_command(
     chosen: GroundingOptions,
     asked: ModelOptions,
     reading: ReadingOptions,
+    writing: WritingOptions,
     ontology: OntologyFile = None,
     base: Annotated[
         str | None,
@@ -35,6 +36,7 @@ def build_command(
     profile: Annotated[
         str, typer.Option("--profile", help="How objects are written: auto (default), soma or plain.")
     ] = "auto",
+    merge_imports: MergeImports = False,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -52,6 +54,7 @@ def build_command(
     targets = _targets(scenes, output)
     groups, naming_regime = chosen.groups, chosen.naming_regime
     options = reading.read_options()
+    written = writing.graph_options()
     tbox = open_tbox(ontology)
     for note in tbox.notes:
         talk(f"{note.code}: {note.message}")
@@ -70,6 +73,12 @@ def build_command(
                     decisions=run.decisions,
                     base=base,
                     profile=profile,
+                    graph_options=written,
+                    merges_imports=merge_imports,
+                )
+            for iri in result.graph.missing_imports:
+                talk(
+                    f"missing-import: <{iri}> is not at hand, so it is not merged in; put it beside the ontology's file"
                 )
             _write(result, target)
             run.tell(result.grounding, asked, tbox)

@@ -13,7 +13,11 @@ if TYPE_CHECKING:
 
 __all__ = ["app"]
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Show the classes that objects can be grounded to.")
+app = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Show the classes that objects can be grounded to, and our own terms.",
+)
 
 _File = Annotated[
     Path | None, typer.Argument(metavar="[FILE]", help="An OWL file; default: the built-in home ontology.")
@@ -54,6 +58,14 @@ def scope(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> 
         print_json(iris)
     else:
         emit("".join(f"{iri}\n" for iri in iris), None)
+
+
+@app.command("vocabulary")
+def vocabulary() -> None:
+    """Print the ontology of usd2kg's own terms, as Turtle."""
+    from usd2kg.graph import vocabulary_text  # noqa: PLC0415 - loads the RDF parser
+
+    emit(vocabulary_text(), None)
 
 
 def _load(file: Path | None, roots: list[str] | None) -> "TBox":

@@ -1,5 +1,6 @@
 """Arguments and options that several commands share."""
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -7,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from usd2kg.graph import GraphOptions
     from usd2kg.scene import ReadOptions
 
 __all__ = [
@@ -22,6 +24,7 @@ __all__ = [
     "Include",
     "JsonOutput",
     "Kinds",
+    "MergeImports",
     "MetresPerUnit",
     "ObjectList",
     "OntologyFile",
@@ -31,6 +34,7 @@ __all__ = [
     "Shapes",
     "TimeCode",
     "UpAxis",
+    "WritingOptions",
 ]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A USD stage: .usd, .usda, .usdc or .usdz.")]
@@ -107,7 +111,56 @@ Kinds = Annotated[
 ObjectList = Annotated[
     Path | None, typer.Option("--objects", help="CSV file with a column path: just these prims are objects.")
 ]
+Annotations = Annotated[
+    str,
+    typer.Option(
+        "--annotations",
+        help="How statements are annotated with confidence and reasons: owl (default), or rdf12, the triple terms of "
+        "RDF 1.2, which OWL tools do not read.",
+    ),
+]
+Colors = Annotated[
+    str,
+    typer.Option(
+        "--colors",
+        help="How the soma profile writes colours: usd (default), or knowrob, as KnowRob asks for them, which makes "
+        "the graph inconsistent with SOMA.",
+    ),
+]
+TimeOfRun = Annotated[
+    str | None,
+    typer.Option(
+        "--time-of-run",
+        help="When the graph was made: now, or ISO 8601 with a time zone; default: SOURCE_DATE_EPOCH if that is set, "
+        "else no time, so that the same input gives the same bytes.",
+    ),
+]
+MergeImports = Annotated[
+    bool,
+    typer.Option(
+        "--merge-imports",
+        help="Put the ontology, all that it imports and usd2kg's vocabulary into the graph, so that it needs no other "
+        "file.",
+    ),
+]
 EveryPrim = Annotated[bool, typer.Option("--every-prim", help="Every prim that is or holds geometry is an object.")]
+
+
+@dataclass(frozen=True)
+class WritingOptions:
+    """How the graph is to be written."""
+
+    annotations: Annotations = "owl"
+    colors: Colors = "usd"
+    time_of_run: TimeOfRun = None
+
+    def graph_options(self) -> "GraphOptions":
+        """Return the same for the writer; SOURCE_DATE_EPOCH is a time, too."""
+        from usd2kg.graph import GraphOptions, read_epoch, read_time  # noqa: PLC0415
+
+        epoch = os.environ.get("SOURCE_DATE_EPOCH")
+        time = read_time(self.time_of_run) if self.time_of_run else read_epoch(epoch) if epoch else None
+        return GraphOptions(self.annotations, self.colors, time)
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,21 @@
 
 from usd2kg.graph.instantiate import PROFILES, KnowledgeGraph, instantiate
 from usd2kg.graph.iris import individual_iri, prim_path_of
+from usd2kg.graph.merge import merge_imports
+from usd2kg.graph.options import ANNOTATIONS, COLORS, GraphOptions, read_epoch, read_time
 from usd2kg.graph.query import Answer, GraphStore, load_graph
 from usd2kg.graph.relations import Relation
 from usd2kg.graph.serialize import GRAPH_FORMATS, graph_format, serialize_graph, write_graph
+from usd2kg.graph.terms import VOCABULARY_IRI, vocabulary_text
 
 __all__ = [
+    "ANNOTATIONS",
+    "COLORS",
     "GRAPH_FORMATS",
     "PROFILES",
+    "VOCABULARY_IRI",
     "Answer",
+    "GraphOptions",
     "GraphStore",
     "KnowledgeGraph",
     "Relation",
@@ -17,7 +24,11 @@ __all__ = [
     "individual_iri",
     "instantiate",
     "load_graph",
+    "merge_imports",
     "prim_path_of",
+    "read_epoch",
+    "read_time",
     "serialize_graph",
+    "vocabulary_text",
     "write_graph",
 ]

@@ -1,43 +1,36 @@
 """instantiate: from a Scene and its Grounding to a knowledge graph, an ABox over the user's TBox."""
 
+import gc
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.graph.annotate import annotate_owl, annotate_rdf12
+from usd2kg.graph.articulation import link_joints
+from usd2kg.graph.facts import annotated_facts, object_facts
 from usd2kg.graph.iris import check_base, default_base, individual_iri
-from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, Triple, uses_soma
+from usd2kg.graph.justification import justify_class, justify_refusal
+from usd2kg.graph.options import GraphOptions
+from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, uses_soma
+from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
 from usd2kg.graph.relations import Relation, find_relations
-from usd2kg.graph.vocabulary import OWL, PREFIXES, PROV, RDF, RDFS, SSSOM, U2K, number, text
+from usd2kg.graph.terms import declare_terms
+from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, Triple, number, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
-from usd2kg.scene import Scene
+from usd2kg.scene import Scene, SceneObject
 
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]
 
 PROFILES = ("auto", "soma", "plain")
 """How objects are written; `auto` is soma where the TBox is SOMA's, else plain."""
 
-_ANNOTATION_PROPERTIES = (
-    SSSOM.confidence,
-    U2K.alternative,
-    U2K.boxCenter,
-    U2K.evidence,
-    U2K.explanation,
-    U2K.gap,
-    U2K.grounder,
-    U2K.insideRatio,
-    U2K.overlapRatio,
-    U2K.primPath,
-    U2K.rule,
-    U2K.run,
-    U2K.status,
-)
-_PROVENANCE_PROPERTIES = (PROV.used, PROV.wasAssociatedWith)
-_ALTERNATIVES = 3
+_SOMA_DOCUMENTS = "http://www.ease-crc.org/ont/SOMA"
 
 
 @dataclass(frozen=True)
@@ -49,17 +42,29 @@ class KnowledgeGraph:
     base: str
     """Where the individuals lie."""
     profile: str
+    imports: tuple[str, ...]
+    """IRIs of the ontologies that it imports."""
     triples: tuple[ox.Triple, ...]
+    """Header and declarations first; then what is said of each object, together."""
     prefixes: dict[str, str]
     relations: tuple[Relation, ...]
     individuals: int
     """Objects of the scene; their shapes, places and masses are not counted."""
     classes: dict[str, int]
     """Class IRI → number of objects of just that class."""
+    missing_imports: tuple[str, ...] = ()
+    """IRIs of ontologies that should have been merged in and are not at hand."""
 
 
 def instantiate(
-    scene: Scene, tbox: TBox, grounding: Grounding, *, base: str | None = None, profile: str = "auto"
+    scene: Scene,
+    tbox: TBox,
+    grounding: Grounding,
+    *,
+    base: str | None = None,
+    profile: str = "auto",
+    options: GraphOptions | None = None,
+    relations: Iterable[Relation] | None = None,
 ) -> KnowledgeGraph:
     """Return the knowledge graph of a grounded scene.
 
@@ -69,72 +74,132 @@ def instantiate(
         grounding: the class of each object.
         base: IRI under which the individuals lie, ending in `/` or `#`; by default made from the file's name.
         profile: one of `PROFILES`.
+        options: how the graph is written, where that is not as usual.
+        relations: the spatial relations; by default they are found from the boxes.
 
     Raises:
         GraphError: the base is no IRI, or the profile is unknown.
     """
     base = check_base(base or default_base(scene.source))
-    writer = _Writer(scene, tbox, grounding, base, _make_profile(profile, tbox))
-    triples = tuple(ox.Triple(*triple) for triple in dict.fromkeys(writer.write()))
+    options = options or GraphOptions()
+    chosen = _make_profile(profile, tbox, options)
+    found = tuple(find_relations(scene, tbox, grounding) if relations is None else relations)
+    imports = tuple(_imports(tbox, chosen))
+    with _paused_collection():
+        triples = _Writer(scene, tbox, grounding, base, chosen, imports, options, found).write()
     counts = Counter(p.class_iri for p in grounding.predictions if p.class_iri)
     return KnowledgeGraph(
         iri=base.rstrip("#/"),
         base=base,
-        profile=writer.profile.name,
+        profile=chosen.name,
+        imports=imports,
         triples=triples,
         prefixes={**PREFIXES, "": base},
-        relations=writer.relations,
+        relations=found,
         individuals=len(scene.objects),
         classes=dict(sorted(counts.items())),
     )
 
 
-def _make_profile(name: str, tbox: TBox) -> Profile:
+def _make_profile(name: str, tbox: TBox, options: GraphOptions) -> Profile:
     if name not in PROFILES:
         raise GraphError(f"profile {name!r} is unknown; expected one of {', '.join(PROFILES)}")
     is_soma = name == "soma" or (name == "auto" and uses_soma(tuple(cls.iri for cls in tbox.classes)))
-    return SomaProfile() if is_soma else PlainProfile()
+    return SomaProfile(options.colors) if is_soma else PlainProfile()
+
+
+def _imports(tbox: TBox, profile: Profile) -> Iterator[str]:
+    own = tbox.ontology_iri
+    if not own.startswith("file:"):
+        yield own
+    for iri in profile.imports:
+        # Each of SOMA's own documents imports those that it needs.
+        is_known = iri in tbox.imports or (iri.startswith(_SOMA_DOCUMENTS) and own.startswith(_SOMA_DOCUMENTS))
+        if iri != own and not is_known:
+            yield iri
+
+
+@contextmanager
+def _paused_collection() -> Iterator[None]:
+    """Keep Python from looking for garbage among millions of triples that are all kept."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 class _Writer:
-    """Yields the triples of one graph, section by section."""
+    """Writes the triples of one graph, section by section."""
 
-    def __init__(self, scene: Scene, tbox: TBox, grounding: Grounding, base: str, profile: Profile) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        tbox: TBox,
+        grounding: Grounding,
+        base: str,
+        profile: Profile,
+        imports: tuple[str, ...],
+        options: GraphOptions,
+        relations: tuple[Relation, ...],
+    ) -> None:
         self.scene = scene
         self.tbox = tbox
         self.grounding = grounding
         self.base = base
         self.profile = profile
-        self.relations = find_relations(scene, tbox, grounding)
+        self.imports = imports
+        self.time = options.time
+        self.annotate = annotate_rdf12 if options.annotations == "rdf12" else annotate_owl
         self.graph = ox.NamedNode(base.rstrip("#/"))
-        self.stage = ox.NamedNode(f"{base}-stage")
-        self.run = ox.NamedNode(f"{base}-run")
-        self.axioms = 0
+        self.stage, self.run, self.ontology, self.software = (
+            ox.NamedNode(individual_iri(base, "/", part)) for part in ("stage", "run", "ontology", "software")
+        )
+        self.relations: dict[str, list[Relation]] = {}
+        for relation in relations:
+            self.relations.setdefault(relation.target, []).append(relation)
+        self.joints = list(link_joints(scene, base))
+        self.joints_inside: dict[ox.NamedNode, list[ox.NamedNode]] = {}
+        for linked in self.joints:
+            if linked.whole is not None:
+                self.joints_inside.setdefault(linked.whole, []).append(linked.node)
+        self.properties: set[ox.NamedNode] = set()
+        self.classes: set[ox.NamedNode] = set()
 
-    def write(self) -> Iterator[Triple]:
-        yield from self._header()
-        yield from self._declarations()
-        yield from self._used_classes()
-        yield from self._provenance()
-        yield from self._objects()
-        yield from self._relations()
+    def write(self) -> tuple[ox.Triple, ...]:
+        """Return all triples; each once."""
+        body = [triple for block in self._body() for triple in self._kept(block)]
+        declarations = list(declare_terms(self.properties, self.classes))
+        head = dict.fromkeys((*self._header(), *declarations, *self._used_classes()))
+        return (*(ox.Triple(*triple) for triple in head), *body)
+
+    def _kept(self, block: Iterable[Triple]) -> Iterator[ox.Triple]:
+        """Yield the triples of one block, each once, and keep in mind which terms they use."""
+        for triple in dict.fromkeys(block):
+            _, predicate, value = triple
+            self.properties.add(predicate)
+            if predicate == RDF.type:
+                assert isinstance(value, ox.NamedNode), "classes of individuals have names"
+                self.classes.add(value)
+            yield ox.Triple(*triple)
+
+    def _body(self) -> Iterator[Iterable[Triple]]:
+        """Yield blocks of triples; no triple is in two of them."""
+        yield self._provenance()
+        yield self._members()
+        for obj in self.scene.objects:
+            yield self._object(obj)
+        for linked in self.joints:
+            yield self.profile.join(linked)
 
     def _header(self) -> Iterator[Triple]:
         yield self.graph, RDF.type, OWL.Ontology
         yield self.graph, RDFS.label, text(f"Knowledge graph of {Path(self.scene.source).name}")
-        for iri in dict.fromkeys((self.tbox.ontology_iri, *self.profile.imports)):
-            if not iri.startswith("file:"):
-                yield self.graph, OWL.imports, ox.NamedNode(iri)
-
-    def _declarations(self) -> Iterator[Triple]:
-        for node in self.profile.classes:
-            yield node, RDF.type, OWL.Class
-        for node in (*self.profile.object_properties, *_PROVENANCE_PROPERTIES):
-            yield node, RDF.type, OWL.ObjectProperty
-        for node in self.profile.data_properties:
-            yield node, RDF.type, OWL.DatatypeProperty
-        for node in _ANNOTATION_PROPERTIES:
-            yield node, RDF.type, OWL.AnnotationProperty
+        yield self.graph, U2K.run, self.run
+        for iri in self.imports:
+            yield self.graph, OWL.imports, ox.NamedNode(iri)
 
     def _used_classes(self) -> Iterator[Triple]:
         """Yield the used classes with all above them, so that the graph alone answers questions by class."""
@@ -148,82 +213,50 @@ class _Writer:
                 yield node, RDFS.subClassOf, ox.NamedNode(parent)
 
     def _provenance(self) -> Iterator[Triple]:
-        """Yield the run that made the graph. It bears no time: the same input gives the same bytes."""
-        agent = U2K.usd2kg
-        ontology = ox.NamedNode(f"{self.base}-ontology")
-        for node, cls in ((self.run, PROV.Activity), (agent, PROV.SoftwareAgent), (ontology, PROV.Entity)):
-            yield node, RDF.type, OWL.NamedIndividual
-            yield node, RDF.type, cls
-        settings = ", ".join(f"{key}={value}" for key, value in sorted(self.grounding.settings.items()))
-        calibration = "calibrated" if self.grounding.is_calibrated else "uncalibrated"
-        grounder = f"grounder {self.grounding.grounder} ({settings}; confidence {calibration})"
-        yield self.run, RDFS.comment, text(f"usd2kg {self.grounding.tool_version}, {grounder}")
-        yield self.run, PROV.wasAssociatedWith, agent
-        yield self.run, PROV.used, self.stage
-        yield self.run, PROV.used, ontology
-        yield agent, RDFS.label, text("usd2kg")
-        version = f", version {self.tbox.version_iri}" if self.tbox.version_iri else ""
-        yield ontology, RDFS.label, text(f"{self.tbox.ontology_iri}{version}, {self.tbox.content_hash}")
+        used = (self.stage, self.ontology)
+        yield from describe_run(self.run, self.grounding, used, self.software, self.time)
+        yield from describe_software(self.software, self.grounding.tool_version)
+        yield from describe_ontology(self.ontology, self.tbox)
+
+    def _members(self) -> Iterator[Triple]:
         yield from self.profile.stage(self.stage)
-        yield self.stage, RDFS.label, text(f"{Path(self.scene.source).name}, {self.scene.content_hash}")
-
-    def _objects(self) -> Iterator[Triple]:
+        yield from describe_scene(self.stage, self.scene)
         for obj in self.scene.objects:
-            node = ox.NamedNode(individual_iri(self.base, obj.prim_path))
-            prediction = self.grounding.by_path.get(obj.prim_path)
-            yield node, RDF.type, OWL.NamedIndividual
-            if prediction is not None and prediction.class_iri is not None:
-                yield node, RDF.type, ox.NamedNode(prediction.class_iri)
-            yield node, RDFS.label, text(obj.display_name or obj.name)
-            yield node, U2K.primPath, text(obj.prim_path)
-            yield from self.profile.describe(obj, self.base)
-            yield from self.profile.member(self.stage, node)
-            if prediction is not None:
-                yield from self._justify(node, prediction)
+            yield self.profile.member(self.stage, self._node(obj.prim_path))
 
-    def _justify(self, node: ox.NamedNode, prediction: Prediction) -> Iterator[Triple]:
-        """Yield why an object has its class, on the type assertion; on the object itself where it has none."""
-        if prediction.class_iri is None:
-            yield node, U2K.status, text(prediction.status.value)
-            yield node, U2K.explanation, text(prediction.explanation)
+    def _object(self, obj: SceneObject) -> list[Triple]:
+        """Return what is said of one object: its own statements, those of its parts, those about statements."""
+        node = self._node(obj.prim_path)
+        prediction = self.grounding.by_path.get(obj.prim_path)
+        about: list[Triple] = []
+        block: list[Triple] = list(self._type(node, prediction, about))
+        block.extend(object_facts(obj, node))
+        block.extend(self._relations(obj.prim_path, node, about))
+        block.extend((node, self.profile.has_joint, joint) for joint in self.joints_inside.get(node, ()))
+        block.extend(self.profile.describe(obj, node))
+        own = [triple for triple in block if triple[0] == node]
+        others = [triple for triple in block if triple[0] != node]
+        return [*own, *others, *about, *annotated_facts(obj, node, self.annotate)]
+
+    def _node(self, prim_path: str) -> ox.NamedNode:
+        return ox.NamedNode(individual_iri(self.base, prim_path))
+
+    def _type(self, node: ox.NamedNode, prediction: Prediction | None, about: list[Triple]) -> Iterator[Triple]:
+        """Yield the class and why, on the type assertion; on the object itself where it has none."""
+        yield node, RDF.type, OWL.NamedIndividual
+        yield node, RDF.type, self.profile.object_class
+        if prediction is None:
             return
-        yield from self._annotated(
-            (node, RDF.type, ox.NamedNode(prediction.class_iri)),
-            [
-                *([(SSSOM.confidence, number(prediction.confidence))] if prediction.confidence is not None else []),
-                (U2K.status, text(prediction.status.value)),
-                (U2K.grounder, text(prediction.grounder)),
-                *((U2K.evidence, text(group)) for group in prediction.evidence),
-                (U2K.explanation, text(prediction.explanation)),
-                *((U2K.alternative, ox.NamedNode(iri)) for iri in _alternatives(prediction)),
-                (U2K.run, self.run),
-            ],
-        )
+        if prediction.class_iri is None:
+            yield from ((node, name, value) for name, value in justify_refusal(prediction))
+            return
+        statement = (node, RDF.type, ox.NamedNode(prediction.class_iri))
+        yield statement
+        about.extend(self.annotate(statement, justify_class(prediction, self.run)))
 
-    def _relations(self) -> Iterator[Triple]:
-        for relation in self.relations:
-            target = ox.NamedNode(individual_iri(self.base, relation.target))
-            anchor = ox.NamedNode(individual_iri(self.base, relation.anchor))
-            triples = self.profile.relate(relation, target, anchor)
+    def _relations(self, prim_path: str, target: ox.NamedNode, about: list[Triple]) -> Iterator[Triple]:
+        for relation in self.relations.get(prim_path, ()):
+            triples = self.profile.relate(relation, target, self._node(relation.anchor))
             yield from triples
             numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
-            yield from self._annotated(triples[0], [(U2K.rule, text(relation.rule)), *numbers])
-
-    def _annotated(
-        self, triple: Triple, annotations: list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]
-    ) -> Iterator[Triple]:
-        """Yield OWL's annotation of an axiom (OWL 2 Mapping to RDF Graphs, section 2.3)."""
-        self.axioms += 1
-        axiom = ox.BlankNode(f"axiom{self.axioms}")
-        subject, predicate, value = triple
-        yield axiom, RDF.type, OWL.Axiom
-        yield axiom, OWL.annotatedSource, subject
-        yield axiom, OWL.annotatedProperty, predicate
-        yield axiom, OWL.annotatedTarget, value
-        for name, annotation in annotations:
-            yield axiom, name, annotation
-
-
-def _alternatives(prediction: Prediction) -> list[str]:
-    others = [c.class_iri for c in prediction.candidates if c.class_iri != prediction.class_iri]
-    return others[:_ALTERNATIVES]
+            about.extend(self.annotate(triples[0], [(U2K.rule, text(relation.rule)), *numbers]))

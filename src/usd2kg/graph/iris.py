@@ -11,7 +11,9 @@ from usd2kg.errors import GraphError
 __all__ = ["check_base", "default_base", "individual_iri", "prim_path_of"]
 
 _SEPARATOR = "."
-"""Stands for the slash between prims. Prim names cannot hold a dot, so no two paths share an IRI."""
+"""Stands for the slash between prims. A dot in a name is encoded, so no two paths share an IRI."""
+_PART = "-"
+"""Stands before the name of a part; encoded in names, too."""
 
 
 def default_base(source: str) -> str:
@@ -43,13 +45,24 @@ def check_base(base: str) -> str:
 def individual_iri(base: str, prim_path: str, part: str = "") -> str:
     """Return the IRI of the individual for a prim, or of a node that belongs to it (`part`: shape, box, pose…).
 
-    The part follows a hyphen, which no prim name can hold.
+    No two paths share an IRI, whatever letters they hold: all but ASCII letters, digits, `_` and `~` are encoded, as
+    UTF-8 in percent. The part follows a hyphen. What belongs to the stage as a whole is a part of the path `/`.
 
     >>> individual_iri("https://my.lab/k/", "/World/Table_1/Cup_3", "box")
     'https://my.lab/k/World.Table_1.Cup_3-box'
+    >>> individual_iri("https://my.lab/k/", "/World/Books[7]")
+    'https://my.lab/k/World.Books%5B7%5D'
     """
-    name = _SEPARATOR.join(quote(step, safe="") for step in prim_path.strip("/").split("/"))
-    return f"{base}{name}-{part}" if part else base + name
+    name = _SEPARATOR.join(map(_encode, prim_path.removeprefix("/").split("/")))
+    return f"{base}{name}{_PART}{part}" if part else base + name
+
+
+def _encode(name: str) -> str:
+    if name.isascii() and name.isidentifier():
+        return name
+    # Names are UTF-8 on a stage; half a surrogate pair can still come from other records.
+    encoded = quote(name, safe="", errors="surrogatepass")
+    return encoded.replace(_SEPARATOR, "%2E").replace(_PART, "%2D")
 
 
 def prim_path_of(base: str, iri: str) -> str:
@@ -58,5 +71,5 @@ def prim_path_of(base: str, iri: str) -> str:
     >>> prim_path_of("https://my.lab/k/", "https://my.lab/k/World.Table_1.Cup_3")
     '/World/Table_1/Cup_3'
     """
-    name = iri.removeprefix(base).partition("-")[0]
-    return "/" + "/".join(unquote(step) for step in name.split(_SEPARATOR))
+    name = iri.removeprefix(base).partition(_PART)[0]
+    return "/" + "/".join(unquote(step, errors="surrogatepass") for step in name.split(_SEPARATOR))

@@ -1,14 +1,20 @@
-"""The IRIs that graphs are written in. Exact spelling matters: mind http and https."""
+"""The IRIs that graphs are written in, and how values are written. Exact spelling matters: mind http and https."""
+
+from collections.abc import Iterable
 
 import pyoxigraph as ox
 
 __all__ = [
+    "DCTERMS",
     "DUL",
+    "KNOWROB",
     "OWL",
     "PREFIXES",
     "PROV",
+    "QUDT",
     "RDF",
     "RDFS",
+    "SEMAPV",
     "SKOS",
     "SOMA",
     "SSSOM",
@@ -16,9 +22,15 @@ __all__ = [
     "USD",
     "XSD",
     "Namespace",
+    "Triple",
+    "named_node",
     "number",
     "text",
+    "vector_text",
 ]
+
+Triple = tuple[ox.NamedNode | ox.BlankNode, ox.NamedNode, ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple]
+"""Subject, predicate and object; only in RDF 1.2 is an object a triple."""
 
 
 class Namespace:
@@ -32,10 +44,16 @@ class Namespace:
         self.iri = iri
 
     def __getattr__(self, name: str) -> ox.NamedNode:
-        return ox.NamedNode(self.iri + name)
+        if name.startswith("__"):
+            raise AttributeError(name)
+        node = ox.NamedNode(self.iri + name)
+        # Kept as an attribute: a graph names its terms millions of times.
+        setattr(self, name, node)
+        return node
 
     def __getitem__(self, name: str) -> ox.NamedNode:
-        return ox.NamedNode(self.iri + name)
+        node: ox.NamedNode = getattr(self, name)
+        return node
 
 
 RDF = Namespace("http://www.w3.org/1999/02/22-rdf-syntax-ns#")
@@ -43,24 +61,32 @@ RDFS = Namespace("http://www.w3.org/2000/01/rdf-schema#")
 OWL = Namespace("http://www.w3.org/2002/07/owl#")
 XSD = Namespace("http://www.w3.org/2001/XMLSchema#")
 SKOS = Namespace("http://www.w3.org/2004/02/skos/core#")
+DCTERMS = Namespace("http://purl.org/dc/terms/")
 PROV = Namespace("http://www.w3.org/ns/prov#")
+QUDT = Namespace("http://qudt.org/schema/qudt/")
 SSSOM = Namespace("https://w3id.org/sssom/")
+SEMAPV = Namespace("https://w3id.org/semapv/vocab/")
 SOMA = Namespace("http://www.ease-crc.org/ont/SOMA.owl#")
 DUL = Namespace("http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#")
 USD = Namespace("https://ease-crc.org/ont/USD.owl#")
+KNOWROB = Namespace("http://knowrob.org/kb/knowrob.owl#")
 U2K = Namespace("https://w3id.org/usd2kg#")
-"""Our own terms; docs/vocabulary.md describes each."""
+"""Our own terms; data/vocabulary.ttl defines each."""
 
 PREFIXES = {
     "rdf": RDF.iri,
     "rdfs": RDFS.iri,
     "owl": OWL.iri,
     "xsd": XSD.iri,
+    "skos": SKOS.iri,
+    "dcterms": DCTERMS.iri,
     "prov": PROV.iri,
     "sssom": SSSOM.iri,
+    "semapv": SEMAPV.iri,
     "soma": SOMA.iri,
     "dul": DUL.iri,
     "usd": USD.iri,
+    "knowrob": KNOWROB.iri,
     "u2k": U2K.iri,
 }
 
@@ -76,9 +102,32 @@ def number(value: float, datatype: str = "double") -> ox.Literal:
 
 def text(value: str) -> ox.Literal:
     """Return a plain string literal; characters that RDF's syntaxes cannot hold become U+FFFD."""
+    if value.isprintable():
+        return ox.Literal(value)
     return ox.Literal("".join(c if c in "\t\n\r" or _is_character(c) else "\ufffd" for c in value))
 
 
 def _is_character(c: str) -> bool:
     """Return whether XML and RDF can hold a character: no control code, no half of a surrogate pair."""
     return c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff"
+
+
+def vector_text(values: Iterable[float]) -> str:
+    """Return numbers with seven significant digits, parted by blanks.
+
+    >>> vector_text((1.0, -0.0, 0.33333333333))
+    '1 0 0.3333333'
+    """
+    return " ".join(f"{value + 0.0:.7g}" for value in values)
+
+
+def named_node(iri: str) -> ox.NamedNode | None:
+    """Return the node of an IRI that others wrote; None if it is no absolute IRI.
+
+    >>> named_node("a cup") is None
+    True
+    """
+    try:
+        return ox.NamedNode(iri)
+    except ValueError:
+        return None

@@ -59,7 +59,7 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str,
 
 def decided(prim_path: str, class_iri: ClassIRI) -> Prediction:
     """Return what a person decided, as a prediction."""
-    return Prediction(prim_path, class_iri, 1.0, Status.GROUNDED, PERSON, "a person decided so")
+    return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "a person decided so")
 
 
 def unsure_of(grounding: Grounding, least_confidence: float) -> list[Prediction]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.model import Candidate, Grounding, Prediction, Status
+from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
 from usd2kg.ontology import TBox
 
 __all__ = ["MAPPING_FORMATS", "check_format", "format_mapping", "read_grounding", "read_paths"]
@@ -72,6 +72,10 @@ def _read_prediction(item: dict[str, Any]) -> Prediction:
     item["status"] = Status(item["status"])
     item["evidence"] = tuple(item["evidence"])
     item["candidates"] = tuple(Candidate(**candidate) for candidate in item["candidates"])
+    # Files that were written before there were reviews have none.
+    if item.get("review") is not None:
+        review = item["review"]
+        item["review"] = Review(**{**review, "predicted_status": Status(review["predicted_status"])})
     return Prediction(**item)
 
 

@@ -1,13 +1,13 @@
 """What grounding gives: a class for every object, with how sure it is and why."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["Candidate", "Grounding", "Prediction", "Status"]
+__all__ = ["Candidate", "Grounding", "Prediction", "Review", "Status"]
 
 
 class Status(StrEnum):
@@ -25,6 +25,8 @@ class Status(StrEnum):
     """The grounder could not be asked."""
     MISSING = "missing"
     """The prim that was asked for does not exist on the stage."""
+    REVIEWED = "reviewed"
+    """A person decided; `Prediction.review` keeps what was predicted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,21 @@ class Candidate:
     class_iri: ClassIRI
     score: float
     """Higher is better; comparable within one prediction only."""
+
+
+@dataclass(frozen=True, slots=True)
+class Review:
+    """A person's decision about an object, and what the grounder had said."""
+
+    reviewer: str
+    """Who decided: an IRI such as an ORCID's, or a name."""
+    predicted_class: ClassIRI | None
+    predicted_confidence: float | None
+    predicted_status: Status
+    comment: str = ""
+    """The reviewer's reason, empty if none was given."""
+    time: str = ""
+    """When, as ISO 8601; empty if nobody said."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +71,31 @@ class Prediction:
     """The evidence groups that decided."""
     candidates: tuple[Candidate, ...] = ()
     """All that was considered, best first, the chosen class included."""
+    review: Review | None = None
+    """A person's decision, which then is the class, status and confidence above; None if nobody decided."""
+
+    def reviewed(
+        self,
+        class_iri: ClassIRI | None,
+        reviewer: str,
+        *,
+        confidence: float | None = None,
+        comment: str = "",
+        time: str = "",
+    ) -> "Prediction":
+        """Return the prediction with a person's decision in its place.
+
+        Args:
+            class_iri: the right class, maybe the predicted one; None if no class fits.
+            reviewer: an IRI such as an ORCID's, or a name.
+            confidence: how sure the person is, 0 to 1; None if they did not say.
+            comment: the reason.
+            time: when, as ISO 8601.
+        """
+        # A later decision stands beside what the grounder said, not beside the earlier one.
+        before = self.review or Review("", self.class_iri, self.confidence, self.status)
+        review = replace(before, reviewer=reviewer, comment=comment, time=time)
+        return replace(self, class_iri=class_iri, confidence=confidence, status=Status.REVIEWED, review=review)
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """From OWL files to a TBox: the classes in scope with labels, comments and hierarchy."""
 
+from usd2kg.ontology.closure import Closure, read_closure, without_header
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
 from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
@@ -7,6 +8,7 @@ from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
     "ClassIRI",
+    "Closure",
     "OntologyClass",
     "OntologyNote",
     "TBox",
@@ -16,4 +18,6 @@ __all__ = [
     "linearize_tree",
     "load_home_tbox",
     "load_tbox",
+    "read_closure",
+    "without_header",
 ]

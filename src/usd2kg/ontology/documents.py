@@ -10,13 +10,15 @@ from typing import Literal
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
+import pyoxigraph as ox
+
 from usd2kg.errors import OntologyError
 from usd2kg.ontology.axioms import ClassAxioms
 from usd2kg.ontology.model import OntologyNote
-from usd2kg.ontology.owl_syntax import read_owl_axioms
-from usd2kg.ontology.rdf_syntax import read_rdf_axioms
+from usd2kg.ontology.owl_syntax import owl_as_rdf, read_owl_axioms
+from usd2kg.ontology.rdf_syntax import parse_rdf, read_rdf_axioms
 
-__all__ = ["Document", "close_imports", "parse_document", "sniff_syntax"]
+__all__ = ["Document", "close_imports", "find_document", "parse_document", "read_triples", "sniff_syntax"]
 
 _CATALOG = "catalog-v001.xml"
 _CATALOG_URI = "{urn:oasis:names:tc:entity:xmlns:xml:catalog}uri"
@@ -114,6 +116,22 @@ def parse_document(path: Path) -> Document:
     )
 
 
+def read_triples(path: Path) -> list[ox.Triple]:
+    """Return the document at `path` as RDF triples, whatever its syntax (OWL 2 Mapping to RDF Graphs).
+
+    Raises:
+        OntologyError: the file is missing, of no known syntax, or malformed.
+    """
+    text = _decode(path, _read(path))
+    syntax = sniff_syntax(text)
+    try:
+        owl_syntax = _OWL_SYNTAXES.get(syntax or "")
+        quads = parse_rdf(owl_as_rdf(text, owl_syntax), "rdf") if owl_syntax else parse_rdf(text, syntax or "ttl")
+        return [quad.triple for quad in quads]
+    except (ValueError, SyntaxError) as error:
+        raise OntologyError(f"{path}: cannot be read as RDF ({_shorten(str(error))}); mend or re-export it") from error
+
+
 def _read(path: Path) -> bytes:
     if path.is_dir():
         raise OntologyError(f"{path}: is a folder, expected an ontology file; name the file inside it")
@@ -156,7 +174,7 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
         for iri in current.imports:
             if iri in found or iri in missing:
                 continue
-            path = _locate(iri, Path(current.source).parent)
+            path = find_document(iri, Path(current.source).parent)
             if path is None:
                 missing.add(iri)
                 notes.append(OntologyNote("missing-import", _missing_import(iri, current)))
@@ -178,7 +196,8 @@ def _missing_import(iri: str, document: Document) -> str:
     )
 
 
-def _locate(iri: str, folder: Path) -> Path | None:
+def find_document(iri: str, folder: Path) -> Path | None:
+    """Return the local file of an ontology, by the folder's catalog or by its name; None if there is none."""
     catalog = _read_catalog(folder / _CATALOG)
     if iri in catalog:
         return catalog[iri] if _is_file(catalog[iri]) else None

@@ -14,9 +14,10 @@ from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
 from usd2kg.ontology.scope import ancestors, default_scope, nearest_parents, rooted_scope
 
-__all__ = ["load_home_tbox", "load_tbox"]
+__all__ = ["HOME", "load_home_tbox", "load_tbox"]
 
-_HOME = "built-in home TBox"
+HOME = "built-in home TBox"
+"""`TBox.source` of the TBox that ships with usd2kg."""
 _SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
 
 
@@ -44,7 +45,7 @@ def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
     """
     with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
         # The classes are SOMA-HOME's own, so that is what a graph over them imports.
-        return replace(_load(path, _HOME, roots, None), ontology_iri=_SOMA_HOME)
+        return replace(_load(path, HOME, roots, None), ontology_iri=_SOMA_HOME)
 
 
 def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[str] | None) -> TBox:

@@ -8,7 +8,7 @@ import pyhornedowl
 
 from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
 
-__all__ = ["read_owl_axioms"]
+__all__ = ["owl_as_rdf", "read_owl_axioms"]
 
 
 def read_owl_axioms(text: str, syntax: Literal["ofn", "omn", "owx"]) -> ClassAxioms:
@@ -17,15 +17,28 @@ def read_owl_axioms(text: str, syntax: Literal["ofn", "omn", "owx"]) -> ClassAxi
     Raises:
         ValueError, SyntaxError: the text does not parse.
     """
-    if syntax == "owx":
-        # The parser never returns from a document that ends within a literal.
-        ElementTree.fromstring(text)
     axioms = ClassAxioms()
-    for item in pyhornedowl.open_ontology_from_string(text, serialization=syntax).get_components():
+    for item in _open(text, syntax).get_components():
         handler = _HANDLERS.get(type(item.component).__name__)
         if handler is not None:
             handler(item.component, axioms)
     return axioms
+
+
+def owl_as_rdf(text: str, syntax: Literal["ofn", "omn", "owx"]) -> str:
+    """Return a document as RDF/XML; `syntax` is `ofn`, `omn` or `owx`.
+
+    Raises:
+        ValueError, SyntaxError: the text does not parse.
+    """
+    return str(_open(text, syntax).save_to_string("rdf"))
+
+
+def _open(text: str, syntax: Literal["ofn", "omn", "owx"]) -> Any:
+    if syntax == "owx":
+        # The parser never returns from a document that ends within a literal.
+        ElementTree.fromstring(text)
+    return pyhornedowl.open_ontology_from_string(text, serialization=syntax)
 
 
 def _identify(component: Any, axioms: ClassAxioms) -> None:

@@ -12,7 +12,7 @@ import pyoxigraph as ox
 
 from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
 
-__all__ = ["read_rdf_axioms"]
+__all__ = ["parse_rdf", "read_rdf_axioms"]
 
 _RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 _RDFS = "http://www.w3.org/2000/01/rdf-schema#"
@@ -29,6 +29,16 @@ _Triples = dict[Any, dict[str, list[Any]]]
 """Subject → predicate IRI → objects."""
 
 
+def parse_rdf(text: str, syntax: str) -> Iterator[ox.Quad]:
+    """Return the statements of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
+
+    Raises:
+        SyntaxError: the text does not parse; maybe not before the statements are taken.
+    """
+    # A base makes documents readable that use relative IRIs without declaring one.
+    return ox.parse(text, format=_FORMATS[syntax], base_iri="http://example.org/")
+
+
 def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
     """Return the axioms of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
 
@@ -36,8 +46,7 @@ def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
         SyntaxError: the text does not parse.
     """
     triples: _Triples = defaultdict(lambda: defaultdict(list))
-    # A base makes documents readable that use relative IRIs without declaring one.
-    for quad in ox.parse(text, format=_FORMATS[syntax], base_iri="http://example.org/"):
+    for quad in parse_rdf(text, syntax):
         triples[quad.subject][quad.predicate.value].append(quad.object)
     axioms = ClassAxioms()
     for subject, statements in triples.items():

@@ -251,6 +251,11 @@ class BoxReader:
                 return to_metres(rows[3][:3], self._frame), _UNTURNED[self._frame.up_axis]
         return pose_of(matrix, self._frame)
 
+    def read_point(self, node: Node, point: Any) -> Vector | None:
+        """Return a point of a prim's own frame in the world, metres, z-up; None if it is nowhere."""
+        world = np.array(self._local_to_world(node).Transform(Gf.Vec3d(point)))
+        return to_metres(world.tolist(), self._frame) if _is_near(world).all() else None
+
     def _local_to_world(self, node: Node) -> Any:
         if node.type_name or not node.authored.moves:
             return self._xforms.GetLocalToWorldTransform(node.prim)

@@ -2,17 +2,18 @@
 
 import math
 from collections.abc import Iterator
-from pathlib import PurePosixPath
-from typing import Any
+from pathlib import Path, PurePosixPath
+from typing import Any, NamedTuple
 
-from pxr import Usd, UsdGeom, UsdPhysics, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, Vt
 
+from usd2kg.scene.bounds import BoxReader
 from usd2kg.scene.metadata import vector_of
 from usd2kg.scene.model import StageFrame, Vector
 from usd2kg.scene.outline import Node
 from usd2kg.scene.stage import read_value
 
-__all__ = ["asset_names", "display_color", "mass_kg", "own_nodes", "part_names"]
+__all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_nodes", "part_names", "read_mass"]
 
 _COLORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 
@@ -45,21 +46,63 @@ def _stem(asset_path: str) -> str:
     return PurePosixPath(asset_path.replace("\\", "/")).stem
 
 
+def geometry_file(nodes: list[Node]) -> str:
+    """Return the path of the file that an object's geometry comes from; empty if there is none, or several.
+
+    That is the strongest reference or payload on the object's prim, else the only one right below it. It is relative
+    to the folder of the stage's root layer where the file lies in it (in a package: `room.usdz[chair.usda]`), else as
+    authored.
+    """
+    if nodes[0].may_have_asset and (path := _strongest_file(nodes[0].prim)):
+        return path
+    below = [node for node in nodes[1:] if node.parent is nodes[0] and node.may_have_asset]
+    paths = {path for node in below if (path := _strongest_file(node.prim))}
+    return paths.pop() if len(paths) == 1 else ""
+
+
+def _strongest_file(prim: Any) -> str:
+    for spec in prim.GetPrimStack():
+        for arcs in (spec.referenceList, spec.payloadList):
+            for arc in arcs.GetAddedOrExplicitItems():
+                if arc.assetPath:
+                    return _beside_stage(arc.assetPath, spec.layer, prim.GetStage().GetRootLayer())
+    return ""
+
+
+def _beside_stage(asset_path: str, layer: Any, root: Any) -> str:
+    """Return a path as seen from the root layer's folder, where the file lies in it."""
+    anchored = Path(Sdf.ComputeAssetPathRelativeToLayer(layer, asset_path))
+    folder = Path(root.realPath).parent
+    is_inside = bool(root.realPath) and anchored.is_absolute() and anchored.is_relative_to(folder)
+    return anchored.relative_to(folder).as_posix() if is_inside else asset_path
+
+
 def part_names(nodes: list[Node]) -> tuple[str, ...]:
     """Return the distinct names of the prims below an object, in order, its own name left out."""
     return tuple(dict.fromkeys(node.name for node in nodes[1:] if node.name != nodes[0].name))
 
 
-def mass_kg(nodes: list[Node], frame: StageFrame) -> float | None:
-    """Return the authored mass of the object's prim, or the sum over its parts; None if none is authored.
+class Mass(NamedTuple):
+    """The authored mass of an object."""
 
-    UsdPhysics: a mass of 0 means "not authored, to be derived", so it is none.
+    kg: float | None
+    """Of the object's prim, or the sum over its parts; None if none is authored."""
+    center: Vector | None
+    """Centre of mass in the world, metres, z-up; None unless it is authored for all that has a mass."""
+
+
+def read_mass(nodes: list[Node], boxes: BoxReader, frame: StageFrame) -> Mass:
+    """Return the mass of the object's prim with its centre, or both for its parts together.
+
+    UsdPhysics: a mass of 0 means "not authored, to be derived", so it is none; a centre that is not finite is none.
     """
     own = _mass(nodes[0])
-    parts = [own] if own else [mass for node in nodes[1:] if (mass := _mass(node))]
+    masses = [(nodes[0], own)] if own else [(node, mass) for node in nodes[1:] if (mass := _mass(node))]
     # Of huge and tiny masses and units the product may be none.
-    total = sum(parts) * frame.kilograms_per_unit
-    return total if 0 < total < math.inf else None
+    total = sum(mass for _, mass in masses) * frame.kilograms_per_unit
+    centers = [(center, mass) for node, mass in masses or [(nodes[0], 1.0)] if (center := _center(node, boxes))]
+    is_known = len(centers) == max(len(masses), 1)
+    return Mass(total if 0 < total < math.inf else None, _weighted_mean(centers) if is_known else None)
 
 
 def _mass(node: Node) -> float | None:
@@ -67,6 +110,20 @@ def _mass(node: Node) -> float | None:
         return None
     mass = read_value(node.prim, UsdPhysics.Tokens.physicsMass, Usd.TimeCode.Default(), int, float)
     return float(f"{mass:.7g}") if mass and 0 < mass < math.inf else None
+
+
+def _center(node: Node, boxes: BoxReader) -> Vector | None:
+    if not node.has_mass:
+        return None
+    time = Usd.TimeCode.Default()
+    center = read_value(node.prim, UsdPhysics.Tokens.physicsCenterOfMass, time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
+    return boxes.read_point(node, center) if center is not None else None
+
+
+def _weighted_mean(points: list[tuple[Vector, float]]) -> Vector | None:
+    total = sum(weight for _, weight in points)
+    x, y, z = (sum(point[axis] * weight for point, weight in points) / total for axis in range(3))
+    return (x, y, z) if math.isfinite(x + y + z) else None
 
 
 def display_color(nodes: list[Node], time: Usd.TimeCode) -> Vector | None:

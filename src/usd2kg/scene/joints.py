@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
+from usd2kg.scene.bounds import to_metres
 from usd2kg.scene.metadata import texts_of
 from usd2kg.scene.model import Diagnostic, Direction, Joint, JointType, StageFrame, Vector
 from usd2kg.scene.stage import UNREADABLE, error_text, read_targets, read_value
@@ -87,8 +88,9 @@ class _JointReader:
         bodies = [self._body(prim, side) for side in (0, 1)]
         if not any(path for path, _ in bodies):
             self._note(prim, "it joins no body that is on the stage; expected physics:body0 and body1")
+        side = _framed_side([body for _, body in bodies])
         axis = self._axis(prim) if kind in _WITH_AXIS else None
-        vector = self._axis_vector(prim, axis, [body for _, body in bodies]) if axis else None
+        vector = self._axis_vector(prim, axis, side, bodies[side][1]) if axis and side is not None else None
         lower, upper = self._limits(prim, kind)
         return Joint(
             prim_path=str(prim.GetPath()),
@@ -97,6 +99,7 @@ class _JointReader:
             body1=bodies[1][0],
             axis=axis,
             axis_vector=vector,
+            origin=self._origin(prim, side, bodies[side][1]) if side is not None else None,
             direction=_direction(vector) if vector else None,
             lower=lower,
             upper=upper,
@@ -130,26 +133,32 @@ class _JointReader:
             return None
         return axis
 
-    def _axis_vector(self, prim: Any, axis: str, bodies: list[Any]) -> Vector | None:
-        # Both sides describe the same line. Side 0 stands still; the world (None) has only an axis to offer where
-        # no side names a body.
-        sides = [side for side in (0, 1) if bodies[side]] or [side for side in (0, 1) if bodies[side] is None]
-        if not sides:
-            return None
-        side = sides[0]
+    def _axis_vector(self, prim: Any, axis: str, side: int, body: Any) -> Vector | None:
         direction = _AXES[axis]
         local = read_value(prim, f"physics:localRot{side}", self.time, Gf.Quatf, Gf.Quatd, Gf.Quath)
         # An all-zero rotation is an unset one.
         if local is not None and not local.GetLength() < 1e-9:
             direction = Gf.Rotation(Gf.Quatd(local).GetNormalized()).TransformDir(direction)
-        if bodies[side]:
+        if body:
             try:
                 # Bodies are rigid: their scale does not tilt the axis.
-                pose = self.xforms.GetLocalToWorldTransform(bodies[side]).RemoveScaleShear()
+                pose = self.xforms.GetLocalToWorldTransform(body).RemoveScaleShear()
             except UNREADABLE:
                 return None
             direction = pose.TransformDir(direction)
         return _unit(direction, self.frame)
+
+    def _origin(self, prim: Any, side: int, body: Any) -> Vector | None:
+        # UsdPhysics: the frame lies in the body's own, so that the body's scale moves it.
+        local = read_value(prim, f"physics:localPos{side}", self.time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
+        point = Gf.Vec3d(local or (0, 0, 0))
+        if body:
+            try:
+                point = self.xforms.GetLocalToWorldTransform(body).Transform(point)
+            except UNREADABLE:
+                return None
+        origin = to_metres(point, self.frame)
+        return origin if all(abs(value) < _UNLIMITED for value in origin) else None
 
     def _limits(self, prim: Any, kind: JointType) -> tuple[float | None, float | None]:
         if kind not in _LIMITS:
@@ -187,6 +196,16 @@ class _JointReader:
 
     def _note(self, prim: Any, message: str) -> None:
         self.notes.append(Diagnostic("joint", message, str(prim.GetPath())))
+
+
+def _framed_side(bodies: list[Any]) -> int | None:
+    """Return the side whose frame tells where the joint is; None if no side can.
+
+    Both sides describe the same line. Side 0 stands still; the world (None) has only an axis to offer where no side
+    names a body.
+    """
+    sides = [side for side in (0, 1) if bodies[side]] or [side for side in (0, 1) if bodies[side] is None]
+    return sides[0] if sides else None
 
 
 def _nearest_above(stage: Any, path: Any) -> str | None:

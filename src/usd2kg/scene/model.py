@@ -177,6 +177,8 @@ class Joint:
     axis_vector: Vector | None
     """The same as unit vector in the world at the time that was read: hinge line, slide direction. For a slide it
     points where positive values move body1, for a hinge positive angles turn right-handed about it."""
+    origin: Vector | None
+    """Origin of the joint's frame in the world at the time that was read: a point on the hinge line."""
     direction: Direction | None
     """`vertical` or `horizontal` within 10 degrees, else `oblique`."""
     lower: float | None
@@ -242,6 +244,11 @@ class SceneObject:
     """Set where the object stands for the copies of a point instancer."""
     oriented_size: Vector | None = None
     """Extent along the prim's own axes, where they are turned against the world's; None where `box` says as much."""
+    center_of_mass: Vector | None = None
+    """Authored centre of mass in the world, of several parts weighted by their masses."""
+    geometry_file: str = ""
+    """The file that its geometry is referenced from: relative to the stage's folder where it lies in it, else as
+    authored; empty if none."""
     labels: ObjectLabels = NO_LABELS
     """Semantic labels that the stage carries already, in whatever encoding; evidence, not truth."""
     variants: tuple[tuple[str, str], ...] = ()

@@ -14,7 +14,7 @@ from pxr import Sdf, Usd
 
 from usd2kg.errors import SceneError
 from usd2kg.scene.bounds import BoxReader, union
-from usd2kg.scene.evidence import asset_names, display_color, mass_kg, own_nodes, part_names
+from usd2kg.scene.evidence import asset_names, display_color, geometry_file, own_nodes, part_names, read_mass
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.labels import LabelReader, lint_labels
@@ -319,10 +319,13 @@ class _ObjectReader:
         """Return the fields of an object for which OpenUSD has to be asked."""
         node, prim = nodes[0], nodes[0].prim
         materials = self.materials.read(nodes)
+        mass = read_mass(nodes, self.boxes, self.frame)
         return {
             "oriented_size": self.boxes.read_oriented_size(node) if boxes.below else None,
-            "mass_kg": mass_kg(nodes, self.frame),
+            "mass_kg": mass.kg,
+            "center_of_mass": mass.center,
             "asset": asset_names(prim) if node.may_have_asset else (),
+            "geometry_file": geometry_file(nodes),
             "materials": tuple(dict.fromkeys(material.name for material in materials)),
             "material_details": materials,
             "display_color": display_color(nodes, self.time),

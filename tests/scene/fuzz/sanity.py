@@ -48,6 +48,8 @@ def _insane_object(obj: SceneObject) -> Iterator[str]:
         yield "orientation no unit quaternion"
     if obj.mass_kg is not None and not _is_positive(obj.mass_kg):
         yield "mass not finite or not positive"
+    if obj.center_of_mass is not None and not _are_finite(obj.center_of_mass):
+        yield "centre of mass not finite"
     if obj.display_color is not None and not _are_finite(obj.display_color):
         yield "display colour not finite"
     if obj.oriented_size is not None and not all(math.isfinite(size) and size >= 0 for size in obj.oriented_size):
@@ -67,6 +69,8 @@ def _insane_material(details: MaterialDetails) -> Iterator[str]:
 def _insane_joint(joint: Joint) -> Iterator[str]:
     if joint.axis_vector is not None and not abs(math.hypot(*joint.axis_vector) - 1) < 1e-6:
         yield "joint axis no unit vector"
+    if joint.origin is not None and not _are_finite(joint.origin):
+        yield "joint origin not finite"
     if not _are_finite(number for number in (joint.lower, joint.upper, joint.value) if number is not None):
         yield "joint limit or value not finite"
 
@@ -80,7 +84,15 @@ def _unwritable(scene: Scene) -> Iterator[str]:
 
 
 def _texts_of(obj: SceneObject) -> Iterator[str]:
-    yield from (obj.name, obj.display_name, obj.documentation, *obj.asset, *obj.materials, *obj.parts)
+    yield from (
+        obj.name,
+        obj.display_name,
+        obj.documentation,
+        obj.geometry_file,
+        *obj.asset,
+        *obj.materials,
+        *obj.parts,
+    )
     yield from itertools.chain(*obj.texts, *obj.variants)
     yield from (label.value for labels in obj.labels for label in labels)
 

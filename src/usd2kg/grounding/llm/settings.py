@@ -146,7 +146,7 @@ def parse_llm_name(name: str) -> tuple[str, Strategy]:
     if said.lower() not in strategies or not model:
         raise GroundingError(
             f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or "
-            "llm-auto:MODEL, with a MODEL like google:gemini-2.5-flash, openai:NAME@http://localhost:8000/v1 or gguf:FILE"
+            "llm-auto:MODEL, with a MODEL like google:gemini-2.5-flash, openai:NAME@http://localhost:8000/v1, gguf:FILE"
         )
     return model, strategies[said.lower()]
 

@@ -1,0 +1,64 @@
+"""The colour of an object: one quality node for each, never shared."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import pyoxigraph as ox
+
+from usd2kg.graph.body import part_node, typed
+from usd2kg.graph.vocabulary import DUL, SOMA, U2K, USD, Triple, text, vector_text
+from usd2kg.scene import SceneObject
+
+__all__ = ["knowrob_color", "plain_color", "usd_color"]
+
+
+class _Color(NamedTuple):
+    rgb: tuple[float, float, float]
+    source: str
+
+
+def _color(obj: SceneObject) -> _Color | None:
+    """Return the base colour of the first material that has a constant one, else the display colour."""
+    for material in obj.material_details:
+        if material.base_color is not None:
+            return _Color(material.base_color, material.name)
+    # Where a material is bound, no renderer shows the display colour; but it is the best guess left.
+    return _Color(obj.display_color, "displayColor") if obj.display_color is not None else None
+
+
+def plain_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield the colour straight on the object."""
+    color = _color(obj)
+    if color is not None:
+        yield node, U2K.color, text(vector_text(color.rgb))
+        yield node, U2K.colorSource, text(color.source)
+
+
+def usd_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield the colour in USD.owl's terms: a list of one colour, as JSON.
+
+    A plain string: a literal of USD.owl's own datatype color3f_array would not be OWL 2 DL.
+    """
+    color = _color(obj)
+    if color is not None:
+        quality = part_node(node, "color")
+        yield node, USD.hasColor, quality
+        yield from typed(quality, USD.Color)
+        yield quality, USD.primvars_displayColor, text(f"[[{', '.join(vector_text(color.rgb).split())}]]")
+        yield quality, U2K.colorSource, text(color.source)
+
+
+def knowrob_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield the colour as KnowRob asks for it.
+
+    soma:Color is unsatisfiable (SOMA 5d27187 with DUL), so that a graph with such a colour is inconsistent.
+    """
+    color = _color(obj)
+    if color is not None:
+        quality, region = part_node(node, "color"), part_node(node, "rgb")
+        yield node, SOMA.hasColor, quality
+        yield from typed(quality, SOMA.Color)
+        yield quality, DUL.hasRegion, region
+        yield from typed(region, SOMA.ColorRegion)
+        yield region, SOMA.hasRGBValue, text(vector_text(color.rgb))
+        yield region, U2K.colorSource, text(color.source)

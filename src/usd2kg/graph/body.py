@@ -1,0 +1,103 @@
+"""The size, place and mass of an object, by SOMA's patterns and by our own few properties.
+
+SOMA: size is hasShape → Shape → hasRegion → BoxShape, with both hasLength and hasDepth for KnowRob; the file of its
+geometry is a second region, a MeshShape. Each object has quality nodes of its own: a shared one is inconsistent.
+"""
+
+from collections.abc import Iterator
+
+import pyoxigraph as ox
+
+from usd2kg.graph.vocabulary import DUL, OWL, RDF, SOMA, U2K, Triple, number, text, vector_text
+from usd2kg.scene import Box, SceneObject
+
+__all__ = ["common_body", "part_node", "plain_body", "soma_body", "typed"]
+
+_REFERENCE_FRAME = "world"
+
+
+def part_node(node: ox.NamedNode, part: str) -> ox.NamedNode:
+    """Return the node of what belongs to an object: its shape, box, pose…"""
+    return ox.NamedNode(f"{node.value}-{part}")
+
+
+def typed(node: ox.NamedNode, cls: ox.NamedNode) -> Iterator[Triple]:
+    """Yield that a node is an individual of a class."""
+    yield node, RDF.type, OWL.NamedIndividual
+    yield node, RDF.type, cls
+
+
+def common_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield what is written alike in all profiles: centre of mass, oriented size, number of copies."""
+    if obj.center_of_mass is not None:
+        yield node, U2K.centerOfMass, text(vector_text(obj.center_of_mass))
+    if obj.oriented_size is not None:
+        yield node, U2K.orientedSize, text(vector_text(obj.oriented_size))
+    if obj.instances is not None:
+        yield node, U2K.copies, number(obj.instances.count, "integer")
+
+
+def plain_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield size, place and mass straight on the object."""
+    if obj.box is not None:
+        width, depth, height = obj.box.size
+        yield node, U2K.width, number(width)
+        yield node, U2K.depth, number(depth)
+        yield node, U2K.height, number(height)
+        yield node, U2K.boxCenter, text(vector_text(obj.box.center))
+    if obj.geometry_file:
+        yield node, U2K.meshFile, text(obj.geometry_file)
+    if obj.position is not None:
+        yield node, U2K.position, text(vector_text(obj.position))
+    if obj.orientation is not None:
+        yield node, U2K.orientation, text(vector_text(obj.orientation))
+    if obj.mass_kg is not None:
+        yield node, U2K.mass, number(obj.mass_kg)
+
+
+def soma_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield size, place and mass as qualities and attributes."""
+    if obj.box is not None or obj.geometry_file:
+        yield from _shape(node, obj.box, obj.geometry_file)
+    if obj.position is not None and obj.orientation is not None:
+        yield from _pose(node, (*obj.position, *obj.orientation))
+    if obj.mass_kg is not None:
+        mass = part_node(node, "mass")
+        yield node, SOMA.hasMassAttribute, mass
+        yield from typed(mass, SOMA.MassAttribute)
+        yield mass, SOMA.hasMassValue, number(obj.mass_kg)
+
+
+def _shape(node: ox.NamedNode, box: Box | None, file: str) -> Iterator[Triple]:
+    shape = part_node(node, "shape")
+    yield node, SOMA.hasShape, shape
+    yield from typed(shape, SOMA.Shape)
+    regions = [name for name, is_known in (("box", box is not None), ("mesh", bool(file))) if is_known]
+    for name in regions:
+        yield shape, DUL.hasRegion, part_node(node, name)
+    if box is not None:
+        yield from _box(part_node(node, "box"), box)
+    if file:
+        mesh = part_node(node, "mesh")
+        yield from typed(mesh, SOMA.MeshShape)
+        yield mesh, SOMA.hasFilePath, text(file)
+
+
+def _box(region: ox.NamedNode, box: Box) -> Iterator[Triple]:
+    width, depth, height = box.size
+    yield from typed(region, SOMA.BoxShape)
+    yield region, SOMA.hasWidth, number(width, "float")
+    yield region, SOMA.hasLength, number(depth, "float")
+    yield region, SOMA.hasDepth, number(depth, "float")
+    yield region, SOMA.hasHeight, number(height, "float")
+    yield region, U2K.boxCenter, text(vector_text(box.center))
+
+
+def _pose(node: ox.NamedNode, pose: tuple[float, ...]) -> Iterator[Triple]:
+    place, region = part_node(node, "place"), part_node(node, "pose")
+    yield node, SOMA.hasLocalization, place
+    yield from typed(place, SOMA.Localization)
+    yield place, DUL.hasRegion, region
+    yield from typed(region, SOMA["6DPose"])
+    yield region, SOMA.hasPositionData, text(vector_text(pose))
+    yield region, SOMA.hasReferenceFrame, text(_REFERENCE_FRAME)

@@ -1,0 +1,78 @@
+"""Why an object has its class: as SSSOM justifies mappings, with a person's decision beside what was predicted."""
+
+import re
+from collections.abc import Iterator
+
+import pyoxigraph as ox
+
+from usd2kg.graph.annotate import Annotation
+from usd2kg.graph.vocabulary import SEMAPV, SSSOM, U2K, named_node, number, text
+from usd2kg.grounding import Prediction, Review
+
+__all__ = ["justify_class", "justify_refusal"]
+
+_ALTERNATIVES = 3
+_MATCHING = {
+    "dictionary": SEMAPV.LexicalMatching,
+    "embedded": SEMAPV.CompositeMatching,
+    "embedding": SEMAPV.SemanticSimilarityThresholdMatching,
+    "llm": SEMAPV.BackgroundKnowledgeBasedMatching,
+    "volume": SEMAPV.BackgroundKnowledgeBasedMatching,
+}
+"""Kind of grounder → the process of SEMAPV that it is."""
+
+
+def justify_class(prediction: Prediction, run: ox.NamedNode) -> list[Annotation]:
+    """Return what annotates the type of an object: confidence, who decided, why, what else was considered."""
+    confidence = prediction.confidence
+    return [
+        *([(SSSOM.confidence, number(confidence))] if confidence is not None else []),
+        (SSSOM.mapping_justification, _matching(prediction)),
+        *_refusal(prediction),
+        (U2K.grounder, text(prediction.grounder)),
+        *((U2K.evidence, text(group)) for group in prediction.evidence),
+        *((U2K.alternative, ox.NamedNode(iri)) for iri in _alternatives(prediction)),
+        (U2K.run, run),
+    ]
+
+
+def justify_refusal(prediction: Prediction) -> list[Annotation]:
+    """Return what is said of an object that has no class: how that came about."""
+    return list(_refusal(prediction))
+
+
+def _refusal(prediction: Prediction) -> Iterator[Annotation]:
+    yield U2K.status, text(prediction.status.value)
+    yield U2K.explanation, text(prediction.explanation)
+    if prediction.review is not None:
+        yield from _review(prediction.review, prediction.class_iri)
+
+
+def _review(review: Review, decided: str | None) -> Iterator[Annotation]:
+    reviewer = named_node(review.reviewer)
+    if reviewer is not None:
+        yield SSSOM.reviewer_id, reviewer
+    else:
+        yield SSSOM.reviewer_label, text(review.reviewer)
+    if review.comment:
+        yield U2K.reviewComment, text(review.comment)
+    if review.time:
+        yield U2K.reviewTime, text(review.time)
+    if review.predicted_class is not None and review.predicted_class != decided:
+        yield U2K.predictedClass, ox.NamedNode(review.predicted_class)
+    if review.predicted_confidence is not None:
+        yield U2K.predictedConfidence, number(review.predicted_confidence)
+
+
+def _matching(prediction: Prediction) -> ox.NamedNode:
+    """Return the process of SEMAPV by which the class was found."""
+    review = prediction.review
+    if review is not None and review.predicted_class != prediction.class_iri:
+        return SEMAPV.ManualMappingCuration
+    # The id of a language model's grounder names strategy and model, too: llm-B:openai:gpt.
+    return _MATCHING.get(re.split("[-:]", prediction.grounder)[0], SEMAPV.UnspecifiedMatching)
+
+
+def _alternatives(prediction: Prediction) -> list[str]:
+    others = [c.class_iri for c in prediction.candidates if c.class_iri != prediction.class_iri]
+    return others[:_ALTERNATIVES]

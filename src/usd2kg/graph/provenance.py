@@ -1,0 +1,70 @@
+"""The run that made a graph, in PROV-O's terms: what was read, by whom, how. Without a time unless one is given."""
+
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pyoxigraph as ox
+
+from usd2kg.graph.body import typed
+from usd2kg.graph.vocabulary import PROV, RDF, RDFS, U2K, XSD, Triple, named_node, number, text
+from usd2kg.grounding import Grounding
+from usd2kg.ontology import TBox
+from usd2kg.scene import Scene
+
+__all__ = ["describe_ontology", "describe_run", "describe_scene", "describe_software"]
+
+
+def describe_run(
+    run: ox.NamedNode,
+    grounding: Grounding,
+    used: tuple[ox.NamedNode, ...],
+    software: ox.NamedNode,
+    time: datetime | None,
+) -> Iterator[Triple]:
+    """Yield the activity: what it used, by which software, with which settings of the grounder."""
+    yield from typed(run, PROV.Activity)
+    yield run, RDFS.label, text(f"Grounding of {Path(grounding.scene).name}")
+    for entity in used:
+        yield run, PROV.used, entity
+    yield run, PROV.wasAssociatedWith, software
+    yield run, U2K.grounder, text(grounding.grounder)
+    for name, value in sorted(grounding.settings.items()):
+        yield run, U2K.setting, text(f"{name}={value}")
+    yield run, U2K.isCalibrated, _boolean(grounding.is_calibrated)
+    if time is not None:
+        written = time.astimezone(UTC).isoformat().replace("+00:00", "Z")
+        yield run, PROV.endedAtTime, ox.Literal(written, datatype=XSD.dateTime)
+
+
+def describe_software(software: ox.NamedNode, version: str) -> Iterator[Triple]:
+    """Yield the software agent."""
+    yield from typed(software, PROV.SoftwareAgent)
+    yield software, RDFS.label, text("usd2kg")
+    yield software, U2K.version, text(version)
+
+
+def describe_ontology(ontology: ox.NamedNode, tbox: TBox) -> Iterator[Triple]:
+    """Yield the ontology as it was read."""
+    yield from typed(ontology, PROV.Entity)
+    yield ontology, RDFS.label, text(tbox.source if tbox.ontology_iri.startswith("file:") else tbox.ontology_iri)
+    for name, iri in (("ontologyIri", tbox.ontology_iri), ("ontologyVersionIri", tbox.version_iri)):
+        node = named_node(iri) if iri and not iri.startswith("file:") else None
+        if node is not None:
+            yield ontology, U2K[name], node
+    yield ontology, U2K.contentHash, text(tbox.content_hash)
+
+
+def describe_scene(stage: ox.NamedNode, scene: Scene) -> Iterator[Triple]:
+    """Yield the stage as it was read; what it is besides is the profile's to say."""
+    yield stage, RDF.type, PROV.Entity
+    yield stage, RDFS.label, text(Path(scene.source).name)
+    yield stage, U2K.contentHash, text(scene.content_hash)
+    yield stage, U2K.upAxis, text(scene.frame.up_axis)
+    yield stage, U2K.metresPerUnit, number(scene.frame.metres_per_unit)
+    if scene.time is not None:
+        yield stage, U2K.timeCode, number(scene.time)
+
+
+def _boolean(value: bool) -> ox.Literal:
+    return ox.Literal("true" if value else "false", datatype=XSD.boolean)

@@ -1,0 +1,87 @@
+"""read_closure: an ontology with all that it imports, as triples, for files that need no other."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from importlib.resources import as_file, files
+from pathlib import Path
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.ontology.documents import Document, close_imports, find_document, parse_document, read_triples
+from usd2kg.ontology.load import HOME
+from usd2kg.ontology.model import TBox
+
+__all__ = ["Closure", "read_closure", "without_header"]
+
+_TYPE = ox.NamedNode("http://www.w3.org/1999/02/22-rdf-syntax-ns#type")
+_ONTOLOGY = ox.NamedNode("http://www.w3.org/2002/07/owl#Ontology")
+
+
+@dataclass(frozen=True)
+class Closure:
+    """What an ontology and its imports state, without their headers."""
+
+    triples: tuple[ox.Triple, ...]
+    """In the order of the documents; blank nodes of different documents have different names."""
+    documents: tuple[str, ...]
+    """IRIs of the documents that were read, the ontology's own first."""
+    missing: tuple[str, ...]
+    """IRIs of imports that are not at hand, sorted."""
+
+
+def read_closure(tbox: TBox, also: Iterable[str] = ()) -> Closure:
+    """Return the documents that a TBox was read from, and those of `also` that lie beside them, as triples.
+
+    Raises:
+        OntologyError: a document cannot be read any more.
+    """
+    if tbox.source == HOME:
+        with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
+            return _read(path, also)
+    return _read(Path(tbox.source), also)
+
+
+def _read(path: Path, also: Iterable[str]) -> Closure:
+    found: dict[str, Document] = {}
+    missing: set[str] = set()
+    pending = [parse_document(path)]
+    for iri in also:
+        located = find_document(iri, path.parent)
+        if located is not None:
+            pending.append(parse_document(located))
+        elif iri != pending[0].iri:
+            missing.add(iri)
+    for document in pending:
+        closed, _ = close_imports(document)
+        for part in closed:
+            found.setdefault(part.digest, part)
+    documents = list(found.values())
+    known = {iri for document in documents for iri in (document.iri, document.version_iri)}
+    # A document may call itself by another IRI than it is imported by.
+    missing |= {
+        iri
+        for document in documents
+        for iri in document.imports
+        if find_document(iri, Path(document.source).parent) is None
+    }
+    triples: list[ox.Triple] = []
+    for number, document in enumerate(documents):
+        triples.extend(without_header(read_triples(Path(document.source)), f"d{number}n"))
+    return Closure(tuple(triples), tuple(document.iri for document in documents), tuple(sorted(missing - known)))
+
+
+def without_header(triples: Iterable[ox.Triple], prefix: str) -> Iterator[ox.Triple]:
+    """Yield what an ontology document states but its header, blank nodes named `prefix` and a number."""
+    triples = list(triples)
+    headers = {triple.subject for triple in triples if triple.predicate == _TYPE and triple.object == _ONTOLOGY}
+    names: dict[ox.BlankNode, ox.BlankNode] = {}
+
+    def rename(node: Any) -> Any:
+        if isinstance(node, ox.BlankNode):
+            return names.setdefault(node, ox.BlankNode(f"{prefix}{len(names)}"))
+        return node
+
+    for triple in triples:
+        if triple.subject not in headers:
+            yield ox.Triple(rename(triple.subject), triple.predicate, rename(triple.object))

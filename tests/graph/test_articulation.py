@@ -1,0 +1,174 @@
+"""Joints in the graph: types, axes, limits in radians and metres, the objects they belong to."""
+
+import math
+from typing import Any
+
+import pyoxigraph as ox
+import pytest
+
+from tests.conftest import shared_file
+from tests.graph.records import BASE, ask, build_graph, reread, select, thing
+from usd2kg.graph import instantiate
+from usd2kg.grounding import ground
+from usd2kg.ontology import TBox
+from usd2kg.scene import Joint, read_scene
+
+CABINET = thing("/Kitchen/Cabinet", (0, 0, 0), (1, 0.5, 1))
+DOOR = thing("/Kitchen/Cabinet/Door", (0, 0, 0), (1, 0.02, 1))
+PLACED = [(CABINET, "Cupboard"), (DOOR, "Door")]
+# SPARQL's parser here takes no prefixed names with several dots.
+JOINT = f"<{BASE}Kitchen.Cabinet.hinge-joint>"
+CABINET_NODE = f"<{BASE}Kitchen.Cabinet>"
+DOOR_NODE = f"<{BASE}Kitchen.Cabinet.Door>"
+
+
+def make_joint(**changes: Any) -> Joint:
+    """Return the hinge of the door, a quarter turn wide, an eighth open."""
+    known: dict[str, Any] = {
+        "prim_path": "/Kitchen/Cabinet/hinge",
+        "type": "revolute",
+        "body0": "/Kitchen/Cabinet/carcass",
+        "body1": "/Kitchen/Cabinet/Door",
+        "axis": "Z",
+        "axis_vector": (0.0, 0.0, 1.0),
+        "origin": (0.0, 0.01, 0.5),
+        "direction": "vertical",
+        "lower": 0.0,
+        "upper": math.pi / 2,
+        "value": math.pi / 4,
+        "is_enabled": True,
+        "is_excluded_from_articulation": False,
+    }
+    return Joint(**(known | changes))
+
+
+def graph_of(home_tbox: TBox, profile: str, **changes: Any) -> ox.Store:
+    return reread(build_graph(home_tbox, PLACED, joints=[make_joint(**changes)], profile=profile))
+
+
+def classes_of(store: ox.Store, node: str = JOINT) -> set[str]:
+    rows = select(store, f"SELECT ?c {{ {node} a ?c . FILTER(?c != owl:NamedIndividual) }}")
+    return {iri.rpartition("#")[2] if "SOMA" in iri else "u2k:" + iri.rpartition("#")[2] for (iri,) in rows if iri}
+
+
+def test_a_hinge_in_somas_terms(home_tbox: TBox):
+    store = graph_of(home_tbox, "soma")
+    assert ask(
+        store,
+        f'{JOINT} a soma:RevoluteJoint ; rdfs:label "hinge" ; soma:hasParentLink {CABINET_NODE} ;'
+        f" soma:hasChildLink {DOOR_NODE} ; soma:hasJointLimit ?l ; soma:hasJointState ?s ."
+        ' ?l a soma:JointLimit ; soma:hasJointPositionMin "0"^^xsd:double ;'
+        ' soma:hasJointPositionMax "1.570796"^^xsd:double .'
+        ' ?s a soma:JointState ; soma:hasJointPosition "0.7853982"^^xsd:double',
+    )
+    assert ask(
+        store,
+        f'{JOINT} u2k:jointAxis "0 0 1" ; u2k:jointOrigin "0 0.01 0.5" ; u2k:definingPrim "/Kitchen/Cabinet/hinge" ;'
+        ' u2k:parentPrim "/Kitchen/Cabinet/carcass" ; u2k:childPrim "/Kitchen/Cabinet/Door"',
+    )
+
+
+def test_a_hinge_in_our_terms(home_tbox: TBox):
+    store = graph_of(home_tbox, "plain")
+    assert ask(
+        store,
+        f'{JOINT} a u2k:RevoluteJoint ; rdfs:label "hinge" ; u2k:parentObject {CABINET_NODE} ;'
+        f' u2k:childObject {DOOR_NODE} ; u2k:lowerLimit "0"^^xsd:double ;'
+        ' u2k:upperLimit "1.570796"^^xsd:double ; u2k:jointPosition "0.7853982"^^xsd:double ;'
+        ' u2k:jointAxis "0 0 1" ; u2k:jointOrigin "0 0.01 0.5"',
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "soma", "plain"),
+    [
+        ({}, {"RevoluteJoint"}, "u2k:RevoluteJoint"),
+        # SOMA's revolute and prismatic joints have limits by definition, a lower and an upper one.
+        ({"lower": None}, {"HingeJoint"}, "u2k:RevoluteJoint"),
+        ({"lower": None, "upper": None}, {"ContinuousJoint"}, "u2k:RevoluteJoint"),
+        ({"type": "prismatic"}, {"PrismaticJoint"}, "u2k:PrismaticJoint"),
+        ({"type": "prismatic", "upper": None}, {"MovableJoint", "u2k:PrismaticJoint"}, "u2k:PrismaticJoint"),
+        ({"type": "fixed", "lower": None, "upper": None, "value": None}, {"FixedJoint"}, "u2k:FixedJoint"),
+        ({"type": "spherical"}, {"MovableJoint", "u2k:SphericalJoint"}, "u2k:SphericalJoint"),
+        ({"type": "distance"}, {"MovableJoint", "u2k:DistanceJoint"}, "u2k:DistanceJoint"),
+        ({"type": "other"}, {"Joint"}, "u2k:Joint"),
+    ],
+)
+def test_types(home_tbox: TBox, changes: dict[str, Any], soma: set[str], plain: str):
+    assert classes_of(graph_of(home_tbox, "soma", **changes)) == soma
+    assert classes_of(graph_of(home_tbox, "plain", **changes)) == {plain}
+
+
+def test_one_limit_is_written_alone_and_no_limit_not_at_all(home_tbox: TBox):
+    above = graph_of(home_tbox, "soma", upper=None)
+    assert select(above, "SELECT ?p ?v { ?l a soma:JointLimit ; ?p ?v . FILTER(isLiteral(?v)) }") == [
+        ("http://www.ease-crc.org/ont/SOMA.owl#hasJointPositionMin", "0")
+    ]
+    none = graph_of(home_tbox, "soma", lower=None, upper=None, value=None)
+    assert not ask(none, "?l a soma:JointLimit")
+    assert not ask(none, "?s a soma:JointState")
+
+
+@pytest.mark.parametrize(("profile", "has"), [("soma", "soma:hasPhysicalComponent"), ("plain", "u2k:hasJoint")])
+def test_a_joint_inside_an_object_is_the_objects(home_tbox: TBox, profile: str, has: str):
+    store = graph_of(home_tbox, profile, body0="/Kitchen/Cabinet/shelf", body1="/Kitchen/Cabinet/lamp/arm")
+    assert ask(store, f"{CABINET_NODE} {has} {JOINT}")
+    assert not ask(store, f"{JOINT} soma:hasParentLink|soma:hasChildLink|u2k:parentObject|u2k:childObject ?o")
+    assert ask(store, f'{JOINT} u2k:parentPrim "/Kitchen/Cabinet/shelf" ; u2k:childPrim "/Kitchen/Cabinet/lamp/arm"')
+
+
+def test_a_joint_to_the_world_or_to_what_is_no_object_has_one_object(home_tbox: TBox):
+    world = graph_of(home_tbox, "plain", body0=None)
+    assert ask(world, f"{JOINT} u2k:childObject {DOOR_NODE}")
+    assert not ask(world, f"{JOINT} u2k:parentObject|u2k:parentPrim ?o")
+    group = graph_of(home_tbox, "plain", body0="/Kitchen")
+    assert not ask(group, f"{JOINT} u2k:parentObject ?o")
+    assert ask(group, f'{JOINT} u2k:parentPrim "/Kitchen"')
+
+
+def test_switches_are_written_where_they_are_unusual(home_tbox: TBox):
+    usual = graph_of(home_tbox, "plain")
+    assert not ask(usual, f"{JOINT} u2k:isEnabled|u2k:closesLoop ?v")
+    unusual = graph_of(home_tbox, "plain", is_enabled=False, is_excluded_from_articulation=True)
+    assert ask(unusual, f"{JOINT} u2k:isEnabled false ; u2k:closesLoop true")
+
+
+def test_what_is_unknown_is_not_written(home_tbox: TBox):
+    store = graph_of(home_tbox, "plain", axis_vector=None, origin=None, value=None)
+    assert not ask(store, f"{JOINT} u2k:jointAxis|u2k:jointOrigin|u2k:jointPosition ?v")
+
+
+def test_a_joint_never_takes_the_iri_of_an_object(home_tbox: TBox):
+    # A user may ask for any prim as an object, a joint's too.
+    hinge = thing("/Kitchen/Cabinet/hinge", (0, 0, 0), (0.1, 0.1, 0.1))
+    store = reread(build_graph(home_tbox, [*PLACED, (hinge, "Cup")], joints=[make_joint()]))
+    assert ask(store, f"<{BASE}Kitchen.Cabinet.hinge> a soma:Cup")
+    assert classes_of(store) == {"RevoluteJoint"}
+
+
+def test_the_microwave_of_the_franka_kitchen(home_tbox: TBox):
+    scene = read_scene(shared_file("scenes/franka_kitchen/franka_kitchen.usdc"))
+    store = reread(instantiate(scene, home_tbox, ground(scene, home_tbox, "dictionary"), base=BASE))
+    microwave = f"{BASE}franka_kitchen.Geometry.desk.microwave"
+    # Authored: -120° (2.094 rad) to 0 about the vertical axis.
+    assert ask(
+        store,
+        f"?j soma:hasParentLink <{microwave}> ; soma:hasChildLink <{microwave}.microroot.microdoorroot> ;"
+        ' a soma:RevoluteJoint ; u2k:jointAxis "0 0 1" ; soma:hasJointLimit ?l .'
+        ' ?l soma:hasJointPositionMin "-2.094001"^^xsd:double ; soma:hasJointPositionMax "0"^^xsd:double',
+    )
+    # Seven turning joints and two fingers of the arm.
+    arm = f"<{BASE}franka_kitchen.Geometry.Body> soma:hasPhysicalComponent ?j . ?j a"
+    assert len(select(store, f"SELECT ?j {{ {arm} soma:RevoluteJoint }}")) == 7
+    assert len(select(store, f"SELECT ?j {{ {arm} soma:PrismaticJoint }}")) == 2
+
+
+def test_the_drawers_of_the_apartment(home_tbox: TBox):
+    scene = read_scene(shared_file("scenes/iai_apartment/apartment.usdc"))
+    store = reread(instantiate(scene, home_tbox, ground(scene, home_tbox, "dictionary"), base=BASE, profile="plain"))
+    ends = "?j a u2k:PrismaticJoint ; u2k:parentObject ?p ; u2k:childObject ?c ; u2k:upperLimit ?u"
+    slides = select(store, f"SELECT ?p ?c ?u {{ {ends} }}")
+    assert slides
+    # Furniture: nothing slides further than a metre and a half.
+    assert all(0 < float(str(upper)) < 1.5 for _, _, upper in slides)
+    assert all(parent != child for parent, child, _ in slides)

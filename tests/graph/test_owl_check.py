@@ -1,0 +1,95 @@
+"""Graphs as the OWL API and HermiT see them: OWL 2 DL, and consistent with SOMA-HOME, DUL and USD.owl."""
+
+from pathlib import Path
+
+import pytest
+
+import usd2kg
+from tests.conftest import shared_file
+from tests.graph.test_vocabulary import WRITTEN
+from tools.check_owl import check_owl, missing_tools
+from usd2kg.demo import demo_scene
+from usd2kg.graph import GraphOptions, vocabulary_text, write_graph
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(bool(missing_tools()), reason=missing_tools()),
+]
+
+PROFILES = ["soma", "plain"]
+PART = "\n<https://example.org/franka_kitchen/-stage> <{dul}hasPart> <https://example.org/franka_kitchen/{part}> .\n"
+DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
+KETTLE = "franka_kitchen.Geometry.kettle"
+
+
+def franka(folder: Path, profile: str = "soma", options: GraphOptions | None = None, *, merges: bool = False) -> Path:
+    """Return the file with the graph of the Franka kitchen over SOMA-HOME."""
+    path = folder / f"franka_{profile}.ttl"
+    result = usd2kg.build(
+        shared_file("scenes/franka_kitchen/franka_kitchen.usdc"),
+        shared_file("ontologies/soma/SOMA-HOME.owl"),
+        profile=profile,
+        graph_options=options,
+        merges_imports=merges,
+    )
+    write_graph(result.graph, path)
+    return path
+
+
+def ontologies() -> Path:
+    return shared_file("ontologies/soma/USD.owl").parent
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_demo_kitchen_is_owl_2_dl(tmp_path: Path, profile: str):
+    write_graph(usd2kg.build(demo_scene(), profile=profile).graph, tmp_path / "demo.ttl")
+    report = check_owl(tmp_path / "demo.ttl")
+    assert report.violations == ()
+    assert report.axioms > 3000
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_every_kind_of_statement_is_owl_2_dl_and_consistent(tmp_path: Path, profile: str):
+    write_graph(WRITTEN[profile], tmp_path / "rich.ttl")
+    report = check_owl(tmp_path / "rich.ttl", ontologies(), reasons=True)
+    assert (report.violations, report.verdict) == ((), "consistent")
+
+
+def test_our_own_terms_are_owl_2_dl_and_consistent(tmp_path: Path):
+    (tmp_path / "u2k.ttl").write_text(vocabulary_text(), encoding="utf-8")
+    report = check_owl(tmp_path / "u2k.ttl", reasons=True)
+    assert (report.violations, report.missing, report.verdict) == ((), (), "consistent")
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_franka_kitchen_is_owl_2_dl_and_consistent_with_its_ontologies(tmp_path: Path, profile: str):
+    report = check_owl(franka(tmp_path, profile), ontologies(), reasons=True)
+    assert (report.violations, report.missing, report.verdict) == ((), (), "consistent")
+
+
+def test_the_check_can_fail(tmp_path: Path):
+    # A stage is a collection, a social object; what it has as parts would be social, too.
+    path = franka(tmp_path)
+    declared = f"<{DUL}hasPart> a <http://www.w3.org/2002/07/owl#ObjectProperty> ."
+    path.write_text(path.read_text("utf-8") + declared + PART.format(dul=DUL, part=KETTLE), encoding="utf-8")
+    assert check_owl(path, ontologies(), reasons=True).verdict == "inconsistent"
+
+
+def test_a_property_that_is_not_declared_is_a_violation(tmp_path: Path):
+    path = franka(tmp_path, "plain")
+    text = path.read_text("utf-8").replace("u2k:lowerLimit a owl:DatatypeProperty .\n", "")
+    path.write_text(text, encoding="utf-8")
+    assert any("lowerLimit" in violation for violation in check_owl(path, ontologies()).violations)
+
+
+def test_knowrobs_colours_are_inconsistent_as_told(tmp_path: Path):
+    path = franka(tmp_path, options=GraphOptions(colors="knowrob"))
+    report = check_owl(path, ontologies(), reasons=True)
+    assert (report.violations, report.verdict) == ((), "inconsistent")
+
+
+def test_a_merged_graph_is_consistent_by_itself(tmp_path: Path):
+    report = check_owl(franka(tmp_path, merges=True), reasons=True)
+    assert (report.missing, report.verdict) == ((), "consistent")
+    # DUL's own: a cardinality on isLocationOf, whose inverse is part of a chain.
+    assert all("DUL.owl#isLocationOf" in violation for violation in report.violations)
