@@ -350,3 +350,30 @@ def test_build_takes_the_same_options(run: Run, kitchen: Path, tmp_path: Path):
     refused = run("build", kitchen, "--grounder", "llm-B:openai:x@http://localhost:1/v1", "--dry-run")
     assert refused.code == 2
     assert "expected it with usd2kg ground" in refused.err
+
+
+def test_a_cascade_is_scored_by_tier_and_a_model_calibrated(run: Run, write_stage, tmp_path: Path):
+    classes_of = {
+        f"{word}_{letter}": cls for letter in "abcdefghijkl" for word, cls in (("cup", "Cup"), ("xqzv", "Bowl"))
+    }
+    things = (component(name, cube("mesh", size=0.1 if cls == "Cup" else 7)) for name, cls in classes_of.items())
+    scene = write_stage(xform("Kitchen", *things))
+    gold = tmp_path / "gold.csv"
+    gold.write_text("path,class\n" + "".join(f"/Kitchen/{n},{cls}\n" for n, cls in classes_of.items()), "utf-8")
+    with serve(*[openai_reply(cup())] * len(classes_of)) as server:
+        model = ("--grounder", f"llm-A:openai:test@{server.url}/v1", "--each-object")
+        alone = run("eval", "run", scene, "--gold", gold, *model, "-o", "alone.json")
+        assert "tier" not in alone.out
+        tiers = run("eval", "run", scene, "--gold", gold, *model, "--cascade", "0.7", "--replay")
+    assert [line.split() for line in tiers.out.splitlines()[-2:]] == [
+        ["embedded", "12", "100.0", "100.0"],
+        ["llm", "12", "0.0", "0.0"],
+    ]
+    data = json.loads(Path("alone.json").read_text("utf-8"))
+    for number, score in enumerate(data["scores"]):
+        score["confidence"] = 0.9 if number % 2 == 0 else 0.6
+    Path("alone.json").write_text(json.dumps(data), "utf-8")
+    fitted = run("eval", "calibrate", "alone.json", "-o", "calibration.json")
+    assert "fitted on 24 answers" in fitted.err
+    again = run("ground", scene, *model, "--replay", "--calibration", "calibration.json", "--format", "json")
+    assert json.loads(again.out)["is_calibrated"] is True

@@ -1,27 +1,21 @@
 """usd2kg eval: measure grounding against gold labels."""
 
 import json as jsonlib
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from usd2kg.cli.options import (
-    AbbreviatedLength,
-    ClassSizes,
-    Dictionary,
-    Evidence,
-    GrounderName,
-    JsonOutput,
-    OntologyFile,
-    Regime,
-    SceneFile,
-)
+from usd2kg.cli.grounding_run import GroundingOptions, open_run
+from usd2kg.cli.groups import with_groups
+from usd2kg.cli.model_options import ModelOptions
+from usd2kg.cli.options import AbbreviatedLength, JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.output import emit, format_table, print_json, talk
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
-    from usd2kg.evaluation import Evaluation
+    from usd2kg.evaluation import Evaluation, Score
     from usd2kg.evaluation.metrics.selection import SelectionScore
     from usd2kg.ontology import TBox
 
@@ -34,30 +28,28 @@ _Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to wr
 
 
 @app.command("run")
+@with_groups
 def run(
     scene: SceneFile,
     gold: _GoldFile,
+    chosen: GroundingOptions,
+    asked: ModelOptions,
     ontology: OntologyFile = None,
-    grounder: GrounderName = "embedded",
-    dictionary: Dictionary = None,
-    class_sizes: ClassSizes = None,
-    regime: Regime = "semantic",
     abbreviated_length: AbbreviatedLength = 4,
-    evidence: Evidence = None,
     output: _Output = None,
     json: JsonOutput = False,
 ) -> None:
-    """Score one grounder on one scene; --output keeps every score for eval compare."""
-    from usd2kg import evaluation, grounding  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    """Score one grounder on one scene; --output keeps every score for eval compare and eval calibrate."""
+    from usd2kg import evaluation  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
-    from usd2kg.scene import read_scene  # noqa: PLC0415
+    from usd2kg.scene import ReadOptions, read_scene  # noqa: PLC0415
 
+    if asked.dry_run:
+        raise EvaluationError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
     if output is not None:
         check_writable(output)
-    groups = grounding.parse_evidence(evidence) if evidence is not None else None
-    naming_regime = grounding.parse_regime(regime)
-    chosen = grounding.make_grounder(grounder, dictionary=dictionary, class_sizes=class_sizes)
+    groups, naming_regime = chosen.groups, chosen.naming_regime
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)
     found = read_scene(scene, paths=[label.prim_path for label in labels])
@@ -65,15 +57,18 @@ def run(
         raise EvaluationError(
             f"{gold}: none of its {len(labels)} paths is on {scene}; is it the gold of another scene?"
         )
-    result = evaluation.evaluate(
-        found,
-        labels,
-        tbox,
-        chosen,
-        regime=naming_regime,
-        evidence=groups,
-        abbreviated_length=abbreviated_length,
-    )
+    with open_run(chosen, asked, found, tbox, scene, ReadOptions()) as opened:
+        result = evaluation.evaluate(
+            found,
+            labels,
+            tbox,
+            opened.grounder,
+            regime=naming_regime,
+            evidence=groups,
+            decisions=opened.decisions,
+            abbreviated_length=abbreviated_length,
+        )
+    opened.tell(result.grounding, asked, tbox)
     selection = evaluation.selection_of(found, labels)
     data = evaluation.evaluation_json(result, selection)
     if output is not None:
@@ -81,7 +76,57 @@ def run(
     if json:
         print_json(data)
     else:
-        emit(_run_text(result, selection, tbox), None)
+        emit(_run_text(result, selection, tbox) + _tiers_text(result), None)
+
+
+def _tiers_text(result: "Evaluation") -> str:
+    """Return how right each tier of a cascade was; nothing for a single grounder."""
+    by_tier: dict[str, list[Score]] = {}
+    for score in result.scores:
+        found = result.grounding.by_path.get(score.id)
+        by_tier.setdefault(found.grounder if found else "", []).append(score)
+    if len(by_tier) < 2:
+        return ""
+    rows = [
+        (
+            tier,
+            str(len(scores)),
+            f"{100 * sum(score.is_exact for score in scores) / len(scores):.1f}",
+            f"{100 * sum(score.is_accepted for score in scores) / len(scores):.1f}",
+        )
+        for tier, scores in by_tier.items()
+    ]
+    return "\n" + format_table(("tier", "objects", "exact %", "accepting a second label %"), rows)
+
+
+@app.command("calibrate")
+def calibrate(
+    runs: Annotated[list[Path], typer.Argument(metavar="RUN...", help="Files by eval run --output, of one grounder.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write, for --calibration.")],
+) -> None:
+    """Fit how likely a grounder's answers are right, by its confidences; for language models.
+
+    Fit on scenes that you do not measure on.
+    """
+    from usd2kg import evaluation  # noqa: PLC0415
+    from usd2kg.evaluation.metrics.calibration import calibration_error  # noqa: PLC0415
+    from usd2kg.evaluation.stored import read_run  # noqa: PLC0415
+
+    stored = [read_run(path) for path in runs]
+    described = {run.description for run in stored}
+    if len(described) > 1:
+        raise EvaluationError(f"runs of different grounders: {'; '.join(sorted(described))}; expected those of one")
+    scores = [score for run in stored for score in run.scores]
+    scaling = evaluation.fit_scaling(scores, described.pop())
+    scaled = [
+        replace(score, confidence=None if score.confidence is None else scaling(score.confidence)) for score in scores
+    ]
+    emit(scaling.as_json(), output)
+    before, after = calibration_error(scores), calibration_error(scaled)
+    talk(
+        f"fitted on {scaling.answers} answers: calibration error {_number(before, '.3f')} before, "
+        f"{_number(after, '.3f')} after, on the same answers"
+    )
 
 
 def _run_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:

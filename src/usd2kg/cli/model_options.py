@@ -83,6 +83,10 @@ Temperature = Annotated[
     float | None, typer.Option("--temperature", min=0, max=2, help="Of a model; default: 0, with several samples 0.7.")
 ]
 Thumbnails = Annotated[bool, typer.Option("--thumbnails", help="Show a vision model a picture of each object.")]
+Calibration = Annotated[
+    Path | None,
+    typer.Option("--calibration", help="File by eval calibrate, that makes probabilities of a model's confidences."),
+]
 Decisions = Annotated[
     Path | None,
     typer.Option("--decisions", help="CSV file path,decision of what a person decided: it is not asked about again."),
@@ -116,6 +120,7 @@ class ModelOptions:
     samples: Samples = 1
     first_sample: FirstSample = 0
     temperature: Temperature = None
+    calibration: Calibration = None
     decisions: Decisions = None
     examples: Examples = 0
     person: Person = 0.5
@@ -150,6 +155,7 @@ class ModelOptions:
             samples=self.samples,
             first_sample=self.first_sample,
             temperature=self.temperature,
+            calibration=self.calibration,
             token_budget=self.token_budget,
             price=self.price,
             budget=Decimal(str(self.budget)) if self.budget is not None else None,

@@ -1,5 +1,6 @@
 """Measuring grounding: gold labels, metrics, matrices of runs, reports."""
 
+from usd2kg.evaluation.calibrate import fit_scaling
 from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.matrix import Matrix, read_matrix
 from usd2kg.evaluation.reproduce import CellResult, SceneResult, run_matrix
@@ -17,6 +18,7 @@ __all__ = [
     "Summary",
     "evaluate",
     "evaluation_json",
+    "fit_scaling",
     "join_scores",
     "read_gold",
     "read_matrix",

@@ -10,7 +10,7 @@ from usd2kg.evaluation.metrics.selection import SelectionScore, score_selection
 from usd2kg.evaluation.sample import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
 from usd2kg.grounding import Grounder, Grounding, ground
-from usd2kg.ontology import TBox
+from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ABBREVIATED_LENGTH, ASKED_FOR, NamingRegime, Scene
 
 __all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "selection_of"]
@@ -35,6 +35,7 @@ def evaluate(
     *,
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
+    decisions: Mapping[str, ClassIRI] | None = None,
     abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Evaluation:
     """Return the evaluation of a grounder on the labelled prims of a scene.
@@ -45,7 +46,14 @@ def evaluate(
     start = time.perf_counter()
     paths = [label.prim_path for label in gold]
     grounding = ground(
-        scene, tbox, grounder, regime=regime, evidence=evidence, paths=paths, abbreviated_length=abbreviated_length
+        scene,
+        tbox,
+        grounder,
+        regime=regime,
+        evidence=evidence,
+        paths=paths,
+        decisions=decisions,
+        abbreviated_length=abbreviated_length,
     )
     return score_grounding(grounding, gold, tbox, time.perf_counter() - start)
 

@@ -6,6 +6,7 @@ from usd2kg.grounding.decisions import PERSON, format_queue, read_decisions, uns
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
+from usd2kg.grounding.scaling import PlattScaling, read_scaling
 
 __all__ = [
     "GROUNDERS",
@@ -15,6 +16,7 @@ __all__ = [
     "CascadeGrounder",
     "Grounder",
     "Grounding",
+    "PlattScaling",
     "Prediction",
     "Review",
     "Status",
@@ -29,5 +31,6 @@ __all__ = [
     "read_decisions",
     "read_grounding",
     "read_paths",
+    "read_scaling",
     "unsure_of",
 ]

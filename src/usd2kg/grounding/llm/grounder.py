@@ -15,6 +15,7 @@ from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
 from usd2kg.grounding.llm.voting import Reply, vote
 from usd2kg.grounding.model import Prediction, Status
+from usd2kg.grounding.scaling import PlattScaling
 from usd2kg.ontology import TBox
 from usd2kg.scene import ObjectView
 
@@ -31,7 +32,6 @@ class LLMGrounder:
     """Grounds by asking a model."""
 
     name = "llm"
-    is_calibrated = False
 
     def __init__(
         self,
@@ -46,6 +46,7 @@ class LLMGrounder:
         examples: Sequence[Example] = (),
         picture: Callable[[str], bytes | None] | None = None,
         progress: Callable[[int, int], None] = _say_nothing,
+        scaling: PlattScaling | None = None,
     ) -> None:
         """Make the grounder.
 
@@ -61,6 +62,7 @@ class LLMGrounder:
             examples: objects that a person has named, shown in each prompt.
             picture: gives the PNG picture of a prim, or None where there is none; pictures are sent if it is given.
             progress: told the number of objects that are done and of all, whenever some more are done.
+            scaling: makes probabilities of the confidences; None leaves them as they are.
 
         Raises:
             GroundingError: there are no samples, or several that would all be the same.
@@ -74,6 +76,8 @@ class LLMGrounder:
         self._samples, self._first_sample = samples, first_sample
         self._examples, self._picture, self._progress = examples, picture, progress
         self.tariff = asker.tariff
+        self._scaling = scaling
+        self.is_calibrated = scaling is not None
 
     @property
     def report(self) -> RunReport:
@@ -190,13 +194,16 @@ class LLMGrounder:
         return Prediction(
             prim_path=path,
             class_iri=answer.class_iri,
-            confidence=reply.confidence,
+            confidence=self._scaled(reply.confidence),
             status=answer.status,
             grounder=self.name,
             explanation=answer.problem or answer.reasoning or f"{self._asker.model} says so",
             evidence=("name",) if self._options.strategy is Strategy.NAME_ONLY else (),
             candidates=reply.candidates,
         )
+
+    def _scaled(self, confidence: float | None) -> float | None:
+        return confidence if confidence is None or self._scaling is None else self._scaling(confidence)
 
 
 def _reply(answer: Answer) -> Reply:

@@ -18,6 +18,7 @@ from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prices import find_tariff, parse_price
 from usd2kg.grounding.llm.prompts import Example
 from usd2kg.grounding.llm.traffic import Traffic
+from usd2kg.grounding.scaling import read_scaling
 
 __all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
 
@@ -52,6 +53,8 @@ class LLMSettings:
     concurrency: int = 4
     """Prompts that are on their way at the same time."""
     requests_per_minute: int | None = None
+    calibration: Path | None = None
+    """File that makes probabilities of its confidences; None for none."""
     completions: Path | None = None
     """File of the cache; None for the user's."""
     is_refreshed: bool = False
@@ -85,6 +88,7 @@ def open_llm_grounder(
         GroundingError: the strategy or model is unknown, a key is missing, the cache cannot be opened, a price is
             malformed or, though there is a budget in dollars, unknown.
     """
+    scaling = read_scaling(settings.calibration) if settings.calibration is not None else None
     with ExitStack() as stack:
         asker = _open_asker(settings, stack, is_dry=is_dry)
         yield LLMGrounder(
@@ -98,6 +102,7 @@ def open_llm_grounder(
             first_sample=settings.first_sample,
             examples=examples,
             picture=picture,
+            scaling=scaling,
             **({"progress": progress} if progress is not None else {}),
         )
 
