@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from usd2kg.graph import KnowledgeGraph, instantiate
+from usd2kg.graph import KnowledgeGraph, RelationOptions, instantiate
 from usd2kg.grounding import Grounder, Grounding, ground
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
@@ -33,6 +33,7 @@ def build(
     base: str | None = None,
     profile: str = "auto",
     options: ReadOptions | None = None,
+    relations: RelationOptions | None = None,
 ) -> BuildResult:
     """Return the knowledge graph of a USD scene, and everything on the way to it.
 
@@ -46,6 +47,7 @@ def build(
         base: IRI under which individuals lie.
         profile: how objects are written: auto, soma or plain.
         options: what is to be read differently from what the stage says.
+        relations: which spatial relations are found, and how; default: the default set by the rules that ship.
 
     Raises:
         Usd2kgError: an input cannot be read; the message says which, and what to do.
@@ -53,7 +55,7 @@ def build(
     read = read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
     grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence)
-    graph = instantiate(read, tbox, grounding, base=base, profile=profile)
+    graph = instantiate(read, tbox, grounding, base=base, profile=profile, relations=relations)
     return BuildResult(read, tbox, grounding, graph)
 
 

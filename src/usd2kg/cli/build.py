@@ -1,6 +1,7 @@
 """usd2kg build: the whole chain."""
 
 import time
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,9 +22,13 @@ from usd2kg.cli.options import (
     ObjectList,
     OntologyFile,
     Regime,
+    RelationKinds,
+    RelationRules,
     TimeCode,
     UpAxis,
+    ViewpointOption,
     read_options,
+    relation_options,
 )
 from usd2kg.cli.output import print_json, talk
 from usd2kg.errors import OutputError, Usd2kgError
@@ -53,6 +58,9 @@ def build_command(
     kind: Kinds = None,
     objects: ObjectList = None,
     every_prim: EveryPrim = False,
+    relation_kinds: RelationKinds = None,
+    relation_rules: RelationRules = None,
+    viewpoint: ViewpointOption = None,
     base: Annotated[
         str | None,
         typer.Option("--base", help="IRI under which the individuals lie, ending in / or #; default: by file name."),
@@ -79,6 +87,7 @@ def build_command(
     options = read_options(
         metres_per_unit, up_axis, time_code, expand_instancers, include, exclude, kind, objects, every_prim
     )
+    relations = relation_options(relation_kinds, relation_rules, viewpoint)
     tbox = open_tbox(ontology)
     for note in tbox.notes:
         talk(f"{note.code}: {note.message}")
@@ -95,6 +104,7 @@ def build_command(
                 base=base,
                 profile=profile,
                 options=options,
+                relations=relations,
             )
             _write(result, target)
         except Usd2kgError as error:
@@ -145,10 +155,10 @@ def _write(result: "BuildResult", target: Path) -> None:
 
 def summarize(result: "BuildResult") -> dict[str, Any]:
     """Return what a build gave, in numbers."""
+    from usd2kg.graph.relations import ALL_KINDS  # noqa: PLC0415
+
     predictions = result.grounding.predictions
-    relations: dict[str, int] = {}
-    for relation in result.graph.relations:
-        relations[relation.kind] = relations.get(relation.kind, 0) + 1
+    found = Counter(relation.kind for relation in result.graph.relations)
     bands = dict.fromkeys((label for _, label in _CONFIDENCE_BANDS), 0)
     for p in predictions:
         if p.confidence is not None:
@@ -164,7 +174,7 @@ def summarize(result: "BuildResult") -> dict[str, Any]:
         "status": status,
         "confidence": bands,
         "is_calibrated": result.grounding.is_calibrated,
-        "relations": relations,
+        "relations": {kind: found[kind] for kind in ALL_KINDS if found[kind]},
         "triples": len(result.graph.triples),
         "diagnostics": len(result.scene.diagnostics),
     }

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from usd2kg.graph import RelationOptions
     from usd2kg.scene import ReadOptions
 
 __all__ = [
@@ -33,6 +34,8 @@ __all__ = [
     "OntologyFile",
     "Refresh",
     "Regime",
+    "RelationKinds",
+    "RelationRules",
     "Replay",
     "SceneFile",
     "Shapes",
@@ -42,7 +45,9 @@ __all__ = [
     "TimeCode",
     "TokenBudget",
     "UpAxis",
+    "ViewpointOption",
     "read_options",
+    "relation_options",
 ]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A USD stage: .usd, .usda, .usdc or .usdz.")]
@@ -158,6 +163,29 @@ ObjectList = Annotated[
 ]
 EveryPrim = Annotated[bool, typer.Option("--every-prim", help="Every prim that is or holds geometry is an object.")]
 
+RelationKinds = Annotated[
+    str | None,
+    typer.Option(
+        "--relation-kinds",
+        help="Spatial relations to find, comma-separated: on, inside, above, below, touching, next-to, near, room, "
+        "part-of (these by default), between, or all.",
+    ),
+]
+RelationRules = Annotated[
+    Path | None,
+    typer.Option(
+        "--relations", help="TOML file of thresholds and class lists in place of our own, see docs/relations.md."
+    ),
+]
+ViewpointOption = Annotated[
+    str | None,
+    typer.Option(
+        "--viewpoint",
+        help="x,y,z in metres, z up: from there left, right, front and behind are told, within 40 degrees; "
+        "x,y,z,dx,dy,dz to look in one direction. Default: none, and no such relations.",
+    ),
+]
+
 
 def read_options(
     metres_per_unit: float | None,
@@ -186,4 +214,21 @@ def read_options(
             only=tuple(read_paths(objects)) if objects is not None else (),
             is_every_prim=every_prim,
         ),
+    )
+
+
+def relation_options(kinds: str | None, rules: Path | None, viewpoint: str | None) -> "RelationOptions":
+    """Return which relations are to be found, and how, as the user says it on the command line."""
+    from usd2kg.graph.relations import (  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+        RelationOptions,
+        load_rules,
+        parse_kinds,
+        parse_viewpoint,
+    )
+
+    seen_from = parse_viewpoint(viewpoint) if viewpoint is not None else None
+    return RelationOptions(
+        kinds=parse_kinds(kinds, seen_from) if kinds is not None else None,
+        viewpoint=seen_from,
+        rules=load_rules(rules),
     )

@@ -10,7 +10,8 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, Triple, uses_soma
-from usd2kg.graph.relations import Relation, find_relations
+from usd2kg.graph.relation_terms import RELATION_ANNOTATIONS, describe_between, describe_room, measures
+from usd2kg.graph.relations import Relation, RelationOptions, find_relations
 from usd2kg.graph.vocabulary import OWL, PREFIXES, PROV, RDF, RDFS, SSSOM, U2K, number, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
@@ -27,14 +28,11 @@ _ANNOTATION_PROPERTIES = (
     U2K.boxCenter,
     U2K.evidence,
     U2K.explanation,
-    U2K.gap,
     U2K.grounder,
-    U2K.insideRatio,
-    U2K.overlapRatio,
     U2K.primPath,
-    U2K.rule,
     U2K.run,
     U2K.status,
+    *RELATION_ANNOTATIONS,
 )
 _PROVENANCE_PROPERTIES = (PROV.used, PROV.wasAssociatedWith)
 _ALTERNATIVES = 3
@@ -59,7 +57,13 @@ class KnowledgeGraph:
 
 
 def instantiate(
-    scene: Scene, tbox: TBox, grounding: Grounding, *, base: str | None = None, profile: str = "auto"
+    scene: Scene,
+    tbox: TBox,
+    grounding: Grounding,
+    *,
+    base: str | None = None,
+    profile: str = "auto",
+    relations: RelationOptions | None = None,
 ) -> KnowledgeGraph:
     """Return the knowledge graph of a grounded scene.
 
@@ -69,12 +73,14 @@ def instantiate(
         grounding: the class of each object.
         base: IRI under which the individuals lie, ending in `/` or `#`; by default made from the file's name.
         profile: one of `PROFILES`.
+        relations: which spatial relations are found, and how; default: the default set by the rules that ship.
 
     Raises:
-        GraphError: the base is no IRI, or the profile is unknown.
+        GraphError: the base is no IRI, or the profile or a kind of relation is unknown.
     """
     base = check_base(base or default_base(scene.source))
-    writer = _Writer(scene, tbox, grounding, base, _make_profile(profile, tbox))
+    found = find_relations(scene, tbox, grounding, relations)
+    writer = _Writer(scene, tbox, grounding, base, _make_profile(profile, tbox), found)
     triples = tuple(ox.Triple(*triple) for triple in dict.fromkeys(writer.write()))
     counts = Counter(p.class_iri for p in grounding.predictions if p.class_iri)
     return KnowledgeGraph(
@@ -99,13 +105,21 @@ def _make_profile(name: str, tbox: TBox) -> Profile:
 class _Writer:
     """Yields the triples of one graph, section by section."""
 
-    def __init__(self, scene: Scene, tbox: TBox, grounding: Grounding, base: str, profile: Profile) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        tbox: TBox,
+        grounding: Grounding,
+        base: str,
+        profile: Profile,
+        relations: tuple[Relation, ...],
+    ) -> None:
         self.scene = scene
         self.tbox = tbox
         self.grounding = grounding
         self.base = base
         self.profile = profile
-        self.relations = find_relations(scene, tbox, grounding)
+        self.relations = relations
         self.graph = ox.NamedNode(base.rstrip("#/"))
         self.stage = ox.NamedNode(f"{base}-stage")
         self.run = ox.NamedNode(f"{base}-run")
@@ -201,13 +215,19 @@ class _Writer:
         )
 
     def _relations(self) -> Iterator[Triple]:
+        for path in dict.fromkeys(relation.anchor for relation in self.relations if relation.kind == "room"):
+            if path not in self.scene.by_path:
+                yield from describe_room(path, self.base)
+                yield from self.profile.member(self.stage, ox.NamedNode(individual_iri(self.base, path)))
         for relation in self.relations:
+            if relation.kind == "between":
+                yield from describe_between(relation, self.base)
+                continue
             target = ox.NamedNode(individual_iri(self.base, relation.target))
             anchor = ox.NamedNode(individual_iri(self.base, relation.anchor))
             triples = self.profile.relate(relation, target, anchor)
             yield from triples
-            numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
-            yield from self._annotated(triples[0], [(U2K.rule, text(relation.rule)), *numbers])
+            yield from self._annotated(triples[0], measures(relation))
 
     def _annotated(
         self, triple: Triple, annotations: list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]

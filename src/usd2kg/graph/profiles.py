@@ -11,6 +11,13 @@ from typing import ClassVar, Protocol
 import pyoxigraph as ox
 
 from usd2kg.graph.iris import individual_iri
+from usd2kg.graph.relation_terms import (
+    PLAIN_RELATIONS,
+    RELATION_CLASSES,
+    SOMA_RELATIONS,
+    plain_relation,
+    soma_relation,
+)
 from usd2kg.graph.relations import Relation
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, SOMA, U2K, USD, Namespace, number, text
 from usd2kg.scene import Box, SceneObject
@@ -70,9 +77,7 @@ class SomaProfile:
         SOMA.hasLocalization,
         SOMA.hasMassAttribute,
         SOMA.hasShape,
-        SOMA.isInsideOf,
-        SOMA.isOntopOf,
-        SOMA.isSupportedBy,
+        *SOMA_RELATIONS,
     )
     data_properties: ClassVar[tuple[ox.NamedNode, ...]] = (
         SOMA.hasDepth,
@@ -91,6 +96,7 @@ class SomaProfile:
         SOMA.Shape,
         USD.Prim,
         USD.Stage,
+        *RELATION_CLASSES,
     )
 
     def describe(self, obj: SceneObject, base: str) -> Iterator[Triple]:
@@ -139,9 +145,7 @@ class SomaProfile:
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
         """Return the triples of a spatial relation."""
-        if relation.kind == "on":
-            return [(target, SOMA.isOntopOf, anchor), (target, SOMA.isSupportedBy, anchor)]
-        return [(target, SOMA.isInsideOf, anchor)]
+        return soma_relation(relation, target, anchor)
 
 
 class PlainProfile:
@@ -149,7 +153,7 @@ class PlainProfile:
 
     name: ClassVar[str] = "plain"
     imports: ClassVar[tuple[str, ...]] = ()
-    object_properties: ClassVar[tuple[ox.NamedNode, ...]] = (U2K.hasObject, U2K.inside, U2K.on)
+    object_properties: ClassVar[tuple[ox.NamedNode, ...]] = (U2K.hasObject, *PLAIN_RELATIONS)
     data_properties: ClassVar[tuple[ox.NamedNode, ...]] = (
         U2K.depth,
         U2K.height,
@@ -158,7 +162,7 @@ class PlainProfile:
         U2K.position,
         U2K.width,
     )
-    classes: ClassVar[tuple[ox.NamedNode, ...]] = (U2K.Object, U2K.Stage)
+    classes: ClassVar[tuple[ox.NamedNode, ...]] = (U2K.Object, U2K.Stage, *RELATION_CLASSES)
 
     def describe(self, obj: SceneObject, base: str) -> Iterator[Triple]:
         """Yield an object's size, pose and mass."""
@@ -187,7 +191,7 @@ class PlainProfile:
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
         """Return the triples of a spatial relation."""
-        return [(target, U2K[relation.kind], anchor)]
+        return plain_relation(relation, target, anchor)
 
 
 def _individual(base: str, path: str, part: str) -> ox.NamedNode:

@@ -4,6 +4,7 @@ import pyoxigraph as ox
 
 __all__ = [
     "DUL",
+    "KNOWROB",
     "OWL",
     "PREFIXES",
     "PROV",
@@ -47,6 +48,7 @@ PROV = Namespace("http://www.w3.org/ns/prov#")
 SSSOM = Namespace("https://w3id.org/sssom/")
 SOMA = Namespace("http://www.ease-crc.org/ont/SOMA.owl#")
 DUL = Namespace("http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#")
+KNOWROB = Namespace("http://knowrob.org/kb/knowrob.owl#")
 USD = Namespace("https://ease-crc.org/ont/USD.owl#")
 U2K = Namespace("https://w3id.org/usd2kg#")
 """Our own terms; docs/vocabulary.md describes each."""
@@ -61,6 +63,7 @@ PREFIXES = {
     "soma": SOMA.iri,
     "dul": DUL.iri,
     "usd": USD.iri,
+    "knowrob": KNOWROB.iri,
     "u2k": U2K.iri,
 }
 
