@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
+from usd2kg.graph import GraphOptions, KnowledgeGraph, RelationOptions, find_relations, instantiate, merge_imports
 from usd2kg.grounding import Grounder, Grounding, ground
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
@@ -35,6 +35,7 @@ def build(
     profile: str = "auto",
     options: ReadOptions | None = None,
     graph_options: GraphOptions | None = None,
+    relations: RelationOptions | None = None,
     merges_imports: bool = False,
 ) -> BuildResult:
     """Return the knowledge graph of a USD scene, and everything on the way to it.
@@ -51,6 +52,7 @@ def build(
         profile: how objects are written: auto, soma or plain.
         options: what is to be read differently from what the stage says; of a scene that is still to be read.
         graph_options: how the graph is written, where that is not as usual.
+        relations: which spatial relations are found, and how; default: the default set by the rules that ship.
         merges_imports: whether the graph holds the ontology, all that it imports and our vocabulary, and so imports
             nothing.
 
@@ -60,7 +62,8 @@ def build(
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
     grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions)
-    graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options)
+    found = find_relations(read, tbox, grounding, relations)
+    graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options, relations=found)
     if merges_imports:
         graph = merge_imports(graph, read_closure(tbox, graph.imports))
     return BuildResult(read, tbox, grounding, graph)

@@ -204,10 +204,15 @@ class TestJustification:
         assert on == {
             "https://w3id.org/usd2kg#rule": "on/1",
             "https://w3id.org/usd2kg#gap": "0",
+            "https://w3id.org/sssom/confidence": "1",
             "https://w3id.org/usd2kg#overlapRatio": "1",
         }
         inside = dict(select(store, self.QUERY.format("Apple", "soma:isInsideOf", "k:Room.Bowl")))
-        assert inside == {"https://w3id.org/usd2kg#rule": "inside/1", "https://w3id.org/usd2kg#insideRatio": "1"}
+        assert inside == {
+            "https://w3id.org/usd2kg#rule": "inside/1",
+            "https://w3id.org/usd2kg#insideRatio": "1",
+            "https://w3id.org/sssom/confidence": "1",
+        }
 
     def test_nothing_bears_a_time(self, graph: KnowledgeGraph):
         assert not any("dateTime" in str(triple) for triple in graph.triples)

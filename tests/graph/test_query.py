@@ -97,17 +97,17 @@ class TestWhere:
     @pytest.mark.parametrize("question", ["where is the mug?", "Where is mug_red", "where's mug red", "where mug"])
     def test_where_a_thing_is(self, store: GraphStore, question: str):
         answer = store.ask(question.split())
-        assert answer.columns == ("object", "class", "path", "center_m", "on", "inside")
+        assert answer.columns == ("object", "class", "path", "center_m", "on", "inside", "room")
         # The middle of the box: 1 + 0.05, 0.4 + 0.05, 0.7 + 0.05.
-        assert answer.rows == (("mug_red", "cup", "/Room/mug_red", "1.05 0.45 0.75", "dining table", None),)
+        assert answer.rows == (("mug_red", "cup", "/Room/mug_red", "1.05 0.45 0.75", "dining table", None, "Room"),)
 
     def test_where_a_thing_inside_another_is(self, store: GraphStore):
         (row,) = store.ask(["where", "is", "the", "apple"]).rows
-        assert row == ("Apple", "artifact", "/Room/Apple", "0.24 0.34 0.76", None, "FruitBowl")
+        assert row == ("Apple", "artifact", "/Room/Apple", "0.24 0.34 0.76", None, "FruitBowl", "Room")
 
     def test_without_a_box_or_a_class_it_is_still_there(self, store: GraphStore):
         (row,) = store.ask(["where", "is", "ghost"]).rows
-        assert row == ("Ghost", None, "/Room/Ghost", None, None, None)
+        assert row == ("Ghost", None, "/Room/Ghost", None, None, None, None)
 
     def test_where_several_things_are(self, store: GraphStore):
         assert column(store.ask(["where", "are", "crockery"]), "object") == ["FruitBowl", "mug_red", "plate_1"]

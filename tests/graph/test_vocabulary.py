@@ -17,7 +17,8 @@ from usd2kg.scene import Instances, Label, MaterialDetails, ObjectLabels
 
 SPATIAL = frozenset(
     """
-    Between above anchor behind below distance inFrontOf inRoom leftOf near nextTo partOf rightOf target touching
+    Between RoomGroup above anchor angle behind below betweenRatio distance inFrontOf inRoom leftOf margin near nextTo
+    partOf rightOf target touching
     """.split()
 )
 """Terms of relations that a scene may or may not hold."""
@@ -139,7 +140,7 @@ def test_every_length_and_mass_bears_its_unit():
     metres, kilograms = "http://qudt.org/vocab/unit/M", "http://qudt.org/vocab/unit/KiloGM"
     assert {name for name, unit in units.items() if unit == kilograms} == {"mass"}
     assert {"width", "depth", "height", "position", "boxCenter", "centerOfMass", "gap", "distance"} <= set(units)
-    assert set(units.values()) == {metres, kilograms}
+    assert {name for name, unit in units.items() if unit not in {metres, kilograms}} == {"angle"}
     for triple in vocabulary_triples():
         if triple.predicate == RDFS.comment and "metres" in triple.object.value and _is_ours(triple.subject):
             name = triple.subject.value.removeprefix(U2K.iri)

@@ -6,7 +6,7 @@ from typing import Any
 from usd2kg.grounding import Prediction
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.ontology import OntologyClass, TBox
-from usd2kg.scene import ObjectView, Scene, SceneObject, StageFrame
+from usd2kg.scene import Joint, ObjectView, Scene, SceneObject, StageFrame
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 LAB = "https://lab.example/onto#"
@@ -38,7 +38,7 @@ def make_object(path: str, **known: Any) -> SceneObject:
     return SceneObject(**(blank | known))
 
 
-def make_scene(*objects: SceneObject, source: str = "room.usda") -> Scene:
+def make_scene(*objects: SceneObject, source: str = "room.usda", joints: tuple[Joint, ...] = ()) -> Scene:
     return Scene(
         source=source,
         content_hash="sha256:5ce7e",
@@ -47,6 +47,7 @@ def make_scene(*objects: SceneObject, source: str = "room.usda") -> Scene:
         prim_count=len(objects),
         objects=objects,
         left_out={},
+        joints=tuple(joints),
     )
 
 

@@ -1,6 +1,7 @@
 """usd2kg build: the whole chain."""
 
 import time
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,7 +10,7 @@ import typer
 from usd2kg.cli.grounding_run import GroundingOptions, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
-from usd2kg.cli.options import JsonOutput, MergeImports, OntologyFile, ReadingOptions, WritingOptions
+from usd2kg.cli.options import JsonOutput, MergeImports, OntologyFile, ReadingOptions, RelatingOptions, WritingOptions
 from usd2kg.cli.output import print_json, talk
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
@@ -27,6 +28,7 @@ def build_command(
     chosen: GroundingOptions,
     asked: ModelOptions,
     reading: ReadingOptions,
+    relating: RelatingOptions,
     writing: WritingOptions,
     ontology: OntologyFile = None,
     base: Annotated[
@@ -54,6 +56,7 @@ def build_command(
     targets = _targets(scenes, output)
     groups, naming_regime = chosen.groups, chosen.naming_regime
     options = reading.read_options()
+    relations = relating.relation_options()
     written = writing.graph_options()
     tbox = open_tbox(ontology)
     for note in tbox.notes:
@@ -74,6 +77,7 @@ def build_command(
                     base=base,
                     profile=profile,
                     graph_options=written,
+                    relations=relations,
                     merges_imports=merge_imports,
                 )
             for iri in result.graph.missing_imports:
@@ -130,10 +134,10 @@ def _write(result: "BuildResult", target: Path) -> None:
 
 def summarize(result: "BuildResult") -> dict[str, Any]:
     """Return what a build gave, in numbers."""
+    from usd2kg.graph.relations import ALL_KINDS  # noqa: PLC0415
+
     predictions = result.grounding.predictions
-    relations: dict[str, int] = {}
-    for relation in result.graph.relations:
-        relations[relation.kind] = relations.get(relation.kind, 0) + 1
+    found = Counter(relation.kind for relation in result.graph.relations)
     bands = dict.fromkeys((label for _, label in _CONFIDENCE_BANDS), 0)
     for p in predictions:
         if p.confidence is not None:
@@ -149,7 +153,7 @@ def summarize(result: "BuildResult") -> dict[str, Any]:
         "status": status,
         "confidence": bands,
         "is_calibrated": result.grounding.is_calibrated,
-        "relations": relations,
+        "relations": {kind: found[kind] for kind in ALL_KINDS if found[kind]},
         "triples": len(result.graph.triples),
         "diagnostics": len(result.scene.diagnostics),
     }

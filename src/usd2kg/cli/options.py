@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from usd2kg.graph import GraphOptions
+    from usd2kg.graph import GraphOptions, RelationOptions
     from usd2kg.scene import ReadOptions
 
 __all__ = [
@@ -30,6 +30,7 @@ __all__ = [
     "OntologyFile",
     "ReadingOptions",
     "Regime",
+    "RelatingOptions",
     "SceneFile",
     "Shapes",
     "TimeCode",
@@ -145,6 +146,29 @@ MergeImports = Annotated[
 ]
 EveryPrim = Annotated[bool, typer.Option("--every-prim", help="Every prim that is or holds geometry is an object.")]
 
+RelationKinds = Annotated[
+    str | None,
+    typer.Option(
+        "--relation-kinds",
+        help="Spatial relations to find, comma-separated: on, inside, above, below, touching, next-to, near, room, "
+        "part-of (these by default), between, or all.",
+    ),
+]
+RelationRules = Annotated[
+    Path | None,
+    typer.Option(
+        "--relations", help="TOML file of thresholds and class lists in place of our own, see docs/relations.md."
+    ),
+]
+ViewpointOption = Annotated[
+    str | None,
+    typer.Option(
+        "--viewpoint",
+        help="x,y,z in metres, z up: from there left, right, front and behind are told, within 40 degrees; "
+        "x,y,z,dx,dy,dz to look in one direction. Default: none, and no such relations.",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class WritingOptions:
@@ -161,6 +185,31 @@ class WritingOptions:
         epoch = os.environ.get("SOURCE_DATE_EPOCH")
         time = read_time(self.time_of_run) if self.time_of_run else read_epoch(epoch) if epoch else None
         return GraphOptions(self.annotations, self.colors, time)
+
+
+@dataclass(frozen=True)
+class RelatingOptions:
+    """Which spatial relations are found, and how."""
+
+    relation_kinds: RelationKinds = None
+    relation_rules: RelationRules = None
+    viewpoint: ViewpointOption = None
+
+    def relation_options(self) -> "RelationOptions":
+        """Return the same for the finder."""
+        from usd2kg.graph.relations import (  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+            RelationOptions,
+            load_rules,
+            parse_kinds,
+            parse_viewpoint,
+        )
+
+        seen_from = parse_viewpoint(self.viewpoint) if self.viewpoint is not None else None
+        return RelationOptions(
+            kinds=parse_kinds(self.relation_kinds, seen_from) if self.relation_kinds is not None else None,
+            viewpoint=seen_from,
+            rules=load_rules(self.relation_rules),
+        )
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,10 @@ def query_command(
     graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")],
     question: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[QUESTION]...", help="on X, in X, where is X, or all of CLASS (subclasses included)."),
+        typer.Argument(
+            metavar="[QUESTION]...",
+            help="on X, in X, near X, above X, parts of X, where is X, or all of CLASS (subclasses included).",
+        ),
     ] = None,
     sparql: Annotated[
         str | None, typer.Option("--sparql", help="A SPARQL query, or @FILE to read one; usual prefixes are known.")

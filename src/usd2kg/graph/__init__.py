@@ -5,7 +5,7 @@ from usd2kg.graph.iris import individual_iri, prim_path_of
 from usd2kg.graph.merge import merge_imports
 from usd2kg.graph.options import ANNOTATIONS, COLORS, GraphOptions, read_epoch, read_time
 from usd2kg.graph.query import Answer, GraphStore, load_graph
-from usd2kg.graph.relations import Relation
+from usd2kg.graph.relations import Relation, RelationOptions, find_relations
 from usd2kg.graph.serialize import GRAPH_FORMATS, graph_format, serialize_graph, write_graph
 from usd2kg.graph.terms import VOCABULARY_IRI, vocabulary_text
 
@@ -20,6 +20,8 @@ __all__ = [
     "GraphStore",
     "KnowledgeGraph",
     "Relation",
+    "RelationOptions",
+    "find_relations",
     "graph_format",
     "individual_iri",
     "instantiate",

@@ -18,9 +18,10 @@ from usd2kg.graph.justification import justify_class, justify_refusal
 from usd2kg.graph.options import GraphOptions
 from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, uses_soma
 from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
+from usd2kg.graph.relation_terms import describe_between, describe_room, measures
 from usd2kg.graph.relations import Relation, find_relations
 from usd2kg.graph.terms import declare_terms
-from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, Triple, number, text
+from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
 from usd2kg.scene import Scene, SceneObject
@@ -78,7 +79,7 @@ def instantiate(
         relations: the spatial relations; by default they are found from the boxes.
 
     Raises:
-        GraphError: the base is no IRI, or the profile is unknown.
+        GraphError: the base is no IRI, or the profile or a kind of relation is unknown.
     """
     base = check_base(base or default_base(scene.source))
     options = options or GraphOptions()
@@ -189,6 +190,7 @@ class _Writer:
         """Yield blocks of triples; no triple is in two of them."""
         yield self._provenance()
         yield self._members()
+        yield self._rooms()
         for obj in self.scene.objects:
             yield self._object(obj)
         for linked in self.joints:
@@ -256,7 +258,17 @@ class _Writer:
 
     def _relations(self, prim_path: str, target: ox.NamedNode, about: list[Triple]) -> Iterator[Triple]:
         for relation in self.relations.get(prim_path, ()):
+            if relation.kind == "between":
+                yield from describe_between(relation, self.base)
+                continue
             triples = self.profile.relate(relation, target, self._node(relation.anchor))
             yield from triples
-            numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
-            about.extend(self.annotate(triples[0], [(U2K.rule, text(relation.rule)), *numbers]))
+            about.extend(self.annotate(triples[0], measures(relation)))
+
+    def _rooms(self) -> Iterator[Triple]:
+        """Yield the rooms that are no objects: groups that are called rooms."""
+        anchors = (r.anchor for found in self.relations.values() for r in found if r.kind == "room")
+        for path in dict.fromkeys(anchors):
+            if path not in self.scene.by_path:
+                yield from describe_room(path, self.base)
+                yield self.profile.member(self.stage, self._node(path))

@@ -12,6 +12,7 @@ import pyoxigraph as ox
 from usd2kg.graph.appearance import knowrob_color, plain_color, usd_color
 from usd2kg.graph.articulation import LinkedJoint, plain_joint, soma_joint
 from usd2kg.graph.body import common_body, plain_body, soma_body, typed
+from usd2kg.graph.relation_terms import plain_relation, soma_relation
 from usd2kg.graph.relations import Relation
 from usd2kg.graph.vocabulary import DUL, SOMA, U2K, USD, Namespace, Triple
 from usd2kg.scene import SceneObject
@@ -86,9 +87,7 @@ class SomaProfile:
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
         """Return the triples of a spatial relation."""
-        if relation.kind == "on":
-            return [(target, SOMA.isOntopOf, anchor), (target, SOMA.isSupportedBy, anchor)]
-        return [(target, SOMA.isInsideOf, anchor)]
+        return soma_relation(relation, target, anchor)
 
 
 class PlainProfile:
@@ -119,7 +118,7 @@ class PlainProfile:
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
         """Return the triples of a spatial relation."""
-        return [(target, U2K[relation.kind], anchor)]
+        return plain_relation(relation, target, anchor)
 
 
 def uses_soma(iris: tuple[str, ...]) -> bool:

@@ -29,6 +29,11 @@ _QUOTED = re.compile(r"<[^<>\s]*>|\"(?:\\\\.|[^\"\\\\])*\"|'(?:\\\\.|[^'\\\\])*'
 """IRIs, strings and comments: where a keyword is none."""
 _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
+_ROOM = "soma:isInsideOf|u2k:inRoom"
+_NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
+_PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
+_ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
+"""What is above a thing on the table is above the table, though only the nearest is written."""
 
 _RELATED = """
 SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
@@ -39,15 +44,40 @@ SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
   OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a ; {number} ?number . }}
 }} ORDER BY ?path"""
 
+_CLOSE = """
+SELECT ?object ?class ?path ?anchor (MIN(?measured) AS ?number) WHERE {{
+  VALUES ?a {{ {anchors} }}
+  ?o {predicate} ?a ; rdfs:label ?object ; u2k:primPath ?path .
+  ?a rdfs:label ?anchor .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{
+    {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a }}
+    UNION {{ ?x owl:annotatedSource ?a ; owl:annotatedTarget ?o }}
+    ?x u2k:distance|u2k:gap ?measured .
+  }}
+}} GROUP BY ?o ?a ?object ?class ?path ?anchor ORDER BY ?number ?path"""
+
+_PARTS = """
+SELECT DISTINCT ?object ?class ?path ?whole WHERE {{
+  VALUES ?a {{ {wholes} }}
+  ?o ({part_of})+ ?a ; rdfs:label ?object ; u2k:primPath ?path ; {part_of} ?w .
+  ?w rdfs:label ?whole .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+}} ORDER BY ?path"""
+
 _WHERE = """
-SELECT DISTINCT ?object ?class ?path ?center ?on ?inside WHERE {{
+SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{
   VALUES ?o {{ {things} }}
   ?o rdfs:label ?object ; u2k:primPath ?path .
   OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
   OPTIONAL {{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}
   OPTIONAL {{ ?o {on} ?a . ?a rdfs:label ?on . }}
-  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . }}
+  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . FILTER NOT EXISTS {{ {in_b} }} }}
+  OPTIONAL {{ ?o {room} ?r . ?r rdfs:label ?room . FILTER EXISTS {{ {in_r} }} }}
 }} ORDER BY ?path"""
+
+# In the soma profile one property tells of containers and rooms alike.
+_BY_ROOM = '?x owl:annotatedSource ?o ; owl:annotatedTarget {} ; u2k:rule ?rule . FILTER(STRSTARTS(?rule, "room/"))'
 
 _ALL = """
 SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
@@ -123,9 +153,24 @@ class GraphStore:
         return self._related(thing, _INSIDE, "u2k:insideRatio", "inside_ratio")
 
     def where_is(self, thing: str) -> Answer:
-        """Return where a thing is: the centre of its box in metres, and what it is on and inside of."""
+        """Return where a thing is: the centre of its box in metres, what it is on and inside of, and its room."""
         things = _values(self.find(thing))
-        return self._named(_WHERE.format(things=things, on=_ON, inside=_INSIDE), {"center": "center_m"})
+        in_b, in_r = _BY_ROOM.format("?b"), _BY_ROOM.format("?r")
+        query = _WHERE.format(things=things, on=_ON, inside=_INSIDE, room=_ROOM, in_b=in_b, in_r=in_r)
+        return self._named(query, {"center": "center_m"})
+
+    def near(self, thing: str) -> Answer:
+        """Return what is near a thing, next to it or touching it, the nearest first."""
+        query = _CLOSE.format(anchors=_values(self.find(thing)), predicate=_NEAR)
+        return self._named(query, {"number": "distance_m"})
+
+    def above(self, thing: str) -> Answer:
+        """Return what is above a thing, or above something on it."""
+        return self._related(thing, _ABOVE, "u2k:gap", "gap_m")
+
+    def parts_of(self, thing: str) -> Answer:
+        """Return the parts of a thing, and theirs."""
+        return self._named(_PARTS.format(wholes=_values(self.find(thing)), part_of=_PART_OF), {})
 
     def all_of(self, name: str) -> Answer:
         """Return all things of a class, subclasses included; the class is named by label, local name or IRI."""
@@ -137,7 +182,7 @@ class GraphStore:
         return self._named(_ALL.format(classes=_values(classes)), {})
 
     def ask(self, words: Sequence[str]) -> Answer:
-        """Return the answer to a ready question: `on X`, `in X`, `where is X`, `all of CLASS`.
+        """Return the answer to a ready question, like `on X`, `in X`, `near X`, `parts of X` or `all of CLASS`.
 
         Raises:
             GraphError: the question is none of these, or what it asks about is not in the graph.
@@ -149,8 +194,8 @@ class GraphStore:
                 answer: Answer = getattr(self, method)(found.group("thing").strip())
                 return answer
         raise GraphError(
-            f"question {question!r} is not understood; expected 'on X', 'in X', 'where is X' or 'all of CLASS', "
-            "or a query with --sparql"
+            f"question {question!r} is not understood; expected 'on X', 'in X', 'near X', 'above X', "
+            "'parts of X', 'where is X' or 'all of CLASS', or a query with --sparql"
         )
 
     def find(self, thing: str) -> list[ox.NamedNode]:
@@ -221,6 +266,9 @@ class GraphStore:
 _QUESTIONS = (
     (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", "on"),
     (r"(what\s+is\s+)?(in|inside)( of)?\s+(?P<thing>.+)", "inside"),
+    (r"(what\s+is\s+)?(near|next)( to)?\s+(?P<thing>.+)", "near"),
+    (r"(what\s+is\s+)?above\s+(?P<thing>.+)", "above"),
+    (r"(what\s+are\s+)?(the\s+)?parts(\s+of|-of)\s+(?P<thing>.+)", "parts_of"),
     (r"where(\s+is|\s+are|-is|'s)?\s+(?P<thing>.+)", "where_is"),
     (r"all(\s+of|-of)?\s+(?P<thing>.+)", "all_of"),
 )

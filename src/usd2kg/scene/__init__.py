@@ -3,6 +3,7 @@
 This package alone knows OpenUSD.
 """
 
+from usd2kg.scene.box_pairs import overlapping_pairs
 from usd2kg.scene.company import Companion, Company, Nearness, size_distance
 from usd2kg.scene.model import (
     Box,
@@ -55,6 +56,7 @@ __all__ = [
     "abbreviate",
     "describe_shapes",
     "explain_choice",
+    "overlapping_pairs",
     "read_scene",
     "size_distance",
     "view_objects",

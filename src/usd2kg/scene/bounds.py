@@ -89,7 +89,7 @@ class BoxReader:
     def _measure(self, node: Node) -> Box | None:
         if not node.has_points:
             return self._box(self._geometry, node)
-        matrix = self._matrix(node)
+        matrix = self.read_matrix(node)
         if not node.may_be_turned:
             box = self._box_of_extent(node, matrix)
         elif _is_aligned(matrix):
@@ -99,7 +99,7 @@ class BoxReader:
         # An extent that is authored inside out reads as empty: the points know better.
         return box or self._box_of_points(node.prim, matrix)
 
-    def _matrix(self, node: Node) -> _Matrix:
+    def read_matrix(self, node: Node) -> _Matrix:
         """Return the (4, 4) matrix to the stage's world; what is not moved shares it with what it is below."""
         while node.parent is not None and not node.authored.moves:
             node = node.parent

@@ -13,7 +13,7 @@ from usd2kg.scene.model import Diagnostic, StageFrame, Vector
 from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.stage import OpenedStage
 
-__all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes"]
+__all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes", "read_mesh"]
 
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -324,6 +324,15 @@ def _array(values: Any, dtype: Any) -> NDArray[Any]:
 def _rgb(color: Any) -> Vector:
     red, green, blue = (min(max(float(value), 0.0), 1.0) for value in tuple(color)[:3])
     return (red, green, blue)
+
+
+def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
+    """Return points (n, 3) of a mesh in its own frame and stage units, and its triangles (m, 3); None if it is broken.
+
+    Triangles are indices of points, counter-clockwise seen from outside; polygons are cut into fans.
+    """
+    shape, _ = _read_mesh(UsdGeom.Mesh(prim), time)
+    return (shape.points, shape.triangles) if shape is not None and np.isfinite(shape.points).all() else None
 
 
 def _read_solid(prim: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:

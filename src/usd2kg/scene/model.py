@@ -257,6 +257,9 @@ class SceneObject:
     """(name, text) of custom attributes and metadata that carry words."""
     material_details: tuple[MaterialDetails, ...] = ()
     """The bound materials with base colour and finish, where those are constant."""
+    support_levels: tuple[Box, ...] = ()
+    """Broad level faces of its meshes that look up, as flat boxes from the bottom up: the boards of a shelf that is one
+    mesh. At most 32; measured only where another object begins within its bounds."""
 
     @property
     def words(self) -> tuple[str, ...]:

@@ -1,10 +1,8 @@
 """read_scene: from a USD file to a Scene."""
 
-import gc
 import logging
 import math
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,11 +11,13 @@ import numpy as np
 from pxr import Sdf, Usd
 
 from usd2kg.errors import SceneError
+from usd2kg.garbage import paused_collection
 from usd2kg.scene.bounds import BoxReader, union
 from usd2kg.scene.evidence import asset_names, display_color, geometry_file, own_nodes, part_names, read_mass
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.labels import LabelReader, lint_labels
+from usd2kg.scene.levels import holds_others, read_levels
 from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.options import ReadOptions
@@ -67,7 +67,7 @@ def read_scene(
     with (
         translated_errors(opened.source),
         captured_diagnostics() as openusd_notes,
-        _paused_collection(),
+        paused_collection(),
         # What is not finite is looked for in the results.
         np.errstate(invalid="ignore", over="ignore"),
         outline_stage(opened, time) as outline,
@@ -117,21 +117,6 @@ def _on_one_line(note: Diagnostic) -> Diagnostic:
     return replace(note, message=cleaned if len(cleaned) <= _LONGEST_MESSAGE else cleaned[: _LONGEST_MESSAGE - 1] + "…")
 
 
-@contextmanager
-def _paused_collection() -> Iterator[None]:
-    """Keep Python from looking for garbage while a stage is read.
-
-    All that is made is kept, and each look would go through the whole outline again: a fifth of the time.
-    """
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
-
-
 def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptions | None = None) -> str:
     """Return why a prim is an object or is none, in words.
 
@@ -173,12 +158,14 @@ def _read_objects(
 ) -> list[SceneObject]:
     found = _find_objects(outline, selection.chosen, expand_instancers)
     boxes = reader.measure([entry for entry in found if entry.is_read])
+    levels = reader.read_levels([entry for entry in found if entry.is_read], boxes)
     objects: list[SceneObject] = []
     for index, entry in enumerate(found):
         if index % _READ_AHEAD == 0:
             reader.look_ahead(found[index : index + _READ_AHEAD])
         if entry.is_read:
-            objects.append(reader.read(entry, boxes[entry.nodes[0].path]))
+            path = entry.nodes[0].path
+            objects.append(reader.read(entry, boxes[path], levels.get(path, ())))
         inside = entry.nodes[0].path if entry.is_read else entry.parent_path
         for instancer in entry.expanded:
             objects.extend(reader.read_copies(instancer, inside))
@@ -283,11 +270,23 @@ class _ObjectReader:
             self._note("empty-box", nodes[0], "no geometry that can be measured; it has no size in the graph")
         return _Boxes(below, own if nested else below, _largest(parts) if len(parts) > 1 else ())
 
+    def read_levels(self, found: list[_Found], boxes: dict[str, _Boxes]) -> dict[str, tuple[Box, ...]]:
+        """Return the support levels of the objects within whose bounds others begin, by path."""
+        levels: dict[str, tuple[Box, ...]] = {}
+        own = [boxes[entry.nodes[0].path].own for entry in found]
+        for entry, box, is_looked_at in zip(found, own, holds_others(own), strict=True):
+            if is_looked_at and box is not None:
+                try:
+                    levels[entry.nodes[0].path] = read_levels(entry.nodes, box, self.boxes, self.frame)
+                except UNREADABLE as error:
+                    self._note("geometry", entry.nodes[0], f"its faces cannot be read ({_why(error)}); no levels in it")
+        return levels
+
     def look_ahead(self, found: list[_Found]) -> None:
         """Prepare for reading these objects next."""
         self.materials.look_ahead(node for entry in found if entry.is_read for node in entry.nodes)
 
-    def read(self, entry: _Found, boxes: _Boxes) -> SceneObject:
+    def read(self, entry: _Found, boxes: _Boxes, levels: tuple[Box, ...]) -> SceneObject:
         """Return the object with all that the stage says about it."""
         node = entry.nodes[0]
         position, orientation = self._pose(node)
@@ -312,6 +311,7 @@ class _ObjectReader:
             documentation=str(node.metadata.get("documentation", "")).strip(),
             parts=part_names(entry.nodes),
             instance_of=node.first_instance,
+            support_levels=levels,
             **evidence,
         )
 

@@ -1,0 +1,94 @@
+"""How relations are written: the properties of each kind in the soma and in the plain profile."""
+
+from collections.abc import Iterator, Mapping
+
+import pyoxigraph as ox
+
+from usd2kg.graph.iris import individual_iri
+from usd2kg.graph.relations import SYMMETRIC_KINDS, Relation
+from usd2kg.graph.vocabulary import DUL, KNOWROB, OWL, RDF, RDFS, SOMA, SSSOM, U2K, Triple, number, text
+
+__all__ = [
+    "describe_between",
+    "describe_room",
+    "measures",
+    "plain_relation",
+    "soma_relation",
+]
+
+_SOMA: Mapping[str, tuple[ox.NamedNode, ...]] = {
+    "on": (SOMA.isOntopOf, SOMA.isSupportedBy),
+    "inside": (SOMA.isInsideOf,),
+    "above": (KNOWROB.isAboveOf,),
+    "below": (KNOWROB.isBelowOf,),
+    "touching": (DUL.hasCommonBoundary,),
+    "next-to": (KNOWROB.isNextTo,),
+    "near": (DUL.nearTo,),
+    "room": (SOMA.isInsideOf,),
+    "left": (KNOWROB.isLeftOf,),
+    "right": (KNOWROB.isRightOf,),
+    "front": (KNOWROB.isInFrontOf,),
+    "behind": (KNOWROB.isBehindOf,),
+}
+_PLAIN: Mapping[str, ox.NamedNode] = {
+    "on": U2K.on,
+    "inside": U2K.inside,
+    "above": U2K.above,
+    "below": U2K.below,
+    "touching": U2K.touching,
+    "next-to": U2K.nextTo,
+    "near": U2K.near,
+    "room": U2K.inRoom,
+    "part-of": U2K.partOf,
+    "left": U2K.leftOf,
+    "right": U2K.rightOf,
+    "front": U2K.inFrontOf,
+    "behind": U2K.behind,
+}
+
+
+def soma_relation(relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
+    """Return the triples of a relation in SOMA's, DUL's and KnowRob's terms; the first one takes the numbers."""
+    if relation.kind == "part-of":
+        return [(anchor, SOMA.hasPhysicalComponent, target)]
+    triples: list[Triple] = [(target, name, anchor) for name in _SOMA[relation.kind]]
+    return [*triples, *_returned(relation, _SOMA[relation.kind][0], target, anchor)]
+
+
+def plain_relation(relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
+    """Return the triples of a relation in our own terms; the first one takes the numbers."""
+    name = _PLAIN[relation.kind]
+    return [(target, name, anchor), *_returned(relation, name, target, anchor)]
+
+
+def _returned(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
+    return [(anchor, name, target)] if relation.kind in SYMMETRIC_KINDS else []
+
+
+def measures(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
+    """Return the rule, the numbers and the confidence of a relation, as annotations."""
+    numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
+    confidence = [] if relation.confidence is None else [(SSSOM.confidence, number(relation.confidence))]
+    return [(U2K.rule, text(relation.rule)), *numbers, *confidence]
+
+
+def describe_between(relation: Relation, base: str) -> Iterator[Triple]:
+    """Yield a node for what is between two anchors: OWL's properties take but one."""
+    assert relation.other_anchor is not None, "what is between is so between two"
+    node = ox.NamedNode(individual_iri(base, relation.target, "between"))
+    yield node, RDF.type, OWL.NamedIndividual
+    yield node, RDF.type, U2K.Between
+    yield node, U2K.target, ox.NamedNode(individual_iri(base, relation.target))
+    for path in (relation.anchor, relation.other_anchor):
+        yield node, U2K.anchor, ox.NamedNode(individual_iri(base, path))
+    for name, value in measures(relation):
+        yield node, name, value
+
+
+def describe_room(path: str, base: str) -> Iterator[Triple]:
+    """Yield what is known of a group prim that is a room by its name, and no object."""
+    node = ox.NamedNode(individual_iri(base, path))
+    yield node, RDF.type, OWL.NamedIndividual
+    yield node, RDF.type, U2K.RoomGroup
+    yield node, RDFS.label, text(path.rpartition("/")[2])
+    yield node, U2K.primPath, text(path)

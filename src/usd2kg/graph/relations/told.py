@@ -1,0 +1,70 @@
+"""What has been told of things already, and decides what else is said of them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.graph.relations.bodies import Bodies
+from usd2kg.graph.relations.columns import taken
+from usd2kg.graph.relations.containment import Containment
+from usd2kg.graph.relations.model import Links
+from usd2kg.graph.relations.neighbours import Pairs
+from usd2kg.graph.relations.parts import Parts
+
+__all__ = ["Told"]
+
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+
+class Told:
+    """What is on, in or part of what: stronger than being close, so that nothing weaker is said of the two."""
+
+    def __init__(self, bodies: Bodies, containment: Containment, parts: Parts) -> None:
+        self._count = len(bodies)
+        self.is_loose = np.ones(len(bodies), np.bool_)
+        """Whether each may rest on something: what moves on a joint does not."""
+        self.frame = containment.container.copy()
+        """The whole that each is a part of, or else what it is inside of; -1 for neither."""
+        self.supporter = np.full(len(bodies), -1)
+        """What each is on; one of several; -1 for nothing."""
+        self._part_keys = self._keep_parts(bodies, parts)
+        self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
+
+    def _keep_parts(self, bodies: Bodies, parts: Parts) -> Indices:
+        place = np.full(int(bodies.number.max(initial=-1)) + 2, -1)
+        place[bodies.number] = np.arange(len(bodies))
+        keys = []
+        for links in parts:
+            part, whole = (place[np.minimum(column, len(place) - 1)] for column in (links.target, links.anchor))
+            known = (part >= 0) & (whole >= 0)
+            self.frame[part[known]] = whole[known]
+            keys.append(self._key(part[known], whole[known]))
+            if links is parts.stated:
+                self.is_loose[part[part >= 0]] = False
+        return np.concatenate(keys)
+
+    def carry(self, support: list[Links]) -> list[Links]:
+        """Return what is on what without parts on their own wholes, and remember it."""
+        kept = [links.where(~np.isin(self._key(links.target, links.anchor), self._part_keys)) for links in support]
+        for links in reversed(kept):
+            self.supporter[links.target] = links.anchor
+            self._keys.append(self._key(links.target, links.anchor))
+        return kept
+
+    def _key(self, one: Indices, other: Indices) -> Indices:
+        return np.asarray(np.minimum(one, other) * self._count + np.maximum(one, other))
+
+    def without(self, links: Links) -> Links:
+        """Return the links of things of which nothing stronger is told."""
+        return links.where(~self._are_told(links.target, links.anchor))
+
+    def together(self, pairs: Pairs) -> Pairs:
+        """Return the pairs of things that are parts of the same whole or in the same container, or in none."""
+        return taken(pairs, self.frame[pairs.one] == self.frame[pairs.other])
+
+    def unrelated(self, pairs: Pairs) -> Pairs:
+        """Return the pairs of which nothing stronger is told."""
+        return taken(pairs, ~self._are_told(pairs.one, pairs.other))
+
+    def _are_told(self, one: Indices, other: Indices) -> Mask:
+        return np.isin(self._key(one, other), np.concatenate(self._keys))
