@@ -74,7 +74,7 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
         talk(f"ontology: the graph was built with <{stated}>, and {ontology} is <{tbox.ontology_iri}>")
     closure = read_closure(tbox, imports_of(store))
     for iri in closure.missing:
-        talk(f"missing-import: <{iri}> is not at hand; what it states is not checked")
+        talk(f"missing-import: <{iri}> is not at hand, so what it states is not checked; name its file with --ontology")
     return closure
 
 

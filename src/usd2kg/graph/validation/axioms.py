@@ -203,5 +203,6 @@ class Axioms:
         return ranked[0][1] if ranked else compact_iri(iri)
 
     def named(self, iri: str) -> str:
-        """Return label and CURIE or IRI of a term: “Cup” (soma:Cup)."""
-        return f"“{self.label(iri)}” ({compact_iri(iri)})"
+        """Return label and CURIE or IRI of a term, “Cup” (soma:Cup); without a label only the latter."""
+        label, short = self.label(iri), compact_iri(iri)
+        return short if label == short else f"“{label}” ({short})"

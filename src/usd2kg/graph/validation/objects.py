@@ -13,6 +13,8 @@ __all__ = ["GraphObject", "find_owner", "profile_of", "read_objects", "values_of
 
 Vector = tuple[float, float, float]
 _NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+_LARGEST = 100_000.0
+"""Metres, as in the shapes: what is larger is no extent."""
 _DEEPEST_PART = 4
 """Steps from an object to the farthest node that belongs to it."""
 
@@ -94,7 +96,7 @@ class _Reader:
             label=self._text(node, RDFS.label),
             prim_path=str(path.value),
             classes=tuple(cls.value for cls in classes),
-            size=_triple(size),
+            size=_triple(size) if all(0 <= side <= _LARGEST for side in size if side is not None) else None,
             center=_triple(self._vector(region, U2K.boxCenter)),
             oriented_size=_triple(self._vector(node, U2K.orientedSize)),
             orientation=pose[3:] if pose else self._vector(node, U2K.orientation),

@@ -81,7 +81,7 @@ class _Run:
         """Yield what breaks the shapes of the profile."""
         for rule in compile_shapes(profile):
             for broken in find_violations(self._store, rule):
-                found = f"found {', '.join(broken.found)}"
+                found = ", ".join(broken.found)
                 yield self._finding(rule.severity, rule.id, broken.focus, found, rule.expected, rule.advice)
 
     def clashes(self) -> Iterator[Finding]:
