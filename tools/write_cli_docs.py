@@ -17,6 +17,7 @@ COMMANDS = (
     ("inspect",),
     ("ground",),
     ("query",),
+    ("validate",),
     ("render",),
     ("ontology",),
     ("ontology", "show"),

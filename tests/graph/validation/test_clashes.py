@@ -3,9 +3,10 @@
 import pyoxigraph as ox
 import pytest
 
+from tests.conftest import shared_file
 from tests.graph.validation.broken import added, found_in, open_room
 from usd2kg.graph.validation.axioms import Axioms, Disjointness
-from usd2kg.ontology import Closure, TBox
+from usd2kg.ontology import Closure, TBox, load_tbox, read_closure
 
 PREFIXES = """@prefix : <https://lab.example/onto#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .
@@ -118,3 +119,25 @@ def test_equivalent_classes_and_intersections_lie_above():
     axioms = axioms_of(":A owl:equivalentClass [ owl:intersectionOf ( :B :C ) ] . :B owl:equivalentClass :D .")
     assert axioms.closure(f"{LAB}A") == {LAB + name for name in "ABCD"}
     assert axioms.closure(f"{LAB}D") == {LAB + name for name in "BD"}
+
+
+@pytest.fixture(scope="session")
+def soma() -> Closure:
+    return read_closure(load_tbox(shared_file("ontologies/soma/SOMA-HOME.owl")))
+
+
+def test_the_room_does_not_clash_with_soma(home_tbox: TBox, soma: Closure):
+    assert found_in(open_room(home_tbox, "soma"), closure=soma) == ()
+
+
+def test_an_event_is_no_cup_and_carries_nothing(home_tbox: TBox, soma: Closure):
+    graph = open_room(home_tbox, "soma", added("k:Cup a dul:Event . k:Fork soma:isOntopOf k:Cup"))
+    found = found_in(graph, closure=soma)
+    assert {(finding.rule, finding.prim_path) for finding in found} == {
+        ("disjoint-classes", "/Cup"),
+        ("domain-clash", "/Cup"),
+        ("range-clash", "/Cup"),
+    }
+    told = next(finding.found for finding in found if finding.rule == "disjoint-classes")
+    assert "(dul:Event)" in told
+    assert "(dul:Object)" in told

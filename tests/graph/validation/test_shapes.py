@@ -10,7 +10,7 @@ from usd2kg.graph import GraphStore
 from usd2kg.graph.validation.shapes import compile_shapes, find_violations, shapes_text
 from usd2kg.ontology import TBox
 
-WITH_PYSHACL = pytest.mark.skipif(importlib.util.find_spec("pyshacl") is None, reason="needs the extra validation")
+WITH_PYSHACL = pytest.mark.skipif(importlib.util.find_spec("pyshacl") is None, reason="needs pyshacl")
 CASES = pytest.mark.parametrize("case", SHAPES, ids=[f"{i}-{c.profile}-{c.rule}" for i, c in enumerate(SHAPES)])
 PROFILES = pytest.mark.parametrize("profile", ["soma", "plain"])
 

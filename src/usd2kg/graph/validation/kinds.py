@@ -7,14 +7,12 @@ import pyoxigraph as ox
 from usd2kg.graph.validation.axioms import Axioms
 from usd2kg.graph.validation.objects import GraphObject
 from usd2kg.graph.validation.rules import Rule
-from usd2kg.graph.vocabulary import RDF, RDFS
+from usd2kg.graph.vocabulary import RDFS
 from usd2kg.ontology import expand_curie
+from usd2kg.ontology.model import local_name
 from usd2kg.words import split_identifier
 
 __all__ = ["Kinds"]
-
-_ABOUT_CLASSES = (RDF.type, RDFS.subClassOf, RDFS.label)
-_LOCAL = "#/"
 
 
 class Kinds:
@@ -33,6 +31,8 @@ class Kinds:
         self._graph = Axioms(own)
         self._axioms = axioms
         self._closures: dict[str, frozenset[str]] = {}
+        self._labels: dict[str, str] = {}
+        self._members: dict[tuple[tuple[str, ...], str, str], bool] = {}
 
     def closure(self, cls: str) -> frozenset[str]:
         """Return a class with all above it."""
@@ -45,11 +45,16 @@ class Kinds:
 
     def label(self, cls: str) -> str:
         """Return the label of a class, in small letters."""
+        if cls not in self._labels:
+            self._labels[cls] = self._find_label(cls)
+        return self._labels[cls]
+
+    def _find_label(self, cls: str) -> str:
         label = self._graph.label(cls)
         if self._axioms is not None and expand_curie(label) == cls:
             label = self._axioms.label(cls)
         if expand_curie(label) == cls:
-            label = max((cls.rpartition(end)[2] for end in _LOCAL), key=lambda name: -len(name))
+            label = local_name(cls)
         return " ".join(split_identifier(label)).lower()
 
     def names(self, obj: GraphObject) -> str:
@@ -58,12 +63,15 @@ class Kinds:
 
     def is_a(self, obj: GraphObject, rule: Rule, classes: str, words: str) -> bool:
         """Return whether a class of an object, or one above it, is in a rule's list of classes or of words."""
-        wanted, spoken = rule.classes(classes), rule.words(words)
-        return any(
-            above in wanted or not spoken.isdisjoint(_last_words(self.label(above)))
-            for cls in obj.classes
-            for above in self.closure(cls)
-        )
+        key = (obj.classes, rule.id, classes)
+        if key not in self._members:
+            wanted, spoken = rule.classes(classes), rule.words(words)
+            self._members[key] = any(
+                above in wanted or not spoken.isdisjoint(_last_words(self.label(above)))
+                for cls in obj.classes
+                for above in self.closure(cls)
+            )
+        return self._members[key]
 
 
 def _last_words(label: str) -> tuple[str, str]:

@@ -108,7 +108,8 @@ class _Run:
     def _text(self, node: Any, name: ox.NamedNode) -> str:
         if not isinstance(node, ox.NamedNode | ox.BlankNode):
             return ""
-        return min((q.object.value for q in self._store.quads_for_pattern(node, name, None)), default="")
+        values = (quad.object for quad in self._store.quads_for_pattern(node, name, None))
+        return min((value.value for value in values if isinstance(value, ox.Literal)), default="")
 
 
 def _about(
