@@ -24,6 +24,7 @@ COMMANDS = (
     ("ontology", "linearize"),
     ("ontology", "scope"),
     ("ontology", "vocabulary"),
+    ("ontology", "shapes"),
     ("eval",),
     ("eval", "run"),
     ("eval", "reproduce"),

@@ -110,3 +110,11 @@ def test_another_ontology_than_the_graphs_is_told(run: Run, good: Path, tmp_path
     done = run("validate", other)
     assert (done.code, done.out) == (0, "0 findings on 7 objects\n")
     assert "name its file with --ontology" in done.err
+
+
+@pytest.mark.parametrize("profile", ["soma", "plain"])
+def test_the_shapes_can_be_had(run: Run, profile: str):
+    done = run("ontology", "shapes", "--profile", profile)
+    assert done.code == 0
+    assert "rule:object-label a sh:PropertyShape" in done.out
+    assert run("ontology", "shapes", "--profile", "rdf").code == 2

@@ -19,6 +19,7 @@ from usd2kg.graph.vocabulary import RDF, Namespace
 
 __all__ = ["ShapeRule", "Violation", "compile_shapes", "find_violations", "shapes_text"]
 
+_PROFILES = ("soma", "plain")
 SH = Namespace("http://www.w3.org/ns/shacl#")
 _SEVERITIES = {SH.Violation: Severity.ERROR, SH.Warning: Severity.WARNING, SH.Info: Severity.NOTE}
 _BOUNDS = {"minInclusive": ">=", "maxInclusive": "<=", "minExclusive": ">", "maxExclusive": "<"}
@@ -55,7 +56,13 @@ class Violation:
 
 
 def shapes_text(profile: str) -> str:
-    """Return the SHACL shapes of a profile, `soma` or `plain`, as Turtle."""
+    """Return the SHACL shapes of a profile, `soma` or `plain`, as Turtle.
+
+    Raises:
+        GraphError: there is no such profile.
+    """
+    if profile not in _PROFILES:
+        raise GraphError(f"profile {profile!r} has no shapes; expected one of {', '.join(_PROFILES)}")
     return (files("usd2kg.graph") / "data" / f"shapes-{profile}.ttl").read_text("utf-8")
 
 
