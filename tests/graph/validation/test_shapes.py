@@ -5,9 +5,11 @@ import warnings
 
 import pytest
 
-from tests.graph.validation.broken import SHAPES, Break, found_in, open_room
-from usd2kg.graph import GraphStore
+from tests.graph.records import BASE, build_graph, reread
+from tests.graph.validation.broken import ROOM, SHAPES, Break, found_in, open_room
+from usd2kg.graph import GraphOptions, GraphStore
 from usd2kg.graph.validation.shapes import compile_shapes, find_violations, shapes_text
+from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
 
 WITH_PYSHACL = pytest.mark.skipif(importlib.util.find_spec("pyshacl") is None, reason="needs pyshacl")
@@ -85,3 +87,15 @@ def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]
     }
     assert ours == theirs
     return ours
+
+
+def test_confidences_on_triple_terms_are_checked_too(home_tbox: TBox):
+    graph = GraphStore(reread(build_graph(home_tbox, ROOM, options=GraphOptions(annotations="rdf12"))), "room.ttl")
+    assert found_in(graph) == ()
+    graph.store.update(
+        "DELETE { ?x sssom:confidence ?o } INSERT { ?x sssom:confidence 2.0 } "
+        "WHERE { ?x sssom:confidence ?o ; rdf:reifies <<( k:Cup rdf:type ?c )>> }",
+        prefixes={**PREFIXES, "k": BASE},
+    )
+    (finding,) = found_in(graph)
+    assert (finding.rule, finding.prim_path, finding.found) == ("confidence-range", "/Cup", "2")
