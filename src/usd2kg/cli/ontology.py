@@ -68,6 +68,16 @@ def vocabulary() -> None:
     emit(vocabulary_text(), None)
 
 
+@app.command("shapes")
+def shapes(
+    profile: Annotated[str, typer.Option("--profile", help="Of which graphs: soma (default) or plain.")] = "soma",
+) -> None:
+    """Print the SHACL shapes of the graphs that usd2kg builds, as Turtle."""
+    from usd2kg.graph.validation import shapes_text  # noqa: PLC0415 - loads the RDF parser
+
+    emit(shapes_text(profile), None)
+
+
 def _load(file: Path | None, roots: list[str] | None) -> "TBox":
     from usd2kg.ontology import load_home_tbox, load_tbox  # noqa: PLC0415 - loads the OWL parser
 

@@ -121,6 +121,16 @@ class GraphStore:
     def __len__(self) -> int:
         return len(self._store)
 
+    @property
+    def store(self) -> ox.Store:
+        """The triples, to be read only."""
+        return self._store
+
+    @property
+    def source(self) -> str:
+        """The file that the graph was read from."""
+        return self._source
+
     def sparql(self, query: str) -> Answer:
         """Return the answer to a SPARQL 1.1 query; our usual prefixes need no declaration.
 

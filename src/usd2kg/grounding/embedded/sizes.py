@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "surprise", "thing_nouns"]
+__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "surprise", "thing_nouns", "typical_extents"]
 
 SMALLEST_EXTENT = 0.001
 """Metres. A thinner extent counts as this: a sheet may be modelled without thickness, and zero has no logarithm."""
@@ -58,6 +58,20 @@ def thing_nouns() -> tuple[str, ...]:
 @lru_cache(maxsize=1)
 def _rows() -> dict[str, int]:
     return {noun.replace(" ", ""): row for row, noun in enumerate(thing_nouns())}
+
+
+def typical_extents(noun: str) -> tuple[float, float, float] | None:
+    """Return the typical extents of a thing in metres, longest first; None if its size is not known.
+
+    Args:
+        noun: the thing, without spaces.
+    """
+    row = _rows().get(noun)
+    if row is None:
+        return None
+    table = _load_table()
+    long, middle, short = np.exp(table.scaled_centres[:, row] / table.half_rates[:, row])
+    return float(long), float(middle), float(short)
 
 
 def surprise(size: tuple[float, float, float], noun: str) -> float | None:

@@ -1,0 +1,19 @@
+"""Checking a graph: shapes, clashes with the ontology, and what is hard to believe."""
+
+from usd2kg.graph.validation.finding import Finding, Severity
+from usd2kg.graph.validation.rules import Rule, Rules, read_rules
+from usd2kg.graph.validation.shapes import shapes_text
+from usd2kg.graph.validation.validate import ValidationReport, imports_of, ontology_of, validate_graph
+
+__all__ = [
+    "Finding",
+    "Rule",
+    "Rules",
+    "Severity",
+    "ValidationReport",
+    "imports_of",
+    "ontology_of",
+    "read_rules",
+    "shapes_text",
+    "validate_graph",
+]

@@ -1,0 +1,189 @@
+"""The objects of a graph as records, read from either profile."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD
+
+__all__ = ["GraphObject", "find_owner", "profile_of", "read_objects", "values_of"]
+
+Vector = tuple[float, float, float]
+_NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+_LARGEST = 100_000.0
+"""Metres, as in the shapes: what is larger is no extent."""
+_DEEPEST_PART = 4
+"""Steps from an object to the farthest node that belongs to it."""
+
+
+@dataclass(frozen=True, slots=True)
+class GraphObject:
+    """What a graph says of one object; what cannot be read as such is None, and a shape tells of it."""
+
+    iri: str
+    label: str
+    prim_path: str
+    classes: tuple[str, ...]
+    """IRIs of the classes that it was grounded to, sorted; not those that every object has."""
+    size: Vector | None
+    """Extents of the world box along x, y and z, metres."""
+    center: Vector | None
+    """Of the world box, metres, world frame."""
+    oriented_size: Vector | None
+    """Extents along the object's own axes, metres, where those are turned against the world's."""
+    orientation: tuple[float, ...] | None
+    """Quaternion x y z w."""
+    mass_kg: float | None
+    confidence: float | None
+    """Of its class, 0 to 1."""
+    supporters: tuple[str, ...]
+    """IRIs of what it is on, sorted."""
+    containers: tuple[str, ...]
+    """IRIs of what it is inside of, sorted."""
+
+    @property
+    def own_size(self) -> Vector | None:
+        """Extents along its own axes where those are known, else along the world's; metres."""
+        return self.oriented_size or self.size
+
+
+def profile_of(store: ox.Store) -> str | None:
+    """Return the profile that a graph is written in; None if it holds no object of either."""
+    for profile, cls in (("soma", USD.Prim), ("plain", U2K.Object)):
+        if next(iter(store.quads_for_pattern(None, RDF.type, cls)), None) is not None:
+            return profile
+    return None
+
+
+def values_of(store: ox.Store, name: ox.NamedNode) -> dict[Any, list[Any]]:
+    """Return subject → values of a property, sorted."""
+    found: dict[Any, list[Any]] = {}
+    for quad in store.quads_for_pattern(None, name, None):
+        found.setdefault(quad.subject, []).append(quad.object)
+    for values in found.values():
+        if len(values) > 1:
+            values.sort(key=str)
+    return found
+
+
+def read_objects(store: ox.Store) -> list[GraphObject]:
+    """Return the objects of a graph in the order of their prim paths."""
+    reader = _Reader(store)
+    objects = [reader.read(node, paths[0]) for node, paths in values_of(store, U2K.primPath).items()]
+    return sorted(objects, key=lambda obj: (obj.prim_path, obj.iri))
+
+
+class _Reader:
+    """Looks up properties, each read whole once: faster than a query for each object."""
+
+    def __init__(self, store: ox.Store) -> None:
+        self._store = store
+        self._read: dict[ox.NamedNode, dict[Any, list[Any]]] = {}
+        self._confidences = dict(_confidences(store))
+
+    def read(self, node: Any, path: Any) -> GraphObject:
+        region = self._region_with(U2K.boxCenter, self._steps(node, SOMA.hasShape, DUL.hasRegion)) or node
+        extents = ((SOMA.hasWidth, U2K.width), (SOMA.hasLength, U2K.depth), (SOMA.hasHeight, U2K.height))
+        size = [self._number(region, *names) for names in extents]
+        pose = self._vector(self._first(self._steps(node, SOMA.hasLocalization, DUL.hasRegion)), SOMA.hasPositionData)
+        mass = self._number(self._first(self._steps(node, SOMA.hasMassAttribute)), SOMA.hasMassValue)
+        classes = [c for c in self._values(node, RDF.type) if c not in _NO_CLASSES and isinstance(c, ox.NamedNode)]
+        return GraphObject(
+            iri=node.value,
+            label=self._text(node, RDFS.label),
+            prim_path=str(path.value),
+            classes=tuple(cls.value for cls in classes),
+            size=_triple(size) if all(0 <= side <= _LARGEST for side in size if side is not None) else None,
+            center=_triple(self._vector(region, U2K.boxCenter)),
+            oriented_size=_triple(self._vector(node, U2K.orientedSize)),
+            orientation=pose[3:] if pose else self._vector(node, U2K.orientation),
+            mass_kg=mass if mass is not None else self._number(node, U2K.mass),
+            confidence=self._confidences.get(node),
+            supporters=self._iris(node, SOMA.isOntopOf, U2K.on),
+            containers=self._iris(node, SOMA.isInsideOf, U2K.inside),
+        )
+
+    def _values(self, node: Any, name: ox.NamedNode) -> list[Any]:
+        if name not in self._read:
+            self._read[name] = values_of(self._store, name)
+        return self._read[name].get(node, [])
+
+    def _steps(self, node: Any, *names: ox.NamedNode) -> list[Any]:
+        nodes = [node]
+        for name in names:
+            nodes = [value for each in nodes for value in self._values(each, name)]
+        return nodes
+
+    def _region_with(self, name: ox.NamedNode, regions: list[Any]) -> Any:
+        return next((region for region in regions if self._values(region, name)), None)
+
+    @staticmethod
+    def _first(nodes: list[Any]) -> Any:
+        return nodes[0] if nodes else None
+
+    def _text(self, node: Any, name: ox.NamedNode) -> str:
+        values = self._values(node, name)
+        return str(values[0].value) if values else ""
+
+    def _number(self, node: Any, *names: ox.NamedNode) -> float | None:
+        numbers = _numbers(" ".join(self._text(node, name) for name in names))
+        return numbers[0] if len(numbers) == 1 else None
+
+    def _vector(self, node: Any, name: ox.NamedNode) -> tuple[float, ...] | None:
+        return _numbers(self._text(node, name)) or None
+
+    def _iris(self, node: Any, *names: ox.NamedNode) -> tuple[str, ...]:
+        return tuple(v.value for name in names for v in self._values(node, name) if isinstance(v, ox.NamedNode))
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    """Return the numbers of a text; none at all if one is no finite number."""
+    try:
+        numbers = tuple(float(word) for word in text.split())
+    except ValueError:
+        return ()
+    return numbers if all(map(math.isfinite, numbers)) else ()
+
+
+def _triple(values: Any) -> Vector | None:
+    if values is None or len(values) != 3 or None in values:
+        return None
+    x, y, z = values
+    return x, y, z
+
+
+def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
+    """Yield each object with the confidence in its class, from OWL's annotations or from RDF 1.2's reifiers."""
+    sources = {q.subject: q.object for q in store.quads_for_pattern(None, OWL.annotatedSource, None)}
+    for quad in store.quads_for_pattern(None, RDF.reifies, None):
+        if isinstance(quad.object, ox.Triple):
+            sources[quad.subject] = quad.object.subject
+    for quad in store.quads_for_pattern(None, SSSOM.confidence, None):
+        numbers = _numbers(str(getattr(quad.object, "value", "")))
+        if quad.subject in sources and len(numbers) == 1:
+            yield sources[quad.subject], numbers[0]
+
+
+def find_owner(store: ox.Store, node: Any, objects: Mapping[str, GraphObject]) -> GraphObject | None:
+    """Return the object that a node belongs to: its box, its mass, the axiom about its class; None if it has none."""
+    seen, pending = {node}, [node]
+    for _ in range(_DEEPEST_PART):
+        for each in pending:
+            owner = objects.get(getattr(each, "value", ""))
+            if owner is not None and isinstance(each, ox.NamedNode):
+                return owner
+        pending = [near for each in pending for near in _whose(store, each) if near not in seen]
+        seen.update(pending)
+    return None
+
+
+def _whose(store: ox.Store, node: Any) -> list[Any]:
+    """Return what a node may belong to, the nearest first."""
+    if isinstance(node, ox.BlankNode):
+        about = [quad.object for quad in store.quads_for_pattern(node, OWL.annotatedSource, None)]
+        reified = (quad.object for quad in store.quads_for_pattern(node, RDF.reifies, None))
+        return [*about, *(triple.subject for triple in reified if isinstance(triple, ox.Triple))]
+    return sorted({quad.subject for quad in store.quads_for_pattern(None, None, node)}, key=str)

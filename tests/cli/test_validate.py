@@ -1,0 +1,120 @@
+"""usd2kg validate: what a person reads, what a program reads, and the exit codes."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+from tests.graph.records import build_graph, thing
+from tests.graph.validation.broken import ROOM
+from usd2kg.graph import write_graph
+from usd2kg.ontology import TBox
+
+LOOSE = thing("/Fork\u202e", (-2, -2, 0), (3.0, 0.3, 0.1), display_name="Fork\x1b[31m\n  error [x]")
+
+
+@pytest.fixture
+def good(home_tbox: TBox, tmp_path: Path) -> Path:
+    path = tmp_path / "good.ttl"
+    write_graph(build_graph(home_tbox, ROOM), path)
+    return path
+
+
+@pytest.fixture
+def odd(home_tbox: TBox, tmp_path: Path) -> Path:
+    path = tmp_path / "odd.ttl"
+    write_graph(build_graph(home_tbox, [*ROOM, (LOOSE, "Fork")]), path)
+    return path
+
+
+def test_a_good_graph(run: Run, good: Path):
+    done = run("validate", good)
+    assert (done.code, done.out) == (0, "0 findings on 7 objects\n")
+
+
+def test_findings_as_lines(run: Run, odd: Path):
+    done = run("validate", odd)
+    assert done.code == 1
+    # Names are untrusted: no escape, no line of their own, no change of direction.
+    assert done.out.splitlines() == [
+        "warning [unusual-size] Fork\ufffd[31m error [x] /Fork\ufffd",
+        "  found:    its longest extent is 3 m (3 × 0.3 × 0.1 m), and it is a fork",
+        "  expected: about 0.19 m, 0.048 to 0.76 m",
+        "  do:       Check metersPerUnit of the stage and the scale of the prim; "
+        "if the size is right, correct the class.",
+        "",
+        "1 finding (1 warning) on 8 objects",
+    ]
+
+
+def test_findings_as_json(run: Run, odd: Path):
+    done = run("validate", odd, "--json")
+    assert done.code == 1
+    assert "\x1b" not in done.out
+    report = json.loads(done.out)
+    assert (report["profile"], report["objects"]) == ("soma", 8)
+    assert report["counts"] == {"error": 0, "warning": 1, "note": 0}
+    assert report["findings"][0]["rule"] == "unusual-size"
+
+
+def test_rules_of_ones_own(run: Run, odd: Path, tmp_path: Path):
+    rules = tmp_path / "rules.toml"
+    rules.write_text("[unusual-size]\nfactor = 40.0\n")
+    assert run("validate", odd, "--rules", rules).code == 0
+    rules.write_text("[unusual-size]\nfaktor = 40.0\n")
+    done = run("validate", odd, "--rules", rules)
+    assert done.code == 2
+    assert "has no key 'faktor'; expected enabled, severity, factor" in done.err
+
+
+def test_many_findings_are_cut_and_shown_on_request(run: Run, home_tbox: TBox, tmp_path: Path):
+    path = tmp_path / "many.ttl"
+    forks = [(thing(f"/Fork{i:02}", (i, 2, 0), (3.0, 0.3, 0.1)), "Fork") for i in range(25)]
+    write_graph(build_graph(home_tbox, forks), path)
+    cut = run("validate", path).out.splitlines()
+    assert sum(line.startswith("warning [unusual-size]") for line in cut) == 20
+    assert "… 5 more of unusual-size (--all shows them)" in cut
+    assert cut[-1] == "25 findings (25 warnings) on 25 objects"
+    assert run("validate", path, "--all").out.count("[unusual-size]") == 25
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("none.ttl", None, "no such file"),
+        ("empty.ttl", "", "holds no object"),
+        ("broken.ttl", "<a", "does not parse"),
+    ],
+)
+def test_bad_input(run: Run, tmp_path: Path, name: str, text: str | None, told: str):
+    path = tmp_path / name
+    if text is not None:
+        path.write_text(text)
+    done = run("validate", path)
+    assert (done.code, done.out) == (2, "")
+    assert told in done.err
+
+
+def test_another_ontology_than_the_graphs_is_told(run: Run, good: Path, tmp_path: Path):
+    lab = tmp_path / "lab.ttl"
+    lab.write_text(
+        "@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+        "<https://lab.example/onto> a owl:Ontology . <https://lab.example/onto#A> a owl:Class .\n"
+        "<https://lab.example/onto#B> a owl:Class ; rdfs:subClassOf <https://lab.example/onto#A> .\n"
+    )
+    done = run("validate", good, "--ontology", lab)
+    assert "SOMA-HOME.owl>, and" in done.err
+    other = tmp_path / "other.ttl"
+    other.write_text(good.read_text().replace("http://www.ease-crc.org/ont/SOMA-HOME.owl", "https://lab.example/onto"))
+    done = run("validate", other)
+    assert (done.code, done.out) == (0, "0 findings on 7 objects\n")
+    assert "name its file with --ontology" in done.err
+
+
+@pytest.mark.parametrize("profile", ["soma", "plain"])
+def test_the_shapes_can_be_had(run: Run, profile: str):
+    done = run("ontology", "shapes", "--profile", profile)
+    assert done.code == 0
+    assert "rule:object-label a sh:PropertyShape" in done.out
+    assert run("ontology", "shapes", "--profile", "rdf").code == 2
