@@ -17,6 +17,8 @@ COMMANDS = (
     ("inspect",),
     ("ground",),
     ("query",),
+    ("graph",),
+    ("graph", "draw"),
     ("render",),
     ("ontology",),
     ("ontology", "show"),

@@ -1,7 +1,7 @@
 """Questions that robots ask: SPARQL with parameters, one file each, with its question in words at its head.
 
 A file begins with comments: `# id:`, `# question:` with the parameters in braces, for each of them a line
-`# parameter: NAME | KIND | DEFAULT`, and notes. The kind is `object`, `class`, `position`, or the unit of a number: `m`,
+`# parameter: NAME | KIND | DEFAULT`, and notes. A kind is `object`, `class`, `position`, or the unit of a number, `m`,
 `kg` or `share`. In the query the parameter is the variable `?the_NAME`; the query selects it, since only what is
 selected can be bound, and the answer leaves it out. What a user gives is bound as a term: none of it is pasted in.
 """
