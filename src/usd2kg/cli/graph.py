@@ -45,7 +45,8 @@ def draw(
         found = store.find(thing)
         if len(found) > 1:
             raise GraphError(
-                f"{thing!r} means {len(found)} objects; expected one, by its prim path: see usd2kg query {graph} where is {thing}"
+                f"{thing!r} means {len(found)} objects; expected one, by its prim path: "
+                f"usd2kg query {graph} where is {thing}"
             )
         picture = draw_surroundings(store, found[0].value, f"{thing} in {graph.stem}")
     write_whole(target, picture.encode("utf-8"))

@@ -13,7 +13,6 @@ _ROW = 21.0
 _INDENT = 20.0
 _PAD = 14.0
 _GAP = 16.0
-_WORDS = {"in": "in", "on": "", "part": "part", "joint": "joint"}
 _GROUND_SHARE = 0.3
 """Share of all things below one of them that makes it the ground of the room."""
 
@@ -35,7 +34,7 @@ def draw_room(store: GraphStore, title: str) -> str:
     ground = max(roots, key=_count, default=None)
     if ground is not None and _count(ground) < _GROUND_SHARE * len(things):
         ground = None
-    cards = [_card(lines) for lines in _groups(roots, ground)]
+    cards = sorted((_card(lines) for lines in _groups(roots, ground)), key=lambda card: -card.height)
     width = max([card.width for card in cards], default=200.0)
     columns = _columns(cards, width)
     total = len(columns) * (width + _GAP) + _GAP
@@ -53,7 +52,7 @@ def draw_room(store: GraphStore, title: str) -> str:
             _GAP + 28,
             top + 20,
             shorten(ground.label),
-            f"{ground.class_label}; carries the cards marked “on”",
+            f"{ground.class_label}; carries the cards whose heads are marked “on”",
             bold=True,
         )
         top += 30 + _GAP
@@ -77,7 +76,10 @@ def _groups(roots: Iterable[Thing], ground: Thing | None) -> Iterator[tuple[Line
     free = [thing for thing in roots if thing is not ground]
     trees = [line for line in (*collapse(standing), *collapse(free)) if line.children]
     yield from ((line,) for line in sorted(trees, key=lambda line: (-_rows((line,)), line.text)))
-    for head, group in ((f"also on {ground.label}" if ground else "", standing), ("on nothing that is known", free)):
+    for head, group in (
+        (f"also on {ground.label}" if ground else "", standing),
+        ("on nothing and in nothing that is known", free),
+    ):
         lines = tuple(line for line in collapse(group) if not line.children)
         if lines:
             yield (Line(head, "", "", "", "", lines),)
@@ -93,12 +95,14 @@ def _card(lines: tuple[Line, ...]) -> _Card:
 
 def _widths(lines: Iterable[Line], depth: int) -> Iterator[float]:
     for line in lines:
-        yield depth * _INDENT + 16 + text_width(shorten(line.text), 13.5) + 9 + text_width(shorten(_detail(line)), 11.5)
+        yield depth * _INDENT + 16 + text_width(shorten(line.text), 13.5) + 9 + text_width(_detail(line, depth), 11.5)
         yield from _widths(line.children, depth + 1)
 
 
-def _detail(line: Line) -> str:
-    return " · ".join(part for part in (_WORDS.get(line.tie, ""), line.detail) if part)
+def _detail(line: Line, depth: int) -> str:
+    # Within a card the indent says "on"; its head hangs on what is not in the card.
+    tie = line.tie if depth == 0 or line.tie != "on" else ""
+    return shorten(" · ".join(part for part in (tie, line.detail) if part))
 
 
 def _columns(cards: list[_Card], width: float) -> list[list[_Card]]:
@@ -128,7 +132,7 @@ def _draw_lines(
             at + 15 if line.family else at,
             y + 4.5,
             shorten(line.text),
-            shorten(_detail(line)),
+            _detail(line, depth),
             bold=depth == 0,
             title=line.names,
         )

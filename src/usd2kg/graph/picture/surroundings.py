@@ -1,6 +1,6 @@
-"""One object in the middle: what carries it below, what is on it above, what is in or of it left, what is near right."""
+"""One object in the middle: what carries it below, what is on it above, what is in it left, what is near right."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from usd2kg.graph.picture.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
@@ -58,14 +58,14 @@ def _chain(thing: Thing, things: dict[str, Thing]) -> list[Thing]:
 
 
 def _panel(head: str, things: Sequence[Thing]) -> _Panel:
-    lines = [line for line in collapse(things)]
-    more = _leaves(lines[_MOST:])
-    rest = (Line(f"… {more} more", "", "", "", ""),) if more else ()
-    return _Panel(f"{head}: {len(things)}" if things else head, (*lines[:_MOST], *rest))
+    lines = collapse(things)
+    return _Panel(f"{head}: {len(things)}" if things else head, _cut(lines))
 
 
-def _leaves(lines: Iterable[Line]) -> int:
-    return sum(1 for _ in lines)
+def _cut(lines: Sequence[Line]) -> tuple[Line, ...]:
+    """Return the first lines, and one that counts the others."""
+    more = len(lines) - _MOST
+    return (*lines[:_MOST], Line(f"… {more} more lines", "", "", "", "")) if more > 0 else tuple(lines)
 
 
 def _plain(thing: Thing, tie: str) -> Line:
@@ -77,7 +77,7 @@ def _near(store: GraphStore, thing: Thing, things: dict[str, Thing], left_out: s
     """Return the nearest things that are neither on, in nor under it, each with its distance."""
     answer = store.answer("close-to", {"thing": thing.path, "distance": _NEAR})
     by_path = {t.path: t for t in things.values()}
-    lines = []
+    lines: list[Line] = []
     for row in answer.values:
         values = dict(zip(answer.columns, row, strict=True))
         other = by_path[str(values["path"])]
@@ -91,8 +91,7 @@ def _near(store: GraphStore, thing: Thing, things: dict[str, Thing], left_out: s
                     other.path,
                 )
             )
-    more = len(lines) - _MOST
-    return (*lines[:_MOST], *((Line(f"… {more} more", "", "", "", ""),) if more > 0 else ()))
+    return _cut(lines)
 
 
 def _compose(

@@ -81,13 +81,13 @@ class Canvas:
         weight = ' font-weight="600"' if bold else ""
         anchor = ' text-anchor="middle"' if middle else ""
         tip = f"<title>{escape(shorten(title, 400))}</title>" if title else ""
-        after = (
-            f'<tspan dx="7" font-size="{size - 2:g}" font-weight="400" fill="{PALE_INK}">{escape(detail)}</tspan>'
-            if detail
-            else ""
-        )
+        after = ""
+        if detail:
+            style = f'dx="7" font-size="{size - 2:g}" font-weight="400" fill="{PALE_INK}"'
+            after = f"<tspan {style}>{escape(detail)}</tspan>"
         self._parts.append(
-            f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size:g}" fill="{fill}"{weight}{anchor}>{tip}{escape(text)}{after}</text>'
+            f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size:g}" fill="{fill}"{weight}{anchor}>'
+            f"{tip}{escape(text)}{after}</text>"
         )
 
     def legend(self, x: float, y: float, colors: Sequence[tuple[str, str]], width: float) -> float:

@@ -25,7 +25,11 @@ SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WH
   }
 } ORDER BY ?path ?on ?in ?whole ?jointed"""
 
-_ABOVE = "SELECT DISTINCT ?c ?label ?parent WHERE { ?c a owl:Class ; rdfs:label ?label . OPTIONAL { ?c rdfs:subClassOf ?parent } }"
+_ABOVE = """
+SELECT DISTINCT ?c ?label ?parent WHERE {
+  ?c a owl:Class ; rdfs:label ?label .
+  OPTIONAL { ?c rdfs:subClassOf ?parent }
+}"""
 
 _FAMILIES = 8
 """Colours that a person still tells apart."""
