@@ -35,19 +35,22 @@ _EXAMPLES = {
 _INTRODUCTION = f"""\
 # Questions
 
-Written by `tools/write_questions_docs.py`, with the answers that the graph of the demo kitchen gives, cut after {_ROWS} rows.
+Written by `tools/write_questions_docs.py`, with the answers that the graph of the demo kitchen gives, cut after {_ROWS}
+rows.
 
 ```console
 $ usd2kg query --list
 $ usd2kg query kitchen.ttl --question support-chain --with thing=apple_1
 ```
 
-A thing is named by label, class or prim path; where the name means several, all are asked for, and a last column says which
-one a row is about. Numbers may have units (`50 cm`, `300 g`, `80 %`). `--json` gives the rows as JSON. In Python:
-`load_graph("kitchen.ttl").answer("support-chain", {{"thing": "apple_1"}})`. All work in the `soma` and the `plain` profile.
+A thing is named by label, class or prim path; where the name means several, all are asked for, and a last column says
+which one a row is about. Numbers may have units (`50 cm`, `300 g`, `80 %`). `--json` gives the rows as JSON. In Python:
+`load_graph("kitchen.ttl").answer("support-chain", {{"thing": "apple_1"}})`. All work in the `soma` and the `plain`
+profile.
 
-Each question is a file of SPARQL in `src/usd2kg/graph/questions`. Lengths are metres, masses kilograms, angles radians; things
-are measured by their boxes along the world's axes, so that what is turned or hollow is taken for larger than it is.
+Each question is a file of SPARQL in `src/usd2kg/graph/questions`. Lengths are metres, masses kilograms, angles radians;
+things are measured by their boxes along the world's axes, so that what is turned or hollow is taken for larger than it
+is.
 """
 _FUNCTIONS_HEAD = """\
 ## Functions

@@ -38,6 +38,11 @@ HINGE = Joint(
     body1="/Room/Door",
     lower=-1.5708,
     upper=0.0,
+    axis="Z",
+    direction=None,
+    value=None,
+    is_enabled=True,
+    is_excluded_from_articulation=False,
     axis_vector=(0.0, 0.0, 1.0),
     origin=(3.0, 2.99, 0.0),
 )
@@ -91,7 +96,7 @@ class TestRoom:
         assert below == [("Table", 1.0), ("Floor", 1.7)]
 
     def test_heavy_and_near(self, room: GraphStore):
-        # From the mug's side at y = 0.5 to the crate's at 2.6, x from 1.1 to 3.2, both on the way: 2.1 each, and 0.5 up.
+        # From the table's corner at (1.6, 0.8) to the crate's at (3.2, 2.6): 1.6 and 1.8.
         assert objects(room.answer("heavy-near", {"thing": "mug"})) == ["Table"]
         assert objects(room.answer("heavy-near", {"thing": "mug", "mass": "40"})) == []
         (row,) = named(room.answer("heavy-near", {"thing": "crate", "mass": "39999 g", "distance": "3"}), "gap_m")
