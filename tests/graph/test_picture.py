@@ -20,7 +20,7 @@ ROOM = [
     *((thing(f"/Room/Plate_{i}", (0.3 * i, 0.1, 0.7), (0.2, 0.2, 0.02)), "DinnerPlate") for i in range(4)),
     (thing("/Room/Bowl", (0.1, 0.4, 0.7), (0.3, 0.3, 0.1)), "Bowl"),
     (thing("/Room/Apple", (0.2, 0.5, 0.72), (0.08, 0.08, 0.08)), "DesignedArtifact"),
-    (thing("/Room/Stool", (1.8, 0, 0), (0.3, 0.3, 0.5)), "Chair"),
+    (thing("/Room/Stool", (1.8, 0, 0), (0.3, 0.3, 0.5)), "DesignedChair"),
 ]
 
 
@@ -86,22 +86,7 @@ def test_no_text_meets_another(store: GraphStore):
 
 def test_three_hundred_objects_with_long_names_stay_apart(home_tbox: TBox):
     tables = [(thing(f"/R/Table_{i}", (3 * i, 0, 0), (2, 2, 0.7)), "Table") for i in range(20)]
-    names = (
-        "Cup",
-        "Bowl",
-        "Fork",
-        "Box",
-        "Chair",
-        "Spoon",
-        "Knife",
-        "Bottle",
-        "Jar",
-        "Pan",
-        "Pot",
-        "Lid",
-        "Tap",
-        "Bread",
-    )
+    names = "Cup Bowl Fork Box DesignedChair Spoon Knife Bottle Jar Pan Pot Lid Tap Bread".split()
     cups = [
         (thing(f"/R/on_{i}_{j}", (3 * i + 0.13 * j, 0.5, 0.7), (0.1, 0.1, 0.1), display_name=f"W{j} " + "W" * 40), name)
         for i in range(20)

@@ -13,6 +13,7 @@ _ROW = 21.0
 _INDENT = 20.0
 _PAD = 14.0
 _GAP = 16.0
+_CARRIES = "; carries the cards whose heads are marked “on”"
 _GROUND_SHARE = 0.3
 """Share of all things below one of them that makes it the ground of the room."""
 
@@ -37,7 +38,11 @@ def draw_room(store: GraphStore, title: str) -> str:
     cards = sorted((_card(lines) for lines in _groups(roots, ground)), key=lambda card: -card.height)
     width = max([card.width for card in cards], default=200.0)
     columns = _columns(cards, width)
-    total = len(columns) * (width + _GAP) + _GAP
+    heads = [(shorten(title, 90) + f"  {len(things)} objects", 18.0)]
+    if ground is not None:
+        heads.append((shorten(ground.label) + ground.class_label + _CARRIES, 13.0))
+    widest = max(text_width(text, size) for text, size in heads) + 80
+    total = max(len(columns) * (width + _GAP) + _GAP, widest)
     canvas = Canvas()
     colors = colors_of(thing.family for thing in things.values())
     used = sorted({thing.family for thing in things.values()}, key=lambda name: (name == "other", name))
@@ -52,7 +57,7 @@ def draw_room(store: GraphStore, title: str) -> str:
             _GAP + 28,
             top + 20,
             shorten(ground.label),
-            f"{ground.class_label}; carries the cards whose heads are marked “on”",
+            f"{ground.class_label}{_CARRIES}",
             bold=True,
         )
         top += 30 + _GAP
