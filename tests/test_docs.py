@@ -17,6 +17,10 @@ def test_the_table_of_our_own_terms_is_what_the_ontology_says() -> None:
     subprocess.run([sys.executable, "tools/write_vocabulary_docs.py", "--check"], check=True, cwd=ROOT)
 
 
+def test_the_answers_in_the_page_of_questions_are_those_of_the_demo_kitchen() -> None:
+    subprocess.run([sys.executable, "tools/write_questions_docs.py", "--check"], check=True, cwd=ROOT)
+
+
 @pytest.mark.parametrize("command", ["make demo", "make test"])
 def test_the_readme_shows_how_to_start(command: str) -> None:
     assert command in (ROOT / "README.md").read_text("utf-8")

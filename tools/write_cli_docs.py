@@ -18,6 +18,8 @@ COMMANDS = (
     ("ground",),
     ("query",),
     ("validate",),
+    ("graph",),
+    ("graph", "draw"),
     ("render",),
     ("ontology",),
     ("ontology", "show"),

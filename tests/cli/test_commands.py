@@ -311,7 +311,10 @@ class TestQuery:
     def test_either_a_question_or_a_query(self, run: Run, graph: Path, arguments: list[str]):
         done = run("query", graph, *arguments)
         assert (done.code, done.out) == (2, "")
-        assert done.err == "usd2kg: query: expected either a question, like 'on table', or --sparql with a query\n"
+        assert done.err == (
+            "usd2kg: query: expected a graph and either a question, like 'on table', --question with an ID of --list, "
+            "or --sparql with a query\n"
+        )
 
 
 class TestOntology:

@@ -16,8 +16,10 @@ __all__ = ["answer_text", "query_command"]
 
 
 def query_command(
-    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")],
-    question: Annotated[
+    graph: Annotated[
+        Path | None, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote; not needed for --list.")
+    ] = None,
+    words: Annotated[
         list[str] | None,
         typer.Argument(
             metavar="[QUESTION]...",
@@ -27,19 +29,79 @@ def query_command(
     sparql: Annotated[
         str | None, typer.Option("--sparql", help="A SPARQL query, or @FILE to read one; usual prefixes are known.")
     ] = None,
+    question: Annotated[
+        str | None, typer.Option("--question", "-q", metavar="ID", help="One of the questions of --list.")
+    ] = None,
+    given: Annotated[
+        list[str] | None,
+        typer.Option("--with", metavar="NAME=VALUE", help="Value for a parameter of --question; repeatable."),
+    ] = None,
+    is_list: Annotated[
+        bool, typer.Option("--list", help="List the questions with their parameters, and stop.")
+    ] = False,
     json: JsonOutput = False,
 ) -> None:
-    """Ask a graph a ready question or a SPARQL query."""
+    """Ask a graph: a ready question in words, one of the listed questions, or a SPARQL query."""
     from usd2kg.graph import load_graph  # noqa: PLC0415
 
-    if (sparql is None) == (not question):
-        raise GraphError("query: expected either a question, like 'on table', or --sparql with a query")
+    if is_list:
+        _print_questions(json)
+        return
+    if graph is None or (sparql is not None) + (question is not None) + bool(words) != 1:
+        raise GraphError(
+            "query: expected a graph and either a question, like 'on table', --question with an ID of --list, "
+            "or --sparql with a query"
+        )
+    if given and question is None:
+        raise GraphError("query: --with gives a value to a parameter of --question; expected --question ID beside it")
     store = load_graph(graph)
-    answer = store.sparql(_query_text(sparql)) if sparql is not None else store.ask(question or [])
+    if sparql is not None:
+        answer = store.sparql(_query_text(sparql))
+    elif question is not None:
+        answer = store.answer(question, dict(map(_parse_given, given or [])))
+    else:
+        answer = store.ask(words or [])
     if json:
         print_json([dict(zip(answer.columns, row, strict=True)) for row in answer.values])
     else:
         emit(answer_text(answer), None)
+
+
+def _print_questions(as_json: bool) -> None:
+    from usd2kg.graph import list_questions  # noqa: PLC0415
+
+    questions = list_questions()
+    if as_json:
+        print_json(
+            [
+                {
+                    "id": question.id,
+                    "question": question.text,
+                    "parameters": [{"name": p.name, "kind": p.kind, "default": p.default} for p in question.parameters],
+                    "note": question.note,
+                }
+                for question in questions
+            ]
+        )
+        return
+    rows = [
+        (question.id, " ".join(_parameter_text(p.name, p.kind, p.default) for p in question.parameters), question.text)
+        for question in questions
+    ]
+    emit(format_table(("id", "parameters", "question"), rows), None)
+
+
+def _parameter_text(name: str, kind: str, default: str | None) -> str:
+    """Return a parameter as a person would give it: its default, or its kind where it must be given."""
+    unit = f" {kind}" if kind in {"m", "kg"} else ""
+    return f"{name}={kind.upper()}" if default is None else f"[{name}={default}{unit}]"
+
+
+def _parse_given(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals or not value.strip():
+        raise GraphError(f"--with {text}: expected NAME=VALUE, like --with thing=table")
+    return name.strip(), value.strip()
 
 
 def _query_text(sparql: str) -> str:

@@ -1,8 +1,9 @@
 """Asking a graph: SPARQL, and ready questions in plain words."""
 
+import itertools
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,9 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.graph.bodies import parse_vector
+from usd2kg.graph.functions import FUNCTION_NAMESPACE, make_functions
+from usd2kg.graph.questions import Parameter, find_question, parse_number
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import expand_curie
 from usd2kg.words import split_identifier
@@ -27,6 +31,7 @@ _INPUT_FORMATS = {
 }
 _QUOTED = re.compile(r"<[^<>\s]*>|\"(?:\\\\.|[^\"\\\\])*\"|'(?:\\\\.|[^'\\\\])*'|#[^\n]*")
 """IRIs, strings and comments: where a keyword is none."""
+_PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
 _ROOM = "soma:isInsideOf|u2k:inRoom"
@@ -95,6 +100,8 @@ SELECT DISTINCT ?o ?p WHERE {{
 }} ORDER BY ?p"""
 
 
+_Term = ox.NamedNode | ox.Literal
+"""What a parameter of a question is bound to."""
 Value = str | float | int | bool | None
 
 
@@ -117,6 +124,7 @@ class GraphStore:
     def __init__(self, store: ox.Store, source: str) -> None:
         self._store = store
         self._source = source
+        self._functions = make_functions(store)
 
     def __len__(self) -> int:
         return len(self._store)
@@ -132,15 +140,57 @@ class GraphStore:
         return self._source
 
     def sparql(self, query: str) -> Answer:
-        """Return the answer to a SPARQL 1.1 query; our usual prefixes need no declaration.
+        """Return the answer to a SPARQL 1.1 query; our usual prefixes need no declaration, our functions are known.
 
         Raises:
             GraphError: the query does not parse, or updates.
         """
+        return self._run(query, {})
+
+    def answer(self, question_id: str, given: Mapping[str, str] | None = None) -> Answer:
+        """Return the answer to one of `list_questions`, with values for its parameters.
+
+        Where a name means several objects, it is asked for each, and a last column says for which a row is.
+
+        Raises:
+            GraphError: the question, a parameter or what it names is unknown, or a number is none.
+        """
+        question = find_question(question_id)
+        filled = question.fill(given or {})
+        choices = [self._terms(parameter, value) for parameter, value in filled.items()]
+        told = [p for p, terms in zip(filled, choices, strict=True) if p.kind == "object" and len(terms) > 1]
+        labels = {node.value: label for node, _, label in self._labels()} if told else {}
+        answers = []
+        for terms in itertools.product(*choices):
+            bound = dict(zip(filled, terms, strict=True))
+            found = self._run(question.sparql, {ox.Variable(p.variable): term for p, term in bound.items()})
+            found = _without(found, {parameter.variable for parameter in filled})
+            answers.append(_with(found, {p.name: labels[str(bound[p].value)] for p in told}))
+        return _join(answers)
+
+    def _terms(self, parameter: Parameter, value: str) -> Sequence[_Term]:
+        """Return the terms that a value may mean."""
+        if parameter.kind == "object":
+            return self.find(value)
+        if parameter.kind == "class":
+            return self._known_classes(value)
+        if parameter.kind == "position":
+            if parse_vector(value) is None:
+                raise GraphError(f"{parameter.name} {value!r} is no position; expected x y z in metres, like '1 0.5 2'")
+            return [ox.Literal(value)]
+        return [ox.Literal(parse_number(value, parameter.kind))]
+
+    def _run(self, query: str, bindings: Mapping[ox.Variable, _Term]) -> Answer:
         if re.search(r"\bSERVICE\b", _QUOTED.sub(" ", query), flags=re.IGNORECASE):
             raise GraphError("query: SERVICE asks another server, and no query leaves this machine; take that part out")
         try:
-            found = self._store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
+            found = self._store.query(
+                query,
+                prefixes=_PREFIXES,
+                use_default_graph_as_union=True,
+                substitutions=dict(bindings),
+                custom_functions=self._functions,
+            )
         except SyntaxError as error:
             reason = " ".join(str(error).split())
             raise GraphError(
@@ -184,12 +234,7 @@ class GraphStore:
 
     def all_of(self, name: str) -> Answer:
         """Return all things of a class, subclasses included; the class is named by label, local name or IRI."""
-        classes = self._find_classes(name)
-        if not classes:
-            raise GraphError(
-                f"{self._source}: no class is called {name!r}; the graph holds {', '.join(self._class_labels())}"
-            )
-        return self._named(_ALL.format(classes=_values(classes)), {})
+        return self._named(_ALL.format(classes=_values(self._known_classes(name))), {})
 
     def ask(self, words: Sequence[str]) -> Answer:
         """Return the answer to a ready question, like `on X`, `in X`, `near X`, `parts of X` or `all of CLASS`.
@@ -250,6 +295,14 @@ class GraphStore:
         assert isinstance(rows, ox.QuerySolutions)
         return list(rows)
 
+    def _known_classes(self, name: str) -> list[ox.NamedNode]:
+        classes = self._find_classes(name)
+        if not classes:
+            raise GraphError(
+                f"{self._source}: no class is called {name!r}; the graph holds {', '.join(self._class_labels())}"
+            )
+        return classes
+
     def _find_classes(self, name: str) -> list[ox.NamedNode]:
         rows = self._select("SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }")
         wanted = _words(name)
@@ -299,6 +352,33 @@ def _singular(word: str) -> str:
 def _values(nodes: Iterable[ox.NamedNode]) -> str:
     # Terms come from the store and print themselves escaped: no text of a user or a stage enters a query.
     return " ".join(str(node) for node in nodes)
+
+
+def _without(answer: Answer, left_out: set[str]) -> Answer:
+    kept = [index for index, column in enumerate(answer.columns) if column not in left_out]
+    return replace(
+        answer,
+        columns=tuple(answer.columns[i] for i in kept),
+        rows=tuple(tuple(row[i] for i in kept) for row in answer.rows),
+        values=tuple(tuple(row[i] for i in kept) for row in answer.values),
+    )
+
+
+def _with(answer: Answer, added: Mapping[str, str]) -> Answer:
+    """Return an answer with more columns that are alike in all rows."""
+    more = tuple(added.values())
+    return replace(
+        answer,
+        columns=(*answer.columns, *added),
+        rows=tuple((*row, *more) for row in answer.rows),
+        values=tuple((*row, *more) for row in answer.values),
+    )
+
+
+def _join(answers: Sequence[Answer]) -> Answer:
+    """Return the rows of several answers to one question, each once."""
+    rows = {row: value for answer in answers for row, value in zip(answer.rows, answer.values, strict=True)}
+    return replace(answers[0], rows=tuple(rows), values=tuple(rows.values()))
 
 
 def _answer(columns: tuple[str, ...], rows: Sequence[tuple[Any, ...]], query: str) -> Answer:

@@ -1,0 +1,148 @@
+"""Pictures of graphs: what they show, that no text meets another, and that names on a stage stay text."""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from typer.testing import CliRunner
+
+from tests.graph.records import build_graph, open_store, thing
+from usd2kg.cli.app import app
+from usd2kg.graph import GraphStore, load_graph, write_graph
+from usd2kg.graph.picture import draw_room, draw_surroundings
+from usd2kg.graph.picture.svg import shorten, text_width
+from usd2kg.ontology import TBox
+
+SVG = "{http://www.w3.org/2000/svg}"
+ROOM = [
+    (thing("/Room/Floor", (-5, -5, -0.1), (10, 10, 0.1)), "Floor"),
+    (thing("/Room/Table", (0, 0, 0), (1.6, 0.8, 0.7)), "Table"),
+    *((thing(f"/Room/Plate_{i}", (0.3 * i, 0.1, 0.7), (0.2, 0.2, 0.02)), "DinnerPlate") for i in range(4)),
+    (thing("/Room/Bowl", (0.1, 0.4, 0.7), (0.3, 0.3, 0.1)), "Bowl"),
+    (thing("/Room/Apple", (0.2, 0.5, 0.72), (0.08, 0.08, 0.08)), "DesignedArtifact"),
+    (thing("/Room/Stool", (1.8, 0, 0), (0.3, 0.3, 0.5)), "DesignedChair"),
+]
+
+
+@pytest.fixture(scope="module")
+def store(home_tbox: TBox) -> GraphStore:
+    return open_store(build_graph(home_tbox, ROOM))
+
+
+def texts(svg: str) -> list[tuple[float, float, float, str]]:
+    """Return left end, baseline, right end and content of each text, by the widths that the layout uses."""
+    found = []
+    for element in ElementTree.fromstring(svg).iter(f"{SVG}text"):
+        size = float(element.attrib["font-size"])
+        own = "".join(child.tail or "" for child in element if child.tag == f"{SVG}title") + (element.text or "")
+        spans = [child for child in element if child.tag == f"{SVG}tspan"]
+        width = text_width(own, size) + sum(7 + text_width(s.text or "", float(s.attrib["font-size"])) for s in spans)
+        x, y = float(element.attrib["x"]), float(element.attrib["y"])
+        left = x - width / 2 if "text-anchor" in element.attrib else x
+        content = " | ".join([own, *(span.text or "" for span in spans)])
+        found.append((left, y, left + width, content))
+    return found
+
+
+def assert_apart(svg: str) -> None:
+    width = float(ElementTree.fromstring(svg).attrib["width"])
+    placed = texts(svg)
+    for i, (left, y, right, content) in enumerate(placed):
+        assert left >= 0 and right <= width + 1, content
+        for other_left, other_y, other_right, other in placed[i + 1 :]:
+            assert abs(y - other_y) >= 13 or right <= other_left or other_right <= left, (content, other)
+
+
+def contents(svg: str) -> list[str]:
+    return [content for *_, content in texts(svg)]
+
+
+def test_a_room_is_a_tree_with_alike_things_on_one_line(store: GraphStore):
+    shown = contents(draw_room(store, "room"))
+    assert shown[0] == "room | 9 objects"
+    assert "Table | on · table 0.75" in shown
+    assert "4 × dinner plate" in shown
+    assert shown.index("Bowl | bowl 0.75") + 1 == shown.index("Apple | in · artifact 0.75")
+    assert "Stool | chair 0.75" in shown
+    assert not any(text.startswith("Plate_") for text in shown)
+
+
+def test_an_object_with_its_surroundings(store: GraphStore):
+    (table,) = store.find("table")
+    shown = contents(draw_surroundings(store, table.value, "Table"))
+    assert "table, confidence 0.75" in shown
+    assert "160 × 80 × 70 cm" in shown
+    assert {"on it: 5", "4 × dinner plate", "Bowl | bowl 0.75", "Floor | floor 0.75"} <= set(shown)
+    # From 1.6 to 1.8 m along x.
+    assert "Stool | chair, 20 cm" in shown
+
+
+def test_no_text_meets_another(store: GraphStore):
+    assert_apart(draw_room(store, "room"))
+    for name in ("table", "bowl", "apple", "floor"):
+        (node,) = store.find(name)
+        assert_apart(draw_surroundings(store, node.value, name))
+
+
+def test_three_hundred_objects_with_long_names_stay_apart(home_tbox: TBox):
+    tables = [(thing(f"/R/Table_{i}", (3 * i, 0, 0), (2, 2, 0.7)), "Table") for i in range(20)]
+    names = "Cup Bowl Fork Box DesignedChair Spoon Knife Bottle Jar Pan Pot Lid Tap Bread".split()
+    cups = [
+        (thing(f"/R/on_{i}_{j}", (3 * i + 0.13 * j, 0.5, 0.7), (0.1, 0.1, 0.1), display_name=f"W{j} " + "W" * 40), name)
+        for i in range(20)
+        for j, name in enumerate(names)
+    ]
+    svg = draw_room(open_store(build_graph(home_tbox, [*tables, *cups])), "many")
+    assert len(contents(svg)) > 300
+    assert_apart(svg)
+
+
+def test_names_are_text_and_never_markup(home_tbox: TBox):
+    name = '</text><script>alert("1")</script>&<![CDATA['
+    room = [(thing("/R/Table", (0, 0, 0), (1, 1, 0.7), display_name=name), "Table")]
+    store = open_store(build_graph(home_tbox, room))
+    for svg in (draw_room(store, name), draw_surroundings(store, store.find(name)[0].value, name)):
+        tags = {element.tag.removeprefix(SVG) for element in ElementTree.fromstring(svg).iter()}
+        assert tags <= {"svg", "title", "rect", "path", "circle", "text", "tspan"}
+    assert shorten("a\x00b\u202ec\n") == "a\ufffdb\ufffdc\ufffd"
+
+
+def test_ties_that_run_in_a_circle_end(tmp_path: Path):
+    graph = tmp_path / "circle.ttl"
+    graph.write_text(
+        "@prefix u2k: <https://w3id.org/usd2kg#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+        '<urn:a> u2k:primPath "/a" ; rdfs:label "a" ; u2k:on <urn:b> .\n'
+        '<urn:b> u2k:primPath "/b" ; rdfs:label "b" ; u2k:on <urn:a> .\n',
+        encoding="utf-8",
+    )
+    store = load_graph(graph)
+    shown = contents(draw_room(store, "circle"))
+    assert sum(text.startswith(("a |", "b |")) or text == "2 × no class" for text in shown) in {1, 2}
+    assert "a" in contents(draw_surroundings(store, "urn:a", "around"))
+
+
+class TestCommand:
+    @pytest.fixture
+    def graph(self, home_tbox: TBox, tmp_path: Path) -> Path:
+        path = tmp_path / "room.ttl"
+        write_graph(build_graph(home_tbox, ROOM), path)
+        return path
+
+    def test_it_writes_a_picture(self, graph: Path, tmp_path: Path):
+        target = tmp_path / "table.svg"
+        result = CliRunner().invoke(app, ["graph", "draw", str(graph), "table", "-o", str(target)])
+        assert result.exit_code == 0
+        assert "160 × 80 × 70 cm" in contents(target.read_text("utf-8"))
+
+    @pytest.mark.parametrize(
+        ("arguments", "message"),
+        [
+            (["table", "-o", "x.png"], "pictures of graphs are SVG files, expected a name ending in .svg"),
+            (["dinner plate", "-o", "x.svg"], "means 4 objects; expected one, by its prim path"),
+            (["unicorn", "-o", "x.svg"], "nothing is called 'unicorn'"),
+        ],
+    )
+    def test_what_cannot_be_drawn_is_an_error(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):
+        arguments[-1] = str(tmp_path / arguments[-1])
+        result = CliRunner().invoke(app, ["graph", "draw", str(graph), *arguments])
+        assert message in str(result.exception)
