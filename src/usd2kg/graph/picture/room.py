@@ -83,7 +83,7 @@ def _groups(roots: Iterable[Thing], ground: Thing | None) -> Iterator[tuple[Line
     yield from ((line,) for line in sorted(trees, key=lambda line: (-_rows((line,)), line.text)))
     for head, group in (
         (f"also on {ground.label}" if ground else "", standing),
-        ("on nothing and in nothing that is known", free),
+        ("on and in nothing that is known", free),
     ):
         lines = tuple(line for line in collapse(group) if not line.children)
         if lines:

@@ -135,13 +135,7 @@ def _compose(
     if near.lines:
         canvas.path([(spine + own_width / 2, center), (x + middle + _GAP, center)], dashed=True)
         _draw(canvas, near, x + middle + _GAP, center - near.height / 2, colors)
-    canvas.rectangle(
-        spine - own_width / 2, center - own_height / 2, own_width, own_height, PAPER, colors[thing.family], 12
-    )
-    canvas.rectangle(spine - own_width / 2, center - own_height / 2, 8, own_height, colors[thing.family], radius=4)
-    canvas.text(spine, center - 12, words[0], size=17, bold=True, title=thing.path, middle=True)
-    canvas.text(spine, center + 9, words[1], size=12.5, fill=PALE_INK, middle=True)
-    canvas.text(spine, center + 27, words[2], size=12.5, fill=PALE_INK, middle=True)
+    _draw_own(canvas, thing, words, (spine, center), (own_width, own_height), colors[thing.family])
     bottom = center + max(own_height / 2 + under_height, left_height / 2, near.height / 2 if near.lines else 0) + 16
     used = {line.family for panel in (above, under, near, *left) for line in panel.lines if line.family} | {
         thing.family
@@ -149,6 +143,22 @@ def _compose(
     names = sorted(used, key=lambda name: (name == "other", name))
     bottom += canvas.legend(_MARGIN, bottom, [(name, colors[name]) for name in names], width - 2 * _MARGIN)
     return canvas.document(width, bottom + 12, title)
+
+
+def _draw_own(
+    canvas: Canvas,
+    thing: Thing,
+    words: tuple[str, str, str],
+    middle: tuple[float, float],
+    size: tuple[float, float],
+    color: str,
+) -> None:
+    (x, y), (width, height) = middle, size
+    canvas.rectangle(x - width / 2, y - height / 2, width, height, PAPER, color, 12)
+    canvas.rectangle(x - width / 2, y - height / 2, 8, height, color, radius=4)
+    canvas.text(x, y - 12, words[0], size=17, bold=True, title=thing.path, middle=True)
+    canvas.text(x, y + 9, words[1], size=12.5, fill=PALE_INK, middle=True)
+    canvas.text(x, y + 27, words[2], size=12.5, fill=PALE_INK, middle=True)
 
 
 def _draw(canvas: Canvas, panel: _Panel, x: float, y: float, colors: dict[str, str]) -> None:
