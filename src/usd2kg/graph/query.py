@@ -34,7 +34,6 @@ _QUOTED = re.compile(r"<[^<>\s]*>|\"(?:\\\\.|[^\"\\\\])*\"|'(?:\\\\.|[^'\\\\])*'
 _PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
-_ROOM = "soma:isInsideOf|u2k:inRoom"
 _NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
@@ -77,12 +76,9 @@ SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{
   OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
   OPTIONAL {{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}
   OPTIONAL {{ ?o {on} ?a . ?a rdfs:label ?on . }}
-  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . FILTER NOT EXISTS {{ {in_b} }} }}
-  OPTIONAL {{ ?o {room} ?r . ?r rdfs:label ?room . FILTER EXISTS {{ {in_r} }} }}
+  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . }}
+  OPTIONAL {{ ?o u2k:inRoom ?r . ?r rdfs:label ?room . }}
 }} ORDER BY ?path"""
-
-# In the soma profile one property tells of containers and rooms alike.
-_BY_ROOM = '?x owl:annotatedSource ?o ; owl:annotatedTarget {} ; u2k:rule ?rule . FILTER(STRSTARTS(?rule, "room/"))'
 
 _ALL = """
 SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
@@ -215,8 +211,7 @@ class GraphStore:
     def where_is(self, thing: str) -> Answer:
         """Return where a thing is: the centre of its box in metres, what it is on and inside of, and its room."""
         things = _values(self.find(thing))
-        in_b, in_r = _BY_ROOM.format("?b"), _BY_ROOM.format("?r")
-        query = _WHERE.format(things=things, on=_ON, inside=_INSIDE, room=_ROOM, in_b=in_b, in_r=in_r)
+        query = _WHERE.format(things=things, on=_ON, inside=_INSIDE)
         return self._named(query, {"center": "center_m"})
 
     def near(self, thing: str) -> Answer:

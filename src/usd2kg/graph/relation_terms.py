@@ -24,7 +24,7 @@ _SOMA: Mapping[str, tuple[ox.NamedNode, ...]] = {
     "touching": (DUL.hasCommonBoundary,),
     "next-to": (KNOWROB.isNextTo,),
     "near": (DUL.nearTo,),
-    "room": (SOMA.isInsideOf,),
+    "room": (U2K.inRoom,),
     "left": (KNOWROB.isLeftOf,),
     "right": (KNOWROB.isRightOf,),
     "front": (KNOWROB.isInFrontOf,),

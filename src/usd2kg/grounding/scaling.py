@@ -7,7 +7,7 @@ from pathlib import Path
 
 from usd2kg.errors import GroundingError
 
-__all__ = ["PlattScaling", "read_scaling"]
+__all__ = ["PlattScaling", "logit", "read_scaling"]
 
 _LEAST = 1e-4
 """Confidences nearer to 0 or 1 than this count as this near: certainty has no logarithm of odds."""
