@@ -1,6 +1,5 @@
 """Our shapes find what is broken, each in its place, and a SHACL processor finds the same."""
 
-import importlib.util
 import warnings
 
 import pytest
@@ -12,7 +11,6 @@ from usd2kg.graph.validation.shapes import compile_shapes, find_violations, shap
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
 
-WITH_PYSHACL = pytest.mark.skipif(importlib.util.find_spec("pyshacl") is None, reason="needs pyshacl")
 CASES = pytest.mark.parametrize("case", SHAPES, ids=[f"{i}-{c.profile}-{c.rule}" for i, c in enumerate(SHAPES)])
 PROFILES = pytest.mark.parametrize("profile", ["soma", "plain"])
 
@@ -48,13 +46,11 @@ def test_a_joint_is_named_by_its_prim(home_tbox: TBox):
     assert (finding.label, finding.prim_path, finding.found) == ("hinge", "/Cupboard/hinge", "2")
 
 
-@WITH_PYSHACL
 @CASES
 def test_a_shacl_processor_finds_the_same_in_a_broken_graph(home_tbox: TBox, case: Break):
     compare_with_pyshacl(open_room(home_tbox, case.profile, case.update), case.profile)
 
 
-@WITH_PYSHACL
 @PROFILES
 def test_a_shacl_processor_finds_nothing_where_all_is_well(home_tbox: TBox, profile: str):
     assert compare_with_pyshacl(open_room(home_tbox, profile), profile) == set()
