@@ -1,15 +1,18 @@
 """usd2kg ontology: what objects can be grounded to."""
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from usd2kg.cli.findings import MOST_OF_A_RULE, findings_text
 from usd2kg.cli.options import JsonOutput
-from usd2kg.cli.output import emit, print_json, talk
+from usd2kg.cli.output import emit, format_table, print_json, talk
 
 if TYPE_CHECKING:
     from usd2kg.ontology import TBox
+    from usd2kg.readiness import OntologyReport
 
 __all__ = ["app"]
 
@@ -60,6 +63,29 @@ def scope(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> 
         emit("".join(f"{iri}\n" for iri in iris), None)
 
 
+@app.command("check")
+def check(
+    file: _File = None,
+    root: _Roots = None,
+    every: Annotated[
+        bool, typer.Option("--all", help=f"Show every finding; default: the first {MOST_OF_A_RULE} of each rule.")
+    ] = False,
+    json: JsonOutput = False,
+) -> None:
+    """Say how well an ontology will ground, and what to add. Exit code 1 if it finds an error or a warning."""
+    from usd2kg.graph.validation import Severity  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.readiness import check_ontology  # noqa: PLC0415
+
+    report = check_ontology(_load(file, root))
+    if json:
+        print_json({**asdict(report), "findings": [asdict(finding) for finding in report.findings]})
+    else:
+        emit(_readiness_text(report), None)
+        emit(findings_text(report.findings, report.classes, "class", None if every else MOST_OF_A_RULE), None)
+    if any(finding.severity is not Severity.NOTE for finding in report.findings):
+        raise typer.Exit(1)
+
+
 @app.command("vocabulary")
 def vocabulary() -> None:
     """Print the ontology of usd2kg's own terms, as Turtle."""
@@ -87,6 +113,22 @@ def _load(file: Path | None, roots: list[str] | None) -> "TBox":
         talk(f"{note.code}: {note.message}")
     talk(f"{tbox.source}: {len(tbox.classes)} classes in scope, {len(tbox.roots)} roots")
     return tbox
+
+
+def _readiness_text(report: "OntologyReport") -> str:
+    """Return what was counted as a table, with a share of the classes where that says more."""
+    rows = [
+        ("classes with a label of their own", report.labelled),
+        ("with a definition or comment", report.described),
+        ("with synonyms", report.with_synonyms),
+        ("whose meaning is known", report.meant),
+        ("found by their name alone", report.found_by_name),
+        ("with several superclasses", report.several_parents),
+    ]
+    table = [(name, f"{count} of {report.classes}", f"{count / report.classes:.0%}") for name, count in rows]
+    table += [("roots", str(report.roots), ""), ("deepest class below its root", str(report.depth), "")]
+    table += [("deprecated classes", str(report.deprecated), ""), ("a thing that fits nowhere is", report.default, "")]
+    return format_table(("", "found", "share"), table) + "\n"
 
 
 def _as_json(tbox: "TBox") -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """From OWL files to a TBox: the classes in scope with labels, comments and hierarchy."""
 
+from usd2kg.ontology.axioms import LABELS
 from usd2kg.ontology.closure import Closure, read_closure, without_header
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
@@ -7,6 +8,7 @@ from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
 from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
+    "LABELS",
     "ClassIRI",
     "Closure",
     "OntologyClass",

@@ -1,11 +1,13 @@
 """Checking a graph: shapes, clashes with the ontology, and what is hard to believe."""
 
-from usd2kg.graph.validation.finding import Finding, Severity
+from usd2kg.graph.validation.axioms import Axioms
+from usd2kg.graph.validation.finding import Finding, Severity, sort_findings
 from usd2kg.graph.validation.rules import Rule, Rules, read_rules
 from usd2kg.graph.validation.shapes import shapes_text
 from usd2kg.graph.validation.validate import ValidationReport, imports_of, ontology_of, validate_graph
 
 __all__ = [
+    "Axioms",
     "Finding",
     "Rule",
     "Rules",
@@ -15,5 +17,6 @@ __all__ = [
     "ontology_of",
     "read_rules",
     "shapes_text",
+    "sort_findings",
     "validate_graph",
 ]

@@ -4,7 +4,7 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -13,15 +13,15 @@ from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
-__all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight"]
+__all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
 
 _LABEL, _SYNONYM, _HEAD = 1.0, 0.92, 0.6
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
-_HAPPENINGS = frozenset((word,) for word in "activity event action process state situation task".split())
-"""Last words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
+_HAPPENINGS = frozenset("activity event action process state situation task".split())
+"""Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
 _SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.\S*$")
 """A class called after a sense of WordNet: `chair.n.01`, `chair.n.wn.artifact..seat`."""
 _PLAUSIBLE = 0.7
@@ -95,9 +95,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     terms: dict[str, Term] = {}
     anchors: dict[int, Anchor] = {}
     depths = tbox.depths
-    happenings = {cls.iri for cls in tbox.classes if _words(cls.label)[-1:] in _HAPPENINGS}
-    things = [cls for cls in tbox.classes if happenings.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
-    for cls in sorted(things, key=lambda cls: (depths[cls.iri], cls.iri)):
+    for cls in sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
             for words in _variants(text, affixes, taxonomy):
                 _keep_best(terms, "".join(words), Term(cls.iri, " ".join(words), weight))
@@ -113,6 +111,17 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     )
 
 
+def things_of(tbox: TBox) -> Sequence[OntologyClass]:
+    """Return the classes that things belong to: those of activities, events and the like are left out."""
+    happenings = {cls.iri for cls in tbox.classes if _head(cls.label) in _HAPPENINGS}
+    return [cls for cls in tbox.classes if happenings.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
+
+
+def term_key(text: str, taxonomy: Taxonomy) -> str:
+    """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
+    return "".join(next(_variants(text, frozenset(), taxonomy), ()))
+
+
 def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
     yield cls.label, _LABEL
     yield cls.local_name, _LABEL
@@ -123,6 +132,14 @@ def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str,
 def _words(text: str) -> tuple[str, ...]:
     plain = re.sub(r"\(.*?\)|\[.*?\]", " ", _SENSE_KEY.sub(r"\1", text))
     return tuple(word.lower() for word in split_identifier(plain) if not word.isdigit())
+
+
+def _head(label: str) -> str:
+    """Return the word that says what kind it is: a chair of state is a chair."""
+    words = _words(label)
+    if "of" in words[1:]:
+        words = words[: words.index("of", 1)]
+    return words[-1] if words else ""
 
 
 def _affixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:

@@ -1,0 +1,120 @@
+"""What an ontology lacks is found, each fault in its place, and nothing in one that has all."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import shared_file
+from usd2kg.graph.validation import Severity
+from usd2kg.ontology import TBox, load_tbox
+from usd2kg.readiness import OntologyReport, check_ontology
+
+HEAD = """
+@prefix : <https://lab.example/onto#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+@prefix skos: <http://www.w3.org/2004/02/skos/core#> .
+<https://lab.example/onto> a owl:Ontology .
+:Artifact a owl:Class ; rdfs:label "artifact" ; rdfs:comment "A made thing." .
+:Cup a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label "cup" ; skos:altLabel "mug" ; rdfs:comment "To drink of." .
+"""
+
+
+def check(folder: Path, text: str) -> OntologyReport:
+    path = folder / "lab.ttl"
+    path.write_text(HEAD + text, encoding="utf-8")
+    return check_ontology(load_tbox(path))
+
+
+def found(report: OntologyReport) -> set[tuple[str, str]]:
+    return {(finding.rule, finding.iri.rpartition("#")[2]) for finding in report.findings}
+
+
+def test_the_built_in_ontology_has_all(home_tbox: TBox):
+    report = check_ontology(home_tbox)
+    assert report.findings == ()
+    assert report.classes == report.labelled == report.meant == report.found_by_name == 102
+
+
+def test_what_is_there_is_counted(tmp_path: Path):
+    report = check(tmp_path, ":Box a owl:Class ; rdfs:subClassOf :Artifact .")
+    assert (report.classes, report.labelled, report.described, report.with_synonyms) == (3, 2, 2, 1)
+    assert (report.roots, report.depth, report.several_parents, report.documents) == (1, 1, 0, 1)
+    assert report.default == "https://lab.example/onto#Artifact"
+    assert report.counts()["meant"] == 3
+
+
+CASES = {
+    "a name that says nothing": (":B_0042 a owl:Class ; rdfs:subClassOf :Cup .", ("no-name", "B_0042")),
+    "no label": (":SaltMill a owl:Class ; rdfs:subClassOf :Artifact .", ("no-label", "SaltMill")),
+    "no comment": (":Fork a owl:Class ; rdfs:subClassOf :Artifact .", ("no-definition", "Fork")),
+    "a name of two classes": (
+        ":Goblet a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'goblet', 'Mug' .",
+        ("shared-name", "Cup"),
+    ),
+    "disjoint superclasses": (
+        ":Food a owl:Class ; owl:disjointWith :Artifact . :Pie a owl:Class ; rdfs:subClassOf :Food, :Cup .",
+        ("unsatisfiable", "Pie"),
+    ),
+    "below nothing": (":Ghost a owl:Class ; rdfs:subClassOf :Cup, owl:Nothing .", ("unsatisfiable", "Ghost")),
+    "a cycle": (":Cup rdfs:subClassOf :Bowl . :Bowl a owl:Class ; rdfs:subClassOf :Cup .", ("cycle", "")),
+    "an import that is not there": (
+        "<https://lab.example/onto> owl:imports <https://x.example/y> .",
+        ("missing-import", ""),
+    ),
+    "no noun": (
+        ":Zorbaquix a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'zorbaquix' .",
+        ("no-sense", "Zorbaquix"),
+    ),
+    "no things": (
+        ":MakeEvent a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'make event' .",
+        ("no-things", "MakeEvent"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_each_fault_is_found_where_it_is(tmp_path: Path, name: str):
+    text, expected = CASES[name]
+    report = check(tmp_path, text)
+    assert expected in found(report)
+    assert expected not in found(check(tmp_path, ""))
+    finding = next(f for f in report.findings if f.rule == expected[0])
+    assert finding.found and finding.expected and finding.advice
+
+
+def test_a_flat_list_lacks_general_classes(tmp_path: Path):
+    names = "Fork Spoon Plate Bowl Knife Table Chair Lamp".split()
+    path = tmp_path / "flat.ttl"
+    path.write_text(
+        HEAD.split(":Artifact a", maxsplit=1)[0] + "".join(f":{name} a owl:Class .\n" for name in names), "utf-8"
+    )
+    report = check_ontology(load_tbox(path))
+    assert {f.rule for f in report.findings if f.severity is not Severity.NOTE} == {"flat"}
+
+
+def test_where_nothing_general_is_above_most_it_is_said(tmp_path: Path):
+    others = "".join(
+        f":R{i} a owl:Class ; rdfs:label 'cabinet kind {i}' .\n:S{i} a owl:Class ; rdfs:subClassOf :R{i} .\n"
+        for i in range(4)
+    )
+    assert "no-general-class" in {finding.rule for finding in check(tmp_path, others).findings}
+
+
+def test_an_example_of_a_word_is_offered(tmp_path: Path):
+    report = check(tmp_path, ":QuuxGripper a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'quux gripper' .")
+    advice = next(f.advice for f in report.findings if f.rule == "no-sense" and f.iri.endswith("QuuxGripper"))
+    assert advice.startswith("Add as skos:altLabel")
+
+
+def test_a_class_that_another_has_the_name_of_is_told(tmp_path: Path):
+    report = check(tmp_path, ":Cup2 a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'cup' .")
+    (lost,) = [finding for finding in report.findings if finding.rule == "lost-name"]
+    assert "an object called Cup is grounded to" in lost.found
+
+
+def test_a_sense_key_of_wordnet_is_read_as_its_word():
+    tbox = load_tbox(shared_file("ontologies/other/multiverse_soma_dfl/SOMA_DFL_module.owl"))
+    report = check_ontology(tbox)
+    assert report.found_by_name / report.classes > 0.9
+    assert not any("N.wn" in finding.found for finding in report.findings)
