@@ -362,6 +362,29 @@ class TestOntology:
         assert len(done.out.splitlines()) == 102
         assert f"{SOMA}Cup" in done.out.splitlines()
 
+    def test_check_counts_and_says_what_to_add(self, run: Run, lab: Path):
+        done = run("ontology", "check", lab)
+        lines = done.out.splitlines()
+        assert any(line.startswith("with a definition or comment") for line in lines)
+        assert lines[-1].endswith("on 3 classes")
+        data = json.loads(run("ontology", "check", lab, "--json").out)
+        assert data["classes"] == 3
+        is_serious = any(finding["severity"] != "note" for finding in data["findings"])
+        assert done.code == int(is_serious)
+
+    def test_check_finds_nothing_in_the_built_in_ontology(self, run: Run):
+        done = run("ontology", "check")
+        assert (done.code, done.out.splitlines()[-1]) == (0, "0 findings on 102 classes")
+
+    def test_known_ontologies_are_listed(self, run: Run):
+        assert run("ontology", "known").out.splitlines()[1].startswith("soma-home")
+        assert json.loads(run("ontology", "known", "--json").out)[0]["documents"][0]["file"] == "SOMA-HOME.owl"
+
+    def test_an_unknown_ontology_is_not_fetched(self, run: Run):
+        done = run("ontology", "fetch", "nope")
+        assert (done.code, done.out) == (2, "")
+        assert "ontology 'nope' is not known; expected one of soma-home" in done.err
+
 
 class TestDemo:
     def test_it_builds_and_asks(self, run: Run):

@@ -86,6 +86,46 @@ def check(
         raise typer.Exit(1)
 
 
+_Registry = Annotated[
+    Path | None, typer.Option("--registry", help="A TOML file of known ontologies; default: our own.")
+]
+
+
+@app.command("known")
+def known(registry: _Registry = None, json: JsonOutput = False) -> None:
+    """List the ontologies that `ontology fetch` knows by name."""
+    from usd2kg.ontology import read_registry  # noqa: PLC0415
+
+    ontologies = read_registry(registry).values()
+    if json:
+        print_json([asdict(ontology) for ontology in ontologies])
+        return
+    rows = [(o.name, o.version, str(len(o.documents)), o.licence, o.title) for o in ontologies]
+    emit(format_table(("name", "version", "documents", "licence", "title"), rows), None)
+
+
+@app.command("fetch")
+def fetch(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="An ontology that `ontology known` lists.")],
+    into: Annotated[
+        Path | None, typer.Option("--into", help="Folder for its documents; default: a new one called NAME.")
+    ] = None,
+    changed: Annotated[
+        bool, typer.Option("--changed", help="Take a document though it is not the version that is known.")
+    ] = False,
+    registry: _Registry = None,
+) -> None:
+    """Fetch an ontology and what it imports from the network, and print the file to use with --ontology."""
+    from usd2kg.errors import OntologyError  # noqa: PLC0415
+    from usd2kg.ontology import fetch_ontology, read_registry  # noqa: PLC0415
+
+    ontologies = read_registry(registry)
+    if name not in ontologies:
+        raise OntologyError(f"ontology {name!r} is not known; expected one of {', '.join(ontologies)}")
+    path = fetch_ontology(ontologies[name], into or Path(name), takes_changed=changed, tell=talk)
+    emit(f"{path}\n", None)
+
+
 @app.command("vocabulary")
 def vocabulary() -> None:
     """Print the ontology of usd2kg's own terms, as Turtle."""

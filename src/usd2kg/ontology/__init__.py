@@ -2,24 +2,29 @@
 
 from usd2kg.ontology.axioms import LABELS
 from usd2kg.ontology.closure import Closure, read_closure, without_header
+from usd2kg.ontology.fetch import fetch_ontology
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
 from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
 from usd2kg.ontology.prefixes import compact_iri, expand_curie
+from usd2kg.ontology.registry import KnownOntology, read_registry
 
 __all__ = [
     "LABELS",
     "ClassIRI",
     "Closure",
+    "KnownOntology",
     "OntologyClass",
     "OntologyNote",
     "TBox",
     "compact_iri",
     "expand_curie",
+    "fetch_ontology",
     "linearize_flat",
     "linearize_tree",
     "load_home_tbox",
     "load_tbox",
     "read_closure",
+    "read_registry",
     "without_header",
 ]

@@ -1,0 +1,78 @@
+"""Ontologies that are known by name: where their documents are, of which version, with which hash."""
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from usd2kg.errors import OntologyError
+
+__all__ = ["KnownDocument", "KnownOntology", "read_registry"]
+
+_FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}")
+_SHA256 = re.compile(r"[0-9a-f]{64}|")
+
+
+@dataclass(frozen=True, slots=True)
+class KnownDocument:
+    """One document of an ontology."""
+
+    iri: str
+    """By which other documents import it."""
+    file: str
+    """Name of the file that it becomes; no path."""
+    address: str
+    """URL that it is fetched from."""
+    sha256: str
+    """Of its bytes, as hexadecimal digits; empty if any bytes will do."""
+
+
+@dataclass(frozen=True, slots=True)
+class KnownOntology:
+    """An ontology with the documents that it needs."""
+
+    name: str
+    title: str
+    version: str
+    licence: str
+    documents: tuple[KnownDocument, ...]
+    """The ontology itself first, then what it imports."""
+
+
+def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
+    """Return the known ontologies by name, those of our own registry, or of a file of the same form.
+
+    Raises:
+        OntologyError: the file cannot be read, or an entry is malformed.
+    """
+    source = str(path) if path is not None else "registry.toml"
+    try:
+        text = (path or files("usd2kg.ontology") / "data" / "registry.toml").read_text(encoding="utf-8")
+        entries = tomllib.loads(text)["ontology"]
+        known = [_ontology(source, entry) for entry in entries]
+    except OSError as error:
+        raise OntologyError(f"{source}: cannot be read ({error.strerror}); name a registry of ontologies") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise OntologyError(
+            f"{source}: is no registry ({error!r}); expected [[ontology]] tables with name, title, version, licence "
+            "and [[ontology.document]] with iri, file, address, sha256"
+        ) from error
+    return {ontology.name: ontology for ontology in known}
+
+
+def _ontology(source: str, entry: Mapping[str, Any]) -> KnownOntology:
+    documents = tuple(_document(source, document) for document in entry["document"])
+    name, title, version, licence = (str(entry[key]) for key in ("name", "title", "version", "licence"))
+    return KnownOntology(name, title, version, licence, documents)
+
+
+def _document(source: str, entry: Mapping[str, Any]) -> KnownDocument:
+    document = KnownDocument(*(str(entry[key]) for key in ("iri", "file", "address", "sha256")))
+    if not _FILE_NAME.fullmatch(document.file):
+        raise OntologyError(f"{source}: the file {document.file!r} is no plain file name; expected one without a path")
+    if not _SHA256.fullmatch(document.sha256):
+        raise OntologyError(f"{source}: {document.file}: sha256 is no 64 hexadecimal digits; leave it empty or mend it")
+    return document

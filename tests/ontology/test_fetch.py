@@ -1,0 +1,175 @@
+"""Known ontologies are fetched whole and as they are known, or not at all; a real server gives them."""
+
+import hashlib
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import shared_file
+from usd2kg.errors import OntologyError, OutputError
+from usd2kg.ontology import fetch_ontology, load_tbox, read_registry
+
+LAB = b"""@prefix : <https://lab.example/onto#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+<https://lab.example/onto> a owl:Ontology ; owl:imports <https://lab.example/things> .
+:Cup a owl:Class ; rdfs:subClassOf <https://lab.example/things#Thing> .
+"""
+THINGS = b"""@prefix owl: <http://www.w3.org/2002/07/owl#> .
+<https://lab.example/things> a owl:Ontology .
+<https://lab.example/things#Thing> a owl:Class .
+"""
+
+
+@contextmanager
+def server(pages: dict[str, bytes]) -> Iterator[str]:
+    """Serve pages, `/moved` by a redirect to the first; yield the address."""
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self):
+            if self.path == "/moved":
+                self.send_response(302)
+                self.send_header("Location", next(iter(pages)))
+                self.end_headers()
+                return
+            data = pages.get(self.path)
+            self.send_response(404 if data is None else 200)
+            self.end_headers()
+            self.wfile.write(data or b"")
+
+        def log_message(self, *_):
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as served:
+        threading.Thread(target=served.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{served.server_port}"
+        served.shutdown()
+
+
+def registry(folder: Path, address: str, *, lab: str = "/lab", sha256: str | None = None) -> Path:
+    digest = hashlib.sha256(LAB).hexdigest() if sha256 is None else sha256
+    path = folder / "registry.toml"
+    path.write_text(
+        f"""[[ontology]]
+name = "lab"
+title = "Things of a lab"
+version = "1"
+licence = "CC0"
+[[ontology.document]]
+iri = "https://lab.example/onto"
+file = "lab.ttl"
+address = "{address}{lab}"
+sha256 = "{digest}"
+[[ontology.document]]
+iri = "https://lab.example/things"
+file = "things-1.ttl"
+address = "{address}/things"
+sha256 = ""
+""",
+        encoding="utf-8",
+    )
+    return path
+
+
+PAGES = {
+    "/lab": LAB,
+    "/things": THINGS,
+    "/page": b"<!doctype html><html><p>Not found</p></html>",
+    "/image": b"\x89PNG\r\n",
+}
+
+
+@pytest.mark.parametrize("lab", ["/lab", "/moved"])
+def test_what_is_fetched_loads_with_its_imports(tmp_path: Path, lab: str):
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address, lab=lab))["lab"]
+        path = fetch_ontology(known, tmp_path / "new")
+    tbox = load_tbox(path)
+    assert path.read_bytes() == LAB
+    assert tbox.imports == ("https://lab.example/things",)
+    assert tbox.notes == ()
+
+
+def test_what_is_there_is_not_fetched_again(tmp_path: Path):
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address))["lab"]
+        fetch_ontology(known, tmp_path)
+    lines: list[str] = []
+    with pytest.raises(OntologyError, match=r"things: cannot be reached .*is this machine online\?"):
+        fetch_ontology(known, tmp_path, tell=lines.append)
+    assert lines == [f"{tmp_path / 'lab.ttl'}: is there already"]
+
+
+def test_another_version_is_refused_and_taken_on_request(tmp_path: Path):
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address, sha256="0" * 64))["lab"]
+        with pytest.raises(OntologyError, match=f"sha256 is {hashlib.sha256(LAB).hexdigest()}, expected 0000"):
+            fetch_ontology(known, tmp_path / "new")
+        assert not (tmp_path / "new").exists()
+        assert fetch_ontology(known, tmp_path / "new", takes_changed=True).read_bytes() == LAB
+
+
+@pytest.mark.parametrize(
+    ("page", "message"),
+    [("/gone", "answered 404"), ("/page", "expected an ontology; has"), ("/image", "expected an ontology; has")],
+)
+def test_what_is_no_ontology_is_refused(tmp_path: Path, page: str, message: str):
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address, lab=page, sha256=""))["lab"]
+        with pytest.raises(OntologyError, match=message):
+            fetch_ontology(known, tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_only_web_addresses_are_fetched(tmp_path: Path):
+    known = read_registry(registry(tmp_path, "file:///etc"))["lab"]
+    with pytest.raises(OntologyError, match="is no web address"):
+        fetch_ontology(known, tmp_path / "new")
+
+
+def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path):
+    (tmp_path / "taken").write_text("a file")
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address))["lab"]
+        with pytest.raises(OutputError, match="taken: cannot be made"):
+            fetch_ontology(known, tmp_path / "taken")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("not toml", "is no registry"),
+        ("[[ontology]]\nname = 'x'", "is no registry"),
+        ("ontology = 3", "is no registry"),
+    ],
+)
+def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):
+    path = tmp_path / "r.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(OntologyError, match=message):
+        read_registry(path)
+
+
+@pytest.mark.parametrize("file", ["../up.ttl", "/etc/x", "a/b.ttl", "", ".hidden"])
+def test_a_file_name_that_leads_elsewhere_is_refused(tmp_path: Path, file: str):
+    path = registry(tmp_path, "http://127.0.0.1:1")
+    path.write_text(path.read_text().replace('file = "lab.ttl"', f'file = "{file}"'))
+    with pytest.raises(OntologyError, match="is no plain file name"):
+        read_registry(path)
+
+
+def test_our_registry_knows_the_hash_of_each_document():
+    for ontology in read_registry().values():
+        assert ontology.documents
+        assert all(len(document.sha256) == 64 for document in ontology.documents)
+        assert all(document.address.startswith(("https://", "http://")) for document in ontology.documents)
+
+
+def test_our_registry_knows_soma_as_it_is():
+    for document in read_registry()["soma-home"].documents:
+        data = shared_file(f"ontologies/soma/{document.file}").read_bytes()
+        assert hashlib.sha256(data).hexdigest() == document.sha256
