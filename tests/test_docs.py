@@ -1,5 +1,6 @@
 """What the documents say is what the software does."""
 
+import doctest
 import subprocess
 import sys
 from pathlib import Path
@@ -24,3 +25,12 @@ def test_the_answers_in_the_page_of_questions_are_those_of_the_demo_kitchen() ->
 @pytest.mark.parametrize("command", ["make demo", "make test"])
 def test_the_readme_shows_how_to_start(command: str) -> None:
     assert command in (ROOT / "README.md").read_text("utf-8")
+
+
+def test_the_page_for_python_runs() -> None:
+    flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+    done = doctest.testfile(
+        str(ROOT / "docs" / "python.md"), module_relative=False, optionflags=flags, encoding="utf-8"
+    )
+    assert done.attempted > 20
+    assert done.failed == 0

@@ -14,12 +14,14 @@ if TYPE_CHECKING:
     from usd2kg.ontology import TBox, load_home_tbox, load_tbox
     from usd2kg.pipeline import BuildResult, build
     from usd2kg.scene import Scene, read_scene
+    from usd2kg.tables import Tables, to_tables
 
 _HOMES = {
     "BuildResult": "pipeline",
     "Grounding": "grounding",
     "KnowledgeGraph": "graph",
     "Scene": "scene",
+    "Tables": "tables",
     "TBox": "ontology",
     "Usd2kgError": "errors",
     "build": "pipeline",
@@ -30,6 +32,7 @@ _HOMES = {
     "load_tbox": "ontology",
     "make_grounder": "grounding",
     "read_scene": "scene",
+    "to_tables": "tables",
     "write_graph": "graph",
 }
 
@@ -39,6 +42,7 @@ __all__ = [
     "KnowledgeGraph",
     "Scene",
     "TBox",
+    "Tables",
     "Usd2kgError",
     "build",
     "ground",
@@ -48,6 +52,7 @@ __all__ = [
     "load_tbox",
     "make_grounder",
     "read_scene",
+    "to_tables",
     "write_graph",
 ]
 

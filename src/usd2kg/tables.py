@@ -1,0 +1,152 @@
+"""to_tables: what a build found, as tables of pandas or Polars."""
+
+import importlib
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.errors import GraphError
+from usd2kg.graph import individual_iri
+from usd2kg.grounding import Prediction
+from usd2kg.ontology import TBox
+from usd2kg.pipeline import BuildResult
+from usd2kg.scene import SceneObject
+
+__all__ = ["Tables", "to_columns", "to_tables"]
+
+Floats = NDArray[np.float64]
+Columns = Mapping[str, Sequence[Any] | Floats]
+_AXES = "xyz"
+
+
+class Tables(NamedTuple):
+    """Data frames with a row for each object, relation, candidate and joint.
+
+    Lengths are metres, masses kilograms, angles radians, in the z-up world frame. What is unknown is missing: NaN in
+    pandas, null in Polars.
+    """
+
+    objects: Any
+    """`path`, `iri`, `name`, `class_iri`, `class_name`, `confidence`, `status`, `grounder`, `explanation`, `parent`,
+    `center_x` … `size_z` of the box with all that is below, `position_x` … `position_z`, `qx` … `qw`, `mass_kg`."""
+    relations: Any
+    """`kind`, `target`, `anchor`, `other_anchor`, `rule`, `confidence`, and what was measured, in a column each."""
+    candidates: Any
+    """`path`, `rank` from 1, `class_iri`, `class_name`, `score`."""
+    joints: Any
+    """`path`, `type`, `body0`, `body1`, `axis`, `lower`, `upper`, `value`: radians, metres for sliding joints."""
+
+
+def to_tables(result: BuildResult, library: Literal["pandas", "polars"] = "pandas") -> Tables:
+    """Return the objects, relations, candidates and joints of a build as data frames.
+
+    Args:
+        result: what `usd2kg.build` gave.
+        library: whose data frames: pandas (the extra `tables`) or Polars.
+
+    Raises:
+        GraphError: the library is another one, or is not installed.
+    """
+    if library not in {"pandas", "polars"}:
+        raise GraphError(f"tables: {library!r} is no library of data frames that is known; expected pandas or polars")
+    try:
+        frames = importlib.import_module(library)
+    except ModuleNotFoundError as error:
+        install = "usd2kg[tables]" if library == "pandas" else library
+        raise GraphError(f"tables: {library} is not installed; run: pip install '{install}'") from error
+    columns = to_columns(result)
+    if library == "polars":
+        return Tables(*(frames.DataFrame(table, nan_to_null=True) for table in columns))
+    return Tables(*map(frames.DataFrame, columns))
+
+
+def to_columns(result: BuildResult) -> tuple[Columns, Columns, Columns, Columns]:
+    """Return the columns of the tables, in the order of `Tables`; numbers are float64 arrays, NaN where unknown."""
+    return _objects(result), _relations(result), _candidates(result), _joints(result)
+
+
+def _objects(result: BuildResult) -> Columns:
+    objects, by_path = result.scene.objects, result.grounding.by_path
+    answers = [by_path.get(obj.prim_path) for obj in objects]
+    texts: dict[str, Sequence[Any] | Floats] = {
+        "path": [obj.prim_path for obj in objects],
+        "iri": [individual_iri(result.graph.base, obj.prim_path) for obj in objects],
+        "name": [obj.display_name or obj.name for obj in objects],
+        "class_iri": [answer.class_iri if answer else None for answer in answers],
+        "class_name": [_class_name(answer, result.tbox) for answer in answers],
+        "confidence": _numbers([answer.confidence if answer else None for answer in answers]),
+        "status": [answer.status.value if answer else None for answer in answers],
+        "grounder": [answer.grounder if answer else None for answer in answers],
+        "explanation": [answer.explanation if answer else None for answer in answers],
+        "parent": [obj.parent_path for obj in objects],
+    }
+    return texts | _geometry(objects)
+
+
+def _class_name(answer: Prediction | None, tbox: TBox) -> str | None:
+    return tbox.by_iri[answer.class_iri].local_name if answer and answer.class_iri else None
+
+
+def _geometry(objects: Sequence[SceneObject]) -> dict[str, Sequence[Any] | Floats]:
+    vectors = {
+        "center_": [obj.box.center if obj.box else None for obj in objects],
+        "size_": [obj.box.size if obj.box else None for obj in objects],
+        "position_": [obj.position for obj in objects],
+    }
+    columns = {
+        f"{name}{axis}": _numbers([vector[i] if vector else None for vector in values])
+        for name, values in vectors.items()
+        for i, axis in enumerate(_AXES)
+    }
+    turns = [obj.orientation for obj in objects]
+    columns |= {f"q{axis}": _numbers([turn[i] if turn else None for turn in turns]) for i, axis in enumerate("xyzw")}
+    return {**columns, "mass_kg": _numbers([obj.mass_kg for obj in objects])}
+
+
+def _relations(result: BuildResult) -> Columns:
+    relations = result.graph.relations
+    measures = sorted({name for relation in relations for name in relation.numbers})
+    return {
+        "kind": [relation.kind for relation in relations],
+        "target": [relation.target for relation in relations],
+        "anchor": [relation.anchor for relation in relations],
+        "other_anchor": [relation.other_anchor for relation in relations],
+        "rule": [relation.rule for relation in relations],
+        "confidence": _numbers([relation.confidence for relation in relations]),
+        **{name: _numbers([relation.numbers.get(name) for relation in relations]) for name in measures},
+    }
+
+
+def _candidates(result: BuildResult) -> Columns:
+    rows = [
+        (answer.prim_path, rank, candidate)
+        for answer in result.grounding.predictions
+        for rank, candidate in enumerate(answer.candidates, start=1)
+    ]
+    return {
+        "path": [path for path, _, _ in rows],
+        "rank": [rank for _, rank, _ in rows],
+        "class_iri": [candidate.class_iri for _, _, candidate in rows],
+        "class_name": [result.tbox.by_iri[candidate.class_iri].local_name for _, _, candidate in rows],
+        "score": _numbers([candidate.score for _, _, candidate in rows]),
+    }
+
+
+def _joints(result: BuildResult) -> Columns:
+    joints = result.scene.joints
+    return {
+        "path": [joint.prim_path for joint in joints],
+        "type": [joint.type for joint in joints],
+        "body0": [joint.body0 for joint in joints],
+        "body1": [joint.body1 for joint in joints],
+        "axis": [joint.axis for joint in joints],
+        "lower": _numbers([joint.lower for joint in joints]),
+        "upper": _numbers([joint.upper for joint in joints]),
+        "value": _numbers([joint.value for joint in joints]),
+    }
+
+
+def _numbers(values: Sequence[float | None]) -> Floats:
+    return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
