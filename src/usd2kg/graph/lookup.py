@@ -1,0 +1,126 @@
+"""What a person means by a name: objects by prim path, label, class or words; classes by label, name or IRI."""
+
+import re
+from collections.abc import Iterable
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.ontology import expand_curie
+from usd2kg.words import split_identifier
+
+__all__ = ["Lookup", "NamedObject", "term_list"]
+
+_OBJECTS = "SELECT ?o ?p ?l WHERE { ?o u2k:primPath ?p ; rdfs:label ?l } ORDER BY ?p"
+
+_MEMBERS = """
+SELECT DISTINCT ?o ?p WHERE {{
+  VALUES ?wanted {{ {classes} }}
+  ?o a/rdfs:subClassOf* ?wanted ; u2k:primPath ?p .
+}} ORDER BY ?p"""
+
+_CLASSES = "SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }"
+
+_USED_LABELS = "SELECT DISTINCT ?l WHERE { ?o u2k:primPath [] ; a ?c . ?c rdfs:label ?l } ORDER BY ?l"
+
+
+class NamedObject(NamedTuple):
+    """An object of a graph, and what it is called."""
+
+    node: ox.NamedNode
+    prim_path: str
+    label: str
+
+
+class Lookup:
+    """Finds the objects and classes of one graph by what people call them."""
+
+    def __init__(self, store: ox.Store, source: str) -> None:
+        self._store = store
+        self._source = source
+
+    @cached_property
+    def objects(self) -> list[NamedObject]:
+        """All objects with each of their labels, by prim path."""
+        return [NamedObject(row["o"], row["p"].value, row["l"].value) for row in self._select(_OBJECTS)]
+
+    def find(self, thing: str) -> list[ox.NamedNode]:
+        """Return the objects that a person means, by the first way that finds any.
+
+        Ways: prim path; label; class (subclasses included); all words in the label.
+
+        Raises:
+            GraphError: there is no such thing.
+        """
+        thing = re.sub(r"^(the|a|an)\s+", "", thing.strip(), flags=re.IGNORECASE)
+        wanted = _words(thing)
+        ways = (
+            [node for node, path, _ in self.objects if path == thing],
+            [node for node, _, label in self.objects if label.lower() == thing.lower()],
+            self._members(self._find_classes(thing)),
+            [node for node, _, label in self.objects if wanted and wanted <= _words(label)],
+        )
+        for found in ways:
+            if found:
+                return found
+        raise GraphError(
+            f"{self._source}: nothing is called {thing!r}; expected a label, a class or a prim path, "
+            "see usd2kg query GRAPH all of CLASS"
+        )
+
+    def classes(self, name: str) -> list[ox.NamedNode]:
+        """Return the classes that a person means, by label, local name, CURIE or IRI.
+
+        Raises:
+            GraphError: there is none; the message says which classes there are.
+        """
+        found = self._find_classes(name)
+        if not found:
+            known = ", ".join(row["l"].value for row in self._select(_USED_LABELS))
+            raise GraphError(f"{self._source}: no class is called {name!r}; the graph holds {known}")
+        return found
+
+    def _find_classes(self, name: str) -> list[ox.NamedNode]:
+        wanted = _words(name)
+        iri = expand_curie(name)
+        found = {
+            row["c"]
+            for row in self._select(_CLASSES)
+            if row["c"].value in {name, iri}
+            or _words(re.split(r"[#/]", row["c"].value)[-1]) == wanted
+            or (row["l"] is not None and _words(row["l"].value) == wanted)
+        }
+        return sorted(found, key=lambda node: node.value)
+
+    def _members(self, classes: list[ox.NamedNode]) -> list[ox.NamedNode]:
+        if not classes:
+            return []
+        return [row["o"] for row in self._select(_MEMBERS.format(classes=term_list(classes)))]
+
+    def _select(self, query: str) -> list[Any]:
+        rows = self._store.query(query, prefixes=PREFIXES)
+        assert isinstance(rows, ox.QuerySolutions)
+        return list(rows)
+
+
+def term_list(nodes: Iterable[ox.NamedNode]) -> str:
+    """Return nodes as they stand in a query.
+
+    They come from the store and print themselves escaped: no text of a user or a stage enters a query.
+    """
+    return " ".join(str(node) for node in nodes)
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(_singular(word.lower()) for word in split_identifier(text))
+
+
+def _singular(word: str) -> str:
+    """Return a word without its plural ending, roughly: both sides of a comparison are treated alike."""
+    for ending, singular in (("ves", "f"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("fe", "f"), ("s", "")):
+        if word.endswith(ending) and len(word) > len(ending) + 2 and not word.endswith("ss"):
+            return word.removesuffix(ending) + singular
+    return word

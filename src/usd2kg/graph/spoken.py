@@ -1,0 +1,121 @@
+"""Ready questions in plain words, as SPARQL: on X, in X, near X, above X, parts of X, where is X, all of CLASS."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from usd2kg.errors import GraphError
+
+__all__ = ["ABOVE", "ALL_OF", "INSIDE", "NEAR", "ON", "PARTS_OF", "WHERE_IS", "SpokenQuestion", "parse_question"]
+
+_ON = "soma:isOntopOf|u2k:on"
+_INSIDE = "soma:isInsideOf|u2k:inside"
+_NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
+_PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
+_ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
+"""What is above a thing on the table is above the table, though only the nearest is written."""
+
+_RELATED = """
+SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
+  VALUES ?a {{ {things} }}
+  ?o {predicate} ?a ; rdfs:label ?object ; u2k:primPath ?path .
+  ?a rdfs:label ?anchor .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a ; {number} ?number . }}
+}} ORDER BY ?path"""
+
+_CLOSE = """
+SELECT ?object ?class ?path ?anchor (MIN(?measured) AS ?number) WHERE {{
+  VALUES ?a {{ {things} }}
+  ?o {predicate} ?a ; rdfs:label ?object ; u2k:primPath ?path .
+  ?a rdfs:label ?anchor .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{
+    {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a }}
+    UNION {{ ?x owl:annotatedSource ?a ; owl:annotatedTarget ?o }}
+    ?x u2k:distance|u2k:gap ?measured .
+  }}
+}} GROUP BY ?o ?a ?object ?class ?path ?anchor ORDER BY ?number ?path"""
+
+_PARTS = """
+SELECT DISTINCT ?object ?class ?path ?whole WHERE {{
+  VALUES ?a {{ {things} }}
+  ?o ({predicate})+ ?a ; rdfs:label ?object ; u2k:primPath ?path ; {predicate} ?w .
+  ?w rdfs:label ?whole .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+}} ORDER BY ?path"""
+
+_WHERE = """
+SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{
+  VALUES ?o {{ {things} }}
+  ?o rdfs:label ?object ; u2k:primPath ?path .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}
+  OPTIONAL {{ ?o {on} ?a . ?a rdfs:label ?on . }}
+  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . }}
+  OPTIONAL {{ ?o u2k:inRoom ?r . ?r rdfs:label ?room . }}
+}} ORDER BY ?path"""
+
+_ALL = """
+SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
+  VALUES ?wanted {{ {things} }}
+  ?c rdfs:subClassOf* ?wanted ; rdfs:label ?class .
+  ?o a ?c ; rdfs:label ?object ; u2k:primPath ?path .
+  OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?confidence . }}
+}} ORDER BY ?path"""
+
+
+@dataclass(frozen=True)
+class SpokenQuestion:
+    """A question about things that are named, or about the things of a class that is named."""
+
+    template: str
+    terms: Mapping[str, str]
+    """Name in the template → property paths that stand for it."""
+    columns: Mapping[str, str] = field(default_factory=dict)
+    """Variable → column of the answer, where they differ."""
+    names_class: bool = False
+    """Whether what is named is a class, not a thing."""
+
+    def sparql(self, things: str) -> str:
+        """Return the query about things, which are written as terms of SPARQL."""
+        return self.template.format(things=things, **self.terms)
+
+
+ON = SpokenQuestion(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
+INSIDE = SpokenQuestion(_RELATED, {"predicate": _INSIDE, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
+ABOVE = SpokenQuestion(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
+NEAR = SpokenQuestion(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
+PARTS_OF = SpokenQuestion(_PARTS, {"predicate": _PART_OF})
+WHERE_IS = SpokenQuestion(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
+ALL_OF = SpokenQuestion(_ALL, {}, names_class=True)
+
+_PHRASES = (
+    (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
+    (r"(what\s+is\s+)?(in|inside)( of)?\s+(?P<thing>.+)", INSIDE),
+    (r"(what\s+is\s+)?(near|next)( to)?\s+(?P<thing>.+)", NEAR),
+    (r"(what\s+is\s+)?above\s+(?P<thing>.+)", ABOVE),
+    (r"(what\s+are\s+)?(the\s+)?parts(\s+of|-of)\s+(?P<thing>.+)", PARTS_OF),
+    (r"where(\s+is|\s+are|-is|'s)?\s+(?P<thing>.+)", WHERE_IS),
+    (r"all(\s+of|-of)?\s+(?P<thing>.+)", ALL_OF),
+)
+
+
+def parse_question(words: Sequence[str]) -> tuple[SpokenQuestion, str]:
+    """Return which question is asked, and the name of what it is asked about.
+
+    >>> parse_question(["what", "is", "on", "the table?"])[1]
+    'the table'
+
+    Raises:
+        GraphError: the words are no such question.
+    """
+    text = " ".join(words).strip().rstrip("?").strip()
+    for pattern, question in _PHRASES:
+        found = re.fullmatch(pattern, text, flags=re.IGNORECASE)
+        if found:
+            return question, found.group("thing").strip()
+    raise GraphError(
+        f"question {text!r} is not understood; expected 'on X', 'in X', 'near X', 'above X', "
+        "'parts of X', 'where is X' or 'all of CLASS', or a query with --sparql"
+    )
