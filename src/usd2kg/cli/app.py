@@ -11,7 +11,20 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli import build, completions, demo, evaluate, graph, ground, inspect, ontology, query, render, validate
+from usd2kg.cli import (
+    assistant,
+    build,
+    completions,
+    demo,
+    evaluate,
+    graph,
+    ground,
+    inspect,
+    ontology,
+    query,
+    render,
+    validate,
+)
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import Usd2kgError
 
@@ -30,8 +43,10 @@ app.command("build")(build.build_command)
 app.command("inspect")(inspect.inspect_command)
 app.command("ground")(ground.ground_command)
 app.command("query")(query.query_command)
+app.command("ask")(assistant.ask_command)
 app.command("validate")(validate.validate_command)
 app.command("render")(render.render_command)
+app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
 app.add_typer(ontology.app, name="ontology")

@@ -112,13 +112,18 @@ class GraphStore:
         columns = tuple(variable.value for variable in found.variables)
         return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], query)
 
-    def on(self, thing: str) -> Answer:
-        """Return what stands or lies on a thing, named by label, class, words or prim path."""
-        return self._about(spoken.ON, thing)
+    def on(self, thing: str, *, is_direct: bool = True) -> Answer:
+        """Return what stands or lies on a thing, named by label, class, words or prim path.
 
-    def inside(self, thing: str) -> Answer:
-        """Return what is inside a thing."""
-        return self._about(spoken.INSIDE, thing)
+        Args:
+            thing: what is asked about.
+            is_direct: whether what lies on something that lies on it is left out.
+        """
+        return self._about(spoken.ON if is_direct else spoken.ALL_ON, thing)
+
+    def inside(self, thing: str, *, is_direct: bool = True) -> Answer:
+        """Return what is inside a thing; on request also what is on or in something inside it."""
+        return self._about(spoken.INSIDE if is_direct else spoken.ALL_INSIDE, thing)
 
     def where_is(self, thing: str) -> Answer:
         """Return where a thing is: the centre of its box in metres, what it is on and inside of, and its room."""

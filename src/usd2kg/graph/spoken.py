@@ -6,7 +6,19 @@ from dataclasses import dataclass, field
 
 from usd2kg.errors import GraphError
 
-__all__ = ["ABOVE", "ALL_OF", "INSIDE", "NEAR", "ON", "PARTS_OF", "WHERE_IS", "SpokenQuestion", "parse_question"]
+__all__ = [
+    "ABOVE",
+    "ALL_INSIDE",
+    "ALL_OF",
+    "ALL_ON",
+    "INSIDE",
+    "NEAR",
+    "ON",
+    "PARTS_OF",
+    "WHERE_IS",
+    "SpokenQuestion",
+    "parse_question",
+]
 
 _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
@@ -84,6 +96,12 @@ class SpokenQuestion:
 
 ON = SpokenQuestion(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
 INSIDE = SpokenQuestion(_RELATED, {"predicate": _INSIDE, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
+ALL_ON = SpokenQuestion(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
+"""What is on a thing, or on what is on it."""
+ALL_INSIDE = SpokenQuestion(
+    _RELATED, {"predicate": f"({_ON}|{_INSIDE})*/({_INSIDE})", "number": "u2k:insideRatio"}, {"number": "inside_ratio"}
+)
+"""What is inside a thing, or on or in what is inside it."""
 ABOVE = SpokenQuestion(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
 NEAR = SpokenQuestion(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
 PARTS_OF = SpokenQuestion(_PARTS, {"predicate": _PART_OF})

@@ -2,6 +2,7 @@
 
 from usd2kg.graph.validation.axioms import Axioms
 from usd2kg.graph.validation.finding import Finding, Severity, sort_findings
+from usd2kg.graph.validation.objects import GraphObject, read_objects
 from usd2kg.graph.validation.rules import Rule, Rules, read_rules
 from usd2kg.graph.validation.shapes import shapes_text
 from usd2kg.graph.validation.validate import ValidationReport, imports_of, ontology_of, validate_graph
@@ -9,12 +10,14 @@ from usd2kg.graph.validation.validate import ValidationReport, imports_of, ontol
 __all__ = [
     "Axioms",
     "Finding",
+    "GraphObject",
     "Rule",
     "Rules",
     "Severity",
     "ValidationReport",
     "imports_of",
     "ontology_of",
+    "read_objects",
     "read_rules",
     "shapes_text",
     "sort_findings",

@@ -20,7 +20,7 @@ from usd2kg.grounding.llm.prompts import Example
 from usd2kg.grounding.llm.traffic import Traffic
 from usd2kg.grounding.scaling import read_scaling
 
-__all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "parse_llm_name"]
+__all__ = ["LLMSettings", "make_llm_grounder", "open_asker", "open_llm_grounder", "parse_llm_name"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +107,17 @@ def open_llm_grounder(
         )
 
 
+@contextmanager
+def open_asker(settings: LLMSettings) -> Iterator[Asker]:
+    """Open a model to be asked anything, with its connections and its cache.
+
+    Raises:
+        GroundingError: as `open_llm_grounder`.
+    """
+    with ExitStack() as stack:
+        yield _open_asker(settings, stack)
+
+
 def _prompt_options(settings: LLMSettings) -> PromptOptions:
     usual = _SAMPLING_TEMPERATURE if settings.samples > 1 else 0.0
     return PromptOptions(
@@ -120,7 +131,7 @@ def _prompt_options(settings: LLMSettings) -> PromptOptions:
     )
 
 
-def _open_asker(settings: LLMSettings, stack: ExitStack, *, is_dry: bool) -> Asker:
+def _open_asker(settings: LLMSettings, stack: ExitStack, *, is_dry: bool = False) -> Asker:
     tariff = find_tariff(settings.model) if settings.price is None else parse_price(settings.price)
     limits = Limits(settings.token_budget, settings.budget)
     if is_dry:

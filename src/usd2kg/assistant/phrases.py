@@ -1,0 +1,67 @@
+"""English phrases for the ready questions: what is asked, and about what. They stand in `phrases.txt`."""
+
+import re
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+__all__ = ["Phrase", "list_phrases", "match_phrase"]
+
+
+class Phrase(NamedTuple):
+    """What a person asks, understood."""
+
+    question: str
+    """Id of a listed question, or a word of `phrases.txt` for one in words: `on`, `where`, `how-many`, `is-on`…"""
+    given: Mapping[str, str]
+    """Parameter → what the person said for it; those left unsaid are missing."""
+
+
+_PARAMETERS = {
+    "thing": "[^?]+?",
+    "class": "[^?]+?",
+    "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
+    "mass": r"<number> ?(kilos?|(kilo)?grams?|kg|g)?",
+    "position": r"-?<number>,? +-?<number>,? +-?<number>",
+}
+_POLITE = re.compile(
+    r"(please|can you|could you|would you|tell me(?! about)|i want to know|do you know|hey|ok|so),?\s+", re.IGNORECASE
+)
+_APOSTROPHE = "\u2019"
+
+
+@cache
+def list_phrases() -> Sequence[tuple[str, re.Pattern[str]]]:
+    """Return (id of a question, pattern of a whole question) in the order in which they are tried."""
+    words: dict[str, str] = {name: f"(?P<{name}>{pattern})" for name, pattern in _PARAMETERS.items()}
+    phrases = []
+    for line in (files("usd2kg.assistant") / "phrases.txt").read_text("utf-8").splitlines():
+        if definition := re.fullmatch(r"<(\w+)> = (.+)", line):
+            words[definition[1]] = definition[2]
+        elif phrase := re.fullmatch(r"([\w-]+): (.+)", line):
+            phrases.append((phrase[1], re.compile(_expand(phrase[2], words), re.IGNORECASE)))
+    return tuple(phrases)
+
+
+def _expand(pattern: str, words: Mapping[str, str]) -> str:
+    """Return a pattern with the words in angle brackets replaced, those within them too; groups keep their names."""
+    while (expanded := re.sub(r"(?<!\?P)<(\w+)>", lambda found: words[found[1]], pattern)) != pattern:
+        pattern = expanded
+    return pattern
+
+
+def match_phrase(text: str) -> Phrase | None:
+    """Return what a question in English asks; None if no phrase fits.
+
+    >>> match_phrase("Please tell me, what's on the table?")
+    Phrase(question='on', given={'thing': 'the table'})
+    """
+    asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,")
+    while polite := _POLITE.match(asked):
+        asked = asked[polite.end() :]
+    asked = re.sub(r"^(what|where)'s\b", r"\1 is", asked, flags=re.IGNORECASE)
+    for question, pattern in list_phrases():
+        if found := pattern.fullmatch(asked):
+            return Phrase(question, {name: said.strip() for name, said in found.groupdict().items() if said})
+    return None

@@ -1,0 +1,92 @@
+"""usd2kg ask and usd2kg mcp: questions in plain words, from people and from assistants."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from usd2kg.cli.model_options import CompletionsFile
+from usd2kg.cli.options import JsonOutput
+from usd2kg.cli.output import emit, print_json, talk
+from usd2kg.cli.query import answer_text
+from usd2kg.errors import Usd2kgError
+
+if TYPE_CHECKING:
+    from usd2kg.assistant import AskedAnswer
+    from usd2kg.graph import GraphStore
+
+__all__ = ["ask_command", "mcp_command"]
+
+_Graph = Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")]
+
+
+def ask_command(
+    graph: _Graph,
+    words: Annotated[list[str], typer.Argument(metavar="QUESTION...", help="A question in plain English.")],
+    model: Annotated[
+        str | None,
+        typer.Option(
+            "--model",
+            help="Let a language model write the query: google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL or "
+            "gguf:FILE; default: the ready questions, offline.",
+        ),
+    ] = None,
+    completions: CompletionsFile = None,
+    json: JsonOutput = False,
+) -> None:
+    """Ask a graph in plain English: 'what is on the table?', 'how many cups are there?'."""
+    from usd2kg.assistant import ask_offline  # noqa: PLC0415
+    from usd2kg.graph import load_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+
+    store, text = load_graph(graph), " ".join(words)
+    asked = ask_offline(store, text) if model is None else _ask_model(store, text, model, completions)
+    talk(f"understood as: {asked.understood}")
+    if model is not None:
+        talk(asked.answer.sparql.strip())
+    if json:
+        rows = [dict(zip(asked.answer.columns, row, strict=True)) for row in asked.answer.values]
+        told = {"understood": asked.understood, "verdict": asked.verdict, "sparql": asked.answer.sparql, "rows": rows}
+        print_json(told)
+        return
+    verdict = "" if asked.verdict is None else "yes\n" if asked.verdict else "no\n"
+    emit(verdict + answer_text(asked.answer), None)
+
+
+def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "AskedAnswer":
+    from usd2kg.assistant import ask_model  # noqa: PLC0415
+    from usd2kg.grounding.llm.settings import LLMSettings, open_asker  # noqa: PLC0415
+
+    with open_asker(LLMSettings(model, completions=completions)) as asker:
+        return ask_model(graph, text, asker.complete)
+
+
+def mcp_command(
+    graph: _Graph,
+    scene: Annotated[
+        Path | None, typer.Option("--scene", help="The stage that the graph was built from: gives pictures of things.")
+    ] = None,
+) -> None:
+    """Offer a graph to an assistant, as tools over the Model Context Protocol on stdin and stdout."""
+    try:
+        from usd2kg.assistant.server import make_server  # noqa: PLC0415
+    except ModuleNotFoundError as error:
+        raise Usd2kgError("mcp: the protocol's SDK is not installed; run: pip install 'usd2kg[mcp]'") from error
+    from usd2kg.graph import load_graph  # noqa: PLC0415
+
+    store = load_graph(graph)
+    make_server(store, picture=None if scene is None else _picture_of(store, scene)).run("stdio")
+
+
+def _picture_of(graph: "GraphStore", scene: Path) -> Callable[[str], bytes]:
+    """Return what draws a thing of the graph where it stands; the first, where several are called so."""
+    from usd2kg.scene.render import Renderer  # noqa: PLC0415
+
+    renderer = Renderer(scene)
+
+    def draw(thing: str) -> bytes:
+        answer = graph.where_is(thing)
+        path = answer.rows[0][answer.columns.index("path")]
+        return renderer.render_object(path or "", size=(512, 384), in_context=True)
+
+    return draw
