@@ -3,6 +3,7 @@
 import itertools
 import math
 import re
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,6 +13,7 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.bodies import parse_vector
+from usd2kg.graph.document import open_rdf, rdf_format
 from usd2kg.graph.functions import FUNCTION_NAMESPACE, make_functions
 from usd2kg.graph.questions import Parameter, find_question, parse_number
 from usd2kg.graph.vocabulary import PREFIXES
@@ -20,15 +22,6 @@ from usd2kg.words import split_identifier
 
 __all__ = ["Answer", "GraphStore", "load_graph"]
 
-_INPUT_FORMATS = {
-    ".ttl": ox.RdfFormat.TURTLE,
-    ".nt": ox.RdfFormat.N_TRIPLES,
-    ".rdf": ox.RdfFormat.RDF_XML,
-    ".owl": ox.RdfFormat.RDF_XML,
-    ".nq": ox.RdfFormat.N_QUADS,
-    ".trig": ox.RdfFormat.TRIG,
-    ".jsonld": ox.RdfFormat.JSON_LD,
-}
 _QUOTED = re.compile(r"<[^<>\s]*>|\"(?:\\\\.|[^\"\\\\])*\"|'(?:\\\\.|[^'\\\\])*'|#[^\n]*")
 """IRIs, strings and comments: where a keyword is none."""
 _PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
@@ -286,7 +279,7 @@ class GraphStore:
         return [(row["o"], row["p"].value, row["l"].value) for row in rows]
 
     def _select(self, query: str) -> list[Any]:
-        rows = self._store.query(query, prefixes=PREFIXES)
+        rows = self._store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
         assert isinstance(rows, ox.QuerySolutions)
         return list(rows)
 
@@ -407,18 +400,16 @@ def load_graph(path: Path | str) -> GraphStore:
         GraphError: the file is missing, its ending names no RDF format, or it does not parse.
     """
     path = Path(path)
-    rdf_format = _INPUT_FORMATS.get(path.suffix.lower())
     if path.is_dir():
         raise GraphError(f"{path}: is a folder; expected a graph that usd2kg build wrote")
     if not path.is_file():
         raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
-    if rdf_format is None:
-        endings = ", ".join(_INPUT_FORMATS)
-        raise GraphError(f"{path}: the ending {path.suffix!r} names no RDF format; expected one of {endings}")
+    syntax = rdf_format(path)
     store = ox.Store()
     try:
-        store.bulk_load(path=str(path), format=rdf_format)
-    except (SyntaxError, OSError) as error:
+        with open_rdf(path) as file:
+            store.bulk_load(file, format=syntax)
+    except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = " ".join(str(error).split())
-        raise GraphError(f"{path}: does not parse as {rdf_format.name} ({reason}); build the graph again") from error
+        raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
     return GraphStore(store, str(path))

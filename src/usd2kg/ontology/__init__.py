@@ -4,6 +4,7 @@ from usd2kg.ontology.closure import Closure, read_closure, without_header
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
 from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
+from usd2kg.ontology.owl_write import write_functional_syntax
 from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
@@ -20,4 +21,5 @@ __all__ = [
     "load_tbox",
     "read_closure",
     "without_header",
+    "write_functional_syntax",
 ]
