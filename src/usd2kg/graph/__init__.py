@@ -13,6 +13,7 @@ from usd2kg.graph.query import Answer, GraphStore, load_graph
 from usd2kg.graph.questions import Parameter, Question, list_questions
 from usd2kg.graph.relations import Relation, RelationOptions, find_relations
 from usd2kg.graph.serialize import GRAPH_FORMATS, GraphFormat, graph_format, serialize_graph, write_graph
+from usd2kg.graph.sssom import UNSPECIFIED_LICENSE, format_sssom
 from usd2kg.graph.terms import VOCABULARY_IRI, vocabulary_text
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "GRAPH_FORMATS",
     "PROFILES",
     "RDF_FORMATS",
+    "UNSPECIFIED_LICENSE",
     "VOCABULARY_IRI",
     "Answer",
     "GraphDocument",
@@ -42,6 +44,7 @@ __all__ = [
     "context_text",
     "document_of",
     "find_relations",
+    "format_sssom",
     "graph_format",
     "individual_iri",
     "instantiate",
