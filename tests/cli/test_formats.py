@@ -56,6 +56,7 @@ class TestConvert:
             assert f"triples written to {target}" in done.err
         assert Path("again.ttl").read_bytes() == graph.read_bytes()
 
+    @pytest.mark.filterwarnings("ignore:ConjunctiveGraph is deprecated:DeprecationWarning")
     def test_json_ld_for_developers(self, run: Run, graph: Path):
         assert run("graph", "convert", graph, "-o", "g.jsonld").code == 0
         data = json.loads(Path("g.jsonld").read_text("utf-8"))
