@@ -38,7 +38,7 @@ class TestGround:
     def test_an_unknown_format_names_all(self, run: Run, room: Path):
         done = run("ground", room, "--format", "xml")
         assert done.code == 2
-        assert "expected csv, json or, on the command line, sssom" in done.err
+        assert "expected one of csv, json, or sssom with usd2kg ground" in done.err
 
 
 class TestBuild:

@@ -4,6 +4,7 @@ import csv
 import gzip
 import json
 import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -221,6 +222,17 @@ class TestJsonLd:
         assert cup["massAttribute"]["mass"] == 0.25
         assert not [iri for iri in things if iri.endswith(("-shape", "-box", "-pose", "-mass"))]
 
+    def test_every_property_that_we_write_has_a_short_key(self, graph: KnowledgeGraph):
+        data = json.loads(serialize_graph(graph, ox.RdfFormat.JSON_LD))
+        assert {key for thing in data["@graph"] for key in all_keys(thing) if ":" in key} == set()
+
+    def test_parts_that_run_in_a_circle_are_all_written(self):
+        first, second = (ox.NamedNode(f"https://my.lab/k/a-{name}") for name in "xy")
+        near = ox.NamedNode("https://x.org/near")
+        triples = [ox.Triple(first, near, second), ox.Triple(second, near, first)]
+        data = serialize_graph(document(*triples), ox.RdfFormat.JSON_LD)
+        assert [quad.triple for quad in ox.parse(data, format=ox.RdfFormat.JSON_LD)] == triples
+
     @pytest.mark.parametrize("profile", PROFILES)
     def test_the_published_context_is_what_files_hold(self, home_tbox: TBox, profile: str):
         data = json.loads(serialize_graph(hostile_graph(home_tbox, profile), ox.RdfFormat.JSON_LD))
@@ -263,6 +275,15 @@ class TestJsonLd:
         data = serialize_graph(document(*triples), ox.RdfFormat.JSON_LD)
         found = {exact(q.triple) for q in ox.parse(data, format=ox.RdfFormat.JSON_LD)}
         assert found == {exact(t) for t in triples}
+
+
+def all_keys(thing: Any) -> Iterator[str]:
+    """Yield the keys of an object and of all within it."""
+    for key, value in thing.items():
+        yield key
+        for item in value if isinstance(value, list) else [value]:
+            if isinstance(item, dict):
+                yield from all_keys(item)
 
 
 def exact(triple: ox.Triple) -> tuple[Any, ...]:

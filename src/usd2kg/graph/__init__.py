@@ -1,6 +1,6 @@
 """From a Scene and its Grounding to RDF: individuals, relations, provenance, files and questions."""
 
-from usd2kg.graph.document import RDF_FORMATS, GraphDocument, GraphPart, document_of, read_document
+from usd2kg.graph.document import RDF_FORMATS, GraphDocument, GraphPart, document_of, rdf_format, read_document
 from usd2kg.graph.functions import FUNCTION_NAMESPACE, FUNCTIONS
 from usd2kg.graph.instantiate import PROFILES, KnowledgeGraph, instantiate
 from usd2kg.graph.iris import individual_iri, prim_path_of
@@ -52,6 +52,7 @@ __all__ = [
     "load_graph",
     "merge_imports",
     "prim_path_of",
+    "rdf_format",
     "read_document",
     "read_epoch",
     "read_property_graph",

@@ -15,7 +15,7 @@ _TYPES = {str: "", float: ":double", int: ":long", bool: ":boolean"}
 _CASTS = {str: "{}", float: "toFloat({})", int: "toInteger({})", bool: "toBoolean({})"}
 _ROWS = 10_000
 """Rows that are put into one piece."""
-_HEAD = """// Loads the graph of a scene into a running Neo4j, 5 or later.
+_HEAD = """// Loads the graph of a scene into a running Neo4j, 5.23 or later.
 //
 // 1. Copy nodes.csv and relationships.csv into the import folder of the database.
 // 2. Where names hold backslashes, set in neo4j.conf: dbms.import.csv.legacy_quote_escaping=false
@@ -27,7 +27,7 @@ _HEAD = """// Loads the graph of a scene into a running Neo4j, 5 or later.
 //
 // Loading again replaces the properties of known nodes, and adds no second relation of a type between two nodes.
 """
-_LABEL_STEP = "  FOREACH (_ IN CASE WHEN '{name}' IN labels THEN [1] ELSE [] END | SET n:`{name}`)"
+_LABEL_STEP = "  FOREACH (x IN CASE WHEN '{name}' IN labels THEN [1] ELSE [] END | SET n:`{name}`)"
 
 
 def write_neo4j(graph: PropertyGraph, folder: Path) -> tuple[Path, ...]:
@@ -85,7 +85,7 @@ def _script(graph: PropertyGraph, node_types: Mapping[str, type], edge_types: Ma
     kinds = sorted({edge.type for edge in graph.edges})
     steps = "\n".join(_LABEL_STEP.format(name=name) for name in labels)
     relations = "\n".join(
-        f"  FOREACH (_ IN CASE WHEN row.`:TYPE` = '{kind}' THEN [1] ELSE [] END |\n"
+        f"  FOREACH (x IN CASE WHEN row.`:TYPE` = '{kind}' THEN [1] ELSE [] END |\n"
         f"    MERGE (a)-[r:{kind}]->(b) SET r += values)"
         for kind in kinds
     )
