@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow owl-jars fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow owl-jars sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -28,6 +28,10 @@ test-slow: $(READY) ## Run the tests that take long
 
 owl-jars: ## Fetch the OWL API and HermiT into build/owl, for the checks of make test-slow; needs Java 17 and Maven
 	mvn -q -B -f tools/owl/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/owl
+
+sssom-check-env: ## Make build/sssom with the reference implementation of SSSOM, for the checks of make test-slow
+	$(PYTHON) -m venv build/sssom
+	build/sssom/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/sssom.txt
 
 fuzz: $(READY) ## Read mangled stages for ten minutes; keep those that do harm in build/fuzz
 	$(BIN)/python -m tests.scene.fuzz --seconds 600 --keep build/fuzz
@@ -57,6 +61,8 @@ lock: $(READY) ## Pin what pyproject.toml asks for into requirements/, with hash
 	  --group dev --output-file requirements/dev.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	  --output-file requirements/run.txt pyproject.toml
+	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
+	  --no-annotate --output-file requirements/sssom.txt -
 
 scene: $(READY) ## Write the demo kitchen and the scenes of the benchmarks anew from their scripts
 	$(BIN)/python -m examples.demo_kitchen.make

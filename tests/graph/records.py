@@ -8,7 +8,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from tests.grounding.records import make_object, make_scene
-from usd2kg.graph import GRAPH_FORMATS, GraphStore, KnowledgeGraph, instantiate, serialize_graph
+from usd2kg.graph import RDF_FORMATS, GraphStore, KnowledgeGraph, instantiate, serialize_graph
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.grounding import Candidate, Grounding, Prediction, Status
 from usd2kg.ontology import TBox
@@ -68,7 +68,7 @@ def build_graph(tbox: TBox, placed: Iterable[tuple[SceneObject, str | None]], **
 
 def reread(graph: KnowledgeGraph, ending: str = ".ttl") -> ox.Store:
     """Return the graph as a real reader finds it in the file."""
-    rdf_format = GRAPH_FORMATS[ending]
+    rdf_format = RDF_FORMATS[ending]
     store = ox.Store()
     store.load(io.BytesIO(serialize_graph(graph, rdf_format)), format=rdf_format)
     return store

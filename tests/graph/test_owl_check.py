@@ -9,7 +9,7 @@ from tests.conftest import shared_file
 from tests.graph.test_vocabulary import WRITTEN
 from tools.check_owl import check_owl, missing_tools
 from usd2kg.demo import demo_scene
-from usd2kg.graph import GraphOptions, vocabulary_text, write_graph
+from usd2kg.graph import GraphOptions, read_document, vocabulary_text, write_graph
 
 pytestmark = [
     pytest.mark.slow,
@@ -93,3 +93,14 @@ def test_a_merged_graph_is_consistent_by_itself(tmp_path: Path):
     assert (report.missing, report.verdict) == ((), "consistent")
     # DUL's own: a cardinality on isLocationOf, whose inverse is part of a chain.
     assert all("DUL.owl#isLocationOf" in violation for violation in report.violations)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_owl_api_reads_the_same_axioms_in_every_format_of_owl(tmp_path: Path, profile: str):
+    turtle = franka(tmp_path, profile)
+    expected = check_owl(turtle)
+    assert expected.axioms > 500
+    for ending in (".ofn", ".rdf"):
+        other = tmp_path / f"franka{ending}"
+        write_graph(read_document(turtle), other)
+        assert check_owl(other) == expected

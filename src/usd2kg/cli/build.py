@@ -42,7 +42,10 @@ def build_command(
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", help="Graph to write, .ttl or .nt; a folder for several scenes; default: SCENE.ttl here."
+            "--output",
+            "-o",
+            help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .jsonld, .ofn or .graphml, packed with .gz after it; a "
+            "folder for several scenes; default: SCENE.ttl here.",
         ),
     ] = None,
     json: JsonOutput = False,

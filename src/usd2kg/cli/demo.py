@@ -24,11 +24,12 @@ def demo_command(
     """Build the knowledge graph of the built-in demo kitchen and ask it three questions."""
     from usd2kg.demo import demo_scene  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
-    from usd2kg.graph import graph_format, load_graph, write_graph  # noqa: PLC0415
+    from usd2kg.graph import load_graph, rdf_format, write_graph  # noqa: PLC0415
     from usd2kg.pipeline import build  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     start = time.perf_counter()
-    graph_format(output)
+    # Questions are put to the file that was written.
+    rdf_format(output)
     check_writable(output)
     result = build(demo_scene())
     write_graph(result.graph, output)

@@ -1,22 +1,17 @@
-"""usd2kg graph: pictures of a graph."""
+"""usd2kg graph: pictures of a graph, and the same graph in other formats."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from usd2kg.cli.output import talk
+from usd2kg.cli.output import emit, talk
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.files import check_writable, write_whole
 
 __all__ = ["app"]
 
-app = typer.Typer(no_args_is_help=True, help="Draw graphs.")
-
-
-@app.callback()
-def _group() -> None:
-    """Keep `draw` a command of its own while it is the only one."""
+app = typer.Typer(no_args_is_help=True, help="Draw and convert graphs.")
 
 
 @app.command("draw")
@@ -51,3 +46,60 @@ def draw(
         picture = draw_surroundings(store, found[0].value, f"{thing} in {graph.stem}")
     write_whole(target, picture.encode("utf-8"))
     talk(f"written to {target}")
+
+
+@app.command("convert")
+def convert(
+    graph: Annotated[
+        Path, typer.Argument(metavar="GRAPH", help="A graph: .ttl, .trig, .nt, .nq, .rdf, .owl or .jsonld, maybe .gz.")
+    ],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File to write: .ttl, .trig, .nt, .nq, .rdf, .owl, .jsonld, .ofn or .graphml; packed with .gz after "
+            "it.",
+        ),
+    ],
+) -> None:
+    """Write a graph in another format; the order of its statements stays where the format has one."""
+    from usd2kg.graph import graph_format, read_document, write_graph  # noqa: PLC0415
+
+    graph_format(output)
+    check_writable(output)
+    document = read_document(graph)
+    write_graph(document, output)
+    talk(f"{len(document.triples)} triples written to {output}")
+
+
+@app.command("export")
+def export(
+    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")],
+    target: Annotated[str, typer.Option("--to", help="The database: neo4j (default).")] = "neo4j",
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder to write; default: GRAPH-neo4j here.")
+    ] = None,
+) -> None:
+    """Write a graph as a property graph: nodes.csv, relationships.csv and a script that loads them."""
+    from usd2kg.graph import read_document, read_property_graph, write_neo4j  # noqa: PLC0415
+
+    if target != "neo4j":
+        raise GraphError(f"--to {target!r} is unknown; expected neo4j, or usd2kg graph convert for files of RDF")
+    folder = output or Path(f"{graph.stem}-neo4j")
+    if folder.exists() and not folder.is_dir():
+        raise OutputError(f"{folder}: is not a folder; expected one for the files of the database")
+    found = read_property_graph(read_document(graph))
+    write_neo4j(found, folder)
+    counts = f"{len(found.nodes)} nodes and {len(found.edges)} relationships"
+    talk(f"{counts} written to {folder}; load.cypher says how to load them")
+
+
+@app.command("context")
+def context(
+    profile: Annotated[str, typer.Option("--profile", help="Whose graphs: soma (default) or plain.")] = "soma",
+) -> None:
+    """Print the JSON-LD context that graphs are written with: what each short key means."""
+    from usd2kg.graph import context_text  # noqa: PLC0415
+
+    emit(context_text(profile), None)

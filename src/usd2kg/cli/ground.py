@@ -10,9 +10,11 @@ from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
 from usd2kg.cli.options import AbbreviatedLength, OntologyFile, ReadingOptions, SceneFile
 from usd2kg.cli.output import emit, talk
+from usd2kg.errors import GroundingError
 
 __all__ = ["ground_command"]
 
+_SSSOM = "sssom"
 _INTERRUPTED = 130
 """Exit code of a program that the user stopped: 128 and the signal's number."""
 
@@ -28,18 +30,33 @@ def ground_command(
     paths: Annotated[
         Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
     ] = None,
-    file_format: Annotated[str, typer.Option("--format", help="csv (default) or json.")] = "csv",
+    file_format: Annotated[str, typer.Option("--format", help="csv (default), json or sssom.")] = "csv",
+    base: Annotated[
+        str | None,
+        typer.Option("--base", help="For sssom: IRI under which the individuals lie; default: by file name."),
+    ] = None,
+    license_iri: Annotated[
+        str | None, typer.Option("--license", help="For sssom: IRI of the mapping's licence; default: unspecified.")
+    ] = None,
+    mapping_date: Annotated[
+        str | None,
+        typer.Option("--mapping-date", help="For sssom: when the mapping was made, as 2026-07-15; default: not told."),
+    ] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write; default: stdout.")] = None,
 ) -> None:
     """Ground the objects of a scene: print path, class, label, confidence, status and grounder of each."""
     from usd2kg import grounding  # noqa: PLC0415
     from usd2kg.cli.model_run import show_plan  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.graph import UNSPECIFIED_LICENSE, format_sssom  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import read_scene, view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     groups, naming_regime = chosen.groups, chosen.naming_regime
-    grounding.check_format(file_format)
+    if file_format != _SSSOM:
+        grounding.check_format(file_format)
+        if base or license_iri or mapping_date:
+            raise GroundingError("--base, --license and --mapping-date belong to --format sssom; leave them out")
     for target in (output, asked.queue):
         if target is not None:
             check_writable(target)
@@ -64,7 +81,19 @@ def ground_command(
             decisions=run.decisions,
             abbreviated_length=abbreviated_length,
         )
-    emit(grounding.format_mapping(result, tbox, file_format), output)
+    if file_format == _SSSOM:
+        names = {obj.prim_path: obj.display_name or obj.name for obj in found.objects}
+        text = format_sssom(
+            result,
+            tbox,
+            names,
+            base=base,
+            license_iri=license_iri or UNSPECIFIED_LICENSE,
+            mapping_date=mapping_date,
+        )
+    else:
+        text = grounding.format_mapping(result, tbox, file_format)
+    emit(text, output)
     for path in found.missing_paths:
         talk(f"{scene}: there is no prim {path}; its row has the status missing")
     run.tell(result, asked, tbox)

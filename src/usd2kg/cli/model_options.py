@@ -89,7 +89,11 @@ Calibration = Annotated[
 ]
 Decisions = Annotated[
     Path | None,
-    typer.Option("--decisions", help="CSV file path,decision of what a person decided: it is not asked about again."),
+    typer.Option(
+        "--decisions",
+        help="What a person decided, which is not asked about again: a CSV file path,decision, or SSSOM (.tsv), of "
+        "which the rows count that a person curated or reviewed.",
+    ),
 ]
 Examples = Annotated[
     int,

@@ -7,9 +7,9 @@ import pyoxigraph as ox
 
 from usd2kg.graph.annotate import Annotation
 from usd2kg.graph.vocabulary import SEMAPV, SSSOM, U2K, named_node, number, text
-from usd2kg.grounding import Prediction, Review
+from usd2kg.grounding import PERSON, Prediction, Review
 
-__all__ = ["justify_class", "justify_refusal"]
+__all__ = ["justify_class", "justify_refusal", "matching_process"]
 
 _ALTERNATIVES = 3
 _MATCHING = {
@@ -17,6 +17,7 @@ _MATCHING = {
     "embedded": SEMAPV.CompositeMatching,
     "embedding": SEMAPV.SemanticSimilarityThresholdMatching,
     "llm": SEMAPV.BackgroundKnowledgeBasedMatching,
+    PERSON: SEMAPV.ManualMappingCuration,
     "volume": SEMAPV.BackgroundKnowledgeBasedMatching,
 }
 """Kind of grounder → the process of SEMAPV that it is."""
@@ -27,7 +28,7 @@ def justify_class(prediction: Prediction, run: ox.NamedNode) -> list[Annotation]
     confidence = prediction.confidence
     return [
         *([(SSSOM.confidence, number(confidence))] if confidence is not None else []),
-        (SSSOM.mapping_justification, _matching(prediction)),
+        (SSSOM.mapping_justification, matching_process(prediction)),
         *_refusal(prediction),
         (U2K.grounder, text(prediction.grounder)),
         *((U2K.evidence, text(group)) for group in prediction.evidence),
@@ -64,7 +65,7 @@ def _review(review: Review, decided: str | None) -> Iterator[Annotation]:
         yield U2K.predictedConfidence, number(review.predicted_confidence)
 
 
-def _matching(prediction: Prediction) -> ox.NamedNode:
+def matching_process(prediction: Prediction) -> ox.NamedNode:
     """Return the process of SEMAPV by which the class was found."""
     review = prediction.review
     if review is not None and review.predicted_class != prediction.class_iri:

@@ -101,7 +101,7 @@ class Lookup:
         return [row["o"] for row in self._select(_MEMBERS.format(classes=term_list(classes)))]
 
     def _select(self, query: str) -> list[Any]:
-        rows = self._store.query(query, prefixes=PREFIXES)
+        rows = self._store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
         assert isinstance(rows, ox.QuerySolutions)
         return list(rows)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.model import Grounding, Prediction, Status
+from usd2kg.grounding.sssom import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["PERSON", "decided", "format_queue", "read_decisions", "unsure_of"]
@@ -26,13 +27,17 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 def read_decisions(path: Path, tbox: TBox) -> dict[str, ClassIRI]:
     """Return prim path → the class that a person decided on, from a CSV file; rows without a decision are left out.
 
-    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a local name that is unique.
+    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a local name that is unique. A file
+    whose name ends in .tsv is SSSOM, of which only rows count that a person curated or reviewed.
 
     Raises:
         GroundingError: the file cannot be read, a column is missing, a class is not in scope, or a prim has two.
     """
     try:
-        rows = csv.DictReader(path.read_text("utf-8-sig").splitlines())
+        text = path.read_text("utf-8-sig")
+        if is_sssom(path):
+            return read_sssom_decisions(path, text, tbox)
+        rows = csv.DictReader(text.splitlines())
         return _read_rows(path, rows, tbox)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise GroundingError(f"{path}: cannot be read as decisions ({error}); {_EXPECTED}") from error

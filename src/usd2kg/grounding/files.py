@@ -36,7 +36,8 @@ def format_mapping(grounding: Grounding, tbox: TBox, file_format: str) -> str:
 def check_format(file_format: str) -> None:
     """Raise GroundingError if a mapping cannot be written in that format."""
     if file_format not in MAPPING_FORMATS:
-        raise GroundingError(f"format {file_format!r} is unknown; expected one of {', '.join(MAPPING_FORMATS)}")
+        known = ", ".join(MAPPING_FORMATS)
+        raise GroundingError(f"format {file_format!r} is unknown; expected one of {known}, or sssom with usd2kg ground")
 
 
 def _format_csv(grounding: Grounding, tbox: TBox) -> str:

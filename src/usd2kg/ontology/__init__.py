@@ -6,6 +6,7 @@ from usd2kg.ontology.fetch import fetch_ontology
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
 from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
+from usd2kg.ontology.owl_write import write_functional_syntax
 from usd2kg.ontology.prefixes import compact_iri, expand_curie
 from usd2kg.ontology.registry import KnownOntology, read_registry
 
@@ -27,4 +28,5 @@ __all__ = [
     "read_closure",
     "read_registry",
     "without_header",
+    "write_functional_syntax",
 ]

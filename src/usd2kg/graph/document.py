@@ -1,0 +1,149 @@
+"""A graph as it stands in a file: triples in their order, in named graphs or in none, and the file's prefixes."""
+
+import gzip
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import BinaryIO, NamedTuple, cast
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.instantiate import KnowledgeGraph
+from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
+
+__all__ = [
+    "RDF_FORMATS",
+    "GraphDocument",
+    "GraphPart",
+    "document_of",
+    "open_rdf",
+    "rdf_format",
+    "read_document",
+    "refuse_rdf12",
+]
+
+RDF_FORMATS = {
+    ".ttl": ox.RdfFormat.TURTLE,
+    ".nt": ox.RdfFormat.N_TRIPLES,
+    ".nq": ox.RdfFormat.N_QUADS,
+    ".trig": ox.RdfFormat.TRIG,
+    ".rdf": ox.RdfFormat.RDF_XML,
+    ".owl": ox.RdfFormat.RDF_XML,
+    ".jsonld": ox.RdfFormat.JSON_LD,
+}
+"""File ending → syntax of RDF that is read and written; each may be followed by .gz."""
+
+
+class GraphPart(NamedTuple):
+    """The triples of one named graph."""
+
+    iri: str
+    """Name of the graph; empty for the default graph."""
+    triples: Sequence[ox.Triple]
+
+
+@dataclass(frozen=True)
+class GraphDocument:
+    """What a file of RDF holds."""
+
+    parts: tuple[GraphPart, ...]
+    prefixes: Mapping[str, str]
+    source: str
+    """Where it comes from, for messages."""
+
+    @property
+    def triples(self) -> Sequence[ox.Triple]:
+        """All triples, whatever graph they are in, each once."""
+        if len(self.parts) == 1:
+            return self.parts[0].triples
+        return tuple(dict.fromkeys(triple for part in self.parts for triple in part.triples))
+
+    @property
+    def base(self) -> str:
+        """The namespace of the empty prefix, where our graphs have their individuals; empty if there is none."""
+        return self.prefixes.get("", "")
+
+
+def document_of(graph: KnowledgeGraph) -> GraphDocument:
+    """Return a graph that was just made: one named graph, called as its ontology is."""
+    return GraphDocument((GraphPart(graph.iri, graph.triples),), graph.prefixes, graph.iri)
+
+
+def rdf_format(path: Path) -> ox.RdfFormat:
+    """Return the syntax that a file name asks for, without regard to a last .gz.
+
+    Raises:
+        GraphError: the ending names no syntax of RDF.
+    """
+    name = path.with_suffix("") if path.suffix.lower() == ".gz" else path
+    found = RDF_FORMATS.get(name.suffix.lower())
+    if found is None:
+        endings = ", ".join(RDF_FORMATS)
+        raise GraphError(f"{path}: the ending {name.suffix!r} names no RDF format; expected one of {endings}")
+    return found
+
+
+def open_rdf(path: Path) -> BinaryIO:
+    """Open a file to read, through gzip where its name ends in .gz."""
+    return cast("BinaryIO", gzip.open(path)) if path.suffix.lower() == ".gz" else path.open("rb")
+
+
+def read_document(path: Path) -> GraphDocument:
+    """Return what a file of RDF holds, in its order.
+
+    Triples outside a named graph belong to the graph of the ontology that the file declares, if it declares one.
+
+    Raises:
+        GraphError: the file is missing, its ending names no RDF format, or it does not parse.
+    """
+    syntax = rdf_format(path)
+    if not path.is_file():
+        raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
+    try:
+        with open_rdf(path) as file:
+            parser = ox.parse(file, format=syntax)
+            parts = tuple(_parts(parser))
+            prefixes = dict(parser.prefixes)
+    except (SyntaxError, OSError, EOFError, zlib.error) as error:
+        reason = " ".join(str(error).split())
+        raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
+    base = _base(parts)
+    return GraphDocument(parts, {**PREFIXES, **({"": base} if base else {}), **prefixes}, str(path))
+
+
+def _parts(quads: Iterator[ox.Quad]) -> Iterator[GraphPart]:
+    found: dict[str, dict[ox.Triple, None]] = {}
+    for graph, run in groupby(quads, key=lambda quad: quad.graph_name):
+        name = str(graph) if isinstance(graph, ox.BlankNode) else getattr(graph, "value", "")
+        found.setdefault(name, {}).update((quad.triple, None) for quad in run)
+    for name, triples in found.items():
+        kept = tuple(triples)
+        yield GraphPart(name or _ontology(kept), kept)
+
+
+def _ontology(triples: Sequence[ox.Triple]) -> str:
+    nodes = (t.subject for t in triples if t.predicate == RDF.type and t.object == OWL.Ontology)
+    return next((node.value for node in nodes if isinstance(node, ox.NamedNode)), "")
+
+
+def _base(parts: tuple[GraphPart, ...]) -> str:
+    """Return where the individuals lie: in our graphs, under the name of the graph."""
+    for part in parts:
+        for end in "/#":
+            base = part.iri + end
+            if part.iri and any(getattr(triple.subject, "value", "").startswith(base) for triple in part.triples):
+                return base
+    return ""
+
+
+def refuse_rdf12(triple: ox.Triple, syntax: str, source: str) -> None:
+    """Raise GraphError if a triple needs RDF 1.2: a triple term, or a text with a direction."""
+    value = triple.object
+    if isinstance(value, ox.Triple) or (isinstance(value, ox.Literal) and value.direction is not None):
+        raise GraphError(
+            f"{source}: what is said of {triple.subject} needs RDF 1.2, which {syntax} has not; choose .ttl, .trig, "
+            ".nt or .nq, or annotate statements as OWL does (--annotations owl)"
+        )

@@ -1,0 +1,178 @@
+"""The mapping of prims to classes as SSSOM/TSV (https://mapping-commons.github.io/sssom/spec/), version 1.1.
+
+The predicate is rdf:type: an object of a scene is an individual, its match a class, and that is what the graph states.
+SSSOM's usual predicates, skos:exactMatch and its kin, hold between concepts.
+"""
+
+import csv
+import io
+import json
+import re
+from collections.abc import Iterable, Mapping
+from datetime import date
+from pathlib import Path
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.iris import check_base, default_base, individual_iri
+from usd2kg.graph.justification import matching_process
+from usd2kg.graph.vocabulary import PREFIXES, SSSOM, named_node
+from usd2kg.grounding import Grounding, Prediction, Status
+from usd2kg.ontology import TBox
+
+__all__ = ["UNSPECIFIED_LICENSE", "format_sssom"]
+
+UNSPECIFIED_LICENSE = "https://w3id.org/sssom/license/unspecified"
+"""What SSSOM asks to be written where nobody chose a licence."""
+
+_COLUMNS = (
+    "subject_id",
+    "subject_label",
+    "predicate_id",
+    "object_id",
+    "object_label",
+    "mapping_justification",
+    "reviewer_id",
+    "reviewer_label",
+    "review_date",
+    "confidence",
+    "comment",
+    "prim_path",
+    "status",
+    "grounder",
+    "alternatives",
+)
+_EXTENSIONS = {"prim_path": "primPath", "status": "status", "grounder": "grounder", "alternatives": "alternative"}
+"""Column beyond SSSOM's → our term for it."""
+_CLAIMS = frozenset({Status.REFUSED, Status.REVIEWED})
+"""Without a class, these say that none fits; the others say nothing about the object."""
+_LOCAL = re.compile(r"[^#/:]+")
+"""What follows the base of the individuals in their IRIs."""
+_PREFIX = "scene"
+
+
+def format_sssom(
+    grounding: Grounding,
+    tbox: TBox,
+    names: Mapping[str, str],
+    *,
+    base: str | None = None,
+    license_iri: str = UNSPECIFIED_LICENSE,
+    mapping_date: str | None = None,
+) -> str:
+    """Return the mapping as SSSOM/TSV, with our columns for prim path, status, grounder and other candidates.
+
+    Objects that the grounder was not able to judge (failed, unreadable, missing) have no row; for those that no class
+    fits, the object is sssom:NoTermFound.
+
+    Args:
+        grounding: the mapping.
+        tbox: the classes it maps to.
+        names: prim path → label, as in the graph.
+        base: IRI under which the individuals lie; by default as for graphs, made from the file's name.
+        license_iri: the licence of the mapping.
+        mapping_date: when the mapping was made, as 2026-07-15; None leaves it out, so that the same input gives the
+            same bytes.
+
+    Raises:
+        GraphError: the base or the licence is no IRI, or the date is none.
+    """
+    base = check_base(base or default_base(grounding.scene))
+    if named_node(license_iri) is None:
+        raise GraphError(f"license {license_iri!r}: expected an IRI, like https://creativecommons.org/licenses/by/4.0/")
+    curies = _Curies(base)
+    rows = [_row(p, tbox, names, base, curies) for p in grounding.predictions if p.class_iri or p.status in _CLAIMS]
+    header = _header(grounding, tbox, base, curies)
+    dates = {"mapping_date": _read_date(mapping_date)} if mapping_date else {}
+    return _document({**header, "license": license_iri, **dates}, curies, rows)
+
+
+def _read_date(text: str) -> str:
+    try:
+        return date.fromisoformat(text).isoformat()
+    except ValueError as error:
+        raise GraphError(f"mapping date {text!r}: {error}; expected one like 2026-07-15") from error
+
+
+def _header(grounding: Grounding, tbox: TBox, base: str, curies: "_Curies") -> dict[str, str]:
+    found = {
+        "mapping_set_id": individual_iri(base, "/", "mapping"),
+        "mapping_set_title": f"Classes of the objects of {Path(grounding.scene).name}",
+        "mapping_tool": "usd2kg",
+        "mapping_tool_version": grounding.tool_version,
+        "subject_type": "owl named individual",
+        "object_type": "owl class",
+        "predicate_type": "rdf property",
+        "subject_source": curies.shorten(individual_iri(base, "/", "stage")),
+        "subject_source_version": grounding.scene_hash,
+    }
+    if not tbox.ontology_iri.startswith("file:"):
+        found["object_source"] = curies.shorten(tbox.ontology_iri)
+    return {**found, "object_source_version": tbox.version_iri or tbox.content_hash}
+
+
+class _Curies:
+    """Makes CURIEs, and keeps the namespaces that they need."""
+
+    def __init__(self, base: str) -> None:
+        self.used = {_PREFIX: base, "u2k": PREFIXES["u2k"], "xsd": PREFIXES["xsd"]}
+        self._known = {iri: name for name, iri in PREFIXES.items()} | {"https://orcid.org/": "orcid", base: _PREFIX}
+
+    def shorten(self, iri: str) -> str:
+        base = self.used[_PREFIX]
+        end = len(base) if iri.startswith(base) else 0
+        if not _LOCAL.fullmatch(iri, end) or not end:
+            end = max(iri.rfind("#"), iri.rfind("/"), iri.rfind(":")) + 1
+        namespace, name = iri[:end], iri[end:]
+        prefix = self._known.setdefault(namespace, f"ns{len(self._known) - len(PREFIXES) - 1}")
+        self.used[prefix] = namespace
+        return f"{prefix}:{name}"
+
+
+def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies: _Curies) -> dict[str, str]:
+    review = p.review
+    has_id = review is not None and named_node(review.reviewer) is not None
+    day = review.time[:10] if review is not None else ""
+    others = [candidate.class_iri for candidate in p.candidates if candidate.class_iri != p.class_iri]
+    return {
+        "subject_id": curies.shorten(individual_iri(base, p.prim_path)),
+        "subject_label": _line(names.get(p.prim_path) or p.prim_path.rpartition("/")[2]),
+        "predicate_id": curies.shorten(f"{PREFIXES['rdf']}type"),
+        "object_id": curies.shorten(p.class_iri or f"{SSSOM.iri}NoTermFound"),
+        "object_label": _line(tbox.by_iri[p.class_iri].label) if p.class_iri else "",
+        "mapping_justification": curies.shorten(matching_process(p).value),
+        "reviewer_id": curies.shorten(review.reviewer) if review is not None and has_id else "",
+        "reviewer_label": _item(review.reviewer) if review is not None and not has_id else "",
+        "review_date": day if re.fullmatch(r"\d{4}-\d{2}-\d{2}", day, flags=re.ASCII) else "",
+        "confidence": "" if p.confidence is None else f"{p.confidence:.4f}",
+        "comment": _line("; ".join(filter(None, (p.explanation, review.comment if review is not None else "")))),
+        "prim_path": p.prim_path,
+        "status": p.status.value,
+        "grounder": _line(p.grounder),
+        "alternatives": "|".join(curies.shorten(iri) for iri in others),
+    }
+
+
+def _line(text: str) -> str:
+    """Return text without line breaks and tabs, which many readers of TSV trip over."""
+    return re.sub(r"\s+", " ", text).strip()
+
+
+def _item(text: str) -> str:
+    """Return text as one item of a list that bars part."""
+    return _line(text).replace("|", r"\|")
+
+
+def _document(header: Mapping[str, str], curies: _Curies, rows: Iterable[Mapping[str, str]]) -> str:
+    lines = ['sssom_version: "1.1"', "curie_map:"]
+    # A JSON string is a YAML string, whatever is in it.
+    lines += [f"  {prefix}: {json.dumps(iri)}" for prefix, iri in sorted(curies.used.items())]
+    lines += [f"{name}: {json.dumps(_line(value))}" for name, value in header.items()]
+    lines.append("extension_definitions:")
+    for name, term in _EXTENSIONS.items():
+        lines += [f"- slot_name: {name}", f"  property: u2k:{term}", "  type_hint: xsd:string"]
+    text = io.StringIO(newline="")
+    text.writelines(f"#{line}\n" for line in lines)
+    writer = csv.DictWriter(text, _COLUMNS, delimiter="\t", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()

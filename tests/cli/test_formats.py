@@ -1,0 +1,110 @@
+"""Formats on the command line: mapping files, graphs in other formats, property graphs."""
+
+import json
+from pathlib import Path
+
+import networkx as nx
+import pytest
+import rdflib
+
+from tests.cli.conftest import Run
+from usd2kg.graph import load_graph
+
+
+class TestGround:
+    def test_sssom_is_written_and_read_back_as_decisions(self, run: Run, room: Path):
+        first = run("ground", room, "--format", "sssom", "--base", "https://my.lab/k/", "-o", "m.sssom.tsv")
+        assert (first.code, first.out) == (0, "")
+        path = Path("m.sssom.tsv")
+        lines = path.read_text("utf-8").splitlines()
+        start = next(number for number, line in enumerate(lines) if line.startswith("subject_id"))
+        columns = lines[start].split("\t")
+        rows = [dict(zip(columns, line.split("\t"), strict=True)) for line in lines[start + 1 :]]
+        mug = next(row for row in rows if row["prim_path"] == "/Room/coffee_mug")
+        assert (mug["subject_id"], mug["object_id"]) == ("scene:Room.coffee_mug", "soma:Cup")
+        mug.update(object_id="soma:Bowl", reviewer_label="Ann")
+        path.write_text(
+            "\n".join([*lines[: start + 1], *("\t".join(row.values()) for row in rows)]) + "\n", encoding="utf-8"
+        )
+        second = run("ground", room, "--decisions", path)
+        assert "/Room/coffee_mug,http://www.ease-crc.org/ont/SOMA.owl#Bowl,bowl,1.0000,reviewed,person" in second.out
+        assert second.out.count(",reviewed,") == 1
+
+    def test_options_of_sssom_alone_are_refused_elsewhere(self, run: Run, room: Path):
+        done = run("ground", room, "--license", "https://x.org/l")
+        assert done.code == 2
+        assert "belong to --format sssom" in done.err
+
+    def test_an_unknown_format_names_all(self, run: Run, room: Path):
+        done = run("ground", room, "--format", "xml")
+        assert done.code == 2
+        assert "expected one of csv, json, or sssom with usd2kg ground" in done.err
+
+
+class TestBuild:
+    @pytest.mark.parametrize("name", ["g.trig", "g.nq", "g.rdf", "g.jsonld", "g.ttl.gz"])
+    def test_questions_are_answered_from_any_format_of_rdf(self, run: Run, room: Path, name: str):
+        assert run("build", room, "-o", name).code == 0
+        assert load_graph(Path(name)).ask(["in", "bowl"]).rows[0][0] == "Apple"
+
+
+class TestConvert:
+    def test_there_and_back_is_the_same_file(self, run: Run, graph: Path):
+        for source, target in (("g.ttl", "g.nq"), ("g.nq", "g.rdf"), ("g.rdf", "again.ttl")):
+            done = run("graph", "convert", graph if source == "g.ttl" else source, "-o", target)
+            assert (done.code, done.out) == (0, "")
+            assert f"triples written to {target}" in done.err
+        assert Path("again.ttl").read_bytes() == graph.read_bytes()
+
+    @pytest.mark.filterwarnings("ignore:ConjunctiveGraph is deprecated:DeprecationWarning")
+    def test_json_ld_for_developers(self, run: Run, graph: Path):
+        assert run("graph", "convert", graph, "-o", "g.jsonld").code == 0
+        data = json.loads(Path("g.jsonld").read_text("utf-8"))
+        mug = next(thing for thing in data["@graph"] if thing["id"] == "Room.coffee_mug")
+        assert (mug["type"][0], mug["on"]) == ("Cup", ["Room.Table_1"])
+        triples = len(rdflib.Graph().parse(graph, format="turtle"))
+        assert len(rdflib.Graph().parse("g.jsonld", format="json-ld")) == triples
+
+    @pytest.mark.parametrize(
+        ("source", "target", "message"),
+        [
+            ("none.ttl", "g.nt", "none.ttl: no such file"),
+            ("none.docx", "g.nt", "'.docx' names no RDF format"),
+            (None, "g.docx", "'.docx' names no graph format"),
+            (None, "none/g.nt", "the folder none does not exist"),
+        ],
+    )
+    def test_errors_are_one_line(self, run: Run, graph: Path, source: str | None, target: str, message: str):
+        done = run("graph", "convert", source or graph, "-o", target)
+        assert done.code == 2
+        assert message in done.err
+        assert done.err.count("\n") == 1
+
+    def test_the_context_is_printed(self, run: Run):
+        done = run("graph", "context", "--profile", "plain")
+        assert json.loads(done.out)["@context"]["on"]["@id"] == "u2k:on"
+        assert run("graph", "context", "--profile", "obo").code == 2
+
+
+class TestExport:
+    def test_neo4j_gets_three_files(self, run: Run, graph: Path):
+        done = run("graph", "export", graph, "--to", "neo4j", "-o", "out")
+        assert done.code == 0
+        assert "4 nodes and" in done.err
+        assert sorted(path.name for path in Path("out").iterdir()) == ["load.cypher", "nodes.csv", "relationships.csv"]
+        assert ",Thing;Object;" in Path("out/nodes.csv").read_text("utf-8")
+
+    def test_another_database_is_an_error(self, run: Run, graph: Path):
+        done = run("graph", "export", graph, "--to", "oracle")
+        assert done.code == 2
+        assert "expected neo4j" in done.err
+
+    def test_a_file_in_place_of_the_folder_is_an_error(self, run: Run, graph: Path):
+        done = run("graph", "export", graph, "-o", graph)
+        assert done.code == 2
+        assert "is not a folder" in done.err
+
+    def test_graphml_opens_in_networkx(self, run: Run, graph: Path):
+        assert run("graph", "convert", graph, "-o", "g.graphml").code == 0
+        found = nx.read_graphml("g.graphml")
+        assert {data["label"] for _, data in found.nodes(data=True)} >= {"Table_1", "coffee_mug", "FruitBowl", "Apple"}
