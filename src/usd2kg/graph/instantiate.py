@@ -1,15 +1,14 @@
 """instantiate: from a Scene and its Grounding to a knowledge graph, an ABox over the user's TBox."""
 
-import gc
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.garbage import paused_collection
 from usd2kg.graph.annotate import annotate_owl, annotate_rdf12
 from usd2kg.graph.articulation import link_joints
 from usd2kg.graph.facts import annotated_facts, object_facts
@@ -86,7 +85,7 @@ def instantiate(
     chosen = _make_profile(profile, tbox, options)
     found = tuple(find_relations(scene, tbox, grounding) if relations is None else relations)
     imports = tuple(_imports(tbox, chosen))
-    with _paused_collection():
+    with paused_collection():
         triples = _Writer(scene, tbox, grounding, base, chosen, imports, options, found).write()
     counts = Counter(p.class_iri for p in grounding.predictions if p.class_iri)
     return KnowledgeGraph(
@@ -118,18 +117,6 @@ def _imports(tbox: TBox, profile: Profile) -> Iterator[str]:
         is_known = iri in tbox.imports or (iri.startswith(_SOMA_DOCUMENTS) and own.startswith(_SOMA_DOCUMENTS))
         if iri != own and not is_known:
             yield iri
-
-
-@contextmanager
-def _paused_collection() -> Iterator[None]:
-    """Keep Python from looking for garbage among millions of triples that are all kept."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 class _Writer:
@@ -166,6 +153,8 @@ class _Writer:
         for linked in self.joints:
             if linked.whole is not None:
                 self.joints_inside.setdefault(linked.whole, []).append(linked.node)
+        self.nodes: dict[str, ox.NamedNode] = {}
+        """Prim path → its node: what others stand on or near is named many times."""
         self.properties: set[ox.NamedNode] = set()
         self.classes: set[ox.NamedNode] = set()
 
@@ -241,7 +230,10 @@ class _Writer:
         return [*own, *others, *about, *annotated_facts(obj, node, self.annotate)]
 
     def _node(self, prim_path: str) -> ox.NamedNode:
-        return ox.NamedNode(individual_iri(self.base, prim_path))
+        node = self.nodes.get(prim_path)
+        if node is None:
+            node = self.nodes[prim_path] = ox.NamedNode(individual_iri(self.base, prim_path))
+        return node
 
     def _type(self, node: ox.NamedNode, prediction: Prediction | None, about: list[Triple]) -> Iterator[Triple]:
         """Yield the class and why, on the type assertion; on the object itself where it has none."""

@@ -1,6 +1,7 @@
 """IRIs of individuals: from prim paths, stable across runs, unique, and back again."""
 
 import re
+from functools import lru_cache
 from pathlib import Path
 from urllib.parse import quote, unquote
 
@@ -57,6 +58,7 @@ def individual_iri(base: str, prim_path: str, part: str = "") -> str:
     return f"{base}{name}{_PART}{part}" if part else base + name
 
 
+@lru_cache(maxsize=10_000)
 def _encode(name: str) -> str:
     if name.isascii() and name.isidentifier():
         return name

@@ -1,7 +1,7 @@
 """What a person means by a name: objects by prim path, label, class or words; classes by label, name or IRI."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -57,14 +57,14 @@ class Lookup:
         """
         thing = re.sub(r"^(the|a|an)\s+", "", thing.strip(), flags=re.IGNORECASE)
         wanted = _words(thing)
-        ways = (
-            [node for node, path, _ in self.objects if path == thing],
-            [node for node, _, label in self.objects if label.lower() == thing.lower()],
-            self._members(self._find_classes(thing)),
-            [node for node, _, label in self.objects if wanted and wanted <= _words(label)],
+        ways: tuple[Callable[[], list[ox.NamedNode]], ...] = (
+            lambda: [node for node, path, _ in self.objects if path == thing],
+            lambda: [node for node, _, label in self.objects if label.lower() == thing.lower()],
+            lambda: self._members(self._find_classes(thing)),
+            lambda: [node for node, _, label in self.objects if wanted and wanted <= _words(label)],
         )
-        for found in ways:
-            if found:
+        for way in ways:
+            if found := way():
                 return found
         raise GraphError(
             f"{self._source}: nothing is called {thing!r}; expected a label, a class or a prim path, "

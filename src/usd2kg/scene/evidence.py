@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
@@ -15,6 +16,8 @@ from usd2kg.scene.stage import read_value
 
 __all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_nodes", "part_names", "read_mass"]
 
+_FILES = 10_000
+"""How many files are kept in mind: objects come from the same ones again and again."""
 _COLORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 
 
@@ -42,6 +45,7 @@ def asset_names(prim: Any) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for name in names if name))
 
 
+@lru_cache(maxsize=_FILES)
 def _stem(asset_path: str) -> str:
     return PurePosixPath(asset_path.replace("\\", "/")).stem
 
@@ -71,10 +75,16 @@ def _strongest_file(prim: Any) -> str:
 
 def _beside_stage(asset_path: str, layer: Any, root: Any) -> str:
     """Return a path as seen from the root layer's folder, where the file lies in it."""
-    anchored = Path(Sdf.ComputeAssetPathRelativeToLayer(layer, asset_path))
-    folder = Path(root.realPath).parent
-    is_inside = bool(root.realPath) and anchored.is_absolute() and anchored.is_relative_to(folder)
-    return anchored.relative_to(folder).as_posix() if is_inside else asset_path
+    beside = _path_beside(Sdf.ComputeAssetPathRelativeToLayer(layer, asset_path), root.realPath)
+    return asset_path if beside is None else beside
+
+
+@lru_cache(maxsize=_FILES)
+def _path_beside(path: str, root: str) -> str | None:
+    """Return a path as seen from the folder of the file `root`; None where it does not lie in it."""
+    anchored, folder = Path(path), Path(root).parent
+    is_inside = bool(root) and anchored.is_absolute() and anchored.is_relative_to(folder)
+    return anchored.relative_to(folder).as_posix() if is_inside else None
 
 
 def part_names(nodes: list[Node]) -> tuple[str, ...]:

@@ -8,12 +8,13 @@ import pytest
 from tests.graph.records import BASE
 from usd2kg.graph import GraphStore
 from usd2kg.graph.validation import validate_graph
-from usd2kg.graph.vocabulary import OWL, RDF, RDFS, SOMA, U2K, number, text
+from usd2kg.graph.validation.shapes import compile_shapes, find_violations
+from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD, number, text
 from usd2kg.ontology import Closure
 
 COUNT = 20_000
 SECONDS = 30.0
-"""Three is usual; a quadratic step takes minutes."""
+"""Of processor time, so that other load does not count. Three is usual; a quadratic step takes minutes."""
 
 
 def crowd(same_place: bool) -> GraphStore:
@@ -49,8 +50,31 @@ def crowd(same_place: bool) -> GraphStore:
 def test_twenty_thousand_objects(same_place: bool, count: int):
     graph = crowd(same_place)
     axioms = tuple(ox.Triple(cls, RDF.type, OWL.Class) for cls in (SOMA.Cup, SOMA.Table))
-    start = time.perf_counter()
+    start = time.process_time()
     report = validate_graph(graph, Closure(axioms, (), ()))
-    assert time.perf_counter() - start < SECONDS
+    assert time.process_time() - start < SECONDS
     assert len(report.findings) == count
     assert report.findings[0].rule == "box-width"
+
+
+def test_twenty_thousand_objects_with_shapes_of_their_own():
+    quads = []
+    for i in range(COUNT):
+        cup, shape, box = (ox.NamedNode(f"{BASE}Cup{i}{part}") for part in ("", "-shape", "-box"))
+        quads += [
+            ox.Quad(cup, RDF.type, USD.Prim),
+            ox.Quad(cup, RDF.type, SOMA.Cup),
+            ox.Quad(cup, U2K.primPath, text(f"/Cup{i}")),
+            ox.Quad(cup, RDFS.label, text(f"Cup{i}")),
+            ox.Quad(cup, SOMA.hasShape, shape),
+            ox.Quad(shape, RDF.type, SOMA.Shape),
+            ox.Quad(shape, DUL.hasRegion, box),
+            ox.Quad(box, RDF.type, SOMA.MeshShape if i == 7 else SOMA.BoxShape),
+        ]
+    store = ox.Store()
+    store.bulk_extend(quads)
+    rule = next(rule for rule in compile_shapes("soma") if rule.id == "box-missing")
+    start = time.process_time()
+    broken = list(find_violations(store, rule))
+    assert time.process_time() - start < SECONDS
+    assert [found.focus.value for found in broken] == [f"{BASE}Cup7"]

@@ -193,11 +193,11 @@ def _close_over(bodies: Bodies, tops: _Tops, near: _Rests, rules: Rules) -> Link
 
 
 def _at_walls(bodies: Bodies, chosen: Indices, is_wall: Mask, rules: Rules) -> Indices:
-    """Return those of the chosen bodies that are so close to a wall that they may hang on it."""
+    """Return those of the chosen bodies that are so close to a wall that they may hang on it; some more than once."""
     reach = rules.hovering.max_wall_gap
     lower, upper = bodies.lower[chosen] - reach, bodies.upper[chosen] + reach
     walls = bodies.lower[is_wall], bodies.upper[is_wall]
     found = [np.zeros(0, np.int64)]
     for i, j in overlapping_pairs(lower[:, :2], upper[:, :2], (walls[0][:, :2], walls[1][:, :2])):
         found.append(chosen[i[(lower[i, 2] <= walls[1][j, 2]) & (upper[i, 2] >= walls[0][j, 2])]])
-    return np.unique(np.concatenate(found))
+    return np.concatenate(found)

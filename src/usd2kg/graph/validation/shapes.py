@@ -156,7 +156,8 @@ class _Compiler:
         values = f"?focus {path} ?v . {self._qualified(qualified)}" if qualified is not None else f"?focus {path} ?v ."
         match name:
             case "minCount" | "qualifiedMinCount":
-                return f"SELECT ?focus WHERE {{ {focus} FILTER NOT EXISTS {{ {values} }} }}"
+                # NOT EXISTS would look through all members of a qualified shape's class for each focus.
+                return f"SELECT ?focus WHERE {{ {focus} MINUS {{ {values} }} }}"
             case "maxCount" | "qualifiedMaxCount":
                 return (
                     f"SELECT ?focus (COUNT(DISTINCT ?v) AS ?count) WHERE {{ {focus} {values} }} "

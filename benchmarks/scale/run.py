@@ -1,0 +1,161 @@
+"""Time the whole chain, from a file to a graph, on furnished flats and on a warehouse, and how it grows.
+
+Usage: python benchmarks/scale/run.py [--places flats warehouse] [--profiles soma plain] [OBJECTS...]
+
+By default 1000, 10000 and 100000 objects of five prims each. Each run has a process of its own, so that its memory at
+the peak is its own. Seconds are of processor time, so that other load counts little; those in brackets are by the
+clock. "Ours / its own" compares writing Turtle with pyoxigraph's own serialiser on the same triples, in turns. The
+exponent is the slope of log seconds over log objects: 1 is in proportion.
+"""
+
+import argparse
+import json
+import math
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from places import PLACES
+
+STEPS = ("read", "ground", "relations", "instantiate", "write", "total")
+TURNS = 3
+
+
+class Clock:
+    """Seconds of each step, by the processor and by the clock, and the memory at the peak after it."""
+
+    def __init__(self) -> None:
+        self.cpu: dict[str, float] = {}
+        self.wall: dict[str, float] = {}
+
+    def step(self, name: str, action: Callable[[], Any]) -> Any:
+        """Return what an action gives, and note how long it took."""
+        cpu, wall = time.process_time(), time.perf_counter()
+        result = action()
+        self.cpu[name], self.wall[name] = time.process_time() - cpu, time.perf_counter() - wall
+        return result
+
+
+def peak_memory() -> float:
+    """Return the largest resident memory of this process so far, in GB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
+
+
+def measure(stage: Path, profile: str) -> dict[str, Any]:
+    """Return how long each step takes on one stage."""
+    from usd2kg.graph import find_relations, instantiate, write_graph  # noqa: PLC0415 - only in the child processes
+    from usd2kg.grounding import ground  # noqa: PLC0415
+    from usd2kg.ontology import load_home_tbox  # noqa: PLC0415
+    from usd2kg.scene import read_scene  # noqa: PLC0415
+
+    clock = Clock()
+    scene = clock.step("read", lambda: read_scene(stage))
+    tbox = load_home_tbox()
+    grounding = clock.step("ground", lambda: ground(scene, tbox, "embedded"))
+    found = clock.step("relations", lambda: find_relations(scene, tbox, grounding))
+    graph = clock.step("instantiate", lambda: instantiate(scene, tbox, grounding, profile=profile, relations=found))
+    target = stage.with_suffix(".ttl")
+    clock.step("write", lambda: write_graph(graph, target))
+    peak = peak_memory()
+    for seconds in (clock.cpu, clock.wall):
+        seconds["total"] = sum(seconds.values())
+    return {
+        "prims": scene.prim_count,
+        "triples": len(graph.triples),
+        "relations": len(found),
+        "cpu": clock.cpu,
+        "wall": clock.wall,
+        "peak": peak,
+        "ratio": serialiser_ratio(graph, target),
+    }
+
+
+def serialiser_ratio(graph: Any, target: Path) -> float:
+    """Return how many times as long as pyoxigraph's own serialiser we take for the same triples."""
+    import pyoxigraph as ox  # noqa: PLC0415
+
+    from usd2kg.graph import write_graph  # noqa: PLC0415
+
+    turtle = ox.RdfFormat.TURTLE
+    ours, own = Clock(), Clock()
+    times = []
+    for _ in range(TURNS):
+        ours.step("write", lambda: write_graph(graph, target))
+        own.step("write", lambda: ox.serialize(graph.triples, str(target), format=turtle, prefixes=graph.prefixes))
+        times.append((ours.cpu["write"], own.cpu["write"]))
+    return min(mine for mine, _ in times) / min(theirs for _, theirs in times)
+
+
+def exponent(sizes: list[int], seconds: list[float]) -> float:
+    """Return the slope of log seconds over log size, by least squares: 1 is in proportion."""
+    x, y = [math.log(size) for size in sizes], [math.log(max(value, 1e-4)) for value in seconds]
+    middle_x, middle_y = sum(x) / len(x), sum(y) / len(y)
+    spread = sum((value - middle_x) ** 2 for value in x)
+    return sum((a - middle_x) * (b - middle_y) for a, b in zip(x, y, strict=True)) / spread
+
+
+def run_child(stage: Path, profile: str) -> dict[str, Any]:
+    """Return what `measure` gives in a process of its own."""
+    command = [sys.executable, __file__, "--measure", str(stage), "--profiles", profile]
+    found = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    measured: dict[str, Any] = json.loads(found.stdout)
+    return measured
+
+
+def print_row(place: str, profile: str, objects: int, measured: dict[str, Any]) -> None:
+    """Print one run as a line of the table."""
+    steps = " | ".join(f"{measured['cpu'][step]:.2f} ({measured['wall'][step]:.2f})" for step in STEPS)
+    size = f"{objects:,} | {measured['prims']:,} | {measured['triples']:,}"
+    print(f"| {place} | {profile} | {size} | {steps} | {measured['peak']:.2f} | {measured['ratio']:.2f} |", flush=True)
+
+
+def print_exponents(place: str, profile: str, sizes: list[int], runs: list[dict[str, Any]]) -> None:
+    """Print how each step grows with objects."""
+    slopes = " | ".join(f"{exponent(sizes, [run['cpu'][step] for run in runs]):.2f}" for step in STEPS)
+    memory = exponent(sizes, [run["peak"] for run in runs])
+    print(f"| {place} | {profile} | exponent | | | {slopes} | {memory:.2f} | |", flush=True)
+
+
+def compare(places: list[str], profiles: list[str], sizes: list[int]) -> None:
+    """Make the stages, measure each in all profiles, and print a table."""
+    print(
+        "| place | profile | objects | prims | triples | " + ", s | ".join(STEPS) + ", s | peak GB | ours / its own |"
+    )
+    print("|" + " --- |" * (7 + len(STEPS)))
+    from stage import write_place  # noqa: PLC0415 - opens OpenUSD, which the child processes measure
+
+    with tempfile.TemporaryDirectory() as folder:
+        for place in places:
+            stages = {size: Path(folder) / f"{place}_{size}.usdc" for size in sizes}
+            for size, stage in stages.items():
+                write_place(stage, place, size)
+            for profile in profiles:
+                runs = []
+                for size, stage in stages.items():
+                    runs.append(run_child(stage, profile))
+                    print_row(place, profile, size, runs[-1])
+                if len(sizes) > 1:
+                    print_exponents(place, profile, sizes, runs)
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description="Time the whole chain, from a file to a graph.")
+    parser.add_argument("objects", nargs="*", type=int, default=[1_000, 10_000, 100_000])
+    parser.add_argument("--places", nargs="+", choices=PLACES, default=list(PLACES))
+    parser.add_argument("--profiles", nargs="+", choices=("soma", "plain"), default=["soma", "plain"])
+    parser.add_argument("--measure", type=Path, help="Measure one stage and print figures as JSON.")
+    arguments = parser.parse_args()
+    if arguments.measure is not None:
+        print(json.dumps(measure(arguments.measure, arguments.profiles[0])))
+    else:
+        compare(arguments.places, arguments.profiles, arguments.objects)
+
+
+if __name__ == "__main__":
+    main()
