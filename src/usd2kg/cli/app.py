@@ -1,6 +1,6 @@
 """The command `usd2kg`.
 
-Exit codes: 0 done, 1 `validate` has findings, 2 wrong usage or an input or output that cannot be used.
+Exit codes: 0 done, 1 `validate` or `label lint` has findings, 2 wrong usage or an input or output that cannot be used.
 """
 
 import io
@@ -11,7 +11,20 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli import build, completions, demo, evaluate, graph, ground, inspect, ontology, query, render, validate
+from usd2kg.cli import (
+    build,
+    completions,
+    demo,
+    evaluate,
+    graph,
+    ground,
+    inspect,
+    label,
+    ontology,
+    query,
+    render,
+    validate,
+)
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import Usd2kgError
 
@@ -34,6 +47,7 @@ app.command("validate")(validate.validate_command)
 app.command("render")(render.render_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
+app.add_typer(label.app, name="label")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")
 app.add_typer(completions.app, name="completions")

@@ -1,24 +1,21 @@
 """usd2kg validate: what is wrong with a graph."""
 
-from collections.abc import Iterator
 from dataclasses import asdict
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from usd2kg.cli.findings import MOST_SHOWN, findings_text
 from usd2kg.cli.options import JsonOutput
-from usd2kg.cli.output import emit, print_json, printable, talk
+from usd2kg.cli.output import emit, print_json, talk
 
 if TYPE_CHECKING:
     from usd2kg.graph import GraphStore
-    from usd2kg.graph.validation import Finding, ValidationReport
+    from usd2kg.graph.validation import ValidationReport
     from usd2kg.ontology import Closure
 
 __all__ = ["report_text", "validate_command"]
-
-_MOST = 20
 
 
 def validate_command(
@@ -32,7 +29,7 @@ def validate_command(
         typer.Option("--rules", help="A TOML file with thresholds, classes and texts in place of our own."),
     ] = None,
     every: Annotated[
-        bool, typer.Option("--all", help=f"Show every finding; default: the first {_MOST} of each rule.")
+        bool, typer.Option("--all", help=f"Show every finding; default: the first {MOST_SHOWN} of each rule.")
     ] = False,
     json: JsonOutput = False,
 ) -> None:
@@ -54,7 +51,7 @@ def validate_command(
             }
         )
     else:
-        emit(report_text(report, None if every else _MOST), None)
+        emit(report_text(report, None if every else MOST_SHOWN), None)
     if report.findings:
         raise typer.Exit(1)
 
@@ -80,30 +77,5 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
 
 def report_text(report: "ValidationReport", most: int | None = None) -> str:
     """Return findings as groups of lines, at most `most` of each rule, and a last line that counts them all."""
-    blocks = []
-    for _, group in groupby(report.findings, key=lambda finding: (finding.severity, finding.rule)):
-        findings = list(group)
-        blocks += ["\n".join(_lines(finding)) for finding in findings[:most]]
-        rest = len(findings) - len(findings[:most])
-        if rest:
-            blocks.append(f"… {rest} more of {findings[0].rule} (--all shows them)")
-    return "\n\n".join([*blocks, _count(report)]) + "\n"
-
-
-def _lines(finding: "Finding") -> Iterator[str]:
-    who = f"{_line(finding.label)} {_line(finding.prim_path)}".strip() or _line(finding.iri)
-    yield f"{finding.severity} [{finding.rule}] {who}"
-    yield f"  found:    {_line(finding.found)}"
-    yield f"  expected: {_line(finding.expected)}"
-    yield f"  do:       {_line(finding.advice)}"
-
-
-def _line(text: str) -> str:
-    return printable(" ".join(text.split()))
-
-
-def _count(report: "ValidationReport") -> str:
-    total = len(report.findings)
-    parts = ", ".join(f"{n} {name}{'' if n == 1 else 's'}" for name, n in report.counts().items() if n)
     objects = f"{report.objects} {'object' if report.objects == 1 else 'objects'}"
-    return f"{total} {'finding' if total == 1 else 'findings'}{f' ({parts})' if parts else ''} on {objects}"
+    return findings_text(report.findings, report.counts(), objects, most)

@@ -3,7 +3,7 @@
 from usd2kg.ontology.closure import Closure, read_closure, without_header
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
-from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox
+from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
@@ -18,6 +18,7 @@ __all__ = [
     "linearize_tree",
     "load_home_tbox",
     "load_tbox",
+    "local_name",
     "read_closure",
     "without_header",
 ]

@@ -7,6 +7,7 @@ from usd2kg.scene.box_pairs import overlapping_pairs
 from usd2kg.scene.company import Companion, Company, Nearness, size_distance
 from usd2kg.scene.labels import (
     LABEL_MODES,
+    OUTCOMES,
     ClassLabel,
     LabelledPrim,
     LabelMode,
@@ -50,6 +51,7 @@ __all__ = [
     "ASKED_FOR",
     "EVIDENCE_GROUPS",
     "LABEL_MODES",
+    "OUTCOMES",
     "STUDY_GROUPS",
     "Box",
     "ClassLabel",

@@ -2,12 +2,21 @@
 
 from usd2kg.scene.labels.layer import write_labels
 from usd2kg.scene.labels.lint import LabelProblem, lint_labels
-from usd2kg.scene.labels.model import LABEL_MODES, ClassLabel, LabelMode, LabelOptions, LabelOutcome, LabelReport
+from usd2kg.scene.labels.model import (
+    LABEL_MODES,
+    OUTCOMES,
+    ClassLabel,
+    LabelMode,
+    LabelOptions,
+    LabelOutcome,
+    LabelReport,
+)
 from usd2kg.scene.labels.read import LabelReader, read_labels
 from usd2kg.scene.labels.survey import LabelledPrim, LabelSurvey, survey_labels
 
 __all__ = [
     "LABEL_MODES",
+    "OUTCOMES",
     "ClassLabel",
     "LabelMode",
     "LabelOptions",

@@ -8,13 +8,23 @@ from typing import Literal, get_args
 
 from usd2kg.scene.model import Encoding
 
-__all__ = ["LABEL_MODES", "ClassLabel", "LabelMode", "LabelOptions", "LabelOutcome", "LabelReport", "Outcome"]
+__all__ = [
+    "LABEL_MODES",
+    "OUTCOMES",
+    "ClassLabel",
+    "LabelMode",
+    "LabelOptions",
+    "LabelOutcome",
+    "LabelReport",
+    "Outcome",
+]
 
 LabelMode = Literal["new", "overwrite", "skip"]
 LABEL_MODES: tuple[LabelMode, ...] = get_args(LabelMode)
 Outcome = Literal["written", "replaced", "completed", "kept", "left out"]
 """`written`: had no label; `replaced`: its class labels are others now; `completed`: what was missing beside its labels
-was added; `kept`: has its labels as before; `left out`: cannot carry labels."""
+was added; `kept`: has its labels as before; `left out`: gets none."""
+OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 
 
 @dataclass(frozen=True, slots=True)
