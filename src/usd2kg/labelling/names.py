@@ -14,7 +14,7 @@ from usd2kg.words import split_identifier
 
 __all__ = ["ClassNames", "name_key"]
 
-_LIKE_ENOUGH = 70
+_LIKE_ENOUGH = 80
 """Likeness in percent from which a name is suggested."""
 _SKOS = "http://www.w3.org/2004/02/skos/core#"
 _NAME_PROPERTIES = (

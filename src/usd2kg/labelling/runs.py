@@ -123,7 +123,7 @@ def _of_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, Answer]]:
         iri = _most_specific([node.value for node in classes if isinstance(node, ox.NamedNode)], tbox)
         told = about.get((subject, ox.NamedNode(iri))) if iri else None
         notes = _literals(graph, told if told is not None else subject)
-        number, status = notes.get(SSSOM.confidence), notes.get(U2K.status, "grounded" if iri else "without a class")
+        number, status = notes.get(SSSOM.confidence), notes.get(U2K.status, "grounded" if iri else "")
         confidence = float(number) if number is not None else None
         yield store.source, Answer(path.value, iri, confidence, status, status == Status.REVIEWED)
 

@@ -56,7 +56,7 @@ def _labels(
 def _reason_against(answer: Answer, at_least: float) -> str:
     """Return why an answer gives no label; empty if it does."""
     if answer.class_iri is None:
-        return f"the run has no class for it: {answer.status}"
+        return f"the run has no class for it{f': {answer.status}' if answer.status else ''}"
     if answer.is_reviewed or at_least <= 0:
         return ""
     if answer.confidence is None:

@@ -105,8 +105,8 @@ def find_problems(prim: Any, time: Any) -> list[LabelProblem]:
 
 class _Problem(NamedTuple):
     rule: str
-    property_name: str
-    """What it is about, empty for the prim."""
+    about: str
+    """The property, or the schema."""
     found: str
     expected: str
     advice: str
@@ -127,11 +127,19 @@ def _lint_prim(prim: Any, time: Any) -> Iterator[LabelProblem]:
         *_lint_contradictions(found),
         *(problem for name in names if schema_of(name) is None for problem in _lint_name(name)),
     ]
-    for rule, property_name, told, expected, advice in problems:
-        prop = prim.GetProperty(property_name) if property_name else None
-        specs = prop.GetPropertyStack(time) if prop else prim.GetPrimStack()
-        layer = str(specs[0].layer.identifier) if specs else None
-        yield LabelProblem(rule, str(prim.GetPath()), layer, told, expected, advice)
+    for rule, about, told, expected, advice in problems:
+        yield LabelProblem(rule, str(prim.GetPath()), _layer_of(prim, about, time), told, expected, advice)
+
+
+def _layer_of(prim: Any, about: str, time: Any) -> str | None:
+    """Return the layer with the strongest opinion on a property, or that applies a schema."""
+    prop = prim.GetProperty(about)
+    specs = prop.GetPropertyStack(time) if prop else [spec for spec in prim.GetPrimStack() if about in _applies(spec)]
+    return str(specs[0].layer.identifier) if specs else None
+
+
+def _applies(spec: Any) -> list[str]:
+    return list(spec.GetInfo("apiSchemas").GetAddedOrExplicitItems()) if spec.HasInfo("apiSchemas") else []
 
 
 def _lint_values(entry: Found, taxonomies: set[str]) -> Iterator[_Problem]:
@@ -214,7 +222,7 @@ def _lint_schemas(names: list[str], schemas: list[str]) -> Iterator[_Problem]:
             yield _Problem("isaac-instance", name, told, schema, "correct the name of one of them")
     for schema in unused:
         told = f"{schema} is applied, but no label of it is authored"
-        yield _Problem("schema-without-label", "", told, "", "author the label or remove the schema")
+        yield _Problem("schema-without-label", schema, told, "", "author the label or remove the schema")
     for schema, name in bare.items():
         told = f"{name} is authored, but {schema} is not applied, so that tools may not see it"
         yield _Problem("label-without-schema", name, told, "", "apply it")

@@ -98,9 +98,8 @@ def _replace(prim: Any, label: ClassLabel, options: LabelOptions, classes: list[
     _add(opinions, label, options.encodings, taken)
     said = {*opinions.tokens, *opinions.texts, *([TAG_LABELS] if opinions.is_tagged else [])}
     opinions.blocked = sorted(name for name in old - said if prim.HasProperty(name))
-    still_used = {schema_of(name) for name in (*kept, *said)}
-    gone = {schema_of(name) for name in opinions.blocked} - still_used
-    opinions.removed = [schema for schema in applied_schemas(prim) if schema in gone]
+    used = {schema_of(name) for name in (*kept, *said)}
+    opinions.removed = [schema for schema in applied_schemas(prim) if schema not in used]
     return opinions
 
 
