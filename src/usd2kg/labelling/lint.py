@@ -195,7 +195,8 @@ def _lint_iri(prim: LabelledPrim, names: ClassNames) -> Iterator[Finding]:
     """Yield a prim whose class names mean another class than its IRI says."""
     iris = [iri for iri in _iris(prim.labels) if iri in names.iris]
     for iri in iris:
-        words = {word for up in names.above(iri) for word in names.words(up)}
+        # Synonyms of the classes above are too broad to compare with.
+        words = names.words(iri).union(*(class_words(up) for up in names.above(iri)))
         for label in _class_names(prim.labels):
             meant = names.named(label.value)
             is_same = any(names.are_related(cls, iri) for cls in meant)
