@@ -11,8 +11,8 @@ from pxr import Sdf, Tf, Usd
 
 from usd2kg.errors import OutputError
 from usd2kg.files import check_writable, write_whole
-from usd2kg.scene.labels.carriers import find_carrier
-from usd2kg.scene.labels.encodings import TAG_LABELS
+from usd2kg.scene.labels.carriers import Carrier, find_carrier
+from usd2kg.scene.labels.encodings import TAG_LABELS, semantic_names
 from usd2kg.scene.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelReport
 from usd2kg.scene.labels.plan import Opinions, plan_labels
 from usd2kg.scene.options import ReadOptions
@@ -103,24 +103,62 @@ def _seen_from(folder: Path, file: str) -> str:
 def _label_prims(stage: Any, labels: Mapping[str, ClassLabel], layer: Any, options: LabelOptions) -> LabelReport:
     outcomes: list[LabelOutcome] = []
     de_instanced: set[str] = set()
-    classes = _ClassPrims(stage, layer)
-    time = Usd.TimeCode.EarliestTime()
+    author = _Author(stage, layer, options)
     with Sdf.ChangeBlock():
+        # Parents come before children.
         for path in sorted(labels, key=lambda path: path.split("/")):
             carrier = find_carrier(stage, path, de_instances=options.de_instances)
             if carrier.prim is None:
                 outcomes.append(LabelOutcome(path, "left out", carrier.reason))
                 continue
-            opinions = plan_labels(carrier.prim, labels[path], options, time)
+            opinions = author.label(carrier, path, labels[path])
             outcomes.append(LabelOutcome(path, opinions.outcome, opinions.reason))
             if opinions.outcome != "kept":
-                for instance in carrier.instances:
-                    Sdf.CreatePrimInLayer(layer, instance).instanceable = False
                 de_instanced.update(carrier.instances)
-                target = classes.path_of(labels[path]) if opinions.is_tagged else None
-                _author(Sdf.CreatePrimInLayer(layer, path), opinions, target)
-        classes.author()
+        author.classes.author()
     return LabelReport(tuple(outcomes), tuple(sorted(de_instanced)))
+
+
+class _Author:
+    """Writes the labels of prims into a layer. On prims without any they are alike for each class: these are copied."""
+
+    def __init__(self, stage: Any, layer: Any, options: LabelOptions) -> None:
+        self.classes = _ClassPrims(stage, layer)
+        self._layer = layer
+        self._options = options
+        self._time = Usd.TimeCode.EarliestTime()
+        self._patterns = Sdf.Layer.CreateAnonymous()
+        self._known: dict[str, tuple[Opinions, str]] = {}
+        """IRI of a class → what is said on prims without labels, and where the pattern of that is."""
+
+    def label(self, carrier: Carrier, path: str, label: ClassLabel) -> Opinions:
+        """Write the label of the prim at `path`, and return what was written."""
+        # What a mode removes differs from prim to prim.
+        if self._options.mode != "overwrite" and not semantic_names(carrier.prim):
+            if label.iri not in self._known:
+                pattern = f"/Pattern_{len(self._known)}"
+                opinions = plan_labels(carrier.prim, label, self._options, self._time)
+                self._write(Sdf.CreatePrimInLayer(self._patterns, pattern), opinions, label)
+                self._known[label.iri] = opinions, pattern
+            opinions, pattern = self._known[label.iri]
+            self._break_up(carrier)
+            if self._layer.GetPrimAtPath(path) is None:
+                Sdf.CreatePrimInLayer(self._layer, path)
+                Sdf.CopySpec(self._patterns, pattern, self._layer, path)
+                return opinions
+        else:
+            opinions = plan_labels(carrier.prim, label, self._options, self._time)
+        if opinions.outcome != "kept":
+            self._break_up(carrier)
+            self._write(Sdf.CreatePrimInLayer(self._layer, path), opinions, label)
+        return opinions
+
+    def _break_up(self, carrier: Carrier) -> None:
+        for instance in carrier.instances:
+            Sdf.CreatePrimInLayer(self._layer, instance).instanceable = False
+
+    def _write(self, spec: Any, opinions: Opinions, label: ClassLabel) -> None:
+        _author(spec, opinions, self.classes.path_of(label) if opinions.is_tagged else None)
 
 
 def _author(spec: Any, opinions: Opinions, class_prim: str | None) -> None:
