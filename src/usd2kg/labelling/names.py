@@ -47,6 +47,7 @@ class ClassNames:
         self.iris = {cls.iri for cls in tbox.classes}
         self.deprecated: dict[str, str | None] = {}
         """IRI of a deprecated class → IRI of what is to be used instead, None if nobody says."""
+        self._above: dict[str, frozenset[str]] = {}
         self._names: dict[str, set[str]] = defaultdict(set)
         self._parents: dict[str, set[str]] = defaultdict(set)
         self._read(closure.triples)
@@ -89,6 +90,11 @@ class ClassNames:
 
     def above(self, iri: str) -> frozenset[str]:
         """Return a class with all classes above it."""
+        if iri not in self._above:
+            self._above[iri] = self._find_above(iri)
+        return self._above[iri]
+
+    def _find_above(self, iri: str) -> frozenset[str]:
         found, pending = {iri}, [iri]
         while pending:
             for parent in self._parents.get(pending.pop(), ()):
