@@ -61,6 +61,14 @@ def test_a_package_lists_what_it_gathers_from_its_modules(name: str):
         for alias in node.names
     }
     defined = {node.name for node in syntax(module).body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    # A package of commands lists what it hangs them on.
+    defined |= {
+        target.id
+        for node in syntax(module).body
+        if isinstance(node, ast.Assign)
+        for target in node.targets
+        if isinstance(target, ast.Name) and target.id == "app"
+    }
     assert set(listed(module)) == gathered | {item for item in defined if not item.startswith("_")}
 
 

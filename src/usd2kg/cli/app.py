@@ -1,6 +1,6 @@
 """The command `usd2kg`.
 
-Exit codes: 0 done, 1 `validate` has findings, 2 wrong usage or an input or output that cannot be used.
+Exit codes: 0 done, 1 `validate` or `label lint` has findings, 2 wrong usage or an input or output that cannot be used.
 """
 
 import io
@@ -20,6 +20,7 @@ from usd2kg.cli import (
     graph,
     ground,
     inspect,
+    label,
     ontology,
     query,
     render,
@@ -49,6 +50,7 @@ app.command("render")(render.render_command)
 app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
+app.add_typer(label.app, name="label")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")
 app.add_typer(completions.app, name="completions")

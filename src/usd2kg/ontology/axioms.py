@@ -4,6 +4,8 @@ from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from usd2kg.ontology.wikidata import is_mapping, item_in
+
 __all__ = [
     "ALT_LABELS",
     "DEFINITIONS",
@@ -48,6 +50,8 @@ class Annotations:
     """Texts of one class, as (language or empty, text), by property IRI."""
 
     texts: dict[str, set[tuple[str, str]]] = field(default_factory=lambda: defaultdict(set))
+    items: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    """Wikidata items, by property IRI."""
     is_deprecated: bool = False
 
     def pick(self, properties: Iterable[str]) -> str:
@@ -127,6 +131,13 @@ class ClassAxioms:
             notes.is_deprecated = text.strip().lower() in {"true", "1"}
         else:
             notes.texts[name].add((language, " ".join(text.split())))
+            self.link(subject, name, text)
+
+    def link(self, subject: str, name: str, target: str) -> None:
+        """State that `subject` refers to an IRI; kept where that is a Wikidata item which may be the same."""
+        item = item_in(target)
+        if item is not None and is_mapping(name):
+            self.annotations[subject].items[name].add(item)
 
 
 def merge_axioms(several: Iterable[ClassAxioms]) -> ClassAxioms:
@@ -146,4 +157,6 @@ def merge_axioms(several: Iterable[ClassAxioms]) -> ClassAxioms:
             known.is_deprecated |= notes.is_deprecated
             for name, texts in notes.texts.items():
                 known.texts[name] |= texts
+            for name, items in notes.items.items():
+                known.items[name] |= items
     return merged

@@ -13,6 +13,7 @@ from usd2kg.ontology.equivalence import all_equivalents, keep_one_of_each
 from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
 from usd2kg.ontology.scope import ancestors, default_scope, nearest_parents, rooted_scope
+from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 
 __all__ = ["HOME", "load_home_tbox", "load_tbox"]
 
@@ -112,7 +113,19 @@ def _class(
         parents=parents,
         dispositions=_dispositions(iri, superclasses, closure),
         equivalents=tuple(equivalents),
+        wikidata=_wikidata((iri, *equivalents), closure),
     )
+
+
+def _wikidata(same: Iterable[str], closure: ClassAxioms) -> tuple[str, ...]:
+    found: dict[str, set[str]] = {}
+    for iri in same:
+        item = item_in(iri)
+        if item is not None:
+            found.setdefault(EQUIVALENT_CLASS, set()).add(item)
+        for name, items in closure.annotations[iri].items.items():
+            found.setdefault(name, set()).update(items)
+    return pick_items(found)
 
 
 def _label(iri: str, closure: ClassAxioms) -> str:

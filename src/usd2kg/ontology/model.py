@@ -39,6 +39,8 @@ class OntologyClass:
     """IRIs of the dispositions stated for it or for a superclass (SOMA's `hasDisposition some …`)."""
     equivalents: tuple[ClassIRI, ...] = ()
     """IRIs of the other named classes that are stated to be the same, sorted; none of them is in the scope."""
+    wikidata: tuple[str, ...] = ()
+    """Wikidata items that the ontology maps it or an equivalent to, by the surest of its statements, by number."""
 
     @property
     def local_name(self) -> str:

@@ -99,6 +99,8 @@ def _annotate(component: Any, axioms: ClassAxioms) -> None:
     text = getattr(value, "literal", None)
     if text is not None:
         axioms.annotate(str(component.subject), str(component.ann.ap.first), text, getattr(value, "lang", ""))
+    else:
+        axioms.link(str(component.subject), str(component.ann.ap.first), str(value))
 
 
 _HANDLERS = {

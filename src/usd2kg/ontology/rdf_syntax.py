@@ -75,6 +75,8 @@ def _read_subject(iri: str, statements: dict[str, list[Any]], triples: _Triples,
         for node in objects:
             if isinstance(node, ox.Literal):
                 axioms.annotate(iri, predicate, node.value, node.language or "")
+            elif isinstance(node, ox.NamedNode):
+                axioms.link(iri, predicate, node.value)
 
 
 def _add_superclass(child: str, expression: Any, triples: _Triples, axioms: ClassAxioms) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from pxr import Sdf, Usd
+from pxr import Usd
 
 from usd2kg.errors import SceneError
 from usd2kg.garbage import paused_collection
@@ -32,7 +32,7 @@ from usd2kg.scene.stage import (
     open_stage,
     translated_errors,
 )
-from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage
+from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, above_endless, outline_stage
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
@@ -72,7 +72,7 @@ def read_scene(
         np.errstate(invalid="ignore", over="ignore"),
         outline_stage(opened, time) as outline,
     ):
-        boxes = BoxReader(opened.frame, time, _above_endless(outline))
+        boxes = BoxReader(opened.frame, time, above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below, tuple(dict.fromkeys(paths or ())))
         reader = _ObjectReader(opened, outline, selection.chosen, boxes)
         objects = _read_objects(reader, outline, selection, options.expand_instancers)
@@ -127,7 +127,7 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     opened = open_stage(source, options)
     time = _time_code(options)
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
-        boxes = BoxReader(opened.frame, time, _above_endless(outline))
+        boxes = BoxReader(opened.frame, time, above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below)
         if not opened.stage.GetPrimAtPath(path):
             raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
@@ -220,14 +220,6 @@ def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: b
         if node.children:
             pending.extend((child, parent_path) for child in reversed(node.children))
     return found
-
-
-def _above_endless(outline: Outline) -> frozenset[str]:
-    """Return the paths of prims somewhere below which a point instancer is its own prototype."""
-    if not outline.left_out[ENDLESS]:
-        return frozenset()
-    endless = (Sdf.Path(path) for path, reason in outline.pruned.items() if reason == ENDLESS)
-    return frozenset(prefix.pathString for path in endless for prefix in path.GetPrefixes())
 
 
 class _ObjectReader:

@@ -16,7 +16,7 @@ from usd2kg.scene.outline import Authored, JointLink, Node, Outline
 from usd2kg.scene.solids import ROUND_SOLIDS
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, read_targets, read_value, value_of
 
-__all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_stage"]
+__all__ = ["ENDLESS", "UNREADABLE_PRIM", "above_endless", "outline_stage"]
 
 ENDLESS = "point instancer among its own prototypes"
 UNREADABLE_PRIM = "unreadable"
@@ -320,3 +320,11 @@ def _standard_kind(kind: str) -> str:
 def _is_a(prim: Any, schema: str) -> bool:
     schema_type = Tf.Type.FindByName(schema)
     return bool(schema_type) and prim.IsA(schema_type)
+
+
+def above_endless(outline: Outline) -> frozenset[str]:
+    """Return the paths of prims somewhere below which a point instancer is its own prototype."""
+    if not outline.left_out[ENDLESS]:
+        return frozenset()
+    endless = (Sdf.Path(path) for path, reason in outline.pruned.items() if reason == ENDLESS)
+    return frozenset(prefix.pathString for path in endless for prefix in path.GetPrefixes())

@@ -1,0 +1,50 @@
+"""Wikidata items that an ontology maps its classes to."""
+
+import re
+from collections.abc import Iterable, Mapping
+
+__all__ = ["EQUIVALENT_CLASS", "is_mapping", "item_in", "pick_items"]
+
+_OWL = "http://www.w3.org/2002/07/owl#"
+_RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+_RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+_SKOS = "http://www.w3.org/2004/02/skos/core#"
+EQUIVALENT_CLASS = f"{_OWL}equivalentClass"
+_SAME = (f"{_SKOS}exactMatch", EQUIVALENT_CLASS, f"{_OWL}sameAs", f"{_SKOS}closeMatch", f"{_RDFS}seeAlso")
+"""Properties that map a class to an item, the surest first; any other annotation comes after them."""
+_OTHER_ITEMS = tuple(f"{_SKOS}{name}" for name in ("broadMatch", "narrowMatch", "relatedMatch", "mappingRelation"))
+"""Properties whose item is another thing than the class."""
+_ITEM = re.compile(
+    r"(?:https?://(?:www\.)?wikidata\.org/(?:entity|wiki)/|(?:wd|wikidata):)(Q[1-9][0-9]*)", re.IGNORECASE
+)
+
+
+def item_in(text: str) -> str | None:
+    """Return the Wikidata item that an IRI or a text is the address of, else None.
+
+    >>> item_in("http://www.wikidata.org/entity/Q81727")
+    'Q81727'
+    >>> item_in("Wikidata:Q81727")
+    'Q81727'
+    >>> item_in("see Q81727")
+    """
+    found = _ITEM.fullmatch(text.strip())
+    return found[1].upper() if found else None
+
+
+def is_mapping(property_iri: str) -> bool:
+    """Return whether an item that a class has by this property may be the class itself."""
+    if property_iri in _SAME:
+        return True
+    return not property_iri.startswith((_OWL, _RDF, _RDFS)) and property_iri not in _OTHER_ITEMS
+
+
+def pick_items(found: Mapping[str, Iterable[str]]) -> tuple[str, ...]:
+    """Return the items of the surest property, by number; none if there is none.
+
+    Args:
+        found: property IRI → items.
+    """
+    ranked = sorted(found, key=lambda name: (_SAME.index(name) if name in _SAME else len(_SAME), name))
+    items = next((set(found[name]) for name in ranked if found[name]), set())
+    return tuple(sorted(items, key=lambda item: int(item[1:])))

@@ -1,0 +1,141 @@
+"""usd2kg label: layers from runs, the messages about them, and the linter's exit codes."""
+
+import json
+from pathlib import Path
+
+import pytest
+from pxr import Usd
+
+from tests.cli.conftest import Run
+from tests.conftest import shared_file
+from usd2kg.demo import demo_gold, demo_scene
+
+
+@pytest.fixture
+def mapping(run: Run, room: Path) -> Path:
+    path = room.parent / "room.csv"
+    assert run("ground", room, "-o", path).code == 0
+    return path
+
+
+def classes(path: Path) -> dict[str, list[str]]:
+    stage = Usd.Stage.Open(str(path))
+    found = {str(prim.GetPath()): prim.GetAttribute("semantics:labels:class") for prim in stage.Traverse()}
+    return {prim: list(attribute.Get()) for prim, attribute in found.items() if attribute}
+
+
+def test_a_scene_and_its_mapping(run: Run, room: Path, mapping: Path):
+    before = room.read_bytes()
+    done = run("label", room, mapping)
+    assert (done.code, done.out) == (0, "")
+    assert done.err == "4 prims: 4 written\nwritten to room.labels.usda\n"
+    assert room.read_bytes() == before
+    assert classes(Path("room.labels.usda"))["/Room/Table_1"] == ["Table"]
+    assert run("label", "lint", "room.labels.usda", "--run", mapping).out == "0 findings on 4 labelled prims\n"
+
+
+@pytest.mark.parametrize("kind", ["json", "ttl"])
+def test_other_runs_give_the_same_layer(run: Run, room: Path, mapping: Path, kind: str):
+    other = room.parent / f"room.{kind}"
+    if kind == "json":
+        run("ground", room, "--format", "json", "-o", other)
+    else:
+        run("build", room, "-o", other)
+    run("label", room, mapping, "-o", "a.usda")
+    run("label", room, other, "-o", "b.usda")
+    assert classes(Path("a.usda")) == classes(Path("b.usda"))
+
+
+def test_what_gets_no_label_is_told_with_the_reason(run: Run, room: Path):
+    chosen = room.parent / "some.csv"
+    chosen.write_text(
+        "path,class,confidence,status\n/Room/Table_1,Table,0.4,grounded\n/Room/coffee_mug,,,refused\n"
+        "/Room/None,Cup,1,grounded\n/Room/Apple,Cup,,grounded\n/Room/FruitBowl,Bowl,0.9,grounded\n"
+    )
+    done = run("label", room, chosen, "--at-least", "0.5", "-o", "x.usda")
+    assert done.err.splitlines() == [
+        "5 prims: 1 written, 4 left out",
+        "  1 left out, its class has no confidence, expected at least 0.5: /Room/Apple",
+        "  1 left out, there is no such prim on the stage: /Room/None",
+        "  1 left out, its class is less sure than 0.5: /Room/Table_1",
+        "  1 left out, the run has no class for it: refused: /Room/coffee_mug",
+        "written to x.usda",
+    ]
+    report = json.loads(run("label", room, chosen, "-o", "x.usda", "--json").out)
+    assert report["counts"] == {"written": 3, "left out": 2}
+    assert report["prims"][0] == {"prim_path": "/Room/Apple", "outcome": "written", "reason": ""}
+
+
+def test_options_of_the_layer(run: Run, room: Path, mapping: Path):
+    done = run("label", "write", room, mapping, "--names", "snake", "--ancestors", "--bare", "-o", "x.usda",
+               "--encoding", "semantics,isaac,multiverse")  # fmt: skip
+    assert done.code == 0
+    text = Path("x.usda").read_text()
+    assert "subLayers" not in text
+    assert 'semantics:labels:class = ["artifact", "furniture", "table"]' in text
+    assert 'semantic:Semantics_hierarchy:params:semanticData = "artifact/furniture/table"' in text
+    assert 'string rdf:conceptName = "Table"' in text
+
+
+def test_a_second_run_keeps_overwrites_or_completes(run: Run, room: Path, mapping: Path):
+    run("label", room, mapping, "-o", "a.usda")
+    other = room.parent / "other.csv"
+    other.write_text("path,class\n/Room/Table_1,Bottle\n")
+    kept = run("label", "a.usda", other, "-o", "b.usda")
+    assert "1 prim: 1 kept\n  1 kept, has labels already: /Room/Table_1\n" in kept.err
+    assert run("label", "a.usda", other, "-o", "b.usda", "--mode", "overwrite").err.startswith("1 prim: 1 replaced\n")
+    assert classes(Path("b.usda"))["/Room/Table_1"] == ["Bottle"]
+    assert "1 kept, its labels say another class" in run("label", "a.usda", other, "-o", "c.usda", "--mode", "skip").err
+    stale = run("label", "lint", "b.usda", "--run", mapping)
+    assert stale.code == 1
+    assert stale.out.splitlines()[0] == "warning [label-stale] Table_1 /Room/Table_1"
+    assert stale.out.endswith("1 finding (1 warning) on 4 labelled prims\n")
+    assert json.loads(run("label", "lint", "b.usda", "--run", mapping, "--json").out)["counts"]["warning"] == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--encoding", "rdf"], "--encoding rdf: expected some of semantics, isaac, multiverse"),
+        (["--mode", "append"], "--mode append: expected one of new, overwrite, skip"),
+        (["--names", "camel"], "class names 'camel' are unknown; expected one of local, label, snake"),
+        (["-o", "x.usdz"], "a layer of labels ends in one of .usda, .usdc, .usd"),
+        (["-o", "none/x.usda"], "the folder none does not exist"),
+    ],
+)
+def test_wrong_options(run: Run, room: Path, mapping: Path, arguments: list[str], message: str):
+    done = run("label", room, mapping, *arguments)
+    assert (done.code, done.out) == (2, "")
+    assert message in done.err
+    assert done.err.count("\n") == 1
+
+
+def test_the_source_is_refused_as_output(run: Run, room: Path, mapping: Path):
+    done = run("label", room, mapping, "-o", room)
+    assert done.code == 2
+    assert "never changed" in done.err
+
+
+def test_files_that_are_not_there(run: Run, room: Path, mapping: Path):
+    assert "no such file" in run("label", "none.usda", mapping).err
+    assert run("label", room, "none.csv").code == 2
+    assert run("label", "lint", "none.usda").code == 2
+
+
+def test_the_demo_kitchen_labelled_by_its_gold(run: Run):
+    done = run("label", demo_scene(), demo_gold(), "-o", "k.usda", "--encoding", "semantics,isaac,multiverse")
+    assert done.code == 0
+    assert done.err.startswith("294 prims: 294 written\n")
+    assert len(classes(Path("k.usda"))) == 294
+    assert run("label", "lint", "k.usda").out == "0 findings on 294 labelled prims\n"
+
+
+def test_the_house_labelled_by_its_own_grounding(run: Run):
+    house = shared_file("scenes/aws_robomaker/small_house.usdc")
+    assert run("ground", house, "-o", "house.csv").code == 0
+    done = run("label", house, "house.csv", "--at-least", "0.8", "-o", "house.usda", "--ancestors")
+    assert done.code == 0
+    labelled = classes(Path("house.usda"))
+    assert labelled["/default/BalconyTable_01_001"] == ["DesignedArtifact", "DesignedFurniture", "Table"]
+    assert f"{len(labelled)} written" in done.err
+    assert run("label", "lint", "house.usda", "--run", "house.csv").code == 0

@@ -1,0 +1,80 @@
+"""Reading the classes of a run from mappings, queues and graphs."""
+
+import json
+
+import pytest
+
+from tests.graph.records import build_graph
+from tests.graph.validation.broken import ROOM
+from usd2kg.errors import GroundingError
+from usd2kg.graph import GraphOptions, write_graph
+from usd2kg.labelling import read_run
+
+SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
+
+
+@pytest.fixture
+def rows(tmp_path, home_tbox):
+    """A function that writes a CSV file and reads it as a run: path → (class, confidence, reviewed)."""
+
+    def run(text):
+        path = tmp_path / "run.csv"
+        path.write_text(text, encoding="utf-8")
+        return {
+            a.prim_path: (a.class_iri, a.confidence, a.is_reviewed, a.status) for a in read_run(path, home_tbox).answers
+        }
+
+    return run
+
+
+def test_a_mapping(rows):
+    found = rows(
+        "path,class,label,confidence,status,grounder\n"
+        f"/Cup,{SOMA}Cup,cup,0.9,grounded,embedded\n/X,,,,refused,llm\n/B,soma:Bottle,bottle,1.0,reviewed,person\n"
+    )
+    assert found == {
+        "/Cup": (f"{SOMA}Cup", 0.9, False, "grounded"),
+        "/X": (None, None, False, "refused"),
+        "/B": (f"{SOMA}Bottle", 1.0, True, "reviewed"),
+    }
+
+
+def test_gold_labels_and_a_queue(rows):
+    assert rows("path,class,also\n/Cup,Cup,Bottle\n") == {"/Cup": (f"{SOMA}Cup", None, False, "grounded")}
+    queue = "path,decision,answer,confidence\n/Cup,Cup,Bottle,0.3\n/B,,Bottle,0.4\n"
+    assert rows(queue) == {"/Cup": (f"{SOMA}Cup", None, True, "reviewed"), "/B": (None, None, False, "undecided")}
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("path,klass\n/A,Cup\n", "line 1 has the columns path, klass; expected CSV"),
+        ("", "line 1 has the columns nothing"),
+        ("path,class\n/A,Spoonish\n", "line 2: built-in home TBox: 'Spoonish' names no class"),
+        ("path,class\n/A,Cup\n/A,Bottle\n", "line 3: /A has two classes; leave one"),
+        ("path,class,confidence\n/A,Cup,high\n", "line 2: confidence 'high', expected a number"),
+    ],
+)
+def test_bad_mappings_are_told_in_one_line(rows, text, message):
+    with pytest.raises(GroundingError) as error:
+        rows(text)
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("annotations", ["owl", "rdf12"])
+@pytest.mark.parametrize("profile", ["soma", "plain"])
+def test_a_graph(home_tbox, tmp_path, profile, annotations):
+    path = tmp_path / "room.ttl"
+    write_graph(build_graph(home_tbox, ROOM, profile=profile, options=GraphOptions(annotations)), path)
+    run = read_run(path, home_tbox)
+    expected = {thing.prim_path: home_tbox.resolve(name) for thing, name in ROOM}
+    assert {a.prim_path: a.class_iri for a in run.answers} == expected
+    assert all(a.confidence is not None and a.status == "grounded" for a in run.answers)
+
+
+def test_json_that_is_no_grounding(home_tbox, tmp_path):
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps({"format": "other"}))
+    with pytest.raises(GroundingError, match="cannot be read as a grounding"):
+        read_run(path, home_tbox)
