@@ -8,7 +8,7 @@ from usd2kg.graph.relations.columns import taken
 from usd2kg.graph.relations.containment import Containment
 from usd2kg.graph.relations.model import Links
 from usd2kg.graph.relations.neighbours import Pairs
-from usd2kg.graph.relations.parts import Parts
+from usd2kg.graph.relations.parts import Parts, bodies_of
 
 __all__ = ["Told"]
 
@@ -27,25 +27,28 @@ class Told:
         """The whole that each is a part of, or else what it is inside of; -1 for neither."""
         self.supporter = np.full(len(bodies), -1)
         """What each is on; one of several; -1 for nothing."""
-        self._part_keys = self._keep_parts(bodies, parts)
-        self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
-
-    def _keep_parts(self, bodies: Bodies, parts: Parts) -> Indices:
-        place = np.full(int(bodies.number.max(initial=-1)) + 2, -1)
-        place[bodies.number] = np.arange(len(bodies))
-        keys = []
+        self._tied: list[Indices] = []
+        self._keys = [self._key(links.target, links.anchor) for links in containment.links]
         for links in parts:
-            part, whole = (place[np.minimum(column, len(place) - 1)] for column in (links.target, links.anchor))
-            known = (part >= 0) & (whole >= 0)
-            self.frame[part[known]] = whole[known]
-            keys.append(self._key(part[known], whole[known]))
-            if links is parts.stated:
-                self.is_loose[part[part >= 0]] = False
-        return np.concatenate(keys)
+            self._keep_parts(*bodies_of(bodies, links), is_tied=links is not parts.nested)
+        moved, _ = bodies_of(bodies, parts.stated)
+        self.is_loose[moved[moved >= 0]] = False
+
+    def _keep_parts(self, part: Indices, whole: Indices, *, is_tied: bool) -> None:
+        known = (part >= 0) & (whole >= 0)
+        self.frame[part[known]] = whole[known]
+        keys = self._key(part[known], whole[known])
+        self._keys.append(keys)
+        if is_tied:
+            self._tied.append(keys)
 
     def carry(self, support: list[Links]) -> list[Links]:
-        """Return what is on what without parts on their own wholes, and remember it."""
-        kept = [links.where(~np.isin(self._key(links.target, links.anchor), self._part_keys)) for links in support]
+        """Return what is on what, and remember it; without parts on the wholes that they are tied or fitted to.
+
+        A component that is only nested below its whole may lie on it: a hob on a worktop.
+        """
+        tied = np.concatenate(self._tied)
+        kept = [links.where(~np.isin(self._key(links.target, links.anchor), tied)) for links in support]
         for links in reversed(kept):
             self.supporter[links.target] = links.anchor
             self._keys.append(self._key(links.target, links.anchor))
