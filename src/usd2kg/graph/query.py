@@ -205,8 +205,8 @@ class GraphStore:
         return self._related(thing, _ON, "u2k:gap", "gap_m")
 
     def inside(self, thing: str) -> Answer:
-        """Return what is inside a thing."""
-        return self._related(thing, _INSIDE, "u2k:insideRatio", "inside_ratio")
+        """Return what is inside a thing, or in a room."""
+        return self._related(thing, f"{_INSIDE}|u2k:inRoom", "u2k:insideRatio", "inside_ratio")
 
     def where_is(self, thing: str) -> Answer:
         """Return where a thing is: the centre of its box in metres, what it is on and inside of, and its room."""
