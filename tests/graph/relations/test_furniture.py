@@ -6,7 +6,7 @@ Lengths are metres; the cases are those that were found wrong by eye in real sce
 import pytest
 
 from tests.graph.records import box_at, related, thing
-from tests.graph.relations.rooms import FLOOR, HAIR, RULES, Placed, artifact, relate
+from tests.graph.relations.rooms import FLOOR, HAIR, RULES, artifact, relate
 from tests.graph.relations.test_parts import joint
 from usd2kg.scene import Box
 
@@ -101,21 +101,6 @@ class TestDrawers:
         slab = (thing("/slab", (0, -0.02, 0.9), (1.2, 0.64, 0.04)), "Countertop")
         found = related(relate(self.CABINET, other, front, slab, kinds=("on",)))
         assert found == {("slab", "on", "cab"), ("slab", "on", "other")}
-
-
-class TestNestedComponents:
-    WORKTOP = (thing("/worktop", (0, 0, 0.9), (2, 0.6, 0.04)), "Countertop")
-
-    def hob(self, height: float = 0.94) -> Placed:
-        return thing("/worktop/hob", (0.5, 0.05, height), (0.6, 0.5, 0.01), parent_path="/worktop"), "Cooktop"
-
-    def test_a_hob_is_a_part_of_the_worktop_it_is_nested_below_and_lies_on_it(self):
-        found = related(relate(self.WORKTOP, self.hob(), kinds=("on", "part-of")))
-        assert found == {("hob", "part-of", "worktop"), ("hob", "on", "worktop")}
-
-    def test_one_that_is_let_in_is_a_part_alone(self):
-        found = related(relate(self.WORKTOP, self.hob(0.9), kinds=("on", "part-of")))
-        assert found == {("hob", "part-of", "worktop")}
 
 
 class TestWallsInOnePiece:

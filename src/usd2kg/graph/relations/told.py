@@ -27,28 +27,19 @@ class Told:
         """The whole that each is a part of, or else what it is inside of; -1 for neither."""
         self.supporter = np.full(len(bodies), -1)
         """What each is on; one of several; -1 for nothing."""
-        self._tied: list[Indices] = []
-        self._keys = [self._key(links.target, links.anchor) for links in containment.links]
-        for links in parts:
-            self._keep_parts(*bodies_of(bodies, links), is_tied=links is not parts.nested)
+        self._part_keys = np.concatenate([self._keep_parts(*bodies_of(bodies, links)) for links in parts])
+        self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
         moved, _ = bodies_of(bodies, parts.stated)
         self.is_loose[moved[moved >= 0]] = False
 
-    def _keep_parts(self, part: Indices, whole: Indices, *, is_tied: bool) -> None:
+    def _keep_parts(self, part: Indices, whole: Indices) -> Indices:
         known = (part >= 0) & (whole >= 0)
         self.frame[part[known]] = whole[known]
-        keys = self._key(part[known], whole[known])
-        self._keys.append(keys)
-        if is_tied:
-            self._tied.append(keys)
+        return self._key(part[known], whole[known])
 
     def carry(self, support: list[Links]) -> list[Links]:
-        """Return what is on what, and remember it; without parts on the wholes that they are tied or fitted to.
-
-        A component that is only nested below its whole may lie on it: a hob on a worktop.
-        """
-        tied = np.concatenate(self._tied)
-        kept = [links.where(~np.isin(self._key(links.target, links.anchor), tied)) for links in support]
+        """Return what is on what without parts on their own wholes, and remember it."""
+        kept = [links.where(~np.isin(self._key(links.target, links.anchor), self._part_keys)) for links in support]
         for links in reversed(kept):
             self.supporter[links.target] = links.anchor
             self._keys.append(self._key(links.target, links.anchor))
