@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.relations.bodies import Bodies, Classes, corners_of, overlap_areas
 from usd2kg.graph.relations.columns import closes_a_circle, first_of_each, joined, taken
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above
 from usd2kg.graph.relations.thresholds import Inside, Rules, StandingIn
 from usd2kg.scene import overlapping_pairs
 
@@ -100,7 +100,7 @@ def _enclosed(bodies: Bodies, target: Indices, anchor: Indices, rule: Inside) ->
         & (bodies.volume[target] < bodies.volume[anchor])
         & ((middle >= bodies.lower[anchor]) & (middle <= bodies.upper[anchor])).all(axis=1)
     )
-    clear = clearness((ratio - rule.min_volume_ratio) / (1 - rule.min_volume_ratio))
+    clear = clearness(share_above(ratio, rule.min_volume_ratio))
     return taken(_Found(target, anchor, ratio, clear, np.zeros(len(target), np.bool_)), is_good)
 
 
@@ -116,7 +116,7 @@ def _standing(bodies: Bodies, target: Indices, anchor: Indices, rule: StandingIn
         & (over >= least)
         & (bodies.area[target] <= rule.max_area_ratio * bodies.area[anchor])
     )
-    clear = clearness((over - least) / (1 - least), (depth - rule.min_depth_share) / (1 - rule.min_depth_share))
+    clear = clearness(share_above(over, least), share_above(depth, rule.min_depth_share))
     return taken(_Found(target, anchor, over * depth, clear, np.ones(len(target), np.bool_)), is_good)
 
 

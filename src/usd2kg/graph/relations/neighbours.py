@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from usd2kg.graph.relations.bodies import Bodies
 from usd2kg.graph.relations.columns import first_of_each, joined, taken
 from usd2kg.graph.relations.footprints import box_gaps, distances
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above, share_below
 from usd2kg.graph.relations.thresholds import Near, NextTo, Rules
 from usd2kg.graph.relations.tops import rise_over_tops
 from usd2kg.scene import overlapping_pairs
@@ -96,9 +96,7 @@ def find_touching(bodies: Bodies, pairs: Pairs, rules: Rules) -> tuple[Links, Ma
     is_good[is_good] = keep_nearest(bodies, taken(pairs, is_good), rule.most)
     slack = np.where(gap[is_good] >= 0, rule.max_gap, rule.max_sink)
     # The faces of things that sink into each other by half of what may be still meet.
-    clear = clearness(
-        2 * (1 - np.abs(gap[is_good]) / slack), (face[is_good] - rule.min_face_share) / (1 - rule.min_face_share)
-    )
+    clear = clearness(2 * share_below(gap[is_good], slack), share_above(face[is_good], rule.min_face_share))
     return _links(bodies, "touching", rule.rule, taken(pairs, is_good), {"gap": gap[is_good]}, clear), is_good
 
 
@@ -120,8 +118,8 @@ def find_next_to(bodies: Bodies, pairs: Pairs, around: Pairs, rule: NextTo) -> t
     is_good = (pairs.distance <= limit) & (beside >= rule.min_height_share) & is_apart
     is_good[is_good] = ~_is_blocked(bodies, taken(pairs, is_good), around)
     is_good[is_good] = keep_nearest(bodies, taken(pairs, is_good), rule.most)
-    near = 1 - pairs.distance[is_good] / limit[is_good]
-    clear = clearness(near, (beside[is_good] - rule.min_height_share) / (1 - rule.min_height_share))
+    near = share_below(pairs.distance[is_good], limit[is_good])
+    clear = clearness(near, share_above(beside[is_good], rule.min_height_share))
     kept = taken(pairs, is_good)
     return _links(bodies, "next-to", rule.rule, kept, {"distance": kept.distance}, clear), is_good
 
@@ -133,7 +131,7 @@ def find_near(bodies: Bodies, pairs: Pairs, around: Pairs, rule: Near) -> Links:
     is_good[is_good] = ~_is_blocked(bodies, taken(pairs, is_good), around)
     is_good[is_good] = keep_nearest(bodies, taken(pairs, is_good), rule.most)
     kept = taken(pairs, is_good)
-    clear = clearness(1 - kept.distance / limit[is_good])
+    clear = clearness(share_below(kept.distance, limit[is_good]))
     return _links(bodies, "near", rule.rule, kept, {"distance": kept.distance}, clear)
 
 

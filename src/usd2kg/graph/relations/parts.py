@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from usd2kg.graph.relations.bodies import Bodies, Classes
 from usd2kg.graph.relations.columns import first_of_each
 from usd2kg.graph.relations.footprints import box_gaps
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_below
 from usd2kg.graph.relations.thresholds import PartOf
 from usd2kg.scene import Joint, Scene, overlapping_pairs
 
@@ -142,5 +142,7 @@ def _best_fit(bodies: Bodies, part: Indices, whole: Indices, is_front: Mask, rul
     met = np.clip((rule.max_gap - gaps) / (bodies.size[part] + rule.max_gap), 0, 1).prod(axis=1)
     best = first_of_each(part, (bodies.rank[whole], -met.round(6), ~is_front[whole]))
     gap = np.clip(gaps[best].max(axis=1, initial=0), 0, None)
-    links = Links("part-of", rule.fitted_rule, part[best], whole[best], {"gap": gap}, clearness(1 - gap / rule.max_gap))
+    links = Links(
+        "part-of", rule.fitted_rule, part[best], whole[best], {"gap": gap}, clearness(share_below(gap, rule.max_gap))
+    )
     return links._replace(target=bodies.number[links.target], anchor=bodies.number[links.anchor])

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.relations.bodies import Bodies, Classes, corners_of, overlap_areas
 from usd2kg.graph.relations.columns import closes_a_circle, first_of_each, joined, taken
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above, share_below
 from usd2kg.graph.relations.thresholds import On, Rules
 from usd2kg.graph.relations.tops import rise_over_tops
 from usd2kg.scene import Box, overlapping_pairs
@@ -135,8 +135,8 @@ def _on_one(bodies: Bodies, tops: _Tops, rests: _Rests, rule: On) -> Links:
     # Of two sheets at one height, each sunk into the other, the larger one carries.
     best = taken(best, ~is_round | (bodies.area[best.target] < tops.area[best.top]))
     best = taken(best, ~closes_a_circle(_pointers(bodies, tops, best), best.target))
-    over = (best.ratio - rule.min_overlap_ratio) / (1 - rule.min_overlap_ratio)
-    return _links(rule.rule, tops, best, clearness(1 - np.abs(best.gap) / best.allowed, over))
+    over = share_above(best.ratio, rule.min_overlap_ratio)
+    return _links(rule.rule, tops, best, clearness(share_below(best.gap, best.allowed), over))
 
 
 def _pointers(bodies: Bodies, tops: _Tops, rests: _Rests) -> Indices:
@@ -172,8 +172,8 @@ def _on_several(bodies: Bodies, tops: _Tops, rests: _Rests, rules: Rules) -> Lin
     count = np.bincount(rests.target, minlength=len(bodies))
     is_good = (count >= rule.min_anchors)[rests.target] & _is_under_middle(bodies, tops, rests)[rests.target]
     rests, share = taken(rests, is_good), share[is_good]
-    clear = (share - rule.min_anchor_ratio) / (1 - rule.min_anchor_ratio)
-    return _links(rule.rule, tops, rests, clearness(1 - np.abs(rests.gap) / rests.allowed, clear))
+    clear = share_above(share, rule.min_anchor_ratio)
+    return _links(rule.rule, tops, rests, clearness(share_below(rests.gap, rests.allowed), clear))
 
 
 def _is_under_middle(bodies: Bodies, tops: _Tops, rests: _Rests) -> Mask:
@@ -192,8 +192,8 @@ def _close_over(bodies: Bodies, tops: _Tops, near: _Rests, rules: Rules) -> Link
     near = taken(near, is_good)
     keys = (bodies.rank[tops.owner[near.top]], -near.ratio.round(6), near.gap.round(6))
     best = taken(near, first_of_each(near.target, keys))
-    over = (best.ratio - rule.min_overlap_ratio) / (1 - rule.min_overlap_ratio)
-    return _links(rule.rule, tops, best, clearness(1 - best.gap / rule.max_gap, over))
+    over = share_above(best.ratio, rule.min_overlap_ratio)
+    return _links(rule.rule, tops, best, clearness(share_below(best.gap, rule.max_gap), over))
 
 
 def _thickness(bodies: Bodies) -> Array:
