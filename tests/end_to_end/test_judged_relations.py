@@ -17,7 +17,7 @@ STAGES = {
     "small_house": "scenes/aws_robomaker/small_house.usdc",
 }
 FLOORS = {
-    # scene → kind → least precision, least recall. Measured for the apartment: on 8 of 8 and 9 of 11; inside all;
+    # scene → kind → least precision, least recall. Measured for the apartment: on 7 of 7 and 9 of 11; inside all;
     # part-of 68 of 69 and 66 of 68; room 82 of 82 and 82 of 95; touching 10 of 10 and 10 of 14. For the house: on 44
     # of 45, both ways; inside 1 of 1 and 1 of 4, as a coffee table holds nothing by its class; touching 2 of 4.
     "apartment": {

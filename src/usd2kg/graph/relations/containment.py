@@ -51,13 +51,16 @@ def find_containment(bodies: Bodies, classes: Classes, wholes: Indices, rules: R
     can_contain = classes.can_contain[bodies.number]
     is_drawer = classes.are_in("not_laid")[bodies.number]
     may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[bodies.number]
+    has_parts = bool((wholes >= 0).any())
     is_open = can_contain & ~classes.are_in("closed")[bodies.number]
     found = [_no_pairs()]
     for i, j in overlapping_pairs(bodies.lower[:, :2], bodies.upper[:, :2]):
         for target, anchor in ((i, j), (j, i)):
-            is_own = is_drawer[target] & (wholes[target] == anchor)
-            may = may_be_in[target] & (can_contain[anchor] | is_own) & _begins_within(bodies, target, anchor)
-            may &= ~_run_in_each_other(target, anchor, wholes, is_drawer)
+            may = may_be_in[target] & can_contain[anchor]
+            if has_parts:
+                may |= may_be_in[target] & is_drawer[target] & (wholes[target] == anchor)
+                may &= ~_run_in_each_other(target, anchor, wholes, is_drawer)
+            may &= _begins_within(bodies, target, anchor)
             found.append(_enclosed(bodies, target[may], anchor[may], rules.inside))
             may &= is_open[anchor]
             found.append(_standing(bodies, target[may], anchor[may], rules.standing_in))
