@@ -122,7 +122,7 @@ class GraphStore:
         return self._about(spoken.ON if is_direct else spoken.ALL_ON, thing)
 
     def inside(self, thing: str, *, is_direct: bool = True) -> Answer:
-        """Return what is inside a thing; on request also what is on or in something inside it."""
+        """Return what is inside a thing or in a room; on request also what is on or in something inside it."""
         return self._about(spoken.INSIDE if is_direct else spoken.ALL_INSIDE, thing)
 
     def where_is(self, thing: str) -> Answer:

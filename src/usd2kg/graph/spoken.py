@@ -22,6 +22,7 @@ __all__ = [
 
 _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
+_WITHIN = f"{_INSIDE}|u2k:inRoom"
 _NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
@@ -95,11 +96,13 @@ class SpokenQuestion:
 
 
 ON = SpokenQuestion(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
-INSIDE = SpokenQuestion(_RELATED, {"predicate": _INSIDE, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
+INSIDE = SpokenQuestion(_RELATED, {"predicate": _WITHIN, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
 ALL_ON = SpokenQuestion(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
 """What is on a thing, or on what is on it."""
 ALL_INSIDE = SpokenQuestion(
-    _RELATED, {"predicate": f"({_ON}|{_INSIDE})*/({_INSIDE})", "number": "u2k:insideRatio"}, {"number": "inside_ratio"}
+    _RELATED,
+    {"predicate": f"({_ON}|{_INSIDE})*/({_WITHIN})", "number": "u2k:insideRatio"},
+    {"number": "inside_ratio"},
 )
 """What is inside a thing, or on or in what is inside it."""
 ABOVE = SpokenQuestion(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})

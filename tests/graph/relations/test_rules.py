@@ -8,7 +8,7 @@ import pytest
 from tests.graph.records import related, thing
 from tests.graph.relations.rooms import TABLE, artifact, cup, relate
 from usd2kg.errors import GraphError
-from usd2kg.graph.relations import ALL_KINDS, load_rules
+from usd2kg.graph.relations import ALL_KINDS, Viewpoint, load_rules
 from usd2kg.ontology import expand_curie, load_home_tbox
 
 
@@ -110,6 +110,86 @@ def test_mistakes_are_told(rules_file, text: str, message: str):
     with pytest.raises(GraphError, match=message) as raised:
         load_rules(path)
     assert str(raised.value).startswith(str(path))
+
+
+def test_thresholds_at_their_limits_divide_by_nothing(rules_file):
+    limits = """
+    [on]
+    min_overlap_ratio = 1.0
+    min_gap = 0
+    max_gap = 0
+    max_sink = 0
+    [hovering]
+    max_gap = 0
+    max_wall_thickness = 0
+    [inside]
+    min_volume_ratio = 1.0
+    [above]
+    min_overlap_ratio = 1.0
+    [touching]
+    max_gap = 0
+    max_sink = 0
+    min_face_share = 1.0
+    [next_to]
+    min_gap = 0
+    max_gap = 0
+    min_height_share = 1.0
+    [near]
+    min_gap = 0
+    max_gap = 0
+    [room]
+    clear_margin = 0
+    [side]
+    tolerance_deg = 0
+    [part_of]
+    max_gap = 0
+    """
+    row = [thing(f"/a{i}", (i, 0, 0.7), (1, 1, 1)) for i in range(2)]
+    room = [(thing("/room", (-1, -1, -1), (5, 5, 5)), "Room"), TABLE, *((obj, "Box") for obj in row)]
+    view = Viewpoint((-5, 0.5, 1), (1, 0, 0))
+    found = relate(*room, kinds=ALL_KINDS, viewpoint=view, rules=load_rules(rules_file(limits)))
+    assert {r.kind for r in found} >= {"touching", "next-to", "room", "front", "behind"}
+    assert all(r.confidence == 1 for r in found)
+
+
+class TestPage:
+    """docs/relations.md is what the software does."""
+
+    PAGE = (Path(__file__).parents[3] / "docs/relations.md").read_text("utf-8")
+
+    def test_every_kind_and_rule_is_described(self):
+        rules = load_rules()
+        assert not [kind for kind in ALL_KINDS if f"`{kind}`" not in self.PAGE]
+        names = ("rule", "group_rule", "stated_rule", "tree_rule", "fitted_rule")
+        ids = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]
+        assert not [rule for rule in ids if isinstance(rule, str) and f"`{rule}`" not in self.PAGE]
+
+    def test_the_example_of_rules_of_ones_own_works(self, rules_file):
+        example = self.PAGE.partition("```toml\n")[2].partition("```")[0]
+        rules = load_rules(rules_file(example))
+        assert (rules.on.rule, rules.near.most) == ("lab-on/1", 5)
+        assert "=soma:Box" in rules.classes.closed
+
+    def test_the_thresholds_it_tells_are_those_of_the_table(self):
+        rules = load_rules()
+        told = {
+            "More than 30 % of what the target stands on": rules.on.min_overlap_ratio == 0.3,
+            "hovers at most 7 cm over something": rules.hovering.max_gap == 0.07,
+            "more than half a metre thick": rules.hovering.max_wall_thickness == 0.5,
+            "At least 60 % of the target's box": rules.inside.min_volume_ratio == 0.6,
+            "more than 30 % of the smaller footprint": rules.above.min_overlap_ratio == 0.3,
+            "above its nearest four": rules.above.most == 4,
+            "within 2.5 mm": rules.touching.max_gap == 0.0025,
+            "half the width of the smaller one (5 cm to 50 cm)": rules.next_to.gap_share == 0.5,
+            "among the nearest three": rules.next_to.most == 3,
+            "mean extent of the smaller one (10 cm to 1 m)": rules.near.gap_share == 1,
+            "among the nearest two": rules.near.most == 2,
+            "1 m × 1 m × 1.5 m large": (rules.room.min_side, rules.room.min_height) == (1, 1.5),
+            "More than 51 % of the target's footprint": rules.between.min_hull_ratio == 0.51,
+            "within 40 degrees": rules.side.tolerance_deg == 40,
+        }
+        page = " ".join(self.PAGE.split())
+        assert not [text for text, holds in told.items() if not holds or text not in page]
 
 
 def test_a_missing_file(tmp_path: Path):

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from usd2kg.graph.relations.bodies import Bodies, overlap_areas
 from usd2kg.graph.relations.columns import first_of_each, joined, taken
 from usd2kg.graph.relations.footprints import box_gaps, distances
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above
 from usd2kg.graph.relations.neighbours import Pairs
 from usd2kg.graph.relations.thresholds import Between
 from usd2kg.graph.relations.told import Told
@@ -37,7 +37,7 @@ def find_between(bodies: Bodies, is_chosen: Mask, told: Told, rule: Between) -> 
     one, other, reach, ratio = one[is_good], other[is_good], reach[is_good], ratio[is_good]
     ranks = bodies.rank[anchor[one]], bodies.rank[anchor[other]]
     best = first_of_each(target[one], (*ranks, -ratio.round(6), reach.round(6)))
-    clear = (ratio[best] - rule.min_hull_ratio) / (1 - rule.min_hull_ratio)
+    clear = share_above(ratio[best], rule.min_hull_ratio)
     first, second = anchor[one[best]], anchor[other[best]]
     is_swapped = bodies.rank[first] > bodies.rank[second]
     first, second = np.where(is_swapped, second, first), np.where(is_swapped, first, second)

@@ -19,7 +19,7 @@ from usd2kg.graph.relations.neighbours import (
     find_touching,
 )
 from usd2kg.graph.relations.options import RelationOptions
-from usd2kg.graph.relations.parts import Parts, find_parts
+from usd2kg.graph.relations.parts import Parts, find_parts, wholes_of
 from usd2kg.graph.relations.rooms import find_rooms
 from usd2kg.graph.relations.sides import find_sides
 from usd2kg.graph.relations.support import find_support
@@ -77,7 +77,8 @@ class _Finder:
                 yield self._renumbered(links)
 
     def _of_bodies(self, kinds: frozenset[str], parts: Parts) -> Iterator[Links]:
-        containment = find_containment(self.bodies, self.classes, self.rules)
+        wholes = wholes_of(self.bodies, parts)
+        containment = find_containment(self.bodies, self.classes, wholes, self.rules)
         yield from containment.links
         told = Told(self.bodies, containment, parts)
         support = told.carry(find_support(self.bodies, self.classes, told.is_loose, containment.container, self.rules))
@@ -109,7 +110,7 @@ class _Finder:
     def _of_pairs(self, kinds: frozenset[str], pairs: Pairs, around: Pairs) -> Iterator[Links]:
         is_told = np.zeros(len(pairs.one), np.bool_)
         if "touching" in kinds:
-            links, found = find_touching(self.bodies, pairs, self.rules.touching)
+            links, found = find_touching(self.bodies, pairs, self.rules)
             is_told |= found
             yield links
         if "next-to" in kinds:

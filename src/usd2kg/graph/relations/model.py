@@ -21,6 +21,8 @@ __all__ = [
     "clearness",
     "parse_kinds",
     "parse_viewpoint",
+    "share_above",
+    "share_below",
 ]
 
 Array = NDArray[np.float64]
@@ -91,6 +93,26 @@ def clearness(*shares: Array | float) -> Array:
     """
     least = np.clip(np.minimum.reduce(np.broadcast_arrays(*[np.asarray(share, np.float64) for share in shares])), 0, 1)
     return np.asarray(least * least * (3 - 2 * least))
+
+
+def share_above(value: Array, least: Array | float, ideal: float = 1.0) -> Array:
+    """Return which share of the way from the threshold to the ideal a value has gone; 1 where there is no way.
+
+    >>> share_above(np.array([0.3, 0.65, 1.0]), 0.3).round(3).tolist()
+    [0.0, 0.5, 1.0]
+    """
+    way = np.asarray(ideal - np.asarray(least, np.float64))
+    return np.where(way > 0, (value - least) / np.where(way > 0, way, 1.0), 1.0)
+
+
+def share_below(value: Array, most: Array | float) -> Array:
+    """Return which share of what is allowed a value leaves over, whichever way it is off; 1 where nothing is allowed.
+
+    >>> share_below(np.array([0.0, -0.01, 0.02]), 0.02).tolist()
+    [1.0, 0.5, 0.0]
+    """
+    allowed = np.asarray(most, np.float64)
+    return np.where(allowed > 0, 1 - np.abs(value) / np.where(allowed > 0, allowed, 1.0), 1.0)
 
 
 @dataclass(frozen=True, slots=True)

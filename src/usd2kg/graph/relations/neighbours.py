@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from usd2kg.graph.relations.bodies import Bodies
 from usd2kg.graph.relations.columns import first_of_each, joined, taken
 from usd2kg.graph.relations.footprints import box_gaps, distances
-from usd2kg.graph.relations.model import Links, clearness
-from usd2kg.graph.relations.thresholds import Near, NextTo, Rules, Touching
+from usd2kg.graph.relations.model import Links, clearness, share_above, share_below
+from usd2kg.graph.relations.thresholds import Near, NextTo, Rules
+from usd2kg.graph.relations.tops import rise_over_tops
 from usd2kg.scene import overlapping_pairs
 
 __all__ = ["Pairs", "find_near", "find_neighbours", "find_next_to", "find_touching", "heights_beside", "keep_nearest"]
@@ -20,6 +21,8 @@ Mask = NDArray[np.bool_]
 
 _MOST_BETWEEN = 8
 """Of each thing, so many of the nearest are asked whether they stand between it and another."""
+_UP = 2
+"""The vertical axis."""
 _FREE = 0.01
 """Metres: nothing stands between things that are closer."""
 _SHARED = 0.1
@@ -75,8 +78,9 @@ def heights_beside(bodies: Bodies, pairs: Pairs) -> Array:
     return np.asarray(np.clip(shared / np.maximum(lower_one, 1e-12), 0, 1))
 
 
-def find_touching(bodies: Bodies, pairs: Pairs, rule: Touching) -> tuple[Links, Mask]:
+def find_touching(bodies: Bodies, pairs: Pairs, rules: Rules) -> tuple[Links, Mask]:
     """Return the pairs whose boxes meet in a face, and which of the given pairs these are."""
+    rule = rules.touching
     gaps = box_gaps(bodies, pairs.one, pairs.other)
     smaller = np.minimum(bodies.size[pairs.one], bodies.size[pairs.other])
     shares = -gaps / np.maximum(smaller, 1e-12)
@@ -88,13 +92,18 @@ def find_touching(bodies: Bodies, pairs: Pairs, rule: Touching) -> tuple[Links, 
     face = shares.min(axis=1, initial=1.0)
     is_good = (gap <= rule.max_gap) & (gap >= -rule.max_sink) & (face >= rule.min_face_share)
     is_good &= pairs.distance <= rule.max_gap
+    is_good &= ~((axis == _UP) & _meets_a_false_top(bodies, pairs, rules))
     is_good[is_good] = keep_nearest(bodies, taken(pairs, is_good), rule.most)
     slack = np.where(gap[is_good] >= 0, rule.max_gap, rule.max_sink)
     # The faces of things that sink into each other by half of what may be still meet.
-    clear = clearness(
-        2 * (1 - np.abs(gap[is_good]) / slack), (face[is_good] - rule.min_face_share) / (1 - rule.min_face_share)
-    )
+    clear = clearness(2 * share_below(gap[is_good], slack), share_above(face[is_good], rule.min_face_share))
     return _links(bodies, "touching", rule.rule, taken(pairs, is_good), {"gap": gap[is_good]}, clear), is_good
+
+
+def _meets_a_false_top(bodies: Bodies, pairs: Pairs, rules: Rules) -> Mask:
+    is_lower = bodies.lower[pairs.one, 2] < bodies.lower[pairs.other, 2]
+    below = np.where(is_lower, pairs.one, pairs.other)
+    return np.asarray(rise_over_tops(bodies, rules)[below])
 
 
 def find_next_to(bodies: Bodies, pairs: Pairs, around: Pairs, rule: NextTo) -> tuple[Links, Mask]:
@@ -109,8 +118,8 @@ def find_next_to(bodies: Bodies, pairs: Pairs, around: Pairs, rule: NextTo) -> t
     is_good = (pairs.distance <= limit) & (beside >= rule.min_height_share) & is_apart
     is_good[is_good] = ~_is_blocked(bodies, taken(pairs, is_good), around)
     is_good[is_good] = keep_nearest(bodies, taken(pairs, is_good), rule.most)
-    near = 1 - pairs.distance[is_good] / limit[is_good]
-    clear = clearness(near, (beside[is_good] - rule.min_height_share) / (1 - rule.min_height_share))
+    near = share_below(pairs.distance[is_good], limit[is_good])
+    clear = clearness(near, share_above(beside[is_good], rule.min_height_share))
     kept = taken(pairs, is_good)
     return _links(bodies, "next-to", rule.rule, kept, {"distance": kept.distance}, clear), is_good
 
@@ -122,7 +131,7 @@ def find_near(bodies: Bodies, pairs: Pairs, around: Pairs, rule: Near) -> Links:
     is_good[is_good] = ~_is_blocked(bodies, taken(pairs, is_good), around)
     is_good[is_good] = keep_nearest(bodies, taken(pairs, is_good), rule.most)
     kept = taken(pairs, is_good)
-    clear = clearness(1 - kept.distance / limit[is_good])
+    clear = clearness(share_below(kept.distance, limit[is_good]))
     return _links(bodies, "near", rule.rule, kept, {"distance": kept.distance}, clear)
 
 

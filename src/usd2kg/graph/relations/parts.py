@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from usd2kg.graph.relations.bodies import Bodies, Classes
 from usd2kg.graph.relations.columns import first_of_each
 from usd2kg.graph.relations.footprints import box_gaps
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_below
 from usd2kg.graph.relations.thresholds import PartOf
 from usd2kg.scene import Joint, Scene, overlapping_pairs
 
-__all__ = ["Parts", "find_parts"]
+__all__ = ["Parts", "bodies_of", "find_parts", "wholes_of"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -61,6 +61,23 @@ def find_parts(scene: Scene, bodies: Bodies, classes: Classes, rule: PartOf) -> 
     is_free[[*stated, *tree]] = False
     fitted = _fitted(scene, bodies, classes, is_free, rule)
     return Parts(_links(rule.stated_rule, stated), _links(rule.tree_rule, tree), fitted)
+
+
+def wholes_of(bodies: Bodies, parts: Parts) -> Indices:
+    """Return for each body the one that it is a part of, -1 for none."""
+    wholes = np.full(len(bodies), -1)
+    for links in parts:
+        part, whole = bodies_of(bodies, links)
+        known = (part >= 0) & (whole >= 0)
+        wholes[part[known]] = whole[known]
+    return wholes
+
+
+def bodies_of(bodies: Bodies, links: Links) -> tuple[Indices, Indices]:
+    """Return targets and anchors of links that count all objects as places among the bodies, -1 without a box."""
+    place = np.full(int(bodies.number.max(initial=-1)) + 2, -1)
+    place[bodies.number] = np.arange(len(bodies))
+    return place[np.minimum(links.target, len(place) - 1)], place[np.minimum(links.anchor, len(place) - 1)]
 
 
 def _links(rule: str, found: dict[int, int]) -> Links:
@@ -125,5 +142,7 @@ def _best_fit(bodies: Bodies, part: Indices, whole: Indices, is_front: Mask, rul
     met = np.clip((rule.max_gap - gaps) / (bodies.size[part] + rule.max_gap), 0, 1).prod(axis=1)
     best = first_of_each(part, (bodies.rank[whole], -met.round(6), ~is_front[whole]))
     gap = np.clip(gaps[best].max(axis=1, initial=0), 0, None)
-    links = Links("part-of", rule.fitted_rule, part[best], whole[best], {"gap": gap}, clearness(1 - gap / rule.max_gap))
+    links = Links(
+        "part-of", rule.fitted_rule, part[best], whole[best], {"gap": gap}, clearness(share_below(gap, rule.max_gap))
+    )
     return links._replace(target=bodies.number[links.target], anchor=bodies.number[links.anchor])

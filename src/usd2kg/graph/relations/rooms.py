@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.relations.bodies import Bodies, Classes
 from usd2kg.graph.relations.columns import first_of_each
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above
 from usd2kg.graph.relations.thresholds import RoomRules
 from usd2kg.scene import Box, SceneObject, overlapping_pairs
 from usd2kg.words import words_of
@@ -96,5 +96,5 @@ def _members(bodies: Bodies, rooms: list[_Room], placed: Indices, rule: RoomRule
         found.append((placed[i[is_in]], j[is_in], inner[is_in, :2].min(axis=1)))
     target, room, margin = (np.concatenate(column) for column in zip(*found, strict=True))
     best = first_of_each(target, (number[room], volume[room]))
-    clear = clearness(margin[best] / rule.clear_margin)
+    clear = clearness(share_above(margin[best], 0.0, rule.clear_margin))
     return Links("room", rule.rule, target[best], number[room[best]], {"margin": margin[best]}, clear)

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.relations.bodies import Bodies
 from usd2kg.graph.relations.columns import taken
-from usd2kg.graph.relations.model import Links, Viewpoint, clearness
+from usd2kg.graph.relations.model import Links, Viewpoint, clearness, share_below
 from usd2kg.graph.relations.neighbours import Pairs, heights_beside, keep_nearest
 from usd2kg.graph.relations.thresholds import Side
 
@@ -38,7 +38,7 @@ def find_sides(bodies: Bodies, pairs: Pairs, viewpoint: Viewpoint, rule: Side) -
         chosen = is_apart & (off <= rule.tolerance_deg)
         one, other = pairs.one[chosen], pairs.other[chosen]
         numbers = {"angle": off[chosen], "distance": pairs.distance[chosen]}
-        confidence = clearness(1 - off[chosen] / rule.tolerance_deg)
+        confidence = clearness(share_below(off[chosen], rule.tolerance_deg))
         links.append(Links(kind, rule.rule, one, other, numbers, confidence))
         links.append(Links(_OPPOSITE[kind], rule.rule, other, one, numbers, confidence))
     return links

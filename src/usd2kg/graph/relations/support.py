@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.relations.bodies import Bodies, Classes, corners_of, overlap_areas
 from usd2kg.graph.relations.columns import closes_a_circle, first_of_each, joined, taken
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above, share_below
 from usd2kg.graph.relations.thresholds import On, Rules
+from usd2kg.graph.relations.tops import rise_over_tops
 from usd2kg.scene import Box, overlapping_pairs
 
 __all__ = ["find_support"]
@@ -60,7 +61,7 @@ def find_support(bodies: Bodies, classes: Classes, is_loose: Mask, container: In
         rules: the thresholds.
     """
     may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[bodies.number]
-    tops = _tops_of(bodies, ~classes.are_in("not_supporting")[bodies.number], rules.on)
+    tops = _tops_of(bodies, ~classes.are_in("not_supporting")[bodies.number], rules)
     near = _find_rests(bodies, np.flatnonzero(may_rest), tops, container, rules)
     rests = taken(near, np.abs(near.gap) <= near.allowed)
     single = _on_one(bodies, tops, rests, rules.on)
@@ -70,17 +71,20 @@ def find_support(bodies: Bodies, classes: Classes, is_loose: Mask, container: In
     several = _on_several(bodies, tops, taken(rests, is_left[rests.target] & bears[tops.owner[rests.top]]), rules)
     is_left[several.target] = False
     is_left &= container < 0
-    is_left[_at_walls(bodies, np.flatnonzero(is_left), classes.are_in("walls")[bodies.number], rules)] = False
+    # The box around the walls of a whole house tells nothing of where they are.
+    is_wall = classes.are_in("walls")[bodies.number] & (_thickness(bodies) <= rules.hovering.max_wall_thickness)
+    is_left[_at_walls(bodies, np.flatnonzero(is_left), is_wall, rules)] = False
     return [single, several, _close_over(bodies, tops, taken(near, is_left[near.target]), rules)]
 
 
-def _tops_of(bodies: Bodies, can_support: Mask, rule: On) -> _Tops:
+def _tops_of(bodies: Bodies, can_support: Mask, rules: Rules) -> _Tops:
     owner: list[int] = []
     boxes: list[Box] = []
     is_level: list[bool] = []
+    rises = rise_over_tops(bodies, rules)
     for index in np.flatnonzero(can_support).tolist():
         obj = bodies.objects[index]
-        parts = obj.part_boxes or (obj.own_box,)
+        parts = obj.part_boxes or (() if rises[index] else (obj.own_box,))
         own = [*(box for box in parts if box is not None), *obj.support_levels]
         owner.extend([index] * len(own))
         boxes.extend(own)
@@ -92,7 +96,7 @@ def _tops_of(bodies: Bodies, can_support: Mask, rule: On) -> _Tops:
     lower[level, 2] = bodies.lower[number[level], 2]
     # And a thing may sink into a floor that has no thickness to speak of.
     is_sheet = ~level & (bodies.size[number, 2] < _SHEET)
-    lower[is_sheet, 2] -= rule.min_gap
+    lower[is_sheet, 2] -= rules.on.min_gap
     return _Tops(number, lower, upper, np.where(level, 0, thickness), bodies.area[number])
 
 
@@ -131,8 +135,8 @@ def _on_one(bodies: Bodies, tops: _Tops, rests: _Rests, rule: On) -> Links:
     # Of two sheets at one height, each sunk into the other, the larger one carries.
     best = taken(best, ~is_round | (bodies.area[best.target] < tops.area[best.top]))
     best = taken(best, ~closes_a_circle(_pointers(bodies, tops, best), best.target))
-    over = (best.ratio - rule.min_overlap_ratio) / (1 - rule.min_overlap_ratio)
-    return _links(rule.rule, tops, best, clearness(1 - np.abs(best.gap) / best.allowed, over))
+    over = share_above(best.ratio, rule.min_overlap_ratio)
+    return _links(rule.rule, tops, best, clearness(share_below(best.gap, best.allowed), over))
 
 
 def _pointers(bodies: Bodies, tops: _Tops, rests: _Rests) -> Indices:
@@ -168,8 +172,8 @@ def _on_several(bodies: Bodies, tops: _Tops, rests: _Rests, rules: Rules) -> Lin
     count = np.bincount(rests.target, minlength=len(bodies))
     is_good = (count >= rule.min_anchors)[rests.target] & _is_under_middle(bodies, tops, rests)[rests.target]
     rests, share = taken(rests, is_good), share[is_good]
-    clear = (share - rule.min_anchor_ratio) / (1 - rule.min_anchor_ratio)
-    return _links(rule.rule, tops, rests, clearness(1 - np.abs(rests.gap) / rests.allowed, clear))
+    clear = share_above(share, rule.min_anchor_ratio)
+    return _links(rule.rule, tops, rests, clearness(share_below(rests.gap, rests.allowed), clear))
 
 
 def _is_under_middle(bodies: Bodies, tops: _Tops, rests: _Rests) -> Mask:
@@ -188,8 +192,14 @@ def _close_over(bodies: Bodies, tops: _Tops, near: _Rests, rules: Rules) -> Link
     near = taken(near, is_good)
     keys = (bodies.rank[tops.owner[near.top]], -near.ratio.round(6), near.gap.round(6))
     best = taken(near, first_of_each(near.target, keys))
-    over = (best.ratio - rule.min_overlap_ratio) / (1 - rule.min_overlap_ratio)
-    return _links(rule.rule, tops, best, clearness(1 - best.gap / rule.max_gap, over))
+    over = share_above(best.ratio, rule.min_overlap_ratio)
+    return _links(rule.rule, tops, best, clearness(share_below(best.gap, rule.max_gap), over))
+
+
+def _thickness(bodies: Bodies) -> Array:
+    """Return the shorter side of each footprint, metres."""
+    _, half, _ = bodies.turned
+    return np.asarray(2 * half.min(axis=1))
 
 
 def _at_walls(bodies: Bodies, chosen: Indices, is_wall: Mask, rules: Rules) -> Indices:

@@ -54,6 +54,7 @@ class Hovering:
     max_gap: float
     min_overlap_ratio: float
     max_wall_gap: float
+    max_wall_thickness: float
 
 
 @dataclass(frozen=True, slots=True)

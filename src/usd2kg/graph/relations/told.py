@@ -8,7 +8,7 @@ from usd2kg.graph.relations.columns import taken
 from usd2kg.graph.relations.containment import Containment
 from usd2kg.graph.relations.model import Links
 from usd2kg.graph.relations.neighbours import Pairs
-from usd2kg.graph.relations.parts import Parts
+from usd2kg.graph.relations.parts import Parts, bodies_of
 
 __all__ = ["Told"]
 
@@ -27,21 +27,15 @@ class Told:
         """The whole that each is a part of, or else what it is inside of; -1 for neither."""
         self.supporter = np.full(len(bodies), -1)
         """What each is on; one of several; -1 for nothing."""
-        self._part_keys = self._keep_parts(bodies, parts)
+        self._part_keys = np.concatenate([self._keep_parts(*bodies_of(bodies, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
+        moved, _ = bodies_of(bodies, parts.stated)
+        self.is_loose[moved[moved >= 0]] = False
 
-    def _keep_parts(self, bodies: Bodies, parts: Parts) -> Indices:
-        place = np.full(int(bodies.number.max(initial=-1)) + 2, -1)
-        place[bodies.number] = np.arange(len(bodies))
-        keys = []
-        for links in parts:
-            part, whole = (place[np.minimum(column, len(place) - 1)] for column in (links.target, links.anchor))
-            known = (part >= 0) & (whole >= 0)
-            self.frame[part[known]] = whole[known]
-            keys.append(self._key(part[known], whole[known]))
-            if links is parts.stated:
-                self.is_loose[part[part >= 0]] = False
-        return np.concatenate(keys)
+    def _keep_parts(self, part: Indices, whole: Indices) -> Indices:
+        known = (part >= 0) & (whole >= 0)
+        self.frame[part[known]] = whole[known]
+        return self._key(part[known], whole[known])
 
     def carry(self, support: list[Links]) -> list[Links]:
         """Return what is on what without parts on their own wholes, and remember it."""

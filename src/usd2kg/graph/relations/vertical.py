@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.relations.bodies import Bodies, overlap_areas
 from usd2kg.graph.relations.columns import first_of_each, joined, place_in_group, taken
-from usd2kg.graph.relations.model import Links, clearness
+from usd2kg.graph.relations.model import Links, clearness, share_above
 from usd2kg.graph.relations.thresholds import Above
 from usd2kg.scene import overlapping_pairs
 
@@ -48,7 +48,7 @@ def find_above(bodies: Bodies, is_chosen: Mask, frame: Indices, supporter: Indic
     pairs = taken(pairs, ~_is_carried(pairs, supporter))
     pairs = _nearest(bodies, pairs, _PREFIX * rule.most)
     pairs = _nearest(bodies, taken(pairs, ~_is_told(bodies, pairs, supporter, rule)), rule.most)
-    clear = (pairs.ratio - rule.min_overlap_ratio) / (1 - rule.min_overlap_ratio)
+    clear = share_above(pairs.ratio, rule.min_overlap_ratio)
     numbers = {"gap": pairs.gap, "overlapRatio": pairs.ratio}
     return Links("above", rule.rule, pairs.target, pairs.anchor, numbers, clearness(clear))
 

@@ -1,0 +1,196 @@
+"""Hold the spatial relations that are found against those that were judged by eye.
+
+Usage: python benchmarks/relations/judged.py [SCENE...] (default: all)
+
+The lists are in `judged`; that of the demo kitchen is what it was built with. The two real scenes are read from the
+folder that the variable USD2KG_SHARED names, `../shared` by default; one that is absent is left out.
+"""
+
+import csv
+import math
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import usd2kg
+from usd2kg.demo import demo_relations, demo_scene
+from usd2kg.graph.relations import Relation
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+SHARED = Path(os.environ.get("USD2KG_SHARED", ROOT.parent / "shared")) / "scenes"
+KINDS = ("on", "inside", "part-of", "room", "touching")
+ANY = "*"
+_Z = 1.959964
+"""97.5 % point of the standard normal distribution."""
+
+
+class Sources(NamedTuple):
+    """Where a scene and its judged list are."""
+
+    stage: Path
+    judged: Path
+
+
+SCENES = {
+    "demo_kitchen": Sources(demo_scene(), demo_relations()),
+    "apartment": Sources(SHARED / "iai_apartment/apartment.usdc", HERE / "judged/apartment.csv"),
+    "small_house": Sources(SHARED / "aws_robomaker/small_house.usdc", HERE / "judged/small_house.csv"),
+}
+
+
+class Fact(NamedTuple):
+    """One row of a judged list: one of the relations to one of the objects holds, or is left open."""
+
+    subject: str
+    kinds: tuple[str, ...]
+    objects: tuple[str, ...]
+    is_open: bool
+
+    def covers(self, subject: str, kind: str, anchor: str) -> bool:
+        """Return whether a relation is one that this row tells of; `touching` holds both ways."""
+        pairs = [(subject, anchor)] if kind != "touching" else [(subject, anchor), (anchor, subject)]
+        return kind in self.kinds and any(
+            s == self.subject and (o in self.objects or ANY in self.objects) for s, o in pairs
+        )
+
+
+@dataclass
+class Tally:
+    """What was found of one kind of relation, and what of it holds; pairs of prim paths."""
+
+    judged: int = 0
+    """Rows that hold."""
+    right: list[tuple[str, str]] = field(default_factory=list)
+    wrong: list[tuple[str, str]] = field(default_factory=list)
+    open: list[tuple[str, str]] = field(default_factory=list)
+    missed: list[tuple[str, str]] = field(default_factory=list)
+
+    @property
+    def precision(self) -> float:
+        """Share of what was found that is right, what is left open not counted; NaN where nothing was found."""
+        return _share(len(self.right), len(self.right) + len(self.wrong))
+
+    @property
+    def recall(self) -> float:
+        """Share of what holds that was found; NaN where nothing holds."""
+        return _share(self.judged - len(self.missed), self.judged)
+
+
+def read_judged(path: Path) -> list[Fact]:
+    """Return the rows of a judged list."""
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return [
+        Fact(
+            row["subject"],
+            tuple(row["relation"].removeprefix("?").split("|")),
+            tuple(row["object"].split("|")),
+            row["relation"].startswith("?"),
+        )
+        for row in rows
+    ]
+
+
+def compare(facts: Iterable[Fact], found: Iterable[Relation]) -> dict[str, Tally]:
+    """Return what was found against what was judged, by kind; only kinds that the list knows, and objects in it."""
+    facts = list(facts)
+    by_subject: dict[str, list[Fact]] = {}
+    for fact in facts:
+        by_subject.setdefault(fact.subject, []).append(fact)
+    kinds = [kind for kind in KINDS if any(kind in fact.kinds for fact in facts)]
+    tallies = {kind: Tally() for kind in kinds}
+    links = [(r.target, r.kind, r.anchor) for r in found if r.kind in tallies and r.target in by_subject]
+    for target, kind, anchor in links:
+        told = [f for f in (*by_subject[target], *by_subject.get(anchor, ())) if f.covers(target, kind, anchor)]
+        tally = tallies[kind]
+        place = tally.wrong if not told else tally.open if all(fact.is_open for fact in told) else tally.right
+        place.append((target, anchor))
+    known = _Known(links)
+    for fact in facts:
+        if not fact.is_open and fact.kinds != ("nothing",):
+            tally = tallies[fact.kinds[0]]
+            tally.judged += 1
+            if not known.meets(fact):
+                tally.missed.append((fact.subject, "|".join(fact.objects)))
+    return tallies
+
+
+class _Known:
+    """Looks up what was found."""
+
+    def __init__(self, links: Iterable[tuple[str, str, str]]) -> None:
+        self._links = set(links)
+
+    def meets(self, fact: Fact) -> bool:
+        """Return whether one of the relations that a row tells of was found."""
+        tries = [(fact.subject, kind, anchor) for kind in fact.kinds for anchor in fact.objects]
+        turned = [(o, kind, s) for s, kind, o in tries if kind == "touching"]
+        return any(link in self._links for link in (*tries, *turned))
+
+
+def wilson(right: int, count: int) -> tuple[float, float]:
+    """Return the 95 % score interval of a share (Wilson, 1927); it is honest near 0 and 1, and for small counts."""
+    share, spread = right / count, _Z**2 / count
+    middle = (share + spread / 2) / (1 + spread)
+    half = _Z * math.sqrt(share * (1 - share) / count + spread / (4 * count)) / (1 + spread)
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def table(name: str, tallies: Mapping[str, Tally]) -> list[str]:
+    """Return one row of Markdown for each kind."""
+    rows = []
+    for kind, tally in tallies.items():
+        right, wrong, open_, missed = (len(x) for x in (tally.right, tally.wrong, tally.open, tally.missed))
+        counts = [tally.judged, right + wrong + open_, right, wrong, open_, missed]
+        shares = [_percent(right, right + wrong), _percent(tally.judged - missed, tally.judged)]
+        rows.append(f"| {' | '.join([name, kind, *map(str, counts), *shares])} |")
+    return rows
+
+
+def errors(tallies: Mapping[str, Tally]) -> list[str]:
+    """Return a line for each relation that is wrong or missed."""
+    lines = []
+    for kind, tally in tallies.items():
+        for word, pairs in (("wrong", tally.wrong), ("missed", tally.missed)):
+            lines += [f"{word}: {target} {kind} {anchor}" for target, anchor in sorted(pairs)]
+    return lines
+
+
+def main(names: list[str]) -> None:
+    """Print the table and what is wrong and missed."""
+    unknown = [name for name in names if name not in SCENES]
+    if unknown:
+        sys.exit(f"judged.py: there is no scene {unknown[0]}; expected one of {', '.join(SCENES)}")
+    rows = [
+        "| scene | relation | judged | found | right | wrong | open | missed | precision % | recall % |",
+        "|" + " --- |" * 10,
+    ]
+    told = []
+    for name in names or SCENES:
+        source = SCENES[name]
+        if not source.stage.exists():
+            told.append(f"{name} is left out: there is no {source.stage}; set USD2KG_SHARED")
+            continue
+        tallies = compare(read_judged(source.judged), usd2kg.build(source.stage).graph.relations)
+        rows += table(name, tallies)
+        told += [f"{name}: {line}" for line in errors(tallies)]
+    print("\n".join([*rows, "", *told]))
+
+
+def _share(part: int, whole: int) -> float:
+    return part / whole if whole else math.nan
+
+
+def _percent(part: int, whole: int) -> str:
+    if not whole:
+        return "–"
+    lower, upper = (100 * end for end in wilson(part, whole))
+    return f"{100 * part / whole:.1f} ({lower:.1f} to {upper:.1f})"
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
