@@ -19,8 +19,8 @@ SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WH
   OPTIONAL { ?o u2k:partOf|^soma:hasPhysicalComponent ?whole . ?whole u2k:primPath [] }
   OPTIONAL { ?j soma:hasChildLink|u2k:childObject ?o ; soma:hasParentLink|u2k:parentObject ?jointed }
   OPTIONAL {
-    ?o (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:width ?w ;
-       (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:depth ?d ;
+    ?o (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:width ?w ;
+       (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:depth ?d ;
        (soma:hasShape/dul:hasRegion/soma:hasHeight)|u2k:height ?h .
   }
 } ORDER BY ?path ?on ?in ?whole ?jointed"""

@@ -86,7 +86,7 @@ class _Reader:
 
     def read(self, node: Any, path: Any) -> GraphObject:
         region = self._region_with(U2K.boxCenter, self._steps(node, SOMA.hasShape, DUL.hasRegion)) or node
-        extents = ((SOMA.hasWidth, U2K.width), (SOMA.hasLength, U2K.depth), (SOMA.hasHeight, U2K.height))
+        extents = ((SOMA.hasLength, U2K.width), (SOMA.hasWidth, U2K.depth), (SOMA.hasHeight, U2K.height))
         size = [self._number(region, *names) for names in extents]
         pose = self._vector(self._first(self._steps(node, SOMA.hasLocalization, DUL.hasRegion)), SOMA.hasPositionData)
         mass = self._number(self._first(self._steps(node, SOMA.hasMassAttribute)), SOMA.hasMassValue)
