@@ -1,16 +1,21 @@
 """Checking a graph: shapes, clashes with the ontology, and what is hard to believe."""
 
+from usd2kg.graph.validation.elk import ElkAnswer, ElkClash, ask_elk, elk_jars
 from usd2kg.graph.validation.finding import Finding, Severity
 from usd2kg.graph.validation.rules import Rule, Rules, read_rules
 from usd2kg.graph.validation.shapes import shapes_text
 from usd2kg.graph.validation.validate import ValidationReport, imports_of, ontology_of, validate_graph
 
 __all__ = [
+    "ElkAnswer",
+    "ElkClash",
     "Finding",
     "Rule",
     "Rules",
     "Severity",
     "ValidationReport",
+    "ask_elk",
+    "elk_jars",
     "imports_of",
     "ontology_of",
     "read_rules",
