@@ -72,7 +72,9 @@ def values_of(store: ox.Store, name: ox.NamedNode) -> dict[Any, list[Any]]:
 def read_objects(store: ox.Store) -> list[GraphObject]:
     """Return the objects of a graph in the order of their prim paths."""
     reader = _Reader(store)
-    objects = [reader.read(node, paths[0]) for node, paths in values_of(store, U2K.primPath).items()]
+    rooms = {quad.subject for quad in store.quads_for_pattern(None, RDF.type, U2K.RoomGroup)}
+    paths = values_of(store, U2K.primPath)
+    objects = [reader.read(node, own[0]) for node, own in paths.items() if node not in rooms]
     return sorted(objects, key=lambda obj: (obj.prim_path, obj.iri))
 
 
