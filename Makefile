@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow owl-jars sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow owl-jars elk-jars sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -32,6 +32,9 @@ owl-jars: ## Fetch the OWL API and HermiT into build/owl, for the checks of make
 sssom-check-env: ## Make build/sssom with the reference implementation of SSSOM, for the checks of make test-slow
 	$(PYTHON) -m venv build/sssom
 	build/sssom/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/sssom.txt
+
+elk-jars: ## Fetch ELK into build/elk, for usd2kg validate --reasoner elk; needs Java 17 and Maven
+	mvn -q -B -f tools/elk/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/elk
 
 fuzz: $(READY) ## Read mangled stages for ten minutes; keep those that do harm in build/fuzz
 	$(BIN)/python -m tests.scene.fuzz --seconds 600 --keep build/fuzz

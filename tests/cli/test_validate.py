@@ -8,6 +8,7 @@ import pytest
 from tests.cli.conftest import Run
 from tests.graph.records import build_graph, thing
 from tests.graph.validation.broken import ROOM
+from tests.graph.validation.test_elk import ELK, missing_elk
 from usd2kg.graph import write_graph
 from usd2kg.ontology import TBox
 
@@ -118,3 +119,26 @@ def test_the_shapes_can_be_had(run: Run, profile: str):
     assert done.code == 0
     assert "rule:object-label a sh:PropertyShape" in done.out
     assert run("ontology", "shapes", "--profile", "rdf").code == 2
+
+
+def test_a_reasoner_that_is_unknown_or_not_there(run: Run, good: Path, tmp_path: Path):
+    done = run("validate", good, "--reasoner", "pellet")
+    assert (done.code, done.err) == (2, "usd2kg: reasoner 'pellet' is unknown; expected elk\n")
+    done = run("validate", good, "--reasoner", "elk", "--elk-jars", tmp_path)
+    assert (done.code, done.out) == (2, "")
+    assert done.err.startswith("usd2kg: reasoner elk: ")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(bool(missing_elk()), reason=missing_elk())
+def test_a_reasoner_that_says_no(run: Run, good: Path):
+    done = run("validate", good, "--reasoner", "elk", "--elk-jars", ELK)
+    assert done.code == 0
+    assert "\nelk: consistent; " in done.err
+    clash = "\nsoma:Fork owl:disjointWith soma:Bread . <https://my.lab/k/Fork> a soma:Bread .\n"
+    good.write_text(good.read_text("utf-8") + clash, encoding="utf-8")
+    done = run("validate", good, "--reasoner", "elk", "--elk-jars", ELK, "--json")
+    assert done.code == 1
+    report = json.loads(done.out)
+    assert (report["reasoner"]["name"], report["reasoner"]["is_consistent"]) == ("elk", False)
+    assert [f["prim_path"] for f in report["findings"] if f["rule"] == "elk-clash"] == ["/Fork"]

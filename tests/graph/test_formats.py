@@ -218,7 +218,8 @@ class TestJsonLd:
         things = {thing["id"]: thing for thing in data["@graph"]}
         cup = things["Room.Table.Cup%2D1%2Eb"]
         box = cup["shape"]["region"][0]
-        assert (box["width"], box["length"], box["height"]) == (0.1, 0.12, 0.09)
+        # KnowRob reads depth along x and width along y.
+        assert (box["depth"], box["width"], box["height"]) == (0.1, 0.12, 0.09)
         assert cup["massAttribute"]["mass"] == 0.25
         assert not [iri for iri in things if iri.endswith(("-shape", "-box", "-pose", "-mass"))]
 

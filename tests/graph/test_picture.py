@@ -1,16 +1,21 @@
 """Pictures of graphs: what they show, that no text meets another, and that names on a stage stay text."""
 
+import struct
+import sys
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
 
 import pytest
 from typer.testing import CliRunner
 
 from tests.graph.records import build_graph, open_store, thing
 from usd2kg.cli.app import app
+from usd2kg.errors import OutputError
 from usd2kg.graph import GraphStore, load_graph, write_graph
-from usd2kg.graph.picture import draw_room, draw_surroundings
-from usd2kg.graph.picture.svg import shorten, text_width
+from usd2kg.graph.picture import draw_room, draw_surroundings, png, to_png
+from usd2kg.graph.picture.svg import FONT, shorten, text_width
 from usd2kg.ontology import TBox
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -61,7 +66,7 @@ def test_a_room_is_a_tree_with_alike_things_on_one_line(store: GraphStore):
     shown = contents(draw_room(store, "room"))
     assert shown[0] == "room | 9 objects"
     assert "Table | on · table 0.75" in shown
-    assert "4 × dinner plate" in shown
+    assert "4 × dinner plate | Plate_0, Plate_1, …" in shown
     assert shown.index("Bowl | bowl 0.75") + 1 == shown.index("Apple | in · artifact 0.75")
     assert "Stool | chair 0.75" in shown
     assert not any(text.startswith("Plate_") for text in shown)
@@ -72,7 +77,9 @@ def test_an_object_with_its_surroundings(store: GraphStore):
     shown = contents(draw_surroundings(store, table.value, "Table"))
     assert "table, confidence 0.75" in shown
     assert "160 × 80 × 70 cm" in shown
-    assert {"on it: 5", "4 × dinner plate", "Bowl | bowl 0.75", "Floor | floor 0.75"} <= set(shown)
+    assert {"on it: 5", "4 × dinner plate | Plate_0, Plate_1, …", "Bowl | bowl 0.75", "Floor | floor 0.75"} <= set(
+        shown
+    )
     # From 1.6 to 1.8 m along x.
     assert "Stool | chair, 20 cm" in shown
 
@@ -134,10 +141,16 @@ class TestCommand:
         assert result.exit_code == 0
         assert "160 × 80 × 70 cm" in contents(target.read_text("utf-8"))
 
+    def test_it_writes_pixels(self, graph: Path, tmp_path: Path):
+        target = tmp_path / "table.png"
+        result = CliRunner().invoke(app, ["graph", "draw", str(graph), "table", "-o", str(target)])
+        assert result.exit_code == 0
+        assert target.read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
+
     @pytest.mark.parametrize(
         ("arguments", "message"),
         [
-            (["table", "-o", "x.png"], "pictures of graphs are SVG files, expected a name ending in .svg"),
+            (["table", "-o", "x.gif"], "pictures of graphs are SVG or PNG, expected a name ending in .svg or .png"),
             (["dinner plate", "-o", "x.svg"], "means 4 objects; expected one, by its prim path"),
             (["unicorn", "-o", "x.svg"], "nothing is called 'unicorn'"),
         ],
@@ -146,3 +159,48 @@ class TestCommand:
         arguments[-1] = str(tmp_path / arguments[-1])
         result = CliRunner().invoke(app, ["graph", "draw", str(graph), *arguments])
         assert message in str(result.exception)
+
+
+class TestPixels:
+    SVG = (
+        '<svg xmlns="http://www.w3.org/2000/svg" width="60" height="20" viewBox="0 0 60 20" '
+        f'font-family={quoteattr(FONT)}><rect width="100%" height="100%" fill="#ffffff"/>{{}}</svg>'
+    )
+
+    def test_two_pixels_for_a_unit(self):
+        # The header of a PNG: width and height as big-endian integers from byte 16 on (W3C PNG, 11.2.1).
+        assert struct.unpack(">II", to_png(self.SVG.format(""))[16:24]) == (120, 40)
+
+    def test_a_large_picture_has_fewer(self):
+        svg = self.SVG.replace('width="60" height="20"', 'width="12000" height="8000"', 1).format("")
+        width, height = struct.unpack(">II", to_png(svg)[16:24])
+        assert (width / height, width * height) == (pytest.approx(1.5, rel=1e-3), pytest.approx(60e6, rel=1e-3))
+
+    def test_names_are_drawn(self):
+        empty, named = (to_png(self.SVG.format(text)) for text in ("", '<text x="5" y="15">Table</text>'))
+        assert len(named) > len(empty) + 100
+
+    def test_without_a_font_it_is_told_what_to_do(self, monkeypatch: pytest.MonkeyPatch):
+        # resvg without fonts: it draws all but the text, and says nothing.
+        import resvg_py  # noqa: PLC0415
+
+        draw = partial(resvg_py.svg_to_bytes, skip_system_fonts=True)
+        monkeypatch.setattr(resvg_py, "svg_to_bytes", draw)
+        png._sans_serif.cache_clear()
+        with pytest.raises(OutputError, match=r"no sans-serif font.*apt-get install fonts-dejavu-core.*or write SVG"):
+            to_png(self.SVG.format("<text>Table</text>"))
+        png._sans_serif.cache_clear()
+
+    def test_without_resvg_it_is_told_what_to_install(self, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setitem(sys.modules, "resvg_py", None)
+        png._sans_serif.cache_clear()
+        with pytest.raises(OutputError, match=r"pip install 'usd2kg\[pictures\]', or write SVG"):
+            to_png(self.SVG.format(""))
+        png._sans_serif.cache_clear()
+
+
+def test_heads_of_one_name_are_told_apart(home_tbox: TBox):
+    cupboards = [(thing(f"/Room/unit_{i}/carcass", (i, 0, 0), (0.5, 0.5, 0.5)), "Cupboard") for i in range(4)]
+    cups = [(thing(f"/Room/Cup_{i}", (i + 0.2, 0.2, 0.5), (0.1, 0.1, 0.1)), "Cup") for i in range(4)]
+    shown = contents(draw_room(open_store(build_graph(home_tbox, [*cupboards, *cups])), "units"))
+    assert [text.split(" | ")[0] for text in shown if "carcass" in text] == [f"unit_{i}/carcass" for i in range(4)]

@@ -22,16 +22,16 @@ def draw(
         typer.Argument(metavar="[OBJECT]", help="Label, class or prim path of one object; default: the whole room."),
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="SVG file to write; default: GRAPH.svg here.")
+        Path | None, typer.Option("--output", "-o", help="SVG or PNG file to write; default: GRAPH.svg here.")
     ] = None,
 ) -> None:
-    """Draw what stands on and in what in a room, or one object with its surroundings, as SVG."""
+    """Draw what stands on and in what in a room, or one object with its surroundings, as SVG or PNG."""
     target = output or Path(f"{graph.stem}.svg")
-    if target.suffix.lower() != ".svg":
-        raise OutputError(f"{target}: pictures of graphs are SVG files, expected a name ending in .svg")
+    if target.suffix.lower() not in {".svg", ".png"}:
+        raise OutputError(f"{target}: pictures of graphs are SVG or PNG, expected a name ending in .svg or .png")
     check_writable(target)
     from usd2kg.graph import load_graph  # noqa: PLC0415
-    from usd2kg.graph.picture import draw_room, draw_surroundings  # noqa: PLC0415
+    from usd2kg.graph.picture import draw_room, draw_surroundings, to_png  # noqa: PLC0415
 
     store = load_graph(graph)
     if thing is None:
@@ -44,7 +44,7 @@ def draw(
                 f"usd2kg query {graph} where is {thing}"
             )
         picture = draw_surroundings(store, found[0].value, f"{thing} in {graph.stem}")
-    write_whole(target, picture.encode("utf-8"))
+    write_whole(target, to_png(picture) if target.suffix.lower() == ".png" else picture.encode("utf-8"))
     talk(f"written to {target}")
 
 

@@ -18,8 +18,8 @@ SELECT ?o ?center ?width ?depth ?height ?oriented ?mass WHERE {
   ?o u2k:primPath [] .
   OPTIONAL {
     ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center ;
-       (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:width ?width ;
-       (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:depth ?depth ;
+       (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:width ?width ;
+       (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:depth ?depth ;
        (soma:hasShape/dul:hasRegion/soma:hasHeight)|u2k:height ?height .
   }
   OPTIONAL { ?o u2k:orientedSize ?oriented }

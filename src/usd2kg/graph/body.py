@@ -84,12 +84,13 @@ def _shape(node: ox.NamedNode, box: Box | None, file: str) -> Iterator[Triple]:
 
 
 def _box(region: ox.NamedNode, box: Box) -> Iterator[Triple]:
-    width, depth, height = box.size
+    # As KnowRob's object_dimensions has it, by ROS's REP 103: x goes forward, y to the left.
+    along_x, along_y, along_z = box.size
     yield from typed(region, SOMA.BoxShape)
-    yield region, SOMA.hasWidth, number(width, "float")
-    yield region, SOMA.hasLength, number(depth, "float")
-    yield region, SOMA.hasDepth, number(depth, "float")
-    yield region, SOMA.hasHeight, number(height, "float")
+    yield region, SOMA.hasWidth, number(along_y, "float")
+    yield region, SOMA.hasLength, number(along_x, "float")
+    yield region, SOMA.hasDepth, number(along_x, "float")
+    yield region, SOMA.hasHeight, number(along_z, "float")
     yield region, U2K.boxCenter, text(vector_text(box.center))
 
 

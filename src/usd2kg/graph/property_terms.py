@@ -59,9 +59,9 @@ TEXTS = {
 """Property → the property of the node, text."""
 NUMBERS = {
     U2K.width: "width",
-    SOMA.hasWidth: "width",
+    SOMA.hasDepth: "width",
     U2K.depth: "depth",
-    SOMA.hasDepth: "depth",
+    SOMA.hasWidth: "depth",
     U2K.height: "height",
     SOMA.hasHeight: "height",
     U2K.mass: "mass",

@@ -1,5 +1,6 @@
 """The room as cards: each piece of furniture with all that is on and in it, as an indented tree."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -35,6 +36,7 @@ def draw_room(store: GraphStore, title: str) -> str:
     ground = max(roots, key=_count, default=None)
     if ground is not None and _count(ground) < _GROUND_SHARE * len(things):
         ground = None
+    _tell_apart([thing for thing in (*roots, *(ground.children if ground else ())) if thing.children])
     cards = sorted((_card(lines) for lines in _groups(roots, ground)), key=lambda card: -card.height)
     width = max([card.width for card in cards], default=200.0)
     columns = _columns(cards, width)
@@ -69,6 +71,15 @@ def draw_room(store: GraphStore, title: str) -> str:
             y += card.height + _GAP
         bottom = max(bottom, y)
     return canvas.document(total, bottom, title)
+
+
+def _tell_apart(heads: list[Thing]) -> None:
+    """Put the prim above before the label of each of some things that share theirs: cab_01/carcass."""
+    shared = {label for label, count in Counter(thing.label for thing in heads).items() if count > 1}
+    for thing in heads:
+        above = thing.path.rpartition("/")[0].rpartition("/")[2]
+        if thing.label in shared and above:
+            thing.label = f"{above}/{thing.label}"
 
 
 def _count(thing: Thing) -> int:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from usd2kg.errors import GraphError
 from usd2kg.graph.picture.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
 from usd2kg.graph.picture.things import Line, Thing, collapse, read_things
 from usd2kg.graph.query import GraphStore
@@ -34,8 +35,14 @@ class _Panel(NamedTuple):
 
 
 def draw_surroundings(store: GraphStore, iri: str, title: str) -> str:
-    """Return a picture of one object and what is around it, as SVG; near is what is within half a metre."""
+    """Return a picture of one object and what is around it, as SVG; near is what is within half a metre.
+
+    Raises:
+        GraphError: there is no object with that IRI.
+    """
     things = read_things(store)
+    if iri not in things:
+        raise GraphError(f"{title}: <{iri}> is the group of a room; expected an object, or none for the room")
     thing = things[iri]
     below = _chain(thing, things)
     left = [_panel("in it", [c for c in thing.children if c.tie == "in"])]
@@ -154,8 +161,8 @@ def _draw_own(
     color: str,
 ) -> None:
     (x, y), (width, height) = middle, size
-    canvas.rectangle(x - width / 2, y - height / 2, width, height, PAPER, color, 12)
-    canvas.rectangle(x - width / 2, y - height / 2, 8, height, color, radius=4)
+    canvas.rectangle(x - width / 2, y - height / 2, width, height, color, radius=12)
+    canvas.rectangle(x - width / 2 + 8, y - height / 2 + 1.5, width - 9.5, height - 3, PAPER, radius=10)
     canvas.text(x, y - 12, words[0], size=17, bold=True, title=thing.path, middle=True)
     canvas.text(x, y + 9, words[1], size=12.5, fill=PALE_INK, middle=True)
     canvas.text(x, y + 27, words[2], size=12.5, fill=PALE_INK, middle=True)

@@ -10,6 +10,7 @@ __all__ = ["Line", "Thing", "class_families", "collapse", "read_things"]
 _THINGS = """
 SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WHERE {
   ?o u2k:primPath ?path ; rdfs:label ?label .
+  FILTER NOT EXISTS { ?o a u2k:RoomGroup }
   OPTIONAL {
     ?o a ?c . ?c rdfs:label ?class . FILTER(?c NOT IN (u2k:Object, usd:Prim))
     OPTIONAL { ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?confidence }
@@ -19,8 +20,8 @@ SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WH
   OPTIONAL { ?o u2k:partOf|^soma:hasPhysicalComponent ?whole . ?whole u2k:primPath [] }
   OPTIONAL { ?j soma:hasChildLink|u2k:childObject ?o ; soma:hasParentLink|u2k:parentObject ?jointed }
   OPTIONAL {
-    ?o (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:width ?w ;
-       (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:depth ?d ;
+    ?o (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:width ?w ;
+       (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:depth ?d ;
        (soma:hasShape/dul:hasRegion/soma:hasHeight)|u2k:height ?h .
   }
 } ORDER BY ?path ?on ?in ?whole ?jointed"""
@@ -34,6 +35,8 @@ SELECT DISTINCT ?c ?label ?parent WHERE {
 _FAMILIES = 8
 """Colours that a person still tells apart."""
 _OTHER = "other"
+_MOST_LETTERS = 24
+"""Of the labels of things that share a line."""
 
 
 @dataclass
@@ -174,10 +177,20 @@ def collapse(things: Iterable[Thing]) -> tuple[Line, ...]:
         if len(group) == 1:
             single.append((group[0].path, _line(group[0])))
         else:
-            names = ", ".join(thing.label for thing in group)
-            line = Line(f"{len(group)} × {class_label}", "", tie, group[0].family, names)
+            labels = [thing.label for thing in group]
+            line = Line(f"{len(group)} × {class_label}", _some(labels), tie, group[0].family, ", ".join(labels))
             single.append((group[0].path, line))
     return tuple(line for _, line in sorted(single, key=lambda pair: (not pair[1].children, pair[0])))
+
+
+def _some(labels: list[str]) -> str:
+    """Return the first labels, as many as a line has room for, and an ellipsis for the others."""
+    shown = labels[:1]
+    for label in labels[1:]:
+        if len(", ".join((*shown, label))) > _MOST_LETTERS:
+            return f"{', '.join(shown)}, …"
+        shown.append(label)
+    return ", ".join(shown)
 
 
 def _line(thing: Thing) -> Line:

@@ -1,6 +1,7 @@
 """Checking a graph: shapes, clashes with the ontology, and what is hard to believe."""
 
 from usd2kg.graph.validation.axioms import Axioms
+from usd2kg.graph.validation.elk import ElkAnswer, ElkClash, ask_elk, elk_jars
 from usd2kg.graph.validation.finding import Finding, Severity, sort_findings
 from usd2kg.graph.validation.objects import GraphObject, read_objects
 from usd2kg.graph.validation.rules import Rule, Rules, read_rules
@@ -9,12 +10,16 @@ from usd2kg.graph.validation.validate import ValidationReport, imports_of, ontol
 
 __all__ = [
     "Axioms",
+    "ElkAnswer",
+    "ElkClash",
     "Finding",
     "GraphObject",
     "Rule",
     "Rules",
     "Severity",
     "ValidationReport",
+    "ask_elk",
+    "elk_jars",
     "imports_of",
     "ontology_of",
     "read_objects",

@@ -72,7 +72,9 @@ def values_of(store: ox.Store, name: ox.NamedNode) -> dict[Any, list[Any]]:
 def read_objects(store: ox.Store) -> list[GraphObject]:
     """Return the objects of a graph in the order of their prim paths."""
     reader = _Reader(store)
-    objects = [reader.read(node, paths[0]) for node, paths in values_of(store, U2K.primPath).items()]
+    rooms = {quad.subject for quad in store.quads_for_pattern(None, RDF.type, U2K.RoomGroup)}
+    paths = values_of(store, U2K.primPath)
+    objects = [reader.read(node, own[0]) for node, own in paths.items() if node not in rooms]
     return sorted(objects, key=lambda obj: (obj.prim_path, obj.iri))
 
 
@@ -86,7 +88,7 @@ class _Reader:
 
     def read(self, node: Any, path: Any) -> GraphObject:
         region = self._region_with(U2K.boxCenter, self._steps(node, SOMA.hasShape, DUL.hasRegion)) or node
-        extents = ((SOMA.hasWidth, U2K.width), (SOMA.hasLength, U2K.depth), (SOMA.hasHeight, U2K.height))
+        extents = ((SOMA.hasLength, U2K.width), (SOMA.hasWidth, U2K.depth), (SOMA.hasHeight, U2K.height))
         size = [self._number(region, *names) for names in extents]
         pose = self._vector(self._first(self._steps(node, SOMA.hasLocalization, DUL.hasRegion)), SOMA.hasPositionData)
         mass = self._number(self._first(self._steps(node, SOMA.hasMassAttribute)), SOMA.hasMassValue)

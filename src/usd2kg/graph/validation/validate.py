@@ -9,6 +9,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.graph.query import GraphStore
 from usd2kg.graph.validation.clashes import find_clashes, read_axioms
+from usd2kg.graph.validation.elk import ElkAnswer
 from usd2kg.graph.validation.finding import Finding, Severity, sort_findings
 from usd2kg.graph.validation.kinds import Kinds
 from usd2kg.graph.validation.objects import GraphObject, find_owner, profile_of, read_objects, values_of
@@ -16,9 +17,12 @@ from usd2kg.graph.validation.plausibility import SceneOfObjects, find_oddities
 from usd2kg.graph.validation.rules import Rules, read_rules
 from usd2kg.graph.validation.shapes import compile_shapes, find_violations
 from usd2kg.graph.vocabulary import OWL, RDFS, U2K
-from usd2kg.ontology import Closure
+from usd2kg.ontology import Closure, compact_iri
 
 __all__ = ["ValidationReport", "imports_of", "ontology_of", "validate_graph"]
+
+_MEND_ONTOLOGY = "Mend the ontology, or take another class with a decision (usd2kg build --decisions)."
+_MEND_STATEMENT = "Correct the class with a decision (usd2kg build --decisions), or remove one of these statements."
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,12 @@ def imports_of(graph: GraphStore) -> tuple[str, ...]:
     return tuple(sorted(v.value for values in values_of(graph.store, OWL.imports).values() for v in values))
 
 
-def validate_graph(graph: GraphStore, closure: Closure | None = None, rules: Rules | None = None) -> ValidationReport:
+def validate_graph(
+    graph: GraphStore,
+    closure: Closure | None = None,
+    rules: Rules | None = None,
+    answer: ElkAnswer | None = None,
+) -> ValidationReport:
     """Return what is wrong with a graph that usd2kg built.
 
     Args:
@@ -53,6 +62,7 @@ def validate_graph(graph: GraphStore, closure: Closure | None = None, rules: Rul
         closure: the ontology that its objects were grounded to, with its imports; without it, clashes are not looked
             for and classes are known by what the graph itself says of them.
         rules: the rules of plausibility; our own by default.
+        answer: what a reasoner said of it, see `ask_elk`.
 
     Raises:
         GraphError: there is no object in the graph.
@@ -64,6 +74,8 @@ def validate_graph(graph: GraphStore, closure: Closure | None = None, rules: Rul
         )
     run = _Run(graph.store, closure)
     findings = [*run.shapes(profile), *run.clashes(), *run.oddities(read_rules() if rules is None else rules)]
+    if answer is not None and not answer.is_consistent:
+        findings += run.inconsistencies(answer)
     return ValidationReport(profile, len(run.objects), sort_findings(findings))
 
 
@@ -88,6 +100,24 @@ class _Run:
         """Yield what contradicts the ontology."""
         if self._axioms is not None and self._closure is not None:
             yield from find_clashes(self._store, self.objects, self._axioms, self._closure.missing, self._finding)
+
+    def inconsistencies(self, answer: ElkAnswer) -> Iterator[Finding]:
+        """Yield what a reasoner calls inconsistent."""
+        for clash in answer.clashes:
+            node = ox.NamedNode(clash.iri) if not clash.iri.startswith("_:") else ox.BlankNode(clash.iri[2:])
+            if clash.impossible is not None:
+                found = f"it is {compact_iri(clash.impossible)}, which can have no member by the ontology itself"
+                yield self._finding(
+                    Severity.ERROR, "elk-impossible-class", node, found, "a class that can have members", _MEND_ONTOLOGY
+                )
+            else:
+                found = f"stated of it: {'; '.join(clash.statements)}"
+                yield self._finding(
+                    Severity.ERROR, "elk-clash", node, found, "statements that can be true together", _MEND_STATEMENT
+                )
+        if not answer.clashes:
+            found = "ELK calls the graph inconsistent, and no single individual is to blame"
+            yield Finding(Severity.ERROR, "elk-inconsistent", "", "", "", found, "a consistent graph", _MEND_STATEMENT)
 
     def oddities(self, rules: Rules) -> Iterator[Finding]:
         """Yield what is implausible."""
