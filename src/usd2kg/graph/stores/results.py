@@ -1,0 +1,68 @@
+"""Answers of servers, as our own."""
+
+import re
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.errors import StoreError
+from usd2kg.graph.query import Answer
+from usd2kg.graph.vocabulary import PREFIXES
+
+__all__ = ["read_answer", "with_prefixes"]
+
+_WHOLE = frozenset({"integer", "int", "long", "nonNegativeInteger"})
+_BROKEN = frozenset({"double", "float", "decimal"})
+
+
+def read_answer(body: bytes, sparql: str) -> Answer:
+    """Return what a server answered in SPARQL's JSON or in N-Triples.
+
+    Raises:
+        StoreError: it is neither.
+    """
+    try:
+        if not body.lstrip().startswith(b"{"):
+            triples = sorted(map(tuple, ox.parse(body, format=ox.RdfFormat.N_TRIPLES)), key=lambda t: list(map(str, t)))
+            return _table(("subject", "predicate", "object"), [triple[:3] for triple in triples], sparql)
+        found = ox.parse_query_results(body, format=ox.QueryResultsFormat.JSON)
+        if isinstance(found, ox.QueryBoolean):
+            return Answer(("answer",), ((str(bool(found)).lower(),),), ((bool(found),),), sparql)
+        columns = tuple(variable.value for variable in found.variables)
+        return _table(columns, [tuple(solution[c] for c in columns) for solution in found], sparql)
+    except (SyntaxError, UnicodeDecodeError) as error:
+        raise StoreError(f"the server's answer is neither SPARQL's JSON nor N-Triples ({error})") from error
+
+
+def with_prefixes(sparql: str) -> str:
+    """Return a query or update with our usual prefixes declared, where it uses and does not declare them.
+
+    >>> with_prefixes("ASK { ?s u2k:primPath ?p }")
+    'PREFIX u2k: <https://w3id.org/usd2kg#> ASK { ?s u2k:primPath ?p }'
+    """
+    declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
+    used = [n for n in PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
+    return "".join(f"PREFIX {name}: <{PREFIXES[name]}> " for name in used) + sparql
+
+
+def _table(columns: tuple[str, ...], rows: list[tuple[Any, ...]], sparql: str) -> Answer:
+    texts = tuple(tuple(_text(term) for term in row) for row in rows)
+    values = tuple(tuple(_value(term) for term in row) for row in rows)
+    return Answer(columns, texts, values, sparql)
+
+
+def _text(term: Any) -> str | None:
+    if term is None:
+        return None
+    return str(term) if isinstance(term, ox.Triple) else str(term.value)
+
+
+def _value(term: Any) -> str | float | int | bool | None:
+    """Return numbers and truth values as such, all else as text."""
+    kind = term.datatype.value.rpartition("#")[2] if isinstance(term, ox.Literal) else ""
+    try:
+        if kind in _BROKEN or kind in _WHOLE:
+            return int(term.value) if kind in _WHOLE else float(term.value)
+    except ValueError:
+        return _text(term)
+    return term.value in {"true", "1"} if kind == "boolean" else _text(term)
