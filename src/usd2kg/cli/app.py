@@ -11,7 +11,20 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli import build, completions, demo, evaluate, graph, ground, inspect, ontology, query, render, validate
+from usd2kg.cli import (
+    build,
+    completions,
+    demo,
+    evaluate,
+    graph,
+    ground,
+    inspect,
+    ontology,
+    query,
+    render,
+    store,
+    validate,
+)
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import Usd2kgError
 
@@ -34,6 +47,7 @@ app.command("validate")(validate.validate_command)
 app.command("render")(render.render_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
+app.add_typer(store.app, name="store")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")
 app.add_typer(completions.app, name="completions")

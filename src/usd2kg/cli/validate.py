@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from usd2kg.cli.options import JsonOutput
+from usd2kg.cli.options import GraphPlace, JsonOutput, SceneName
 from usd2kg.cli.output import emit, print_json, printable, talk
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ _MOST = 20
 
 
 def validate_command(
-    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")],
+    graph: GraphPlace,
     ontology: Annotated[
         Path | None,
         typer.Option("--ontology", help="The OWL file that it was built with; default: the built-in home ontology."),
@@ -34,19 +34,20 @@ def validate_command(
     every: Annotated[
         bool, typer.Option("--all", help=f"Show every finding; default: the first {_MOST} of each rule.")
     ] = False,
+    scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
     """Check a graph: its shape, against its ontology, and for what is hard to believe. Exit code 1 if it finds any."""
-    from usd2kg.graph import load_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.graph.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.graph.validation import read_rules, validate_graph  # noqa: PLC0415
 
     chosen = read_rules(rules)
-    store = load_graph(graph)
+    store = open_graph(graph, scene)
     report = validate_graph(store, _open_closure(store, ontology), chosen)
     if json:
         print_json(
             {
-                "graph": str(graph),
+                "graph": graph,
                 "profile": report.profile,
                 "objects": report.objects,
                 "counts": report.counts(),
