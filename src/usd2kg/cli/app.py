@@ -22,6 +22,7 @@ from usd2kg.cli import (
     ontology,
     query,
     render,
+    serve,
     store,
     validate,
 )
@@ -45,6 +46,7 @@ app.command("ground")(ground.ground_command)
 app.command("query")(query.query_command)
 app.command("validate")(validate.validate_command)
 app.command("render")(render.render_command)
+app.command("serve")(serve.serve_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
 app.add_typer(store.app, name="store")

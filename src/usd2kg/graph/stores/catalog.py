@@ -22,8 +22,12 @@ SELECT ?g (SAMPLE(?l) AS ?label) (SAMPLE(?r) AS ?run) WHERE {{
     OPTIONAL {{ ?g <{U2K.run.value}> ?r }}
   }}
 }} GROUP BY ?g"""
-_TRIPLES = "SELECT (COUNT(*) AS ?n) WHERE {{ GRAPH <{iri}> {{ ?s ?p ?o }} }}"
-_OBJECTS = f"SELECT (COUNT(DISTINCT ?o) AS ?n) WHERE {{{{ GRAPH <{{iri}}> {{{{ ?o <{U2K.primPath.value}> ?p }}}} }}}}"
+_TRIPLES = "SELECT (COUNT(*) AS ?n) WHERE { GRAPH <IRI> { ?s ?p ?o } }"
+# Groups that are called rooms have a prim, too, and are no objects.
+_OBJECTS = f"""
+SELECT (COUNT(DISTINCT ?o) AS ?n) WHERE {{
+  GRAPH <IRI> {{ ?o <{U2K.primPath.value}> ?p FILTER NOT EXISTS {{ ?o a <{U2K.RoomGroup.value}> }} }}
+}}"""
 
 
 @dataclass(frozen=True)
@@ -42,11 +46,11 @@ class StoredGraph:
 
     def count_triples(self, select: Select) -> int:
         """Return how many triples the graph has."""
-        return _number(select(_TRIPLES.format(iri=self.iri)))
+        return _number(select(_TRIPLES.replace("IRI", self.iri)))
 
     def count_objects(self, select: Select) -> int:
         """Return how many objects of a stage the graph describes."""
-        return _number(select(_OBJECTS.format(iri=self.iri)))
+        return _number(select(_OBJECTS.replace("IRI", self.iri)))
 
 
 def list_graphs(select: Select) -> tuple[StoredGraph, ...]:

@@ -1,0 +1,88 @@
+"""Queries that the page offers: the ready questions, about things of the graph that is served."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pyoxigraph as ox
+
+from usd2kg.graph.questions import Parameter, Question, list_questions, parse_number
+from usd2kg.graph.vocabulary import PREFIXES, RDFS
+
+__all__ = ["Example", "make_examples"]
+
+_MOST_USED = """
+SELECT ?o (COUNT(DISTINCT ?x) AS ?n) WHERE {
+  ?o u2k:primPath ?p . OPTIONAL { ?x soma:isOntopOf|u2k:on ?o }
+} GROUP BY ?o ORDER BY DESC(?n) ?o LIMIT 1"""
+_CLASS = """
+SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; rdfs:label ?l }
+GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
+_POSITION = "0 0 1"
+_COUNTS = """# How many objects of each class are there?
+SELECT ?class (COUNT(DISTINCT ?o) AS ?objects) WHERE {
+  ?o u2k:primPath ?path ; a ?c .
+  ?c a owl:Class ; rdfs:label ?class .
+} GROUP BY ?class ORDER BY DESC(?objects) ?class"""
+
+
+@dataclass(frozen=True)
+class Example:
+    """A query with its question in words."""
+
+    title: str
+    query: str
+
+
+def make_examples(store: ox.Store) -> tuple[Example, ...]:
+    """Return the ready questions as queries without parameters, about what a store holds."""
+    terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
+    counts = Example("How many objects of each class are there?", _COUNTS)
+    return (counts, *(example for q in list_questions() if (example := _fill(store, q, terms)) is not None))
+
+
+def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> Example | None:
+    """Return a question with each parameter replaced by a term; None where the graph has none for it."""
+    title, query = question.text, question.sparql
+    for parameter in question.parameters:
+        term = _term(parameter, terms)
+        if term is None:
+            return None
+        head, where, body = query.partition("WHERE")
+        variable = re.compile(rf"\s*\?{parameter.variable}\b")
+        # What is selected has to be a variable.
+        query = variable.sub("", head) + where + variable.sub(lambda _, t=term: f" {t}", body)  # type: ignore[misc]
+        title = title.replace(f"{{{parameter.name}}}", _shown(store, term))
+    lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
+    return Example(title, "\n".join((f"# {_line(title)}", *lines)))
+
+
+def _term(parameter: Parameter, terms: dict[str, ox.NamedNode | None]) -> ox.NamedNode | ox.Literal | None:
+    if parameter.kind in terms:
+        return terms[parameter.kind]
+    if parameter.kind == "position":
+        return ox.Literal(_POSITION)
+    return None if parameter.default is None else ox.Literal(parse_number(parameter.default, parameter.kind))
+
+
+def _shown(store: ox.Store, term: ox.NamedNode | ox.Literal) -> str:
+    if isinstance(term, ox.Literal):
+        return str(term.value)
+    labels = sorted(_labels(store, term))
+    return labels[0] if labels else term.value
+
+
+def _labels(store: ox.Store, term: ox.NamedNode) -> Iterator[str]:
+    found = (quad.object for quad in store.quads_for_pattern(term, RDFS.label, None))
+    return (label.value for label in found if isinstance(label, ox.Literal))
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _first(store: ox.Store, query: str) -> ox.NamedNode | None:
+    found = store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
+    assert isinstance(found, ox.QuerySolutions)
+    node = next((row[0] for row in found), None)
+    return node if isinstance(node, ox.NamedNode) else None
