@@ -20,10 +20,10 @@ SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; 
 GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
 _POSITION = "0 0 1"
 _COUNTS = """# How many objects of each class are there?
-SELECT ?class (COUNT(DISTINCT ?o) AS ?objects) WHERE {
+SELECT (MIN(STR(?label)) AS ?class) (COUNT(DISTINCT ?o) AS ?objects) WHERE {
   ?o u2k:primPath ?path ; a ?c .
-  ?c a owl:Class ; rdfs:label ?class .
-} GROUP BY ?class ORDER BY DESC(?objects) ?class"""
+  ?c a owl:Class ; rdfs:label ?label .
+} GROUP BY ?c ORDER BY DESC(?objects) ?class"""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,8 @@ def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | N
         variable = re.compile(rf"\s*\?{parameter.variable}\b")
         # What is selected has to be a variable.
         query = variable.sub("", head) + where + variable.sub(lambda _, t=term: f" {t}", body)  # type: ignore[misc]
-        title = title.replace(f"{{{parameter.name}}}", _shown(store, term))
+        unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
+        title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
     lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
     return Example(title, "\n".join((f"# {_line(title)}", *lines)))
 
