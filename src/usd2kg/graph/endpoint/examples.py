@@ -48,14 +48,19 @@ def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | N
         term = _term(parameter, terms)
         if term is None:
             return None
-        head, where, body = query.partition("WHERE")
-        variable = re.compile(rf"\s*\?{parameter.variable}\b")
-        # What is selected has to be a variable.
-        query = variable.sub("", head) + where + variable.sub(lambda _, t=term: f" {t}", body)  # type: ignore[misc]
+        query = _replace(query, parameter.variable, term)
         unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
         title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
     lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
     return Example(title, "\n".join((f"# {_line(title)}", *lines)))
+
+
+def _replace(query: str, name: str, term: ox.NamedNode | ox.Literal) -> str:
+    """Return a query with a term in place of a variable; what is selected and grouped by has to be variables."""
+    head, where, rest = query.partition("WHERE")
+    body, brace, tail = rest.rpartition("}")
+    variable = re.compile(rf"\s*\?{name}\b")
+    return variable.sub("", head) + where + variable.sub(lambda _: f" {term}", body) + brace + variable.sub("", tail)
 
 
 def _term(parameter: Parameter, terms: dict[str, ox.NamedNode | None]) -> ox.NamedNode | ox.Literal | None:
