@@ -1,6 +1,7 @@
 """usd2kg serve: a graph or a store, for others to ask."""
 
 import ipaddress
+import signal
 from typing import Annotated
 
 import typer
@@ -54,7 +55,12 @@ def serve_command(
     limits = Limits(time_limit, max_rows, max_body, memory_limit, workers)
     if not _is_loopback(host):
         talk(f"{host}: anyone who reaches this machine may ask; nobody is asked for a password")
-    serve(graph, ServeOptions(host, port, allow_host or (), cors or (), limits), talk)
+    # A service manager ends it by SIGTERM; as with Ctrl+C, the copy that is served has to go then.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        serve(graph, ServeOptions(host, port, allow_host or (), cors or (), limits), talk)
+    except KeyboardInterrupt:
+        talk("stopped")
 
 
 def _is_loopback(host: str) -> bool:

@@ -1,7 +1,9 @@
 """The endpoint as a process of its own, asked over HTTP as strangers would."""
 
 import json
+import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -256,3 +258,21 @@ def test_the_page_shows_hostile_names_as_text(port: int, tmp_path: Path):
 def test_the_default_is_loopback_only(port: int):
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(f"http://[::1]:{port}/", timeout=2)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not ended by signals there")
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_quietly_and_leaves_nothing(tmp_path: Path, sent: signal.Signals):
+    graph, temporary = tmp_path / "a.nt", tmp_path / "temporary"
+    graph.write_text("<urn:a> <urn:b> <urn:c> .\n")
+    temporary.mkdir()
+    command = [sys.executable, "-m", "usd2kg.cli.app", "serve", str(graph), "--port", "0", "--workers", "1"]
+    settings = {**os.environ, "TMPDIR": str(temporary)}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=settings) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline().startswith(f"serves {graph} at http://127.0.0.1:")
+        assert len(list(temporary.iterdir())) == 1
+        process.send_signal(sent)
+        assert process.wait(60) == 0
+        assert process.stderr.read() == "stopped\n"
+    assert list(temporary.iterdir()) == []

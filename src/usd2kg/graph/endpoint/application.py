@@ -4,7 +4,7 @@ import base64
 import hashlib
 import re
 import time
-from collections.abc import AsyncIterator, Iterable
+from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager
 from dataclasses import asdict
 from importlib.resources import files
@@ -56,6 +56,7 @@ def make_app(
     title: str,
     graphs: Iterable[str],
     examples: Iterable[Example],
+    when_ready: Callable[[], None] = lambda: None,
     hosts: Iterable[str] = (),
     origins: Iterable[str] = (),
 ) -> Starlette:
@@ -67,6 +68,7 @@ def make_app(
         title: what is served, for the page.
         graphs: IRIs of its named graphs.
         examples: queries that the page offers.
+        when_ready: called once queries can be answered.
         hosts: names, besides localhost and addresses in digits, that it may be asked by.
         origins: sites whose pages may ask it, like https://my.lab, or *.
     """
@@ -91,6 +93,7 @@ def make_app(
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
         await pool.warm()
+        when_ready()
         yield
         await pool.close()
 

@@ -56,6 +56,8 @@ def serve(place: str, options: ServeOptions, told: Callable[[str], None]) -> Non
     with tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary, open_socket(options) as socket:
         folder = Path(temporary) / "store"
         _copy(place, folder)
+        host, port = socket.getsockname()[:2]
+        address = f"http://{f'[{host}]' if ':' in host else host}:{port}/"
         store = ox.Store.read_only(str(folder))
         app = make_app(
             WorkerPool(folder, options.limits),
@@ -63,12 +65,11 @@ def serve(place: str, options: ServeOptions, told: Callable[[str], None]) -> Non
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
             examples=make_examples(store),
+            when_ready=lambda: told(f"serves {place} at {address} (SPARQL at /sparql)"),
             hosts=[*options.hosts, options.host],
             origins=options.origins,
         )
         del store
-        host, port = socket.getsockname()[:2]
-        told(f"serves {place} at http://{f'[{host}]' if ':' in host else host}:{port}/ (SPARQL at /sparql)")
         config = uvicorn.Config(app, log_level="warning", server_header=False, timeout_graceful_shutdown=3)
         uvicorn.Server(config).run(sockets=[socket])
 
