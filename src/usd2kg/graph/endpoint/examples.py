@@ -19,11 +19,8 @@ _CLASS = """
 SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; rdfs:label ?l }
 GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
 _POSITION = "0 0 1"
-_COUNTS = """# How many objects of each class are there?
-SELECT (MIN(STR(?label)) AS ?class) (COUNT(DISTINCT ?o) AS ?objects) WHERE {
-  ?o u2k:primPath ?path ; a ?c .
-  ?c a owl:Class ; rdfs:label ?label .
-} GROUP BY ?c ORDER BY DESC(?objects) ?class"""
+_FIRST = "count"
+"""The question that the page opens with: any graph has an answer."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +34,8 @@ class Example:
 def make_examples(store: ox.Store) -> tuple[Example, ...]:
     """Return the ready questions as queries without parameters, about what a store holds."""
     terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
-    counts = Example("How many objects of each class are there?", _COUNTS)
-    return (counts, *(example for q in list_questions() if (example := _fill(store, q, terms)) is not None))
+    questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
+    return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)
 
 
 def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> Example | None:
