@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow owl-jars elk-jars sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -35,6 +35,9 @@ sssom-check-env: ## Make build/sssom with the reference implementation of SSSOM,
 
 elk-jars: ## Fetch ELK into build/elk, for usd2kg validate --reasoner elk; needs Java 17 and Maven
 	mvn -q -B -f tools/elk/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/elk
+
+fuseki-jar: ## Fetch Apache Jena Fuseki into build/fuseki, for tests of stores on a server; needs Java 17 and Maven
+	mvn -q -B dependency:copy -Dartifact=org.apache.jena:jena-fuseki-server:5.6.0 -DoutputDirectory=$(CURDIR)/build/fuseki
 
 fuzz: $(READY) ## Read mangled stages for ten minutes; keep those that do harm in build/fuzz
 	$(BIN)/python -m tests.scene.fuzz --seconds 600 --keep build/fuzz

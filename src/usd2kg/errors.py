@@ -8,6 +8,7 @@
     ├── GroundingError    the grounder is unknown or its settings are wrong
     ├── EvaluationError   gold labels, a matrix or stored results cannot be used
     ├── GraphError        the graph cannot be read, or a question cannot be understood
+    ├── StoreError        a store of graphs is out of reach, refuses, or is held by another process
     └── OutputError       a result cannot be written
 
 Each message says where, what was found, what was expected and what to do, in one line.
@@ -21,6 +22,7 @@ __all__ = [
     "OntologyError",
     "OutputError",
     "SceneError",
+    "StoreError",
     "Usd2kgError",
 ]
 
@@ -47,6 +49,10 @@ class EvaluationError(Usd2kgError):
 
 class GraphError(Usd2kgError):
     """A graph file cannot be read, or a question cannot be answered from it."""
+
+
+class StoreError(Usd2kgError):
+    """A store of graphs cannot be reached or opened, refuses what is asked, or is held by another process."""
 
 
 class OutputError(Usd2kgError):

@@ -148,7 +148,7 @@ def test_outputs_are_checked_before_the_scene_is_read(run: Run, tmp_path: Path):
 
 
 def test_demo_wants_a_graph_ending(run: Run):
-    check(run("demo", "-o", "kitchen.txt"), "names no graph format")
+    check(run("demo", "-o", "kitchen.txt"), "names no RDF format")
 
 
 @pytest.mark.parametrize(

@@ -24,6 +24,8 @@ from usd2kg.cli import (
     ontology,
     query,
     render,
+    serve,
+    store,
     validate,
 )
 from usd2kg.cli.output import emit, talk
@@ -51,6 +53,8 @@ app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
 app.add_typer(label.app, name="label")
+app.command("serve")(serve.serve_command)
+app.add_typer(store.app, name="store")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")
 app.add_typer(completions.app, name="completions")

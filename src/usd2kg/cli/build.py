@@ -2,6 +2,7 @@
 
 import time
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,11 +11,23 @@ import typer
 from usd2kg.cli.grounding_run import GroundingOptions, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
-from usd2kg.cli.options import JsonOutput, MergeImports, OntologyFile, ReadingOptions, RelatingOptions, WritingOptions
+from usd2kg.cli.options import (
+    DataAddress,
+    JsonOutput,
+    MergeImports,
+    OntologyFile,
+    ReadingOptions,
+    RelatingOptions,
+    StorePlace,
+    UpdateAddress,
+    WritingOptions,
+)
 from usd2kg.cli.output import print_json, talk
+from usd2kg.cli.store import check_names, open_place, store_graphs
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
 if TYPE_CHECKING:
+    from usd2kg.graph.stores import SceneStore
     from usd2kg.pipeline import BuildResult
 
 __all__ = ["build_command", "summarize", "summary_text"]
@@ -45,18 +58,28 @@ def build_command(
             "--output",
             "-o",
             help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .jsonld, .ofn or .graphml, packed with .gz after it; a "
-            "folder for several scenes; default: SCENE.ttl here.",
+            "folder for several scenes; default: SCENE.ttl here, or no file beside --store.",
         ),
     ] = None,
+    store: StorePlace = None,
+    store_update: UpdateAddress = None,
+    store_data: DataAddress = None,
     json: JsonOutput = False,
 ) -> None:
     """Build the knowledge graph of a scene: read it, ground its objects, relate them, write RDF."""
+    from usd2kg.graph.iris import default_base  # noqa: PLC0415
     from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
     if asked.dry_run:
         raise GroundingError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
-    targets = _targets(scenes, output)
+    targets: Sequence[Path | None] = [None] * len(scenes)
+    if store is None or output is not None:
+        targets = _targets(scenes, output)
+    keeper = None
+    if store is not None:
+        check_names([base or default_base(str(scene)) for scene in scenes])
+        keeper = open_place(store, store_update, store_data)
     groups, naming_regime = chosen.groups, chosen.naming_regime
     options = reading.read_options()
     relations = relating.relation_options()
@@ -81,13 +104,8 @@ def build_command(
                     profile=profile,
                     graph_options=written,
                     relations=relations,
-                    merges_imports=merge_imports,
                 )
-            for iri in result.graph.missing_imports:
-                talk(
-                    f"missing-import: <{iri}> is not at hand, so it is not merged in; put it beside the ontology's file"
-                )
-            _write(result, target)
+            _keep(result, merge_imports, target, keeper)
             run.tell(result.grounding, asked, tbox)
         except Usd2kgError as error:
             # One bad scene must not cost the others; with one scene it is simply the error.
@@ -96,7 +114,8 @@ def build_command(
             talk(f"usd2kg: {error}")
             failures.append(scene)
             continue
-        summary = {**summarize(result), "output": str(target), "seconds": round(time.perf_counter() - start, 3)}
+        written_to = str(target or store)
+        summary = {**summarize(result), "output": written_to, "seconds": round(time.perf_counter() - start, 3)}
         summaries.append(summary)
         if not json:
             talk(summary_text(summary))
@@ -129,10 +148,24 @@ def _targets(scenes: list[Path], output: Path | None) -> list[Path]:
     return targets
 
 
-def _write(result: "BuildResult", target: Path) -> None:
-    from usd2kg.graph import write_graph  # noqa: PLC0415
+def _keep(result: "BuildResult", merges: bool, target: Path | None, keeper: "SceneStore | None") -> None:
+    """Write the graph to a file, put it into a store, or both.
 
-    write_graph(result.graph, target)
+    What is merged in stands in the file with the scene; in a store it is a graph of its own, which scenes share.
+    """
+    from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
+    from usd2kg.graph.stores import named_graph, ontology_graph  # noqa: PLC0415
+    from usd2kg.ontology import read_closure  # noqa: PLC0415
+
+    closure = read_closure(result.tbox, result.graph.imports) if merges else None
+    for iri in closure.missing if closure is not None else ():
+        talk(f"missing-import: <{iri}> is not at hand, so it is not merged in; put it beside the ontology's file")
+    if target is not None:
+        write_graph(result.graph if closure is None else merge_imports(result.graph, closure), target)
+    if keeper is not None:
+        # Asked together, the ontology comes first, so that no scene is there whose classes are not.
+        shared = [ontology_graph(result.tbox, closure)] if closure is not None else []
+        store_graphs(keeper, [*shared, named_graph(result.graph)])
 
 
 def summarize(result: "BuildResult") -> dict[str, Any]:

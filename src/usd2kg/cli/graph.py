@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from usd2kg.cli.options import GraphPlace, SceneName
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.files import check_writable, write_whole
@@ -16,7 +17,7 @@ app = typer.Typer(no_args_is_help=True, help="Draw and convert graphs.")
 
 @app.command("draw")
 def draw(
-    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")],
+    graph: GraphPlace,
     thing: Annotated[
         str | None,
         typer.Argument(metavar="[OBJECT]", help="Label, class or prim path of one object; default: the whole room."),
@@ -24,18 +25,21 @@ def draw(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="SVG or PNG file to write; default: GRAPH.svg here.")
     ] = None,
+    scene: SceneName = None,
 ) -> None:
     """Draw what stands on and in what in a room, or one object with its surroundings, as SVG or PNG."""
-    target = output or Path(f"{graph.stem}.svg")
+    # The name of a file, of a scene in a store, or of the store.
+    name = Path((scene or graph).rstrip("/#")).stem
+    target = output or Path(f"{name}.svg")
     if target.suffix.lower() not in {".svg", ".png"}:
         raise OutputError(f"{target}: pictures of graphs are SVG or PNG, expected a name ending in .svg or .png")
     check_writable(target)
-    from usd2kg.graph import load_graph  # noqa: PLC0415
     from usd2kg.graph.picture import draw_room, draw_surroundings, to_png  # noqa: PLC0415
+    from usd2kg.graph.stores import open_graph  # noqa: PLC0415
 
-    store = load_graph(graph)
+    store = open_graph(graph, scene)
     if thing is None:
-        picture = draw_room(store, graph.stem)
+        picture = draw_room(store, name)
     else:
         found = store.find(thing)
         if len(found) > 1:
@@ -43,7 +47,7 @@ def draw(
                 f"{thing!r} means {len(found)} objects; expected one, by its prim path: "
                 f"usd2kg query {graph} where is {thing}"
             )
-        picture = draw_surroundings(store, found[0].value, f"{thing} in {graph.stem}")
+        picture = draw_surroundings(store, found[0].value, f"{thing} in {name}")
     write_whole(target, to_png(picture) if target.suffix.lower() == ".png" else picture.encode("utf-8"))
     talk(f"written to {target}")
 

@@ -15,11 +15,13 @@ __all__ = [
     "AbbreviatedLength",
     "Abstains",
     "ClassSizes",
+    "DataAddress",
     "Dictionary",
     "EveryPrim",
     "Evidence",
     "Exclude",
     "ExpandInstancers",
+    "GraphPlace",
     "GrounderName",
     "Include",
     "JsonOutput",
@@ -32,13 +34,52 @@ __all__ = [
     "Regime",
     "RelatingOptions",
     "SceneFile",
+    "SceneName",
     "Shapes",
+    "StorePlace",
     "TimeCode",
     "UpAxis",
+    "UpdateAddress",
     "WritingOptions",
 ]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="A USD stage: .usd, .usda, .usdc or .usdz.")]
+StorePlace = Annotated[
+    str | None,
+    typer.Option(
+        "--store",
+        metavar="FOLDER|URL",
+        help="Where graphs are kept: a folder, or the address of a SPARQL 1.1 server; its credentials come from the "
+        "environment: USD2KG_STORE_USER and USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN.",
+    ),
+]
+GraphPlace = Annotated[
+    str,
+    typer.Argument(
+        metavar="GRAPH",
+        help="A graph that usd2kg build wrote, the folder of a store, or the address of a server.",
+    ),
+]
+SceneName = Annotated[
+    str | None,
+    typer.Option(
+        "--scene",
+        metavar="NAME",
+        help="Of a store, the scene to ask, by the last part of its IRI, its label or its IRI; default: all scenes.",
+    ),
+]
+UpdateAddress = Annotated[
+    str | None,
+    typer.Option("--store-update", metavar="URL", help="Where the server takes updates; default: found by asking it."),
+]
+DataAddress = Annotated[
+    str | None,
+    typer.Option(
+        "--store-data",
+        metavar="URL",
+        help="Where the server speaks the Graph Store Protocol; default: found by asking it.",
+    ),
+]
 OntologyFile = Annotated[
     Path | None,
     typer.Option("--ontology", help="An OWL file whose classes to use; default: the built-in home ontology."),

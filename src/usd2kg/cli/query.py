@@ -5,19 +5,24 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from usd2kg.cli.options import JsonOutput
+from usd2kg.cli.options import JsonOutput, SceneName
 from usd2kg.cli.output import emit, format_table, print_json
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
     from usd2kg.graph import Answer
 
-__all__ = ["answer_text", "query_command"]
+__all__ = ["answer_text", "query_command", "query_text"]
 
 
 def query_command(
     graph: Annotated[
-        Path | None, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote; not needed for --list.")
+        str | None,
+        typer.Argument(
+            metavar="GRAPH",
+            help="A graph that usd2kg build wrote, the folder of a store, or the address of a server; not needed for "
+            "--list.",
+        ),
     ] = None,
     words: Annotated[
         list[str] | None,
@@ -39,10 +44,11 @@ def query_command(
     is_list: Annotated[
         bool, typer.Option("--list", help="List the questions with their parameters, and stop.")
     ] = False,
+    scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
     """Ask a graph: a ready question in words, one of the listed questions, or a SPARQL query."""
-    from usd2kg.graph import load_graph  # noqa: PLC0415
+    from usd2kg.graph.stores import chosen_graphs, is_store, open_graph, open_store  # noqa: PLC0415
 
     if is_list:
         _print_questions(json)
@@ -54,13 +60,16 @@ def query_command(
         )
     if given and question is None:
         raise GraphError("query: --with gives a value to a parameter of --question; expected --question ID beside it")
-    store = load_graph(graph)
-    if sparql is not None:
-        answer = store.sparql(_query_text(sparql))
+    if sparql is not None and is_store(graph):
+        # A server answers by itself: what it holds may be more than this machine's memory.
+        kept = open_store(graph)
+        answer = kept.query(query_text(sparql), chosen_graphs(kept, scene))
+    elif sparql is not None:
+        answer = open_graph(graph, scene).sparql(query_text(sparql))
     elif question is not None:
-        answer = store.answer(question, dict(map(_parse_given, given or [])))
+        answer = open_graph(graph, scene).answer(question, dict(map(_parse_given, given or [])))
     else:
-        answer = store.ask(words or [])
+        answer = open_graph(graph, scene).ask(words or [])
     if json:
         print_json([dict(zip(answer.columns, row, strict=True)) for row in answer.values])
     else:
@@ -104,7 +113,8 @@ def _parse_given(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def _query_text(sparql: str) -> str:
+def query_text(sparql: str) -> str:
+    """Return a query as it was given, or read from the file in @FILE."""
     if not sparql.startswith("@"):
         return sparql
     try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from usd2kg.cli.findings import MOST_OF_A_RULE, findings_text
-from usd2kg.cli.options import JsonOutput
+from usd2kg.cli.options import GraphPlace, JsonOutput, SceneName
 from usd2kg.cli.output import emit, print_json, talk
 from usd2kg.errors import GraphError
 
@@ -20,7 +20,7 @@ __all__ = ["validate_command"]
 
 
 def validate_command(
-    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="A graph that usd2kg build wrote.")],
+    graph: GraphPlace,
     ontology: Annotated[
         Path | None,
         typer.Option("--ontology", help="The OWL file that it was built with; default: the built-in home ontology."),
@@ -47,10 +47,11 @@ def validate_command(
     reasoner_limit: Annotated[
         float, typer.Option("--reasoner-limit", min=1, help="Seconds after which a reasoner is given up; default: 600.")
     ] = 600,
+    scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
     """Check a graph: its shape, against its ontology, and for what is hard to believe. Exit code 1 if it finds any."""
-    from usd2kg.graph import load_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.graph.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.graph.validation import elk_jars as find_elk_jars  # noqa: PLC0415
     from usd2kg.graph.validation import read_rules, validate_graph  # noqa: PLC0415
 
@@ -59,14 +60,14 @@ def validate_command(
     if reasoner is not None:
         find_elk_jars(elk_jars)
     chosen = read_rules(rules)
-    store = load_graph(graph)
+    store = open_graph(graph, scene)
     closure = _open_closure(store, ontology)
     answer = _ask(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
     report = validate_graph(store, closure, chosen, answer)
     if json:
         print_json(
             {
-                "graph": str(graph),
+                "graph": graph,
                 "profile": report.profile,
                 "objects": report.objects,
                 "counts": report.counts(),

@@ -1,7 +1,6 @@
 """Asking a graph: SPARQL, and ready questions in plain words."""
 
 import itertools
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -11,6 +10,7 @@ from usd2kg.errors import GraphError
 from usd2kg.graph import spoken
 from usd2kg.graph.answer import Answer, join_answers, make_answer, with_columns, without_columns
 from usd2kg.graph.bodies import parse_vector
+from usd2kg.graph.federation import reaches_out
 from usd2kg.graph.functions import FUNCTION_NAMESPACE, make_functions
 from usd2kg.graph.lookup import Lookup, term_list
 from usd2kg.graph.questions import Parameter, find_question, parse_number
@@ -18,8 +18,6 @@ from usd2kg.graph.vocabulary import PREFIXES
 
 __all__ = ["GraphStore"]
 
-_QUOTED = re.compile(r"<[^<>\s]*>|\"(?:\\\\.|[^\"\\\\])*\"|'(?:\\\\.|[^'\\\\])*'|#[^\n]*")
-"""IRIs, strings and comments: where a keyword is none."""
 _PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 _Term = ox.NamedNode | ox.Literal
 """What a parameter of a question is bound to."""
@@ -89,7 +87,7 @@ class GraphStore:
         return [ox.Literal(parse_number(value, parameter.kind))]
 
     def _run(self, query: str, bindings: Mapping[ox.Variable, _Term]) -> Answer:
-        if re.search(r"\bSERVICE\b", _QUOTED.sub(" ", query), flags=re.IGNORECASE):
+        if reaches_out(query):
             raise GraphError("query: SERVICE asks another server, and no query leaves this machine; take that part out")
         try:
             found = self._store.query(

@@ -1,0 +1,92 @@
+"""Stores from the command line."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+
+
+@pytest.fixture
+def folder(run: Run, room: Path) -> Path:
+    """A store with the room, and the ontology beside it."""
+    place = room.parent / "store"
+    done = run("build", room, "--store", place, "--merge-imports")
+    assert done.code == 0, done.err
+    assert f"{place}: holds <https://example.org/room>" in done.err
+    assert f"written to {place}" in done.err
+    return place
+
+
+def test_a_build_into_a_store_writes_no_file(folder: Path):
+    assert [path.name for path in Path().iterdir()] == []
+
+
+def test_what_a_store_holds_is_listed(run: Run, folder: Path):
+    rows = json.loads(run("store", "list", "--store", folder, "--json").out)
+    assert [(row["name"], row["kind"], row["objects"]) for row in rows] == [
+        ("room", "scene", 4),
+        ("SOMA-HOME.owl", "ontology", 0),
+    ]
+    assert run("store", "list", "--store", folder).out.splitlines()[1].split()[:3] == ["room", "scene", "4"]
+
+
+def test_a_store_is_asked_checked_and_drawn(run: Run, folder: Path, graph: Path):
+    assert run("store", "remove", "SOMA-HOME.owl", "--store", folder).code == 0
+    for question in (["on", "Table_1"], ["--sparql", "SELECT ?p { ?o u2k:primPath ?p } ORDER BY ?p"]):
+        asked = run("query", folder, *question)
+        assert asked.out == run("query", graph, *question).out
+        assert "coffee_mug" in asked.out
+    assert run("validate", folder).out == run("validate", graph).out
+    assert run("graph", "draw", folder, "--scene", "room").code == 0
+    assert Path("room.svg").read_text("utf-8").startswith("<svg")
+
+
+def test_loading_removing_and_updating(run: Run, graph: Path, tmp_path: Path):
+    place = tmp_path / "new" / "store"
+    assert "holds <https://example.org/room>" in run("store", "load", graph, "--store", place).err
+    assert "holds <urn:mine>" in run("store", "load", graph, "--store", place, "--scene", "urn:mine").err
+    update = "DELETE WHERE { GRAPH <urn:mine> { ?s ?p ?o } }"
+    assert run("store", "update", update, "--store", place).err == f"{place}: updated\n"
+    assert run("store", "remove", "room", "--store", place).code == 0
+    assert json.loads(run("store", "list", "--store", place, "--json").out) == []
+    assert run("query", place, "on", "table").err == (
+        f"usd2kg: {place}: holds no graph of ours; load one with usd2kg build SCENE --store\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["store", "list", "--store", "nowhere"], "nowhere: is no store; expected a folder that usd2kg build --store"),
+        (["store", "load", "nothing.ttl", "--store", "s"], "nothing.ttl: no such file"),
+        (["store", "list", "--store", "http://me:secret@x/"], "store at x: its address holds a user or password"),
+        (["store", "list", "--store", "gopher://x/"], "is no address of a server"),
+        (
+            ["query", "no.ttl", "--scene", "x", "on", "y"],
+            "no.ttl: is one graph; --scene chooses among those of a store",
+        ),
+        (["serve", "http://x/"], "http://x/: is a server already; expected a graph or a folder to serve"),
+        (["serve", "no.ttl", "--port", "0"], "no.ttl: no such file"),
+    ],
+)
+def test_what_cannot_be_done_is_one_line(run: Run, arguments: list[str], message: str):
+    done = run(*arguments)
+    assert done.code == 2
+    assert done.err.startswith("usd2kg: ")
+    assert message in done.err
+    assert done.err.count("\n") == 1
+    assert "secret" not in done.err
+
+
+def test_a_bad_file_among_several_loads_none(run: Run, graph: Path, tmp_path: Path):
+    (tmp_path / "bad.ttl").write_text("<urn:a> <urn:b> 1 .")
+    done = run("store", "load", graph, tmp_path / "bad.ttl", "--store", tmp_path / "s")
+    assert (done.code, "names no graph; expected one that usd2kg build wrote" in done.err) == (2, True)
+    assert not (tmp_path / "s").exists()
+
+
+def test_two_scenes_of_one_name_do_not_replace_each_other(run: Run, room: Path, tmp_path: Path):
+    done = run("build", room, room, "--store", tmp_path / "s")
+    assert (done.code, "two graphs are called <https://example.org/room/>" in done.err) == (2, True)

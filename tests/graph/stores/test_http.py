@@ -1,0 +1,87 @@
+"""Requests: what is repeated, what is refused, and that no secret gets out."""
+
+import socket
+
+import pytest
+
+from tests.graph.stores.conftest import open_remote
+from tests.graph.stores.servers import free_port, way_to
+from usd2kg.errors import StoreError
+from usd2kg.graph.stores.http import Call, HttpClient, UnclearError, check_address, read_credentials
+
+
+def test_a_password_in_an_address_is_refused_and_not_repeated():
+    with pytest.raises(StoreError, match=r"store at my\.lab: its address holds a user or password") as error:
+        check_address("https://robot:s3cret@my.lab/ds")
+    assert "s3cret" not in str(error.value)
+
+
+@pytest.mark.parametrize("url", ["ftp://my.lab/", "http://", "http://my.lab:99999/", "http://my lab/", "http://[::1"])
+def test_what_is_no_address_is_refused(url: str):
+    with pytest.raises(StoreError, match="is no address of a server; expected one like http://localhost:7878"):
+        check_address(url)
+
+
+def test_credentials_come_from_the_environment():
+    # RFC 7617, section 2: Aladdin's.
+    given = {"USD2KG_STORE_USER": "Aladdin", "USD2KG_STORE_PASSWORD": "open sesame"}
+    assert read_credentials(given) == "Basic QWxhZGRpbjpvcGVuIHNlc2FtZQ=="
+    assert read_credentials({"USD2KG_STORE_TOKEN": "abc"}) == "Bearer abc"
+    assert read_credentials({}) is None
+    for wrong in ({"USD2KG_STORE_USER": "a"}, {**given, "USD2KG_STORE_TOKEN": "abc"}):
+        with pytest.raises(StoreError, match="expected USD2KG_STORE_USER with USD2KG_STORE_PASSWORD, or"):
+            read_credentials(wrong)
+
+
+def test_a_server_that_is_not_there_is_one_line():
+    pauses: list[float] = []
+    address = f"http://127.0.0.1:{free_port()}"
+    with pytest.raises(StoreError, match=r"cannot be reached .*, 5 times; try again later"):
+        HttpClient(sleep=pauses.append).send(Call("GET", address))
+    assert len(pauses) == 4
+    for pause, longest in zip(pauses, (0.5, 1, 2, 4), strict=True):
+        assert longest / 2 <= pause <= longest
+
+
+def test_the_wait_that_a_server_asks_for_is_kept_up_to_a_limit():
+    pauses: list[float] = []
+    answers = ["503 7", "429 100000", "503 Fri, 31 Dec 1999 23:59:59 GMT", "503 soon"]
+    with way_to("http://127.0.0.1:1") as way:
+        way.fault = lambda *_: answers.pop(0) if answers else "204"
+        assert HttpClient(sleep=pauses.append).send(Call("GET", way.address)).status == 204
+    assert pauses[:3] == [7, 30, 0]
+    assert 2 <= pauses[3] <= 4
+
+
+def test_what_must_not_be_done_twice_is_not_sent_twice():
+    with way_to("http://127.0.0.1:1") as way:
+        way.fault = lambda *_: "500"
+        with pytest.raises(UnclearError, match="it is not known what was done"):
+            HttpClient(sleep=lambda _: None).send(Call("POST", way.address, b"x", may_repeat=False))
+        assert len(way.seen) == 1
+
+
+def test_credentials_follow_no_redirect():
+    with way_to("http://127.0.0.1:1") as elsewhere, way_to("http://127.0.0.1:1") as way:
+        way.fault = lambda *_: f"307 {elsewhere.address}/x?secret=1"
+        elsewhere.fault = lambda *_: "204"
+        with pytest.raises(StoreError, match=r"redirects to http://127\.0\.0\.1/x, which is not followed; name that"):
+            HttpClient("Bearer abc").send(Call("POST", way.address, b"x"))
+        assert way.seen[0][2]["Authorization"] == "Bearer abc"
+        assert elsewhere.seen == []
+
+
+def test_a_wrong_address_is_named():
+    with way_to("http://127.0.0.1:1") as way:
+        way.fault = lambda *_: "404"
+        with pytest.raises(StoreError, match=r"takes no SPARQL query, nor does http.*/query; check the address"):
+            open_remote(way.address).check()
+
+
+def test_a_server_that_says_nothing_is_given_up():
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+        client = HttpClient(timeout_s=0.2, sleep=lambda _: None)
+        with pytest.raises(StoreError, match=r"the connection broke \(timed out\), 5 times"):
+            client.send(Call("GET", f"http://127.0.0.1:{silent.getsockname()[1]}/"))
