@@ -1,6 +1,7 @@
 """Things as columns of numbers, so that millions of pairs are compared at once."""
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +10,20 @@ from usd2kg.graph.diff.pairs import Index
 from usd2kg.graph.diff.thing import Thing
 from usd2kg.graph.diff.tolerances import Tolerances
 
-__all__ = ["Columns"]
+__all__ = ["Assets", "Columns"]
 
 Flags = NDArray[np.bool_]
 _UNKNOWN = -1
+_MOST_COMBINATIONS = 16_000_000
+
+
+class Assets(IntEnum):
+    """How the identifiers of two assets go together."""
+
+    DIFFER = 0
+    SHARED = 1
+    ONE_UNKNOWN = 2
+    UNKNOWN = 3
 
 
 class Columns:
@@ -55,17 +66,23 @@ class Columns:
         lacks: Flags = np.isnan(self._sizes[0][i, 0]) & np.isnan(self._sizes[1][j, 0])
         return lacks
 
-    def shares_asset(self, i: Index, j: Index) -> Flags:
-        """Return where an identifier of an asset is shared."""
-        return self._of_assets(i, j, lambda old, new: not old.isdisjoint(new))
+    def compare_assets(self, i: Index, j: Index) -> NDArray[np.int8]:
+        """Return how the assets go together, one of the numbers of `Assets`."""
+        width = len(self._assets)
+        codes = self._asset_codes[0][i] * width + self._asset_codes[1][j]
+        if width * width > _MOST_COMBINATIONS:
+            present, codes = np.unique(codes, return_inverse=True)
+            found: NDArray[np.int8] = self._compare_each(present)[codes]
+            return found
+        present = np.flatnonzero(np.bincount(codes, minlength=width * width))
+        table = np.zeros(width * width, dtype=np.int8)
+        table[present] = self._compare_each(present)
+        found = table[codes]
+        return found
 
-    def lacks_an_asset(self, i: Index, j: Index) -> Flags:
-        """Return where one or both have no asset."""
-        return self._of_assets(i, j, lambda old, new: not old or not new)
-
-    def lacks_assets(self, i: Index, j: Index) -> Flags:
-        """Return where neither has an asset."""
-        return self._of_assets(i, j, lambda old, new: not old and not new)
+    def _compare_each(self, combinations: Index) -> NDArray[np.int8]:
+        pairs = (divmod(code, len(self._assets)) for code in combinations.tolist())
+        return np.array([_compare(self._assets[old], self._assets[new]) for old, new in pairs], dtype=np.int8)
 
     def has_same_class(self, i: Index, j: Index) -> Flags:
         """Return where both classes are known and agree."""
@@ -84,14 +101,11 @@ class Columns:
         old, new = self._ranks[0][i], self._ranks[1][j]
         return differ, self.distances(i, j), np.minimum(old, new), np.maximum(old, new)
 
-    def _of_assets(self, i: Index, j: Index, holds: Callable[[frozenset[str], frozenset[str]], bool]) -> Flags:
-        """Return where `holds` is true of the assets; each combination of assets is asked once."""
-        width = len(self._assets)
-        combined, where = np.unique(self._asset_codes[0][i] * width + self._asset_codes[1][j], return_inverse=True)
-        pairs = (divmod(code, width) for code in combined.tolist())
-        answers = np.array([holds(self._assets[old], self._assets[new]) for old, new in pairs], dtype=np.bool_)
-        found: Flags = answers[where]
-        return found
+
+def _compare(old: frozenset[str], new: frozenset[str]) -> Assets:
+    if old and new:
+        return Assets.DIFFER if old.isdisjoint(new) else Assets.SHARED
+    return Assets.ONE_UNKNOWN if old or new else Assets.UNKNOWN
 
 
 def _codes(values: Iterable[Hashable], ends: int) -> tuple[Index, Index]:

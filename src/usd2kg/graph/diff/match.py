@@ -19,7 +19,7 @@ from typing import Literal
 
 import numpy as np
 
-from usd2kg.graph.diff.columns import Columns, Flags
+from usd2kg.graph.diff.columns import Assets, Columns, Flags
 from usd2kg.graph.diff.geometry import is_same_size
 from usd2kg.graph.diff.pairs import Index, Pairs, Points, close_pairs, equal_pairs, pick
 from usd2kg.graph.diff.paths import above, stems_of
@@ -146,8 +146,10 @@ class _Rounds:
         radii = [_FIRST_RADIUS * 2**step for step in range(_STEPS)]
         self._by_distance("name", radii, _alike, of_one_name=True)
         table = self._columns()
-        for i, j in equal_pairs(*table.names):
-            self._pick(table, (i, j), _alike(table, i, j) & np.isfinite(table.distances(i, j)), "name")
+        for pairs in equal_pairs(*table.names):
+            self._pick(
+                table, pairs, lambda table, i, j: _alike(table, i, j) & np.isfinite(table.distances(i, j)), "name"
+            )
 
     def by_asset(self) -> None:
         """Match things of other names that come from one asset or, without any, are of one class."""
@@ -155,9 +157,11 @@ class _Rounds:
         radii = [farthest / 2**step for step in range(_STEPS, -1, -1)]
 
         def is_likely(table: Columns, i: Index, j: Index) -> Flags:
-            asset = table.shares_asset(i, j) & ~table.has_other_class(i, j)
-            is_near = table.distances(i, j) <= farthest / 2
-            return _alike(table, i, j) & (asset | (table.lacks_assets(i, j) & table.has_same_class(i, j) & is_near))
+            assets = table.compare_assets(i, j)
+            by_asset = (assets == Assets.SHARED) & ~table.has_other_class(i, j)
+            by_class = (assets == Assets.UNKNOWN) & table.has_same_class(i, j)
+            likely: Flags = by_asset | (by_class & (table.distances(i, j) <= farthest / 2))
+            return _alike(table, i, j) & likely
 
         self._by_distance("asset", radii, is_likely)
 
@@ -171,17 +175,18 @@ class _Rounds:
             colors = table.names if of_one_name else (np.zeros_like(table.names[0]), np.zeros_like(table.names[1]))
             old, new = (Points(table.places[k][rows[k]], colors[k][rows[k]]) for k in (0, 1))
             for a, b in close_pairs(old, new, radius):
-                i, j = rows[0][a], rows[1][b]
-                self._pick(table, (i, j), allows(table, i, j), way)
+                self._pick(table, (rows[0][a], rows[1][b]), allows, way)
 
     def _columns(self) -> Columns:
         old, new = ([free[path] for path in sorted(free)] for free in (self.old, self.new))
         return Columns(old, new, self.tolerances)
 
-    def _pick(self, table: Columns, pairs: Pairs, is_allowed: Flags, way: Way) -> None:
+    def _pick(self, table: Columns, pairs: Pairs, allows: _Allows, way: Way) -> None:
         i, j = pairs
-        is_open = is_allowed & table.old_is_free[i] & table.new_is_free[j]
-        i, j = i[is_open], j[is_open]
+        is_free = table.old_is_free[i] & table.new_is_free[j]
+        i, j = i[is_free], j[is_free]
+        is_allowed = allows(table, i, j)
+        i, j = i[is_allowed], j[is_allowed]
         for at in pick(i, j, table.keys(i, j)):
             self._take(table.old[i[at]], table.new[j[at]], way)
             table.old_is_free[i[at]] = table.new_is_free[j[at]] = False
@@ -199,9 +204,9 @@ class _Rounds:
 
 def _alike(table: Columns, i: Index, j: Index) -> Flags:
     """Return where two things could be one: the same size and no other asset; without any size, the same asset."""
-    asset = table.shares_asset(i, j)
-    is_sized = table.has_same_size(i, j)
-    return (is_sized & (asset | table.lacks_an_asset(i, j))) | (table.lacks_size(i, j) & asset)
+    assets = table.compare_assets(i, j)
+    by_size: Flags = table.has_same_size(i, j) & (assets != Assets.DIFFER)
+    return by_size | (table.lacks_size(i, j) & (assets == Assets.SHARED))
 
 
 def _is_another(old: Thing, new: Thing, tolerances: Tolerances) -> bool:

@@ -22,8 +22,10 @@ class Points(NamedTuple):
     """(N,): only points with the same one are paired."""
 
 
-_MOST = 4_000_000
+_MOST = 2_000_000
 """Pairs that are in memory at a time."""
+_FEW = 100_000
+"""So many pairs are compared each with each sooner than they are sorted into cells."""
 _FARTHEST = 2.0**52
 """Cells from the origin, beyond which their numbers would not be exact."""
 
@@ -38,13 +40,22 @@ def close_pairs(left: Points, right: Points, radius: float) -> Iterator[Pairs]:
 
     A point that is not a number is close to none.
     """
-    cells_left, cells_right = _cells(left.places, radius), _cells(right.places, radius)
-    keys_right = _key(cells_right, right.colors)
-    steps = (np.array(step, dtype=np.int64) for step in product((-1, 0, 1), repeat=3))
-    for i, j in _join([_key(cells_left + step, left.colors) for step in steps], keys_right):
+    for i, j in _candidates(left, right, radius):
         is_close = np.linalg.norm(left.places[i] - right.places[j], axis=1) <= radius
         is_close &= left.colors[i] == right.colors[j]
         yield i[is_close], j[is_close]
+
+
+def _candidates(left: Points, right: Points, radius: float) -> Iterator[Pairs]:
+    """Yield the pairs in neighbouring cells as wide as the radius; where there are few points, all pairs."""
+    if len(left.places) * len(right.places) <= _FEW:
+        rows, columns = np.indices((len(left.places), len(right.places))).reshape(2, -1)
+        yield rows, columns
+        return
+    cells_left, cells_right = _cells(left.places, radius), _cells(right.places, radius)
+    keys_right = _key(cells_right, right.colors)
+    steps = (np.array(step, dtype=np.int64) for step in product((-1, 0, 1), repeat=3))
+    yield from _join([_key(cells_left + step, left.colors) for step in steps], keys_right)
 
 
 def pick(i: Index, j: Index, keys: tuple[NDArray[np.float64] | Index, ...]) -> list[int]:
