@@ -1,6 +1,7 @@
 """The command `usd2kg`.
 
-Exit codes: 0 done, 1 `validate` has findings, 2 wrong usage or an input or output that cannot be used.
+Exit codes: 0 done, 1 `validate` has findings or `diff` finds differences, 2 wrong usage or an input or output that
+cannot be used.
 """
 
 import io
@@ -11,7 +12,20 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli import build, completions, demo, evaluate, graph, ground, inspect, ontology, query, render, validate
+from usd2kg.cli import (
+    build,
+    completions,
+    demo,
+    diff,
+    evaluate,
+    graph,
+    ground,
+    inspect,
+    ontology,
+    query,
+    render,
+    validate,
+)
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import Usd2kgError
 
@@ -31,6 +45,7 @@ app.command("inspect")(inspect.inspect_command)
 app.command("ground")(ground.ground_command)
 app.command("query")(query.query_command)
 app.command("validate")(validate.validate_command)
+app.command("diff")(diff.diff_command)
 app.command("render")(render.render_command)
 app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")

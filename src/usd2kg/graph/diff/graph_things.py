@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pyoxigraph as ox
 
@@ -14,7 +14,7 @@ from usd2kg.graph.relation_terms import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.relations import SYMMETRIC_KINDS
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 
-__all__ = ["base_of", "read_statements", "things_of_graph"]
+__all__ = ["Writing", "read_statements", "things_of_graph", "writing_of"]
 
 _NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
 _USED = {
@@ -46,10 +46,26 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
         raise GraphError(f"{path}: cannot be read as {rdf_format.name} ({reason}); build the graph again") from error
 
 
-def base_of(statements: Iterable[ox.Triple]) -> str | None:
-    """Return the IRI under which a graph's individuals lie; None if it does not tell."""
-    found = (t.object.value for t in statements if t.predicate == U2K.run and isinstance(t.object, ox.NamedNode))
-    return min((iri.removesuffix(_RUN) for iri in found if iri.endswith(_RUN)), default=None)
+class Writing(NamedTuple):
+    """How a graph is written, so that another can be written alike."""
+
+    base: str | None
+    """IRI under which its individuals lie; None if it does not tell."""
+    profile: str
+    """`soma` or `plain`."""
+    annotations: str
+    """`owl` or `rdf12`."""
+
+
+def writing_of(statements: Iterable[ox.Triple]) -> Writing:
+    """Return how a graph is written."""
+    runs, is_soma, is_reified = set(), False, False
+    for _, predicate, value in statements:
+        if predicate == U2K.run and isinstance(value, ox.NamedNode) and value.value.endswith(_RUN):
+            runs.add(value.value.removesuffix(_RUN))
+        is_soma = is_soma or value == USD.Prim
+        is_reified = is_reified or predicate == RDF.reifies
+    return Writing(min(runs, default=None), "soma" if is_soma else "plain", "rdf12" if is_reified else "owl")
 
 
 def things_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[Thing, ...]:

@@ -206,7 +206,8 @@ def _alike(table: Columns, i: Index, j: Index) -> Flags:
     """Return where two things could be one: the same size and no other asset; without any size, the same asset."""
     assets = table.compare_assets(i, j)
     by_size: Flags = table.has_same_size(i, j) & (assets != Assets.DIFFER)
-    return by_size | (table.lacks_size(i, j) & (assets == Assets.SHARED))
+    by_asset: Flags = table.lacks_size(i, j) & (assets == Assets.SHARED)
+    return by_size | by_asset
 
 
 def _is_another(old: Thing, new: Thing, tolerances: Tolerances) -> bool:
