@@ -1,5 +1,6 @@
 """What changed, as text for a person."""
 
+import posixpath
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
@@ -20,19 +21,17 @@ _TELLING = ("on", "inside", "part-of", "room")
 
 def report_text(changes: "Changes", tolerances: "Tolerances", title: str, most: int | None = None) -> str:
     """Return the changes in groups of lines, at most `most` of each, and a last line that counts them all."""
+    changed = changes.changed
+    shifted = [change for change in changed if change.move or change.turned_degrees]
     sections = {
-        "Added": [_tell_thing(thing) for thing in changes.added],
-        "Removed": [_tell_thing(thing) for thing in changes.removed],
-        "Under another path": list(_renamed(changes.changed, tolerances)),
-        "Moved or turned": list(_moved(changes.changed, is_short=most is not None)),
-        "Resized": list(_resized(changes.changed)),
-        "Of another class": [
-            f"{_who(c, is_classed=False)}: {_class(c.match.old)} → {_class(c.match.new)}"
-            for c in changes.changed
-            if c.reclassified
-        ],
-        "Of another mass or asset": list(_facts(changes.changed)),
-        "Relations": [f"{_who(c)}: {'; '.join(_relations(c))}" for c in changes.changed if c.gained or c.lost],
+        f"Added, {_count(changes.added)}": [_tell_thing(thing) for thing in changes.added],
+        f"Removed, {_count(changes.removed)}": [_tell_thing(thing) for thing in changes.removed],
+        f"Under another path, {_count([c for c in changed if c.is_renamed])}": list(_renamed(changed, tolerances)),
+        f"Moved or turned, {_count(shifted)}": list(_moved(shifted, is_short=most is not None)),
+        f"Resized, {_count([c for c in changed if c.resized])}": list(_resized(changed)),
+        f"Of another class, {_count([c for c in changed if c.reclassified])}": list(_reclassified(changed)),
+        f"Of another mass or asset, {_count([c for c in changed if c.mass or c.assets])}": list(_facts(changed)),
+        f"With other relations, {_count([c for c in changed if c.gained or c.lost])}": list(_related(changed)),
     }
     blocks = ["\n".join(_section(name, lines, most)) for name, lines in sections.items() if lines]
     return "\n\n".join([printable(title), *blocks, summary_text(changes)]) + "\n"
@@ -53,8 +52,12 @@ def _things(count: int) -> str:
     return "thing" if count == 1 else "things"
 
 
+def _count(found: "Sequence[Thing | Change]") -> str:
+    return f"{len(found)} {_things(len(found))}"
+
+
 def _section(name: str, lines: Sequence[str], most: int | None) -> Iterator[str]:
-    yield f"{name} ({len(lines)})"
+    yield name
     yield from (f"  {_line(line)}" for line in lines[:most])
     rest = len(lines) - len(lines[:most])
     if rest:
@@ -69,9 +72,9 @@ def _class(thing: "Thing") -> str:
     return thing.class_label or "no class"
 
 
-def _who(change: "Change", *, is_classed: bool = True) -> str:
+def _who(change: "Change") -> str:
     new = change.match.new
-    return f"{new.prim_path} ({new.class_label})" if is_classed and new.class_label else new.prim_path
+    return f"{new.prim_path} ({new.class_label})" if new.class_label else new.prim_path
 
 
 def _tell_thing(thing: "Thing") -> str:
@@ -99,9 +102,9 @@ def _renamed(changed: "Iterable[Change]", tolerances: "Tolerances") -> Iterator[
             yield f"{change.match.old.prim_path} → {_who(change)}: {tell_match(change.match, tolerances)}"
 
 
-def _moved(changed: "Iterable[Change]", *, is_short: bool) -> Iterator[str]:
+def _moved(shifted: "Iterable[Change]", *, is_short: bool) -> Iterator[str]:
     """Yield a line for each thing that moved by itself, with the number of those that it took along."""
-    by_path = {change.match.new.prim_path: change for change in changed if change.move or change.turned_degrees}
+    by_path = {change.match.new.prim_path: change for change in shifted}
     taken = Counter(_first_carrier(change, by_path) for change in by_path.values() if change.carrier)
     alone = [change for change in by_path.values() if change.carrier is None]
     steps = Counter(map(_step, alone))
@@ -111,8 +114,9 @@ def _moved(changed: "Iterable[Change]", *, is_short: bool) -> Iterator[str]:
         if is_short and step is not None and steps[step] >= _MANY:
             if step not in told:
                 told.add(step)
-                count = steps[step] + sum(taken[c.match.new.prim_path] for c in alone if _step(c) == step)
-                yield f"{count} things by {step} m alike: {_who(change)} and others"
+                paths = [c.match.new.prim_path for c in alone if _step(c) == step]
+                count = len(paths) + sum(taken[path] for path in paths)
+                yield f"{count} things below {posixpath.commonpath(paths)}: all by {step} m (--all shows them)"
             continue
         with_it = taken[change.match.new.prim_path]
         rest = f"; with it {with_it} {_things(with_it)} on, in or below it" if with_it else ""
@@ -142,6 +146,12 @@ def _motion(change: "Change") -> Iterator[str]:
         yield f"turned by {change.turned_degrees:.1f}°"
 
 
+def _reclassified(changed: "Iterable[Change]") -> Iterator[str]:
+    for change in changed:
+        if change.reclassified:
+            yield f"{change.match.new.prim_path}: {_class(change.match.old)} → {_class(change.match.new)}"
+
+
 def _resized(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
         if change.resized is not None:
@@ -161,8 +171,9 @@ def _facts(changed: "Iterable[Change]") -> Iterator[str]:
             yield f"{_who(change)}: {'; '.join(told)}"
 
 
-def _relations(change: "Change") -> Iterator[str]:
-    if change.gained:
-        yield f"now {', '.join(map(_tell_link, change.gained))}"
-    if change.lost:
-        yield f"no longer {', '.join(map(_tell_link, change.lost))}"
+def _related(changed: "Iterable[Change]") -> Iterator[str]:
+    for change in changed:
+        gained, lost = (", ".join(map(_tell_link, links)) for links in (change.gained, change.lost))
+        told = [f"now {gained}" if gained else "", f"no longer {lost}" if lost else ""]
+        if gained or lost:
+            yield f"{_who(change)}: {'; '.join(filter(None, told))}"

@@ -104,9 +104,11 @@ class _Rounds:
         likely = [each for each, alike in zip(found, is_alike, strict=True) if alike]
         # Two groups could lead to one path; that of more things goes first.
         likely.sort(key=lambda each: (-each[0], sorted((each[1].prim_path, each[2].prim_path))))
+        sizes = Counter(stems_of(old.prim_path, new.prim_path) for _, old, new in likely)
         for _, old, new in likely:
             if old.prim_path in self.old and new.prim_path in self.new:
-                self._take(old, new, "group")
+                is_group = sizes[stems_of(old.prim_path, new.prim_path)] > 1
+                self._take(old, new, "group" if is_group else "name")
 
     def _below_groups(self) -> Iterator[tuple[int, Thing, Thing]]:
         """Yield an old thing, what now has the path that it would have, and how many things went that way."""
