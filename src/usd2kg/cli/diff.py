@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
+from usd2kg.cli.carry_options import STAGE_ENDINGS
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.options import JsonOutput, OntologyFile, ReadingOptions
 from usd2kg.cli.output import emit, print_json, printable, talk
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 
 __all__ = ["diff_command"]
 
-_SCENES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
 _FORMATS = ("text", "json", "sparql")
 _MOST = 20
 
@@ -108,6 +108,7 @@ def diff_command(
         talk(f"{update.deleted} statements deleted, {update.inserted} inserted")
         is_same = not update.text
     else:
+        _tell_classes(before, after)
         changes = compare_things(before.things, after.things, limits, kinds)
         is_same = changes.is_empty
         if chosen == "json":
@@ -161,6 +162,11 @@ def _tell_bases(before: Side, after: Side) -> None:
         )
 
 
+def _tell_classes(before: Side, after: Side) -> None:
+    if any(thing.classes for thing in before.things) != any(thing.classes for thing in after.things):
+        talk("classes: only one side has any, so classes are not compared; relations go by classes, too")
+
+
 class _Sides:
     """Reads graphs, and builds those of stages as the other side is written."""
 
@@ -184,7 +190,7 @@ class _Sides:
         from usd2kg.graph.diff import Writing  # noqa: PLC0415
         from usd2kg.graph.iris import default_base  # noqa: PLC0415
 
-        graphs = {path: _read(path) for path in (old, new) if path.suffix.lower() not in _SCENES}
+        graphs = {path: _read(path) for path in (old, new) if path.suffix.lower() not in STAGE_ENDINGS}
         writing = next((side.writing for side in graphs.values()), Writing(None, "auto", "owl"))
         writing = writing._replace(base=self._base or writing.base or default_base(str(old)))
         if len({old, new} - graphs.keys()) == 0:
