@@ -14,7 +14,7 @@ _UNTURNED: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 def turned_by(old: Quaternion | None, new: Quaternion | None) -> float:
     """Return the angle between two orientations in degrees, 0 to 180; 0 if one is not known."""
-    if old is None or new is None:
+    if old is None or new is None or old == new:
         return 0.0
     x, y, z, w = _product(new, _inverse(old))
     return math.degrees(2 * math.atan2(math.hypot(x, y, z), abs(w)))
@@ -22,7 +22,7 @@ def turned_by(old: Quaternion | None, new: Quaternion | None) -> float:
 
 def is_same_size(old: Sequence[float], new: Sequence[float], tolerances: Tolerances) -> bool:
     """Return whether all sides agree, in their order."""
-    return all(abs(a - b) <= tolerances.side(max(a, b)) for a, b in zip(old, new, strict=True))
+    return old == new or all(abs(a - b) <= tolerances.side(max(a, b)) for a, b in zip(old, new, strict=True))
 
 
 def moved_by(old: Vector | None, new: Vector | None) -> float:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.garbage import paused_collection
 from usd2kg.graph.diff.thing import Link, Thing, Vector
 from usd2kg.graph.relation_terms import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.relations import SYMMETRIC_KINDS
@@ -40,7 +41,8 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
         raise GraphError(f"{path}: the ending {path.suffix!r} names no RDF format; expected .ttl, .nt or another")
     try:
         # A store would write numbers in its own way, and an update must name them as they are.
-        return frozenset(quad.triple for quad in ox.parse(path=str(path), format=rdf_format))
+        with paused_collection():
+            return frozenset(quad.triple for quad in ox.parse(path=str(path), format=rdf_format))
     except (SyntaxError, OSError) as error:
         reason = " ".join(str(error).split())
         raise GraphError(f"{path}: cannot be read as {rdf_format.name} ({reason}); build the graph again") from error
@@ -74,7 +76,8 @@ def things_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[Thing
     Raises:
         GraphError: it tells of none, or of two with the same path; `source` names it in the message.
     """
-    things = sorted(_Reader(statements).things(), key=lambda thing: (thing.prim_path, thing.iri))
+    with paused_collection():
+        things = sorted(_Reader(statements).things(), key=lambda thing: (thing.prim_path, thing.iri))
     if not things:
         raise GraphError(f"{source}: holds no object; expected a graph that usd2kg build wrote, or a USD scene")
     for one, other in pairwise(things):

@@ -214,11 +214,11 @@ def _alike(table: Columns, i: Index, j: Index) -> Flags:
 
 def _is_another(old: Thing, new: Thing, tolerances: Tolerances) -> bool:
     """Return whether a path is that of another thing now: asset and size are others, and the class where known."""
-    if not (old.assets and new.assets) or old.size is None or new.size is None:
+    if not (old.assets and new.assets and old.assets.isdisjoint(new.assets)) or old.size is None or new.size is None:
         return False
     is_resized = not is_same_size(sorted(old.size), sorted(new.size), tolerances)
     is_reclassified = not (old.classes and new.classes) or old.classes != new.classes
-    return old.assets.isdisjoint(new.assets) and is_resized and is_reclassified
+    return is_resized and is_reclassified
 
 
 def _by_unique_name(things: Iterable[Thing]) -> dict[str, Thing]:

@@ -12,7 +12,8 @@ from typing import TypeVar
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
-from usd2kg.graph.diff.blank_nodes import Annotated, Component, part_statements, renamed
+from usd2kg.garbage import paused_collection
+from usd2kg.graph.diff.blank_nodes import Annotated, Component, Parted, part_statements, renamed
 from usd2kg.graph.diff.pattern import delete_structure
 from usd2kg.graph.vocabulary import OWL, RDF, named_node
 
@@ -47,7 +48,11 @@ def make_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str |
     """
     if graph is not None and named_node(graph) is None:
         raise GraphError(f"graph {graph!r} is no absolute IRI; expected one like https://my.lab/kitchen")
-    before, after = part_statements(old), part_statements(new)
+    with paused_collection():
+        return _make(part_statements(old), part_statements(new), graph)
+
+
+def _make(before: Parted, after: Parted, graph: str | None) -> Update:
     gone, came = sorted(before.ground - after.ground, key=str), sorted(after.ground - before.ground, key=str)
     plan = _plan(before.components, after.components)
     writer = _Writer(graph)
