@@ -27,7 +27,7 @@ _MOST = 20
 
 
 @dataclass(frozen=True)
-class ToleranceOptions:
+class _ToleranceOptions:
     """What counts as a change."""
 
     moved: Annotated[
@@ -56,7 +56,7 @@ class ToleranceOptions:
 def diff_command(
     old: Annotated[Path, typer.Argument(metavar="OLD", help="A graph that usd2kg build wrote, or a USD stage.")],
     new: Annotated[Path, typer.Argument(metavar="NEW", help="The same of later; either may be a graph or a stage.")],
-    tolerances: ToleranceOptions,
+    tolerances: _ToleranceOptions,
     reading: ReadingOptions,
     file_format: Annotated[
         str,
@@ -145,7 +145,7 @@ def _kinds(text: str) -> frozenset[str]:
     return kinds
 
 
-class Side(NamedTuple):
+class _Side(NamedTuple):
     """One of the two that are compared."""
 
     statements: "frozenset[ox.Triple]"
@@ -153,7 +153,7 @@ class Side(NamedTuple):
     writing: "Writing"
 
 
-def _tell_bases(before: Side, after: Side) -> None:
+def _tell_bases(before: _Side, after: _Side) -> None:
     bases = before.writing.base, after.writing.base
     if None not in bases and bases[0] != bases[1]:
         talk(
@@ -162,7 +162,7 @@ def _tell_bases(before: Side, after: Side) -> None:
         )
 
 
-def _tell_classes(before: Side, after: Side) -> None:
+def _tell_classes(before: _Side, after: _Side) -> None:
     if any(thing.classes for thing in before.things) != any(thing.classes for thing in after.things):
         talk("classes: only one side has any, so classes are not compared; relations go by classes, too")
 
@@ -185,7 +185,7 @@ class _Sides:
         self._kinds = kinds
         self._is_grounded = is_grounded
 
-    def open(self, old: Path, new: Path) -> tuple[Side, Side]:
+    def open(self, old: Path, new: Path) -> tuple[_Side, _Side]:
         """Return both sides."""
         from usd2kg.graph.diff import Writing  # noqa: PLC0415
         from usd2kg.graph.iris import default_base  # noqa: PLC0415
@@ -207,7 +207,7 @@ class _Sides:
             talk(f"{note.code}: {note.message}")
         return tbox
 
-    def _build(self, path: Path, tbox: "TBox", writing: "Writing") -> Side:
+    def _build(self, path: Path, tbox: "TBox", writing: "Writing") -> _Side:
         from usd2kg.graph import GraphOptions, find_relations, instantiate  # noqa: PLC0415
         from usd2kg.graph.diff import things_of_graph, writing_of  # noqa: PLC0415
         from usd2kg.grounding import ground  # noqa: PLC0415
@@ -225,7 +225,7 @@ class _Sides:
             relations=find_relations(scene, tbox, grounding, self._relation_options()),
         )
         statements = frozenset(graph.triples)
-        return Side(statements, things_of_graph(statements, str(path)), writing_of(statements))
+        return _Side(statements, things_of_graph(statements, str(path)), writing_of(statements))
 
     def _relation_options(self) -> "RelationOptions":
         from usd2kg.graph.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions  # noqa: PLC0415
@@ -234,8 +234,8 @@ class _Sides:
         return RelationOptions(kinds=tuple(kind for kind in ALL_KINDS if kind in wanted))
 
 
-def _read(path: Path) -> Side:
+def _read(path: Path) -> _Side:
     from usd2kg.graph.diff import read_statements, things_of_graph, writing_of  # noqa: PLC0415
 
     statements = read_statements(path)
-    return Side(statements, things_of_graph(statements, str(path)), writing_of(statements))
+    return _Side(statements, things_of_graph(statements, str(path)), writing_of(statements))

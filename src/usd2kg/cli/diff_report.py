@@ -34,10 +34,10 @@ def report_text(changes: "Changes", tolerances: "Tolerances", title: str, most: 
         f"With other relations, {_count([c for c in changed if c.gained or c.lost])}": list(_related(changed)),
     }
     blocks = ["\n".join(_section(name, lines, most)) for name, lines in sections.items() if lines]
-    return "\n\n".join([printable(title), *blocks, summary_text(changes)]) + "\n"
+    return "\n\n".join([printable(title), *blocks, _summary_text(changes)]) + "\n"
 
 
-def summary_text(changes: "Changes") -> str:
+def _summary_text(changes: "Changes") -> str:
     """Return one line that counts what changed."""
     if changes.is_empty:
         return f"no thing differs: {changes.old_count} {_things(changes.old_count)}"
