@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from usd2kg.graph import GraphOptions, KnowledgeGraph, RelationOptions, find_relations, instantiate, merge_imports
-from usd2kg.grounding import Grounder, Grounding, ground
+from usd2kg.grounding import Carried, Grounder, Grounding, ground
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
 
@@ -31,6 +31,7 @@ def build(
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
     decisions: Mapping[str, ClassIRI] | None = None,
+    carried: Mapping[str, Carried] | None = None,
     base: str | None = None,
     profile: str = "auto",
     options: ReadOptions | None = None,
@@ -48,6 +49,7 @@ def build(
         evidence: the evidence groups that may be used, all by default.
         paths: prims that are objects whatever the rules of selection say; of a scene that is still to be read.
         decisions: prim path → class for what a person has decided.
+        carried: prim path → where its decision comes from, of decisions that were made about another path.
         base: IRI under which individuals lie.
         profile: how objects are written: auto, soma or plain.
         options: what is to be read differently from what the stage says; of a scene that is still to be read.
@@ -61,7 +63,7 @@ def build(
     """
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
-    grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions)
+    grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions, carried=carried)
     found = find_relations(read, tbox, grounding, relations)
     graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options, relations=found)
     if merges_imports:

@@ -81,6 +81,7 @@ def rich_graph(profile: str) -> KnowledgeGraph:
     first, *others = grounding.predictions
     first = replace(first, candidates=(Candidate(TBOX.resolve("Glass"), 0.1), *first.candidates))
     first = first.reviewed(TBOX.resolve("Table"), "Ada", comment="a small one", time="2026-07-15T12:00:00Z")
+    first = replace(first, decided_for="/OldCup")
     grounding = replace(grounding, predictions=(first, *others))
     numbers = {"gap": 0.0, "overlapRatio": 1.0, "insideRatio": 1.0}
     relations = [Relation(kind, "/Cup", "/Table", f"{kind}/1", numbers) for kind in ("on", "inside")]

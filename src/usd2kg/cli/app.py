@@ -1,6 +1,7 @@
 """The command `usd2kg`.
 
-Exit codes: 0 done, 1 `validate` or `label lint` has findings, 2 wrong usage or an input or output that cannot be used.
+Exit codes: 0 done, 1 `validate`, `label lint` or `ontology check` has findings or `diff` finds differences, 2 wrong usage
+or an input or output that cannot be used.
 """
 
 import io
@@ -16,6 +17,7 @@ from usd2kg.cli import (
     build,
     completions,
     demo,
+    diff,
     evaluate,
     graph,
     ground,
@@ -48,6 +50,7 @@ app.command("ground")(ground.ground_command)
 app.command("query")(query.query_command)
 app.command("ask")(assistant.ask_command)
 app.command("validate")(validate.validate_command)
+app.command("diff")(diff.diff_command)
 app.command("render")(render.render_command)
 app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from usd2kg.cli.carry_options import CarryOptions
 from usd2kg.cli.grounding_run import GroundingOptions, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
@@ -40,6 +41,7 @@ def build_command(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="One or more USD stages.")],
     chosen: GroundingOptions,
     asked: ModelOptions,
+    carrying: CarryOptions,
     reading: ReadingOptions,
     relating: RelatingOptions,
     writing: WritingOptions,
@@ -73,6 +75,7 @@ def build_command(
 
     if asked.dry_run:
         raise GroundingError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
+    carrying.check(asked.decisions, len(scenes))
     targets: Sequence[Path | None] = [None] * len(scenes)
     if store is None or output is not None:
         targets = _targets(scenes, output)
@@ -92,7 +95,7 @@ def build_command(
         start = time.perf_counter()
         try:
             read = read_scene(scene, options=options)
-            with open_run(chosen, asked, read, tbox, scene, options) as run:
+            with open_run(chosen, asked, read, tbox, scene, options, carrying) as run:
                 result = build(
                     read,
                     tbox,
@@ -100,6 +103,7 @@ def build_command(
                     regime=naming_regime,
                     evidence=groups,
                     decisions=run.decisions,
+                    carried=run.carried,
                     base=base,
                     profile=profile,
                     graph_options=written,

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from usd2kg.cli.carry_options import CarryOptions
 from usd2kg.cli.grounding_run import GroundingOptions, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
@@ -24,6 +25,7 @@ def ground_command(
     scene: SceneFile,
     chosen: GroundingOptions,
     asked: ModelOptions,
+    carrying: CarryOptions,
     reading: ReadingOptions,
     ontology: OntologyFile = None,
     abbreviated_length: AbbreviatedLength = 4,
@@ -57,6 +59,7 @@ def ground_command(
         grounding.check_format(file_format)
         if base or license_iri or mapping_date:
             raise GroundingError("--base, --license and --mapping-date belong to --format sssom; leave them out")
+    carrying.check(asked.decisions, 1)
     for target in (output, asked.queue):
         if target is not None:
             check_writable(target)
@@ -64,7 +67,7 @@ def ground_command(
     tbox = open_tbox(ontology)
     options = reading.read_options()
     found = read_scene(scene, paths=wanted, options=options)
-    with open_run(chosen, asked, found, tbox, scene, options) as run:
+    with open_run(chosen, asked, found, tbox, scene, options, carrying) as run:
         if run.model is not None and asked.dry_run:
             views = view_objects(found, naming_regime, groups, abbreviated_length)
             shown = [(obj.prim_path, view) for obj, view in views if wanted is None or obj.prim_path in wanted]
@@ -79,6 +82,7 @@ def ground_command(
             evidence=groups,
             paths=wanted,
             decisions=run.decisions,
+            carried=run.carried,
             abbreviated_length=abbreviated_length,
         )
     if file_format == _SSSOM:

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from usd2kg.cli.carry_options import CarryOptions
 from usd2kg.cli.model_options import ModelOptions
 from usd2kg.cli.options import Abstains, ClassSizes, Dictionary, Evidence, GrounderName, Regime
 from usd2kg.cli.output import Progress, emit, talk
 from usd2kg.errors import GroundingError, SceneError
 
 if TYPE_CHECKING:
-    from usd2kg.grounding import CascadeGrounder, Grounder, Grounding
+    from usd2kg.grounding import Carried, CascadeGrounder, Grounder, Grounding
     from usd2kg.grounding.llm.grounder import LLMGrounder
     from usd2kg.grounding.llm.prompts import Example
     from usd2kg.ontology import ClassIRI, TBox
@@ -59,6 +60,8 @@ class GroundingRun:
     quick: "Grounder"
     """The one that asks nobody."""
     decisions: "Mapping[str, ClassIRI]"
+    carried: "Mapping[str, Carried]"
+    """Where decisions come from that were made about another path."""
 
     def unsure(self, views: "list[tuple[str, ObjectView]]", tbox: "TBox") -> "list[tuple[str, ObjectView]]":
         """Return the views that the model would be asked about."""
@@ -84,7 +87,13 @@ class GroundingRun:
 
 @contextmanager
 def open_run(
-    chosen: GroundingOptions, asked: ModelOptions, scene: "Scene", tbox: "TBox", source: Path, reading: "ReadOptions"
+    chosen: GroundingOptions,
+    asked: ModelOptions,
+    scene: "Scene",
+    tbox: "TBox",
+    source: Path,
+    reading: "ReadOptions",
+    carrying: CarryOptions | None = None,
 ) -> Iterator[GroundingRun]:
     """Open the grounder for one scene.
 
@@ -94,6 +103,7 @@ def open_run(
     from usd2kg import grounding  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     decisions = grounding.read_decisions(asked.decisions, tbox) if asked.decisions is not None else {}
+    placed, carried = carrying.carry(decisions, scene, reading) if carrying is not None else (decisions, {})
     is_model = grounding.is_llm_name(chosen.grounder)
     if not is_model:
         asked.refuse_without_model()
@@ -113,7 +123,7 @@ def open_run(
                 open_llm_grounder(
                     asked.settings(chosen.grounder),
                     is_dry=asked.dry_run,
-                    examples=_examples(scene, decisions, asked.examples),
+                    examples=_examples(scene, placed, asked.examples),
                     picture=_pictures(source, reading) if asked.thumbnails else None,
                     progress=progress.objects,
                 )
@@ -122,7 +132,7 @@ def open_run(
         tiers = None
         if model is not None and asked.cascade is not None:
             tiers = grounding.CascadeGrounder(quick, model, asked.cascade)
-        yield GroundingRun(tiers or model or quick, model, tiers, quick, decisions)
+        yield GroundingRun(tiers or model or quick, model, tiers, quick, placed, carried)
 
 
 def _examples(scene: "Scene", decisions: "Mapping[str, ClassIRI]", most: int) -> "list[Example]":

@@ -27,10 +27,10 @@ def talk(message: str) -> None:
     print(printable(message), file=sys.stderr)  # noqa: T201
 
 
-def print_json(data: Any) -> None:
-    """Print data as JSON on stdout, readable: only what could steer a terminal is escaped."""
+def print_json(data: Any, path: Path | None = None) -> None:
+    """Write data as JSON, to stdout if there is no file; readable: only what could steer a terminal is escaped."""
     text = json.dumps(data, indent=1, ensure_ascii=False)
-    emit(_STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text) + "\n", None)
+    emit(_STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text) + "\n", path)
 
 
 def emit(text: str, path: Path | None) -> None:

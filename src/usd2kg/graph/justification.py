@@ -45,6 +45,8 @@ def justify_refusal(prediction: Prediction) -> list[Annotation]:
 def _refusal(prediction: Prediction) -> Iterator[Annotation]:
     yield U2K.status, text(prediction.status.value)
     yield U2K.explanation, text(prediction.explanation)
+    if prediction.decided_for:
+        yield U2K.decidedFor, text(prediction.decided_for)
     if prediction.review is not None:
         yield from _review(prediction.review, prediction.class_iri)
 

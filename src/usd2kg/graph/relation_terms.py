@@ -9,6 +9,8 @@ from usd2kg.graph.relations import SYMMETRIC_KINDS, Relation
 from usd2kg.graph.vocabulary import DUL, KNOWROB, OWL, RDF, RDFS, SOMA, SSSOM, U2K, Triple, number, text
 
 __all__ = [
+    "KIND_OF_INVERSE",
+    "KIND_OF_PROPERTY",
     "describe_between",
     "describe_room",
     "measures",
@@ -45,6 +47,13 @@ _PLAIN: Mapping[str, ox.NamedNode] = {
     "front": U2K.inFrontOf,
     "behind": U2K.behind,
 }
+
+KIND_OF_PROPERTY: Mapping[ox.NamedNode, str] = {
+    name: kind for kind, names in [*_SOMA.items(), *((k, (v,)) for k, v in _PLAIN.items())] for name in names
+}
+"""Property → kind, of the properties that go from the target to the anchor, in both profiles."""
+KIND_OF_INVERSE: Mapping[ox.NamedNode, str] = {SOMA.hasPhysicalComponent: "part-of"}
+"""Property → kind, of those that go from the anchor to the target."""
 
 
 def soma_relation(relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:

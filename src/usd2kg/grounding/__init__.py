@@ -2,7 +2,7 @@
 
 from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
 from usd2kg.grounding.cascade import CascadeGrounder
-from usd2kg.grounding.decisions import PERSON, format_queue, read_decisions, unsure_of
+from usd2kg.grounding.decisions import PERSON, Carried, format_queue, read_decisions, unsure_of
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
@@ -13,6 +13,7 @@ __all__ = [
     "MAPPING_FORMATS",
     "PERSON",
     "Candidate",
+    "Carried",
     "CascadeGrounder",
     "Grounder",
     "Grounding",

@@ -5,7 +5,7 @@ from importlib.metadata import version
 from typing import Protocol
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.decisions import decided
+from usd2kg.grounding.decisions import Carried, decided
 from usd2kg.grounding.model import Grounding, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, ObjectView, Scene, view_objects
@@ -44,6 +44,7 @@ def ground(
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
     decisions: Mapping[str, ClassIRI] | None = None,
+    carried: Mapping[str, Carried] | None = None,
     abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Grounding:
     """Return a class of `tbox` for each object of `scene`.
@@ -55,6 +56,7 @@ def ground(
         regime: how the names are masked.
         evidence: names of the evidence groups that may be used; all by default.
         decisions: prim path → class for what a person has decided; the grounder is not asked about it.
+        carried: prim path → where its decision comes from, of decisions that were made about another path.
         abbreviated_length: letters kept of each word in the abbreviated regime.
         paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
     """
@@ -65,7 +67,8 @@ def ground(
         grounder = make_grounder(grounder)
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
-    known = {path: decided(path, iri) for path, iri in (decisions or {}).items() if path in views}
+    origins = carried or {}
+    known = {path: decided(path, iri, origins.get(path)) for path, iri in (decisions or {}).items() if path in views}
     found = [(path, views[path]) for path in wanted if path in views and path not in known]
     by_path = known | {p.prim_path: p for p in grounder.ground_views(found, tbox)}
     return Grounding(

@@ -7,13 +7,14 @@ import csv
 import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.model import Grounding, Prediction, Status
 from usd2kg.grounding.sssom import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["PERSON", "decided", "format_queue", "read_decisions", "unsure_of"]
+__all__ = ["PERSON", "Carried", "decided", "format_queue", "read_decisions", "unsure_of"]
 
 PERSON = "person"
 """The grounder's id of what a person decided."""
@@ -62,9 +63,22 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str,
     return decisions
 
 
-def decided(prim_path: str, class_iri: ClassIRI) -> Prediction:
+class Carried(NamedTuple):
+    """Where a decision comes from that was made when the thing had another prim path."""
+
+    prim_path: str
+    """The path that the person decided about."""
+    reason: str
+    """Why it is the same thing, in words."""
+
+
+def decided(prim_path: str, class_iri: ClassIRI, carried: Carried | None = None) -> Prediction:
     """Return what a person decided, as a prediction."""
-    return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "a person decided so")
+    if carried is None:
+        return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "a person decided so")
+    explanation = f"a person decided so about {carried.prim_path}, the same thing ({carried.reason})"
+    decided_for = carried.prim_path
+    return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, explanation, decided_for=decided_for)
 
 
 def unsure_of(grounding: Grounding, least_confidence: float) -> list[Prediction]:

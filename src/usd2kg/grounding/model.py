@@ -73,6 +73,8 @@ class Prediction:
     """All that was considered, best first, the chosen class included."""
     review: Review | None = None
     """A person's decision, which then is the class, status and confidence above; None if nobody decided."""
+    decided_for: str = ""
+    """The prim path that the person decided about, where the thing was renamed or moved since; else empty."""
 
     def reviewed(
         self,

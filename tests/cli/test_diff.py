@@ -1,0 +1,168 @@
+"""usd2kg diff and usd2kg build --previous: what a person reads, what a program reads, and the exit codes."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pyoxigraph as ox
+import pytest
+
+from tests.cli.conftest import ROOM, Run
+
+WriteStage = Callable[..., Path]
+
+
+@pytest.fixture
+def edited(write_stage: WriteStage) -> Path:
+    """The room with another name for the mug, the apple gone, and the bowl 20 cm aside."""
+    renamed = ROOM.replace("coffee_mug", "teaMug")
+    start, end = (renamed.index(text) for text in ('    def Xform "Apple"', '    def Camera "view"'))
+    text = renamed[:start] + renamed[end:]
+    for corner in ("(0.1, 0.2, 0.7)", "(0.4, 0.5, 0.7)"):
+        assert corner in text
+    for before, after in (("(0.4, ", "(0.6, "), ("(0.1, 0.2", "(0.3, 0.2")):
+        text = text.replace(before, after)
+    return write_stage(text, "edited.usda")
+
+
+def test_two_scenes(run: Run, room: Path, edited: Path) -> None:
+    done = run("diff", room, edited)
+    assert done.code == 1
+    assert done.err == ""
+    lines = done.out.splitlines()
+    assert lines[0] == f"{room} → {edited}"
+    assert "Removed, 1 thing" in lines
+    assert "  /Room/coffee_mug → /Room/teaMug (cup): renamed: same size, same class, in place" in lines
+    assert any(line.startswith("  /Room/FruitBowl (bowl): 0.20 m, from ") for line in lines)
+    assert lines[-1] == "4 things before, 3 now: 1 removed, 1 renamed, 1 moved; 1 the same"
+
+
+def test_a_scene_and_itself_as_text_json_and_update(run: Run, room: Path) -> None:
+    done = run("diff", room, room)
+    assert (done.code, done.out.splitlines()[-1]) == (0, "no thing differs: 4 things")
+    done = run("diff", room, room, "--json", "--no-ground")
+    assert done.code == 0
+    assert json.loads(done.out)["changed"] == []
+    done = run("diff", room, room, "--format", "sparql")
+    assert done.code == 0
+    assert "0 statements deleted, 0 inserted" in done.err
+
+
+def test_json_gives_pairs_of_iris(run: Run, graph: Path, edited: Path) -> None:
+    done = run("diff", graph, edited, "--json")
+    assert done.code == 1
+    data = json.loads(done.out)
+    assert data["counts"]["renamed"] == 1
+    base = "https://example.org/room/"
+    assert data["same_as"] == [{"old": f"{base}Room.coffee_mug", "new": f"{base}Room.teaMug"}]
+    assert data["removed"][0]["path"] == "/Room/Apple"
+    (mug,) = (each for each in data["changed"] if each["path"]["new"] == "/Room/teaMug")
+    assert mug["match"]["by"] == "place"
+    (bowl,) = (each for each in data["changed"] if "moved" in each)
+    assert bowl["moved"]["distance_m"] == pytest.approx(0.2, abs=1e-6)
+
+
+@pytest.mark.parametrize("profile", ["soma", "plain"])
+def test_the_update_turns_the_old_store_into_the_new(run: Run, room: Path, edited: Path, profile: str) -> None:
+    for scene in (room, edited):
+        options = ("--base", "https://my.lab/k/", "--profile", profile, "-o", f"{scene.stem}.ttl")
+        assert run("build", scene, *options).code == 0
+    done = run("diff", "room.ttl", "edited.ttl", "--format", "sparql", "--graph", "https://my.lab/g", "-o", "change.ru")
+    assert (done.code, done.out) == (1, "")
+    named = ox.NamedNode("https://my.lab/g")
+    old, new = ox.Store(), ox.Store()
+    old.load(path="room.ttl", format=ox.RdfFormat.TURTLE, to_graph=named)
+    new.load(path="edited.ttl", format=ox.RdfFormat.TURTLE, to_graph=named)
+    old.update(Path("change.ru").read_text("utf-8"))
+    both = ox.Dataset(old), ox.Dataset(new)
+    for dataset in both:
+        dataset.canonicalize(ox.CanonicalizationAlgorithm.RDFC_1_0)
+    assert both[0] == both[1]
+
+
+def test_a_scene_is_written_as_the_graph_it_is_compared_with(run: Run, room: Path) -> None:
+    assert run("build", room, "--profile", "plain", "--annotations", "rdf12", "-o", "room.ttl").code == 0
+    assert run("diff", "room.ttl", room, "--format", "sparql").code == 0
+
+
+def test_other_bases_are_told(run: Run, room: Path, edited: Path) -> None:
+    for scene in (room, edited):
+        assert run("build", scene, "-o", f"{scene.stem}.ttl").code == 0
+    assert "4 things before, 3 now" in run("diff", "room.ttl", "edited.ttl").out
+    told = run("diff", "room.ttl", "edited.ttl", "--format", "sparql").err
+    assert "base: the individuals lie under <https://example.org/room/> and <https://example.org/edited/>" in told
+
+
+def test_classes_of_one_side_only_are_told(run: Run, graph: Path, room: Path) -> None:
+    done = run("diff", graph, room, "--no-ground", "--relations", "none")
+    assert (done.code, done.out.splitlines()[-1]) == (0, "no thing differs: 4 things")
+    assert "classes: only one side has any" in done.err
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--format", "xml"], "format 'xml' is unknown; expected one of text, json, sparql"),
+        (["--graph", "https://my.lab/g"], "--graph is about the update; expected it with --format sparql"),
+        (["--graph", "g", "--format", "sparql"], "graph 'g' is no absolute IRI"),
+        (["--relations", "on,under"], "relations: kind 'under' is unknown; expected a list of on, inside"),
+        (["--moved", "-1"], "moved m -1.0: expected a number that is not negative"),
+        (["-o", "no/such/file"], "the folder no/such does not exist"),
+    ],
+)
+def test_wrong_usage(run: Run, graph: Path, options: list[str], told: str) -> None:
+    done = run("diff", graph, graph, *options)
+    assert done.code == 2
+    assert told in done.err
+    assert done.err.count("\n") == 1
+
+
+def test_many_changes_are_cut_and_shown_on_request(run: Run, write_stage: WriteStage) -> None:
+    def scene(name: str, shift: float) -> Path:
+        cubes = "".join(
+            f'def Cube "Cup_{i}" ( kind = "component" ) {{\ndouble size = 0.1\n double3 xformOp:translate = '
+            f'({i}, {shift * i}, 0)\n uniform token[] xformOpOrder = ["xformOp:translate"]\n}}\n'
+            for i in range(1, 31)
+        )
+        head = '( metersPerUnit = 1\n upAxis = "Z" )\n'
+        return write_stage(f'{head}def Xform "Room" ( kind = "group" )\n{{\n{cubes}}}\n', name)
+
+    old, new = scene("old.usda", 0), scene("new.usda", 0.5)
+    cut, whole = run("diff", old, new, "--no-ground"), run("diff", old, new, "--no-ground", "--all")
+    assert "  … 10 more (--all shows them)" in cut.out
+    assert cut.out.count(" m, from ") == 20
+    assert whole.out.count(" m, from ") == 30
+
+
+def test_decisions_go_with_what_was_renamed(run: Run, room: Path, edited: Path) -> None:
+    Path("decisions.csv").write_text("path,decision\n/Room/coffee_mug,Bowl\n/Room/Apple,Cup\n/Room/Table_1,Table\n")
+    files = ("--unplaced", "unplaced.csv", "--carried", "carried.csv")
+    done = run("build", edited, "-o", "edited.ttl", "--decisions", "decisions.csv", "--previous", room, *files)
+    assert done.code == 0
+    told = done.err.splitlines()
+    assert "decision: /Room/coffee_mug → /Room/teaMug (renamed: same size, in place)" in told
+    assert any(line.startswith("decision not placed: /Room/Apple <") for line in told)
+    assert "3 decisions: 1 kept, 1 carried over, 1 not placed" in told
+    assert 'decidedFor "/Room/coffee_mug"' in Path("edited.ttl").read_text("utf-8")
+    assert Path("unplaced.csv").read_text().splitlines()[1].startswith("/Room/Apple,http")
+    # From now on the carried decisions do without the scene before.
+    again = run("build", edited, "-o", "again.ttl", "--decisions", "carried.csv")
+    assert again.code == 0
+    same = run("diff", "edited.ttl", "again.ttl")
+    assert same.code == 0
+    done = run("ground", edited, "--decisions", "decisions.csv", "--previous", room)
+    (row,) = (line for line in done.out.splitlines() if line.startswith("/Room/teaMug,"))
+    assert row.endswith(",bowl,1.0000,reviewed,person")
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--previous", "old.ttl"], "--previous is about decisions of a person; say where they are with --decisions"),
+        (["--unplaced", "lost.csv"], "--unplaced and --carried need the scene before; say where with --previous OLD"),
+    ],
+)
+def test_previous_needs_decisions(run: Run, room: Path, options: list[str], told: str) -> None:
+    done = run("build", room, *options)
+    assert done.code == 2
+    assert told in done.err
