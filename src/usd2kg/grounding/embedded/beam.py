@@ -73,7 +73,7 @@ class Starts(NamedTuple):
 
 
 class Arc(NamedTuple):
-    """A piece of the letters, behind some paths."""
+    """A piece of the letters, behind some paths, that may be a word, or no word, or both."""
 
     starts: Starts
     """At least one."""
@@ -114,7 +114,9 @@ class Beam:
         likely, certain, given_up = _guesses(arcs)
         rest = math.log(1 + len(arcs) * math.exp(-_UNHEARD))
         paths: list[tuple[float, int, _Key]] = []
-        for needed in (certain, likely - self._spread, likely - self._spread - _STEP):
+        guess = likely - self._spread
+        # The second is enough wherever there is one; the first may be, and is less work.
+        for needed in (guess, certain - rest) if guess > certain - rest > given_up else (certain - rest, guess - _STEP):
             if needed > given_up and not paths:
                 paths = self._add_up(self._reach(arcs, counts, needed), arcs, counts, needed + rest)
         if not paths:
@@ -208,8 +210,13 @@ class Beam:
                 lifted = _less(tenth, 1.0, unseen)
             if way[0] < lifted:
                 break
-            # Words with a single way have no more than that.
-            if way[0] + _SLACK > tenth or way[1] is None:
+            score, start, reasons = way
+            if start is not None and len(reasons) == 1:
+                if score > least and score + _SLACK > tenth:
+                    paths.append((score, start[2], key))
+                    insort(scores, score)
+            elif start is None or score + _SLACK > tenth:
+                # Words with a single way have no more than that.
                 ways = self._ways_to(key, way, arcs)
                 if ways[0][0] > least:
                     paths.append((*_joined(ways, least), key))
