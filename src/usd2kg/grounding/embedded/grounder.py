@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
 
+from usd2kg.garbage import paused_collection
 from usd2kg.grounding.embedded.abbreviations import AbbreviationReader, Reading
 from usd2kg.grounding.embedded.calibration import features_of, probability
 from usd2kg.grounding.embedded.context import SizeBeliefs, Vote, ask_company, siblings_as_company, vote_of
@@ -84,8 +85,9 @@ class EmbeddedGrounder:
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
-        run = _run_for(tbox, self._use_home_synonyms)
-        answers = [run.predict(path, view) for path, view in views]
+        with paused_collection():
+            run = _run_for(tbox, self._use_home_synonyms)
+            answers = [run.predict(path, view) for path, view in views]
         decided = [_abstaining(answer, tbox) for answer in answers] if self._abstains else answers
         return agree_by_asset([view for _, view in views], [_calibrated(answer, tbox) for answer in decided], tbox)
 

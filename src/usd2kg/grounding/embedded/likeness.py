@@ -101,7 +101,7 @@ def _weigh_head(head: str) -> Logits | None:
     return _weigh(_head_features(head))
 
 
-@lru_cache(maxsize=2048)
+@lru_cache(maxsize=16384)
 def _weigh_pair(modifier: str, head: str) -> Logits | None:
     return _weigh(_pair_features(modifier, head))
 
@@ -117,9 +117,18 @@ def _weigh(features: Mapping[str, float]) -> Logits | None:
     known = [(model.rows[name], value) for name, value in features.items() if name in model.rows]
     if not known:
         return None
+    return _weigh_rows(tuple(known))
+
+
+@lru_cache(maxsize=4096)
+def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
+    # Of most pairs nothing is known but that they are pairs.
+    model = _load_model()
     rows, values = zip(*known, strict=True)
     logits: Logits = np.array(values) @ model.weights[list(rows)]
-    return logits * model.unit
+    logits *= model.unit
+    logits.flags.writeable = False
+    return logits
 
 
 @lru_cache(maxsize=65536)
