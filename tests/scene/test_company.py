@@ -340,11 +340,11 @@ def test_twenty_thousand_siblings_are_not_quadratic():
         asked[word] += 1
         return initials(word)
 
-    start = time.perf_counter()
+    start = time.process_time()
     everyone = companies(scene)
     told = [words_written(its, "book", ways) for its in everyone]
     companions = [len(its.companions()) for its in everyone[::50]]
-    assert time.perf_counter() - start < 5
+    assert time.process_time() - start < 5
     assert told == [[("book", 19_999 / 20_000, -1.0)]] * 20_000
     # The index of the words is made once, not once a target.
     assert asked == {"book": 1}
