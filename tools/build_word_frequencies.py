@@ -7,8 +7,8 @@ first. SCOWL is the folder `usr/share/dict/scowl` of Debian's package `scowl`: w
 DICT_FOLDER is the folder `dict` of WordNet's database, as for `build_wordnet.py`. BERT's vocabulary, whose whole words
 also stand in order of frequency, and the taxonomy are read from the package, so build those first.
 
-Each line of the result is a word, ten times its Zipf score and its share of noun uses in percent; in place of the
-share "-" for a head word of the home TBox that WordNet lacks.
+The first line of the result has the words, the second for each ten times its Zipf score and its share of noun uses in
+percent, `43/100`; in place of the share "-" for a head word of the home TBox that WordNet lacks.
 """
 
 import gzip
@@ -17,6 +17,7 @@ import re
 import sys
 from collections import Counter
 from functools import lru_cache
+from itertools import compress
 from pathlib import Path
 
 from usd2kg.grounding.embedded.frequencies import UNKNOWN_FREQUENCY
@@ -164,9 +165,8 @@ def read_noun_shares(folder: Path) -> dict[str, float]:
 
 def read_single_lemmas() -> set[str]:
     """Return the lemmas of the taxonomy that are one word; loaded, it joins compounds and no longer tells."""
-    _, *lines = gzip.decompress((DATA / "wordnet.txt.gz").read_bytes()).decode().splitlines()
-    entries = (entry for line in lines for entry in line.split("\t")[2].split("|"))
-    lemmas = {entry.rpartition(":")[0] for entry in entries}
+    lines = gzip.decompress((DATA / "wordnet.txt.gz").read_bytes()).decode().split("\n")
+    lemmas = compress(lines[5].split("\t"), map(int, lines[8]))
     return {lemma for lemma in lemmas if len(lemma) > 1 and lemma.isascii() and lemma.isalpha()}
 
 
@@ -189,14 +189,20 @@ def main() -> None:
     shares = read_noun_shares(dictionary)
     # The labels are in several languages; SCOWL tells which of their words are English.
     home = {word: is_head for word, is_head in read_home_words().items() if any(word in words for words in scowl)}
-    lines = []
+    entries: dict[str, str] = {}
     for word in sorted(read_single_lemmas() | load_taxonomy().adjectives | home.keys() - FUNCTION_WORDS):
         tenths = round(10 * max(scores.get(word, UNKNOWN_FREQUENCY), UNKNOWN_FREQUENCY))
         is_new = word not in shares and home.get(word, False)
-        lines.append(f"{word}\t{tenths}\t{'-' if is_new else round(100 * shares.get(word, 0))}\n")
+        entries[word] = f"{tenths}/{'-' if is_new else round(100 * shares.get(word, 0))}"
+    write(entries)
+
+
+def write(entries: dict[str, str]) -> None:
+    """Write the words on one line and their entries on another: two splits read them."""
+    text = " ".join(entries) + "\n" + " ".join(entries.values()) + "\n"
     # No time in the gzip header: the same input gives the same bytes.
-    OUTPUT.write_bytes(gzip.compress("".join(lines).encode(), compresslevel=9, mtime=0))
-    print(f"{OUTPUT}: {len(lines)} words, {OUTPUT.stat().st_size} bytes")
+    OUTPUT.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))
+    print(f"{OUTPUT}: {len(entries)} words, {OUTPUT.stat().st_size} bytes")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import gzip
 import sys
 from collections import defaultdict
 from pathlib import Path
+from typing import NamedTuple
 
 OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/wordnet.txt.gz"
 
@@ -67,6 +68,39 @@ def read_tag_counts(path: Path) -> dict[tuple[str, str], int]:
     return counts
 
 
+class Synset(NamedTuple):
+    """One synset that is kept."""
+
+    domain: str
+    above: list[int]
+    """Numbers of the synsets that it is directly a kind of."""
+    lemmas: list[tuple[str, int]]
+    """(lemma with its spaces, rank of this sense among all senses of the lemma), the best-known lemma first."""
+
+
+def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
+    """Return the lines that `Taxonomy` reads, and one more: for each lemma, 1 where it is written without space too."""
+    letters = {domain: chr(ord("a") + at) for at, domain in enumerate(KEPT_FILES.values())}
+    senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
+    for at, synset in enumerate(synsets):
+        for lemma, rank in synset.lemmas:
+            senses[lemma.replace(" ", "").replace("-", "")].append((rank, at))
+    single = {lemma for synset in synsets for lemma, _ in synset.lemmas}
+    ordered = {lemma: sorted(found) for lemma, found in senses.items()}
+    lines = [
+        " ".join(adjectives),
+        " ".join(letters),
+        "".join(letters[synset.domain] for synset in synsets),
+        "\t".join(" ".join(map(str, synset.above)) for synset in synsets),
+        "\t".join(synset.lemmas[0][0] for synset in synsets),
+        "\t".join(ordered),
+        "\t".join(" ".join(f"{letters[synsets[at].domain]}{rank}" for rank, at in found) for found in ordered.values()),
+        "\t".join(" ".join(str(at) for _, at in found) for found in ordered.values()),
+        "".join("1" if lemma in single else "0" for lemma in ordered),
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def main() -> None:
     """Write the data file."""
     folder = Path(sys.argv[1])
@@ -80,14 +114,15 @@ def main() -> None:
         for lemma in read_index(folder / "index.adj")
         if " " not in lemma and lemma.isalpha() and counts[lemma, "a"] > counts[lemma, "n"]
     )
-    lines = []
-    for offset in kept:
-        file, lemmas, hypernyms = synsets[offset]
-        above = " ".join(str(number[up]) for up in hypernyms if up in number)
-        # The rank of this sense among all senses of the lemma; WordNet lists the best-known lemma first.
-        senses = "|".join(f"{lemma}:{index[lemma].index(offset) + 1}" for lemma in lemmas)
-        lines.append(f"{KEPT_FILES[file]}\t{above}\t{senses}")
-    text = "\n".join([" ".join(adjectives), *lines]) + "\n"
+    numbered = [
+        Synset(
+            KEPT_FILES[file],
+            [number[up] for up in hypernyms if up in number],
+            [(lemma, index[lemma].index(offset) + 1) for lemma in lemmas],
+        )
+        for offset, (file, lemmas, hypernyms) in ((offset, synsets[offset]) for offset in kept)
+    ]
+    text = format_taxonomy(adjectives, numbered)
     # No time in the gzip header: the same input gives the same bytes.
     OUTPUT.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))
     print(

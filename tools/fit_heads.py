@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.evaluation.gold import read_gold
-from usd2kg.grounding.embedded.heads import FEATURES
+from usd2kg.grounding.embedded.heads import Features
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Matcher, Size
 from usd2kg.grounding.embedded.names import NameReader
@@ -72,7 +72,7 @@ def main() -> None:
         right += sum(is_right(name, weights) for name in names if fold_of[name.text] == fold)
     weights = fit(names)
     report = {
-        "weights": {name: round(float(weight), 3) for name, weight in zip(FEATURES, weights, strict=True)},
+        "weights": {name: round(float(weight), 3) for name, weight in zip(Features._fields, weights, strict=True)},
         "names": len(texts),
         "accepted_when_left_out": round(right / len(names), 4),
     }
@@ -126,23 +126,23 @@ def ends(
     """Yield the ends of a name as each reader has them, with its size and without, where there is a right choice."""
     for reader, known_size in product(readers, (size, None)):
         phrase = reader.names.read(text, parents)
-        found = [(features, named) for _, features, named in reader.matcher.ends(phrase, parents, known_size)]
+        found = [(features, named.matches) for _, features, named in reader.matcher.ends(phrase, parents, known_size)]
         best = [max(matches, key=lambda match: match.score).class_iri for _, matches in found]
         right = np.array([iri in accepted for iri in best], dtype=bool)
         if len(found) > 1 and right.any():
-            yield Name(text, np.array([[features[name] for name in FEATURES] for features, _ in found]), right)
+            yield Name(text, np.array([features for features, _ in found]), right)
 
 
 def fit(names: list[Name]) -> Array:
     """Return the weights that make the right ends most likely, by gradient ascent."""
     most = max(len(name.features) for name in names)
-    features = np.zeros((len(names), most, len(FEATURES)))
+    features = np.zeros((len(names), most, len(Features._fields)))
     absent = np.full((len(names), most), -np.inf)
     accepted = np.zeros((len(names), most))
     for row, name in enumerate(names):
         count = len(name.features)
         features[row, :count], absent[row, :count], accepted[row, :count] = name.features, 0.0, name.is_accepted
-    weights = np.zeros(len(FEATURES))
+    weights = np.zeros(len(Features._fields))
     for _ in range(ROUNDS):
         shares = softmax(features @ weights + absent)
         right = shares * accepted

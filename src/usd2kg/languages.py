@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.resources import files
+from itertools import chain
 from typing import NamedTuple
 
 __all__ = ["language_of", "split_compound", "translate"]
@@ -79,6 +80,8 @@ class _Lexicon:
     links: dict[str, _Entry] = field(default_factory=dict)
     phrases: dict[tuple[str, ...], _Entry] = field(default_factory=dict)
     """By the dictionary forms of their words, links left out."""
+    beginnings: set[str] = field(default_factory=set)
+    """The first of these."""
 
     def parse(self, word: str) -> tuple[_Form, ...]:
         """Return the forms that a lower-case word consists of, the head last; none if it is unknown."""
@@ -121,12 +124,14 @@ def _add(entry: _Entry, lexicon: _Lexicon) -> None:
     if entry.role in {"link", "with"}:
         lexicon.links[_fold(entry.word, entry.language)] = entry
     elif " " in entry.word:
-        words = entry.word.split()
-        lexicon.phrases[tuple(_key(word, lexicon) for word in words if not _is_link(word, lexicon))] = entry
+        key = tuple(_key(word, lexicon) for word in entry.word.split() if not _is_link(word, lexicon))
+        lexicon.phrases[key] = entry
+        lexicon.beginnings.add(key[0])
     else:
-        for text, form in _whole_forms(entry) if entry.role != "stem" else ():
+        whole = list(_whole_forms(entry))
+        for text, form in whole if entry.role != "stem" else ():
             _keep_cheapest(lexicon.whole, text, form)
-        for text, form in _inner_forms(entry) if entry.language == "de" else ():
+        for text, form in chain(whole, _inner_forms(entry)) if entry.language == "de" else ():
             _keep_cheapest(lexicon.inner, text, form)
 
 
@@ -149,8 +154,7 @@ def _whole_forms(entry: _Entry) -> Iterator[tuple[str, _Form]]:
 
 
 def _inner_forms(entry: _Entry) -> Iterator[tuple[str, _Form]]:
-    """Yield the spellings of a German word within a compound."""
-    yield from _whole_forms(entry)
+    """Yield the further spellings of a German word within a compound."""
     if entry.kind == ("de", ""):
         for element in _LINKING_ELEMENTS:
             yield from _spelled(entry.word + element, entry, 1)
@@ -160,6 +164,9 @@ def _inner_forms(entry: _Entry) -> Iterator[tuple[str, _Form]]:
 
 def _spelled(word: str, entry: _Entry, cost: int, of: _Entry | None = None) -> Iterator[tuple[str, _Form]]:
     """Yield a form folded and, where it has umlauts, as exporters write it that drop them."""
+    if word.isascii():
+        yield word, _Form(of or entry, cost, not entry.is_homograph)
+        return
     text, bare = _fold(word, entry.language), _without_accents(word)
     yield text, _Form(of or entry, cost, not entry.is_homograph)
     if entry.language == "de" and bare != text and len(bare) >= _SHORTEST_WITHOUT_UMLAUT:
@@ -272,7 +279,7 @@ def language_of(words: tuple[str, ...]) -> str | None:
     return reading and reading.language
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=8192)
 def _best_reading(words: tuple[str, ...], language: str | None) -> _Reading | None:
     lexicons = _lexicons()
     chosen = lexicons.values() if language is None else [lexicons[language]] if language in lexicons else []
@@ -282,6 +289,8 @@ def _best_reading(words: tuple[str, ...], language: str | None) -> _Reading | No
 
 def _read(words: tuple[str, ...], lexicon: _Lexicon, is_expected: bool) -> _Reading | None:
     """Return the name as read in one language, None if too little of it is in that language."""
+    if not any(_by_itself(word, lexicon.language).is_known for word in words):
+        return None
     terms = _main_terms(words, lexicon)
     links = [term for term in terms if term.role == "link"]
     others = [term for term in terms if term.role != "link"]
@@ -312,15 +321,9 @@ def _main_terms(words: tuple[str, ...], lexicon: _Lexicon) -> list[_Term]:
 
 def _next_term(words: tuple[str, ...], at: int, lexicon: _Lexicon) -> tuple[_Term, int]:
     """Return the term that begins at a word and where the next one begins."""
-    word = words[at]
-    if link := lexicon.links.get(_fold(word, lexicon.language)):
-        return _Term((), link.role, 0, not link.is_homograph), at + 1
-    if phrase := _phrase_at(words, at, lexicon):
-        return phrase
-    if forms := lexicon.parse(word):
-        english = tuple(part for form in forms for part in form.entry.english)
-        return _Term(english, forms[-1].entry.role, 1, any(form.is_telling for form in forms)), at + 1
-    return _Term((word,), "english" if word in _english_words() else "unknown", 1, False), at + 1
+    word = _by_itself(words[at], lexicon.language)
+    phrase = _phrase_at(words, at, lexicon) if word.key in lexicon.beginnings and not word.is_link else None
+    return phrase or (word.term, at + 1)
 
 
 def _phrase_at(words: tuple[str, ...], at: int, lexicon: _Lexicon) -> tuple[_Term, int] | None:
@@ -328,11 +331,38 @@ def _phrase_at(words: tuple[str, ...], at: int, lexicon: _Lexicon) -> tuple[_Ter
     found = None
     keys: list[str] = []
     for end in range(at, min(at + _LONGEST_PHRASE, len(words))):
-        if not _is_link(words[end], lexicon):
-            keys.append(_key(words[end], lexicon))
+        word = _by_itself(words[end], lexicon.language)
+        if not word.is_link:
+            keys.append(word.key)
             if entry := lexicon.phrases.get(tuple(keys)):
                 found = _Term(entry.english, entry.role, len(keys), True), end + 1
     return found
+
+
+class _Word(NamedTuple):
+    """A word of a name, whatever stands beside it."""
+
+    term: _Term
+    key: str
+    """Its dictionary form, or its spelling."""
+    is_link: bool
+    is_known: bool
+    """Whether it is a word of the language, or begins a phrase of it."""
+
+
+@lru_cache(maxsize=65536)
+def _by_itself(word: str, language: str) -> _Word:
+    lexicon = _lexicons()[language]
+    forms = lexicon.parse(word)
+    key = forms[0].entry.word if len(forms) == 1 else _fold(word, language)
+    if link := lexicon.links.get(_fold(word, language)):
+        return _Word(_Term((), link.role, 0, not link.is_homograph), key, is_link=True, is_known=True)
+    if forms:
+        english = tuple(part for form in forms for part in form.entry.english)
+        term = _Term(english, forms[-1].entry.role, 1, any(form.is_telling for form in forms))
+        return _Word(term, key, is_link=False, is_known=True)
+    term = _Term((word,), "english" if word in _english_words() else "unknown", 1, False)
+    return _Word(term, key, is_link=False, is_known=key in lexicon.beginnings)
 
 
 @lru_cache(maxsize=1)

@@ -34,7 +34,7 @@ def split_identifier(identifier: str) -> tuple[str, ...]:
     >>> split_identifier("tn__knob1_f5")
     ('knob', '1')
     """
-    text = unicodedata.normalize("NFC", identifier)
+    text = identifier if identifier.isascii() else unicodedata.normalize("NFC", identifier)
     if text.startswith("tn__"):
         text = text[4:].rpartition("_")[0] or text[4:]
     if text.isascii():

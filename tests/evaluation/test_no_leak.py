@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tests.conftest import shared_file
+from tests.grounding.records import words_written
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import make_grounder
 from usd2kg.ontology import TBox
@@ -119,7 +120,7 @@ def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, reg
         for word in set(words_of(obj.name)):
             others = bearers[word] - 1
             expected = [(word, others / len(scene.objects), 0.0)] if others else []
-            assert view.company.words_written(word, _in_full) == expected
+            assert words_written(view.company, word, _in_full) == expected
 
 
 @pytest.mark.parametrize("regime", [NamingRegime.OPAQUE, NamingRegime.OPAQUE_ANONYMOUS])

@@ -6,7 +6,8 @@ from typing import Any
 from usd2kg.grounding import Prediction
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.ontology import OntologyClass, TBox
-from usd2kg.scene import Joint, ObjectView, Scene, SceneObject, StageFrame
+from usd2kg.scene import Company, Joint, ObjectView, Scene, SceneObject, StageFrame
+from usd2kg.scene.company import Ways
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 LAB = "https://lab.example/onto#"
@@ -90,3 +91,16 @@ def ground_view(view: ObjectView, tbox: TBox) -> Prediction:
 def local(prediction: Prediction) -> str:
     """Return the local name of a prediction's class, empty if it has none."""
     return (prediction.class_iri or "").rpartition("#")[2]
+
+
+def words_written(company: Company, form: str, ways: Ways) -> list[tuple[str, float, float]]:
+    """Return (word, share, score) of the words in other objects' names that may be written in a form, sorted."""
+    return company.words_written(ways, _as_it_is, _all_of_them, 1000)(form) or []
+
+
+def _as_it_is(word: str, share: float, score: float) -> tuple[str, float, float]:
+    return word, share, score
+
+
+def _all_of_them(form: str, found: list[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
+    return found

@@ -10,17 +10,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import ground_view, local, make_class, make_tbox, scene_of
-from usd2kg.grounding.embedded import abbreviations
-from usd2kg.grounding.embedded.abbreviations import AbbreviationReader, forms_of
+from usd2kg.grounding.embedded import shortening
+from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
 from usd2kg.grounding.embedded.grounder import _run_for
 from usd2kg.grounding.embedded.lexicon import build_lexicon
+from usd2kg.grounding.embedded.shortening import forms_of
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Company, NamingRegime, ObjectView, abbreviate, view_objects
 
-FULL = abbreviations._FULL
-SKELETON, FIRST_VOWEL, CUT = abbreviations._STYLES.values()
-KEPT = dict(abbreviations._LENGTHS)
+FULL = shortening._FULL
+SKELETON, FIRST_VOWEL, CUT = shortening._STYLES.values()
+KEPT = dict(shortening._LENGTHS)
 
 READER = _run_for(load_home_tbox(), True)._abbreviations
 """The one that grounds names too: the index of a first letter takes a fifth of a second, once."""

@@ -6,7 +6,14 @@ import pytest
 
 from tests.grounding.records import SOMA, make_class, make_object, make_scene, make_tbox
 from usd2kg.grounding.embedded import context
-from usd2kg.grounding.embedded.context import SizeBeliefs, Votes, ask_company, siblings_as_company
+from usd2kg.grounding.embedded.context import (
+    Classify,
+    SizeBeliefs,
+    Votes,
+    ask_company,
+    siblings_as_company,
+    vote_of,
+)
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder, _run_for
 from usd2kg.grounding.embedded.matching import Size
 from usd2kg.grounding.embedded.naming import Match
@@ -25,12 +32,13 @@ def near(name: str, nearness: Nearness = NEXT, distance: float | None = 0.1) -> 
 def by_first_word(name: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
     """Take `cup-0.8` for a cup with score 0.8, and give a second class that is not to be counted."""
     word, _, score = name.partition("-")
-    first = Match(word, float(score or 1), "")
-    return [first, Match("other", first.score / 2, "")] if word != "nothing" else []
+    first = Match(word, float(score or 1), str)
+    return [first, Match("other", first.score / 2, str)] if word != "nothing" else []
 
 
-def votes(*companions: Companion) -> Votes:
-    return ask_company(companions, by_first_word)
+def votes(*companions: Companion, classify: Classify = by_first_word) -> Votes[Companion]:
+    told = [(vote_of(classify(found.name, found.parents, found.size)), found) for found in companions]
+    return ask_company((vote, found.nearness, found.distance, found) for vote, found in told if vote is not None)
 
 
 def ratio(one: Companion, other: Companion) -> float:
@@ -98,19 +106,11 @@ def test_a_clearer_name_has_more_of_a_vote():
 
 def test_the_heaviest_vote_is_remembered_for_each_class():
     far, beside, other = near("cup", ALIKE), near("cup-0.9", NEXT), near("lamp", SIBLING)
-    assert votes(far, beside, other).heaviest == {"cup": beside, "lamp": other}
-    assert votes(beside, far).heaviest == {"cup": beside}
-
-
-def test_companions_are_classified_with_the_names_above_them_and_their_size():
-    asked = []
-
-    def classify(name: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
-        asked.append((name, parents, size))
-        return []
-
-    ask_company([Companion("cabinet", ("World", "Kitchen"), NEXT, None, (0.6, 0.6, 0.9))], classify)
-    assert asked == [("cabinet", ("World", "Kitchen"), (0.6, 0.6, 0.9))]
+    assert {iri: found[-1] for iri, found in votes(far, beside, other).heaviest.items()} == {
+        "cup": beside,
+        "lamp": other,
+    }
+    assert votes(beside, far).heaviest == {"cup": (("cup", 0.9), NEXT, 0.1, beside)}
 
 
 def test_the_order_of_the_companions_makes_no_difference_to_the_shares():
@@ -124,7 +124,7 @@ def test_a_chair_among_chairs_of_its_size_in_a_real_company(home_tbox: TBox):
     target = make_object("/Hall/x", box=Box((0, 0, 0), (0.5, 0.5, 0.9)))
     *_, (_, view) = view_objects(make_scene(*chairs, table, target), NamingRegime.OPAQUE)
     assert view.company is not None
-    found = ask_company(view.company.companions(), _run_for(home_tbox, True)._match).shares
+    found = votes(*view.company.companions(), classify=_run_for(home_tbox, True)._match).shares
     assert found[SOMA + "DesignedChair"] > 0.7
     assert found[SOMA + "Table"] < 0.1
 
@@ -194,7 +194,7 @@ def test_a_tbox_of_other_things_has_no_beliefs():
 def test_beliefs_follow_the_names_that_the_nouns_match():
     # A TBox with two classes: everything is a Small thing by its name, or a Large one.
     def classify(noun: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
-        return {"mug": [Match("small", 1, "")], "refrigerator": [Match("large", 1, "")]}.get(noun, [])
+        return {"mug": [Match("small", 1, str)], "refrigerator": [Match("large", 1, str)]}.get(noun, [])
 
     beliefs = SizeBeliefs(classify)
     assert beliefs.classes == ("large", "small")
@@ -204,7 +204,7 @@ def test_beliefs_follow_the_names_that_the_nouns_match():
 
 
 def test_siblings_of_which_only_the_names_are_known_vote_alike():
-    found = ask_company(siblings_as_company(["cup-0.8", "cup-0.8", "bowl-0.8"], ("Room",)), by_first_word)
+    found = votes(*siblings_as_company(["cup-0.8", "cup-0.8", "bowl-0.8"], ("Room",)))
     assert found.shares["cup"] == pytest.approx(2 * found.shares["bowl"])
     assert len(siblings_as_company(map(str, range(1000)), ())) == 48
 

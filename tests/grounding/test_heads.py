@@ -7,7 +7,7 @@ from importlib.resources import files
 import pytest
 
 from tests.grounding.records import ground_names, local
-from usd2kg.grounding.embedded.heads import FEATURES, likelihood, propensity
+from usd2kg.grounding.embedded.heads import Features, likelihood, propensity
 from usd2kg.grounding.embedded.lexicon import home_names
 from usd2kg.ontology import TBox
 
@@ -15,16 +15,15 @@ FITTED = json.loads((files("usd2kg.grounding") / "data" / "heads.json").read_tex
 
 
 def test_there_is_a_weight_for_each_feature():
-    assert FITTED["weights"].keys() == FEATURES.keys()
+    assert FITTED["weights"].keys() == set(Features._fields)
     assert FITTED["accepted_when_left_out"] > 0.9
 
 
 def test_the_likelihood_is_the_exponential_of_the_weighted_sum():
     weights = FITTED["weights"]
-    features = dict.fromkeys(FEATURES, 0.0)
-    assert likelihood(features) == 1.0
+    assert likelihood(Features()) == 1.0
     expected = math.exp(2 * weights["behind"] + 0.5 * weights["size"])
-    assert likelihood({**features, "behind": 2.0, "size": 0.5}) == pytest.approx(expected)
+    assert likelihood(Features(behind=2.0, size=0.5)) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(("name", "sign"), [("score", 1), ("compound", 1), ("size", 1), ("glued", -1), ("guessed", -1)])

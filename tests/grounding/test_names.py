@@ -388,12 +388,12 @@ class TestFreeText:
     def test_words_that_other_names_bear_are_ranked_the_same_in_every_run(self):
         # Sets of words have another order in each process.
         code = (
-            "from usd2kg.grounding.embedded.abbreviations import forms_of\n"
-            "from tests.grounding.records import make_object, make_scene\n"
+            "from usd2kg.grounding.embedded.shortening import forms_of\n"
+            "from tests.grounding.records import make_object, make_scene, words_written\n"
             "from usd2kg.scene import view_objects\n"
             "scene = make_scene(*(make_object(f'/R/{n}') for n in ('pot_big_red_tin', 'tap_tub_pit', 'x')))\n"
             "*_, (_, view) = view_objects(scene)\n"
-            "print(view.company.words_written('t', forms_of), view.company.words_written('p', forms_of))"
+            "print(words_written(view.company, 't', forms_of), words_written(view.company, 'p', forms_of))"
         )
         outputs = {
             subprocess.run(

@@ -156,9 +156,9 @@ def test_a_thousand_boxes_take_less_than_fifty_milliseconds():
     log_likelihoods(boxes[:1])
     took = []
     for _ in range(7):
-        start = time.perf_counter()
+        start = time.process_time()
         log_likelihoods(boxes)
-        took.append(time.perf_counter() - start)
+        took.append(time.process_time() - start)
     assert min(took) < 0.05
 
 

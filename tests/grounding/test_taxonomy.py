@@ -6,39 +6,62 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tools.build_wordnet import Synset, format_taxonomy
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy, load_taxonomy
 
-# Line n after the adjectives is synset n; the rank of a meaning stands after its lemma.
+# Synsets by number; the rank of a meaning stands after its lemma.
 #
 #   0 entity ── 1 artifact ── 2 tool ── 4 cutter ── 6 knife
 #            └─ 3 food        └──────────────────────┘ (a knife is an artifact also directly)
 #                └─ 5 bun
-TINY = Taxonomy(
-    "red wooden\n"
-    "top\t\tentity:1\n"
-    "artifact\t0\tartifact:1\n"
-    "artifact\t1\ttool:1\n"
-    "food\t0\tfood:1\n"
-    "artifact\t2\tcutter:1\n"
-    "food\t3\tbun:2|roll:2\n"
-    "artifact\t4 1\tknife:1|flower pot:1|x-ray:3|bun:1"
-)
+SYNSETS = [
+    Synset("top", [], [("entity", 1)]),
+    Synset("artifact", [0], [("artifact", 1)]),
+    Synset("artifact", [1], [("tool", 1)]),
+    Synset("food", [0], [("food", 1)]),
+    Synset("artifact", [2], [("cutter", 1)]),
+    Synset("food", [3], [("bun", 2), ("roll", 2)]),
+    Synset("artifact", [4, 1], [("knife", 1), ("flower pot", 1), ("x-ray", 3), ("bun", 1)]),
+]
+TINY = Taxonomy(format_taxonomy(["red", "wooden"], SYNSETS))
+
+
+def test_the_file_as_the_reader_describes_it():
+    *lines, is_single, end = format_taxonomy(["red", "wooden"], SYNSETS).split("\n")
+    assert [line.split("\t") for line in lines] == [
+        ["red wooden"],
+        ["top animal artifact body communication food group object phenomenon plant shape substance"],
+        ["accfcfc"],
+        ["", "0", "1", "0", "2", "3", "4 1"],
+        ["entity", "artifact", "tool", "food", "cutter", "bun", "knife"],
+        ["entity", "artifact", "tool", "food", "cutter", "bun", "roll", "knife", "flowerpot", "xray"],
+        ["a1", "c1", "c1", "f1", "c1", "c1 f2", "f2", "c1", "c1", "c3"],
+        ["0", "1", "2", "3", "4", "6 5", "5", "6", "6", "6"],
+    ]
+    assert (is_single, end) == ("1111111100", "")
 
 
 def test_the_meaning_used_most_comes_first_whatever_the_order_of_the_file():
-    assert TINY.senses("bun") == [Sense(6, 1, "artifact"), Sense(5, 2, "food")]
+    assert TINY.senses("bun") == (Sense(6, 1, "artifact"), Sense(5, 2, "food"))
 
 
 def test_an_unknown_lemma_has_no_senses():
-    assert TINY.senses("buns") == []
+    assert TINY.senses("buns") == ()
+    assert TINY.kinds("buns") == ""
+    assert TINY.parse_kinds("") == []
     assert "buns" not in TINY
     assert "bun" in TINY
 
 
 def test_a_compound_is_found_without_its_space_or_hyphen():
-    assert TINY.senses("flowerpot") == [Sense(6, 1, "artifact")]
-    assert TINY.senses("xray") == [Sense(6, 3, "artifact")]
-    assert TINY.senses("flower pot") == []
+    assert TINY.senses("flowerpot") == (Sense(6, 1, "artifact"),)
+    assert TINY.senses("xray") == (Sense(6, 3, "artifact"),)
+    assert TINY.senses("flower pot") == ()
+
+
+def test_kinds_are_the_ranks_and_domains_of_the_meanings():
+    assert TINY.parse_kinds(TINY.kinds("bun")) == [(1, "artifact"), (2, "food")]
+    assert TINY.kinds("knife") == TINY.kinds("tool")
 
 
 def test_adjectives_are_the_first_line():

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.grounding.records import make_object, make_scene
+from tests.grounding.records import make_object, make_scene, words_written
 from usd2kg.scene import Box, Companion, Company, Nearness, Scene, company
 from usd2kg.scene.company import companies, size_distance
 from usd2kg.words import words_of
@@ -165,7 +165,7 @@ def test_without_a_size_only_the_family_is_known():
 def test_alone_in_the_scene():
     lonely = company_of(things(("/A", (1, 1, 1))), "/A")
     assert lonely.companions() == []
-    assert lonely.words_written("a", lambda word: [(word, 0.0)]) == []
+    assert words_written(lonely, "a", lambda word: [(word, 0.0)]) == []
     assert companies(things()) == []
 
 
@@ -198,6 +198,24 @@ def test_the_twin_is_found_among_thousands_of_other_sizes():
     assert found["/B/x600"] is TWIN
 
 
+# --- judgements ---------------------------------------------------------------------------------------
+
+
+def test_a_judge_is_told_the_names_above_and_the_size_once_an_object_for_all_targets():
+    scene = things(("/World/Kitchen/cabinet", (0.6, 0.6, 0.9)), "/World/Kitchen/x", "/World/Kitchen/y")
+    asked = []
+
+    def judge(name, parents, size):
+        asked.append((name, parents, size))
+        return name.upper() if name == "cabinet" else None
+
+    of_cabinet, of_x, of_y = (its.judged(judge) for its in companies(scene))
+    # Those of which the judge says nothing are left out; the last is the place in the scene.
+    assert (of_cabinet, of_x, of_y) == ([], [("CABINET", NEXT, None, 0)], [("CABINET", NEXT, None, 0)])
+    above = ("World", "Kitchen")
+    assert sorted(asked) == [("cabinet", above, (0.6, 0.6, 0.9)), ("x", above, None), ("y", above, None)]
+
+
 # --- words -------------------------------------------------------------------------------------------
 
 
@@ -210,22 +228,22 @@ def test_words_come_with_the_share_of_the_other_objects_that_bear_them():
     scene = things("/W/CoffeeCup_1", "/W/CoffeePot", "/W/Lamp", "/W/cup_cup")
     lamp = company_of(scene, "/W/Lamp")
     # Of four objects two bear coffee and two cup, one of them twice, which counts once.
-    assert sorted(lamp.words_written("c", initials)) == [("coffee", 0.5, -2.0), ("cup", 0.5, -2.0)]
-    assert lamp.words_written("pot", initials) == [("pot", 0.25, -1.0)]
-    assert lamp.words_written("nothing", initials) == []
+    assert words_written(lamp, "c", initials) == [("coffee", 0.5, -2.0), ("cup", 0.5, -2.0)]
+    assert words_written(lamp, "pot", initials) == [("pot", 0.25, -1.0)]
+    assert words_written(lamp, "nothing", initials) == []
 
 
 def test_what_only_the_target_bears_is_not_told():
     scene = things("/W/CoffeeCup_1", "/W/CoffeePot", "/W/Lamp", "/W/cup_cup")
-    assert company_of(scene, "/W/Lamp").words_written("l", initials) == []
+    assert words_written(company_of(scene, "/W/Lamp"), "l", initials) == []
     # The pot has its own coffee left out of the count, and its own pot altogether.
-    assert company_of(scene, "/W/CoffeePot").words_written("coffee", initials) == [("coffee", 0.25, -1.0)]
-    assert company_of(scene, "/W/CoffeePot").words_written("p", initials) == []
+    assert words_written(company_of(scene, "/W/CoffeePot"), "coffee", initials) == [("coffee", 0.25, -1.0)]
+    assert words_written(company_of(scene, "/W/CoffeePot"), "p", initials) == []
 
 
 def test_numbers_and_production_tokens_are_no_words():
     scene = things("/W/SM_Cup_01_LOD0", "/W/x")
-    everything = [company_of(scene, "/W/x").words_written(form, initials) for form in ("sm", "01", "lod", "l", "cup")]
+    everything = [words_written(company_of(scene, "/W/x"), form, initials) for form in ("sm", "01", "lod", "l", "cup")]
     assert everything == [[], [], [], [], [("cup", 0.5, -1.0)]]
 
 
@@ -259,7 +277,7 @@ def test_the_target_is_never_among_its_company(scene: Scene):
 def test_the_words_told_are_those_of_the_others(scene: Scene):
     every = {word for obj in scene.objects for word in words_of(obj.name)}
     for obj, its in zip(scene.objects, companies(scene), strict=True):
-        told = {word: share for form in every for word, share, _ in its.words_written(form, initials)}
+        told = {word: share for form in every for word, share, _ in words_written(its, form, initials)}
         others = Counter(word for other in scene.objects if other is not obj for word in set(words_of(other.name)))
         assert told == pytest.approx({word: count / len(scene.objects) for word, count in others.items()})
 
@@ -274,7 +292,7 @@ def test_another_name_of_the_target_makes_no_difference(scene: Scene, data):
     before, after = companies(scene)[at], companies(renamed)[at]
     assert before.companions() == after.companions()
     for word in {word for obj in scene.objects for word in words_of(obj.name)} | {"zebra"}:
-        assert before.words_written(word, initials) == after.words_written(word, initials)
+        assert words_written(before, word, initials) == words_written(after, word, initials)
 
 
 def test_what_lies_below_the_target_does_not_tell_its_name():
@@ -299,13 +317,13 @@ def large_scene(count: int) -> Scene:
 
 def test_what_a_target_costs_does_not_grow_with_the_scene(monkeypatch):
     compared: Counter[int] = Counter()
-    real = company.size_distance
+    real = company._distance
 
     def counted(one, other):
         compared[count] += 1
         return real(one, other)
 
-    monkeypatch.setattr(company, "size_distance", counted)
+    monkeypatch.setattr(company, "_distance", counted)
     for count in (400, 4000):
         everyone = companies(large_scene(count))
         for its in everyone[count // 2 : count // 2 + 20]:
@@ -322,11 +340,11 @@ def test_twenty_thousand_siblings_are_not_quadratic():
         asked[word] += 1
         return initials(word)
 
-    start = time.perf_counter()
+    start = time.process_time()
     everyone = companies(scene)
-    told = [its.words_written("book", ways) for its in everyone]
+    told = [words_written(its, "book", ways) for its in everyone]
     companions = [len(its.companions()) for its in everyone[::50]]
-    assert time.perf_counter() - start < 5
+    assert time.process_time() - start < 5
     assert told == [[("book", 19_999 / 20_000, -1.0)]] * 20_000
     # The index of the words is made once, not once a target.
     assert asked == {"book": 1}

@@ -1,7 +1,7 @@
 """The command `usd2kg`.
 
-Exit codes: 0 done, 1 `validate`, `label lint` or `ontology check` has findings or `diff` finds differences, 2 wrong usage
-or an input or output that cannot be used.
+Exit codes: 0 done, 1 `validate`, `label lint` or `ontology check` has findings or `diff` finds differences, 2 wrong
+usage or an input or output that cannot be used.
 """
 
 import io

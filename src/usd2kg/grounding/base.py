@@ -1,7 +1,6 @@
 """The one interface of all grounders, and the function that runs one over a scene."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from importlib.metadata import version
 from typing import Protocol
 
 from usd2kg.errors import GroundingError
@@ -60,6 +59,9 @@ def ground(
         abbreviated_length: letters kept of each word in the abbreviated regime.
         paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
     """
+    # It reads e-mail headers, which takes as long as a hundred names.
+    from importlib.metadata import version  # noqa: PLC0415
+
     if isinstance(grounder, str):
         # The registry imports this module for its types.
         from usd2kg.grounding.registry import make_grounder  # noqa: PLC0415

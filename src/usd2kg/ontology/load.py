@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from importlib.resources import as_file, files
 from pathlib import Path
 
@@ -42,8 +43,13 @@ def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes
 def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
     """Return the TBox that ships with usd2kg: SOMA-HOME's classes with labels and synonyms of our own.
 
-    With `roots`, only these classes and those below them.
+    With `roots`, only these classes and those below them. It is read once.
     """
+    return _load_home(None if roots is None else tuple(roots))
+
+
+@lru_cache(maxsize=4)
+def _load_home(roots: tuple[str, ...] | None) -> TBox:
     with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
         # The classes are SOMA-HOME's own, so that is what a graph over them imports.
         return replace(_load(path, HOME, roots, None), ontology_iri=_SOMA_HOME)

@@ -73,6 +73,10 @@ class TBox:
     """IRIs of the other documents of the closure, sorted."""
     notes: tuple[OntologyNote, ...] = ()
 
+    def __hash__(self) -> int:
+        # What is made for a TBox is kept by it, and asked for often; hashing every class would take a millisecond.
+        return hash((self.source, self.content_hash, len(self.classes)))
+
     @cached_property
     def by_iri(self) -> Mapping[ClassIRI, OntologyClass]:
         """IRI → class."""

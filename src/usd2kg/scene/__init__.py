@@ -3,6 +3,9 @@
 This package alone knows OpenUSD.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from usd2kg.scene.box_pairs import overlapping_pairs
 from usd2kg.scene.company import Companion, Company, Nearness, size_distance
 from usd2kg.scene.labels import (
@@ -34,8 +37,7 @@ from usd2kg.scene.model import (
     StageFrame,
 )
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
-from usd2kg.scene.read import ASKED_FOR, explain_choice, read_scene
-from usd2kg.scene.shapes import ShapeDescriptors, describe_shapes
+from usd2kg.scene.selection import ASKED_FOR
 from usd2kg.scene.views import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -45,6 +47,18 @@ from usd2kg.scene.views import (
     abbreviate,
     view_objects,
 )
+
+if TYPE_CHECKING:
+    from usd2kg.scene.read import explain_choice, read_scene
+    from usd2kg.scene.shapes import ShapeDescriptors, describe_shapes
+
+_READERS = {
+    "ShapeDescriptors": "shapes",
+    "describe_shapes": "shapes",
+    "explain_choice": "read",
+    "read_scene": "read",
+}
+"""Public names that load OpenUSD, and their modules: a grounder, which is given records, does not wait for it."""
 
 __all__ = [
     "ABBREVIATED_LENGTH",
@@ -91,3 +105,9 @@ __all__ = [
     "view_objects",
     "write_labels",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _READERS:
+        raise AttributeError(f"module 'usd2kg.scene' has no attribute {name!r}")
+    return getattr(import_module(f"usd2kg.scene.{_READERS[name]}"), name)

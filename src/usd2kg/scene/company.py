@@ -3,10 +3,10 @@
 import math
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
 from enum import StrEnum
 from functools import cached_property
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from usd2kg.scene.model import Scene, SceneObject, Vector
 from usd2kg.words import words_of
@@ -22,8 +22,17 @@ _THINNEST = 0.002
 _TWIN = 0.01
 
 
+R = TypeVar("R", bound=tuple[Any, ...])
+G = TypeVar("G")
+J = TypeVar("J")
 Ways = Callable[[str], Iterable[tuple[str, float]]]
 """Gives (form, score) of the ways in which a word may be written."""
+Rate = Callable[[str, float, float], R]
+"""Gives from a word, the share of the objects that bear it and the score of its form what it is worth, least first."""
+Gather = Callable[[str, list[R]], G]
+"""Makes something of a form and what the words are worth that it may be, the best first."""
+Judge = Callable[[str, tuple[str, ...], Vector | None], J | None]
+"""Gives from a name, the names above it and a size what the thing is; None if they do not say."""
 
 
 class Nearness(StrEnum):
@@ -39,8 +48,7 @@ class Nearness(StrEnum):
     """Of about the same size, elsewhere."""
 
 
-@dataclass(frozen=True, slots=True)
-class Companion:
+class Companion(NamedTuple):
     """Another object, as a target sees it."""
 
     name: str
@@ -58,12 +66,17 @@ def size_distance(one: Vector, other: Vector) -> float:
 
     0.1 is about a tenth longer all round. Extents below 2 mm count as 2 mm.
     """
-    pairs = zip(_log_sizes(one), _log_sizes(other), strict=True)
-    return math.sqrt(sum((a - b) ** 2 for a, b in pairs) / 3)
+    return _distance(_log_sizes(one), _log_sizes(other))
 
 
-def _log_sizes(size: Vector) -> list[float]:
-    return [math.log(max(extent, _THINNEST)) for extent in sorted(size)]
+def _log_sizes(size: Vector) -> Vector:
+    short, middle, long = sorted(size)
+    return math.log(max(short, _THINNEST)), math.log(max(middle, _THINNEST)), math.log(max(long, _THINNEST))
+
+
+def _distance(one: Vector, other: Vector) -> float:
+    (a, b, c), (x, y, z) = one, other
+    return math.sqrt(((a - x) ** 2 + (b - y) ** 2 + (c - z) ** 2) / 3)
 
 
 class _Stage:
@@ -73,7 +86,10 @@ class _Stage:
         self.objects = scene.objects
         self.families: dict[str, list[int]] = {}
         self.places: list[int] = []
-        self._written: dict[Ways, Mapping[str, list[tuple[str, float]]]] = {}
+        self.logs = [None if size is None else _log_sizes(size) for size in map(_size, scene.objects)]
+        """The logarithms of the extents, the least first."""
+        self._written: dict[tuple[Ways, Rate[Any], Gather[Any, Any], int], _Written[Any, Any]] = {}
+        self._judgements: dict[Judge[Any], dict[int, Any]] = {}
         for index, obj in enumerate(scene.objects):
             family = self.families.setdefault(_above(obj), [])
             self.places.append(len(family))
@@ -84,21 +100,78 @@ class _Stage:
         """Word → number of objects with it in their names."""
         return Counter(word for obj in self.objects for word in dict.fromkeys(words_of(obj.name)))
 
-    def written(self, ways: "Ways") -> Mapping[str, list[tuple[str, float]]]:
-        """Return form → (word, score) of the words that may be written so."""
-        if ways not in self._written:
-            index: dict[str, list[tuple[str, float]]] = {}
-            for word in self.words:
-                for form, score in ways(word):
-                    index.setdefault(form, []).append((word, score))
-            self._written[ways] = index
-        return self._written[ways]
+    @cached_property
+    def volumes(self) -> tuple[list[float], list[int]]:
+        """The sums of the log extents in order, and the objects that they are of."""
+        ordered = sorted((sum(logs), index) for index, logs in enumerate(self.logs) if logs is not None)
+        return [volume for volume, _ in ordered], [index for _, index in ordered]
 
     @cached_property
-    def by_volume(self) -> list[tuple[float, int]]:
-        """(sum of the log extents, index) in order."""
-        sizes = ((index, _size(obj)) for index, obj in enumerate(self.objects))
-        return sorted((sum(_log_sizes(size)), index) for index, size in sizes if size is not None)
+    def holders(self) -> frozenset[str]:
+        """The paths that have objects below them."""
+        found: set[str] = set()
+        for path in self.families:
+            above = path
+            while above not in found:
+                found.add(above)
+                above = above.rpartition("/")[0]
+        return frozenset(found)
+
+    def written(self, ways: Ways, rate: Rate[R], gather: Gather[R, G], most: int) -> "_Written[R, G]":
+        """Return the words by form, made once."""
+        key = ways, rate, gather, most
+        if key not in self._written:
+            self._written[key] = _Written(self, *key)
+        return self._written[key]
+
+    def judgements(self, judge: Judge[J]) -> dict[int, J | None]:
+        """Return object → what the judge said of it, of those that it was asked about."""
+        return self._judgements.setdefault(judge, {})
+
+
+class _Written(Generic[R, G]):
+    """The words of a stage by the forms in which they may be written, best first."""
+
+    def __init__(self, stage: _Stage, ways: Ways, rate: Rate[R], gather: Gather[R, G], most: int) -> None:
+        self._words, self._count = stage.words, len(stage.objects)
+        self._rate, self._gather, self._most = rate, gather, most
+        self._written: dict[str, list[tuple[str, float]]] = {}
+        self._ranked: dict[str, list[tuple[R, str, float]]] = {}
+        self._best: dict[str, G] = {}
+        self.forms: dict[str, list[str]] = {}
+        """Word → the forms in which it may be written."""
+        for word in self._words:
+            forms = self.forms[word] = []
+            for form, score in ways(word):
+                forms.append(form)
+                self._written.setdefault(form, []).append((word, score))
+
+    def best(self, form: str) -> G | None:
+        """Return what is made of the best words that may be written in a form; None if there are none."""
+        if form not in self._written:
+            return None
+        if form not in self._best:
+            self._best[form] = self._gather(form, [worth for worth, _, _ in self._rank(form)[: self._most]])
+        return self._best[form]
+
+    def best_without(self, own: frozenset[str], form: str) -> G | None:
+        """Return the same for an object that bears the words `own`, which are not to be told of it."""
+        # Without its bearer a word of its own may fall behind or out; the others keep their order.
+        near = self._rank(form)[: self._most + len(own)]
+        if not any(word in own for _, word, _ in near):
+            return self.best(form)
+        left = [(worth, word, score) for worth, word, score in near if word not in own or self._words[word] > 1]
+        found = sorted(self._worth(word, score, 1) if word in own else worth for worth, word, score in left)
+        return self._gather(form, found[: self._most]) if found else None
+
+    def _rank(self, form: str) -> list[tuple[R, str, float]]:
+        if form not in self._ranked:
+            words = self._written.get(form, ())
+            self._ranked[form] = sorted((self._worth(word, score), word, score) for word, score in words)
+        return self._ranked[form]
+
+    def _worth(self, word: str, score: float, left_out: int = 0) -> R:
+        return self._rate(word, (self._words[word] - left_out) / self._count, score)
 
 
 class Company:
@@ -108,68 +181,95 @@ class Company:
         self._stage = stage
         self._index = index
 
-    def words_written(self, form: str, ways: Ways) -> list[tuple[str, float, float]]:
-        """Return (word, share, score) of the words in other objects' names that may be written as `form`.
+    def words_written(self, ways: Ways, rate: Rate[R], gather: Gather[R, G], most: int) -> Callable[[str], G | None]:
+        """Return a function that gives for a form what is made of the words in other objects' names that it may be.
+
+        Its argument is a form, letters in lower case; it returns None where there is no such word.
 
         Args:
-            form: letters in lower case.
-            ways: gives (form, score) of all the ways in which a word may be written.
+            ways: gives (form, score) of all the ways in which a word may be written, each form once.
+            rate: gives what a word is worth, as a tuple: the best is the least, and a smaller share makes none better.
+            gather: makes of a form and the worth of its words, sorted, what the function returns. It is asked once a
+                stage, but for forms of the target's own words.
+            most: the number of words for each form.
 
         The share is that of the objects that bear the word; shares add up to about the words in a name.
         """
-        found = []
-        for word, score in self._stage.written(ways).get(form, ()):
-            count = self._stage.words[word] - (word in self._own_words)
-            if count > 0:
-                found.append((word, count / len(self._stage.objects), score))
-        return found
+        written = self._stage.written(ways, rate, gather, most)
+        own = frozenset(words_of(self._stage.objects[self._index].name))
+        own_forms = {form for word in own for form in written.forms[word]}
 
-    @cached_property
-    def _own_words(self) -> frozenset[str]:
-        return frozenset(words_of(self._stage.objects[self._index].name))
+        def best(form: str) -> G | None:
+            return written.best_without(own, form) if form in own_forms else written.best(form)
+
+        return best
 
     def companions(self) -> list[Companion]:
         """Return the objects beside the target and those like it, each once, at the nearest it is."""
-        found: dict[int, Nearness] = {}
-        for index, nearness in (*self._beside(), *self._like()):
-            found.setdefault(index, nearness)
+        return [self.companion(other, nearness, distance) for other, (nearness, distance) in self._near().items()]
+
+    def judged(self, judge: Judge[J]) -> list[tuple[J, Nearness, float | None, int]]:
+        """Return what `judge` says of the companions, each with how near it is and its place in the scene.
+
+        It is asked once an object, and where it says nothing, the companion is left out.
+        """
+        judgements = self._stage.judgements(judge)
+        found = []
+        for other, (nearness, distance) in self._near().items():
+            if other not in judgements:
+                companion = self.companion(other, nearness, distance)
+                judgements[other] = judge(companion.name, companion.parents, companion.size)
+            judgement = judgements[other]
+            if judgement is not None:
+                found.append((judgement, nearness, distance, other))
+        return found
+
+    def companion(self, other: int, nearness: Nearness, distance: float | None) -> Companion:
+        """Return an object of the scene as the target sees it."""
+        obj = self._stage.objects[other]
+        parents = tuple(name for name in _above(obj).split("/") if name)
+        return Companion(obj.name, parents, nearness, distance, _size(obj))
+
+    def _near(self) -> dict[int, tuple[Nearness, float | None]]:
+        """Return the companions by their place in the scene, with their nearness and distance."""
+        found = self._beside()
+        for other, near in self._like():
+            found.setdefault(other, near)
+        path = self._stage.objects[self._index].prim_path
+        if path not in self._stage.holders:
+            return found
         # What lies below the target has the target's name among its parents.
-        below = self._stage.objects[self._index].prim_path + "/"
-        return [
-            self._companion(index, nearness)
-            for index, nearness in found.items()
-            if not self._stage.objects[index].prim_path.startswith(below)
-        ]
+        objects, below = self._stage.objects, path + "/"
+        return {other: near for other, near in found.items() if not objects[other].prim_path.startswith(below)}
 
-    def _beside(self) -> Iterator[tuple[int, Nearness]]:
-        stage = self._stage
-        family, place = stage.families[_above(stage.objects[self._index])], stage.places[self._index]
+    def _beside(self) -> dict[int, tuple[Nearness, float | None]]:
+        stage, own = self._stage, self._index
+        logs = stage.logs
+        size = logs[own]
+        family, place = stage.families[_above(stage.objects[own])], stage.places[own]
         start, end = max(0, place - _MOST_SIBLINGS // 2), place + _MOST_SIBLINGS // 2
-        for at in range(start, min(end, len(family))):
-            if at != place:
-                yield family[at], Nearness.NEXT if abs(at - place) <= _NEXT else Nearness.SIBLING
+        found: dict[int, tuple[Nearness, float | None]] = {}
+        for at, other in enumerate(family[start:end], start):
+            other_size = logs[other]
+            distance = None if size is None or other_size is None else _distance(size, other_size)
+            found[other] = Nearness.NEXT if -_NEXT <= at - place <= _NEXT else Nearness.SIBLING, distance
+        del found[own]
+        return found
 
-    def _like(self) -> Iterator[tuple[int, Nearness]]:
-        size = _size(self._stage.objects[self._index])
+    def _like(self) -> list[tuple[int, tuple[Nearness, float | None]]]:
+        size = self._stage.logs[self._index]
         if size is None:
-            return
-        ordered = self._stage.by_volume
-        at = bisect_left(ordered, (sum(_log_sizes(size)), -1))
-        near = [ordered[i][1] for i in range(max(0, at - _MOST_ALIKE), min(len(ordered), at + _MOST_ALIKE))]
-        others = [index for index in near if index != self._index]
-        distances = {index: size_distance(size, other) for index in others if (other := self._size_of(index))}
-        nearest = sorted(distances, key=lambda index: (distances[index], index))
-        twins = [index for index in nearest if distances[index] < _TWIN][:_MOST_TWINS]
-        yield from ((index, Nearness.TWIN) for index in twins)
-        yield from ((index, Nearness.ALIKE) for index in nearest[:_MOST_ALIKE] if index not in twins)
-
-    def _size_of(self, index: int) -> Vector | None:
-        return _size(self._stage.objects[index])
-
-    def _companion(self, index: int, nearness: Nearness) -> Companion:
-        obj, own, other = self._stage.objects[index], self._size_of(self._index), self._size_of(index)
-        distance = size_distance(own, other) if own and other else None
-        return Companion(obj.name, tuple(name for name in _above(obj).split("/") if name), nearness, distance, other)
+            return []
+        logs, (volumes, order) = self._stage.logs, self._stage.volumes
+        at = bisect_left(volumes, sum(size))
+        near = order[max(0, at - _MOST_ALIKE) : at + _MOST_ALIKE]
+        nearest = [(_distance(size, other), index) for index in near if (other := logs[index]) and index != self._index]
+        nearest.sort()
+        twins = sum([distance < _TWIN for distance, _ in nearest[:_MOST_TWINS]])
+        return [
+            (index, (Nearness.TWIN if rank < twins else Nearness.ALIKE, distance))
+            for rank, (distance, index) in enumerate(nearest[: max(twins, _MOST_ALIKE)])
+        ]
 
 
 def companies(scene: Scene) -> list[Company]:

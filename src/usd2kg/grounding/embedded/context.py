@@ -7,18 +7,18 @@ and place in the tree): the nearer in the tree and the more alike in size, the h
 import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.matching import Size
 from usd2kg.grounding.embedded.naming import Match
-from usd2kg.grounding.embedded.sizes import log_likelihoods, thing_nouns
+from usd2kg.grounding.embedded.sizes import likelihoods_of, thing_nouns
 from usd2kg.ontology import ClassIRI
 from usd2kg.scene import Companion, Nearness
 
-__all__ = ["SizeBeliefs", "Votes", "ask_company", "siblings_as_company"]
+__all__ = ["SizeBeliefs", "Vote", "Votes", "ask_company", "siblings_as_company", "vote_of"]
 
 _WEIGHTS = {Nearness.NEXT: 1.0, Nearness.SIBLING: 0.35, Nearness.TWIN: 0.6, Nearness.ALIKE: 0.12}
 _TWIN_BONUS = 3.0
@@ -34,12 +34,24 @@ _CLEAREST = 0.5
 """A companion whose own name says less has no vote."""
 
 
-class Votes(NamedTuple):
+C = TypeVar("C")
+Voter = tuple["Vote", Nearness, float | None, C]
+"""A vote, how near and how alike the companion is that gives it, and whatever stands for the companion."""
+
+
+class Vote(NamedTuple):
+    """What a companion's name says that it is."""
+
+    class_iri: ClassIRI
+    score: float
+
+
+class Votes(NamedTuple, Generic[C]):
     """The votes of a company."""
 
     shares: dict[ClassIRI, float]
     """Class → its share; they add up to less than 1: the rest is that the company says nothing."""
-    heaviest: dict[ClassIRI, Companion]
+    heaviest: dict[ClassIRI, Voter[C]]
     """Class → the companion that spoke for it with most weight."""
 
 
@@ -52,30 +64,35 @@ def siblings_as_company(names: Iterable[str], parents: tuple[str, ...]) -> list[
     return [Companion(name, parents, Nearness.SIBLING, None) for name in islice(names, _MOST_SIBLINGS)]
 
 
-def ask_company(companions: Iterable[Companion], classify: Classify) -> Votes:
+def vote_of(matches: Sequence[Match]) -> Vote | None:
+    """Return the vote of a companion whose name has these matches, best first; None if it does not say enough."""
+    if not matches or matches[0].score < _CLEAREST:
+        return None
+    return Vote(matches[0].class_iri, matches[0].score)
+
+
+def ask_company(voters: Iterable[Voter[C]]) -> Votes[C]:
     """Return the votes of a company."""
     totals: dict[ClassIRI, float] = {}
-    heaviest: dict[ClassIRI, tuple[float, Companion]] = {}
-    for companion in companions:
-        matches = classify(companion.name, companion.parents, companion.size)
-        if not matches or matches[0].score < _CLEAREST:
-            continue
-        iri, weight = matches[0].class_iri, _weight(companion) * matches[0].score
+    heaviest: dict[ClassIRI, tuple[float, Voter[C]]] = {}
+    for voter in voters:
+        (iri, score), nearness, distance, _ = voter
+        weight = _weight(nearness, distance) * score
         totals[iri] = totals.get(iri, 0.0) + weight
         if iri not in heaviest or heaviest[iri][0] < weight:
-            heaviest[iri] = (weight, companion)
+            heaviest[iri] = (weight, voter)
     whole = sum(totals.values()) + 0.5
     shares = {iri: total / whole for iri, total in totals.items()}
-    return Votes(shares, {iri: companion for iri, (_, companion) in heaviest.items()})
+    return Votes(shares, {iri: voter for iri, (_, voter) in heaviest.items()})
 
 
-def _weight(companion: Companion) -> float:
-    weight = _WEIGHTS[companion.nearness]
-    if companion.distance is None:
+def _weight(nearness: Nearness, distance: float | None) -> float:
+    weight = _WEIGHTS[nearness]
+    if distance is None:
         return weight * _UNKNOWN_SIZE
-    if companion.distance < _TWIN:
+    if distance < _TWIN:
         return weight * _TWIN_BONUS
-    return weight * math.exp(-0.5 * (companion.distance / _SIZE_SPREAD) ** 2)
+    return weight * math.exp(-0.5 * (distance / _SIZE_SPREAD) ** 2)
 
 
 class SizeBeliefs:
@@ -92,15 +109,17 @@ class SizeBeliefs:
         self._weights = np.exp(weights - weights.max(initial=-np.inf)) if len(weights) else weights
         self._totals = np.bincount(self._places, self._weights, minlength=len(self.classes))
 
-    def ask(self, size: tuple[float, float, float]) -> dict[ClassIRI, tuple[float, float]]:
-        """Return class → (likelihood of the size, 1 for the class it suits best; probability of the class)."""
+    def ask(self, size: Size) -> dict[ClassIRI, tuple[float, float]]:
+        """Return class → (likelihood of the size, 1 for the class it suits best; probability of the class).
+
+        The class of the greatest probability comes first; of equal ones the first by IRI.
+        """
         if not self.classes:
             return {}
-        logs = log_likelihoods(size)[self._rows]
+        logs = likelihoods_of(size)[self._rows]
         joint = np.bincount(self._places, self._weights * np.exp(logs - logs.max()), minlength=len(self.classes))
         likelihoods, posterior = joint / self._totals, joint / joint.sum()
         relative = likelihoods / likelihoods.max()
-        return {
-            iri: (float(value), float(share))
-            for iri, value, share in zip(self.classes, relative, posterior, strict=True)
-        }
+        order = np.argsort(-posterior, kind="stable")
+        beliefs = zip(relative[order].tolist(), posterior[order].tolist(), strict=True)
+        return dict(zip([self.classes[place] for place in order.tolist()], beliefs, strict=True))

@@ -43,12 +43,16 @@ _OTHER_WEIGHT = 0.003
 _NEW_WEIGHT = 0.5
 """The same for a word that WordNet lacks and that a label of the home TBox ends with (`cooktop`)."""
 
+_UNLISTED = f"{10 * UNKNOWN_FREQUENCY:.0f}/"
+"""The entry of a word that the data do not list."""
+
 
 @lru_cache(maxsize=1)
 def _load_entries() -> dict[str, str]:
-    """Return word → "tenths of Zipf, tab, percent of uses as a common noun", taken apart only where asked for."""
+    """Return word → "tenths of Zipf/percent of uses as a common noun", taken apart only where asked for."""
     data = (files("usd2kg.grounding") / "data" / "frequencies.txt.gz").read_bytes()
-    return dict(line.split("\t", 1) for line in gzip.decompress(data).decode("ascii").splitlines())
+    words, entries = gzip.decompress(data).decode("ascii").splitlines()
+    return dict(zip(words.split(), entries.split(), strict=True))
 
 
 def word_frequency(word: str) -> float:
@@ -62,8 +66,7 @@ def word_frequency(word: str) -> float:
     >>> word_frequency("chair"), word_frequency("davenport")
     (4.9, 3.7)
     """
-    entry = _load_entries().get(word)
-    return int(entry.partition("\t")[0]) / 10 if entry else UNKNOWN_FREQUENCY
+    return int(_load_entries().get(word, _UNLISTED).partition("/")[0]) / 10
 
 
 def thing_prior(word: str) -> float:
@@ -79,29 +82,32 @@ def thing_prior(word: str) -> float:
     the vocabulary 1: the single-word nouns and the adjectives of the taxonomy, and the English words of the home TBox.
     Any other word has the unknown word's f and comes on top of the sum, so compare it, but do not add.
     """
-    return math.log(_weight(word) / _TOTAL_WEIGHT)
+    return _prior(_load_entries().get(word, _UNLISTED), load_taxonomy().kinds(word))
 
 
-def _weight(word: str) -> float:
-    return float(10 ** (_DISCOUNT * word_frequency(word)) * _thing_share(word))
+@lru_cache(maxsize=8192)
+def _prior(entry: str, kinds: str) -> float:
+    """Return the prior of the words that share an entry and the kinds of their meanings, which many do."""
+    tenths, _, percent = entry.partition("/")
+    weight = float(10 ** (_DISCOUNT * (int(tenths) / 10)) * _thing_share(percent, kinds))
+    return math.log(weight / _TOTAL_WEIGHT)
 
 
-def _thing_share(word: str) -> float:
-    entry = _load_entries().get(word)
-    if entry is None:
-        return _noun_weight(word)
-    percent = entry.partition("\t")[2]
+def _thing_share(percent: str, kinds: str) -> float:
+    if not percent:
+        return _noun_weight(kinds)
     if percent == "-":
         return _NEW_WEIGHT
     noun_share = int(percent) / 100
-    return noun_share * _noun_weight(word) + (1 - noun_share) * _OTHER_WEIGHT
+    return noun_share * _noun_weight(kinds) + (1 - noun_share) * _OTHER_WEIGHT
 
 
-def _noun_weight(word: str) -> float:
-    senses = load_taxonomy().senses(word)
+@lru_cache(maxsize=4096)
+def _noun_weight(kinds: str) -> float:
+    senses = load_taxonomy().parse_kinds(kinds)
     if not senses:
         return _OTHER_WEIGHT
     # Meanings share a rank where a compound is written in two ways (back door, backdoor); the first one stands.
-    weights = {sense.rank: _DOMAIN_WEIGHTS[sense.domain] for sense in reversed(senses)}
-    ranks = range(1, senses[-1].rank + 1)
+    weights = {rank: _DOMAIN_WEIGHTS[domain] for rank, domain in reversed(senses)}
+    ranks = range(1, senses[-1][0] + 1)
     return sum(weights.get(rank, _OTHER_WEIGHT) / rank for rank in ranks) / sum(1 / rank for rank in ranks)

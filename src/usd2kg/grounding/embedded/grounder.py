@@ -6,21 +6,23 @@ name says nothing, other evidence speaks: asset, documentation, parts, and at la
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from dataclasses import replace
+from functools import cached_property, lru_cache, partial
 
-from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
+from usd2kg.garbage import paused_collection
+from usd2kg.grounding.embedded.abbreviations import AbbreviationReader, Reading
 from usd2kg.grounding.embedded.calibration import features_of, probability
-from usd2kg.grounding.embedded.context import SizeBeliefs, ask_company, siblings_as_company
+from usd2kg.grounding.embedded.context import SizeBeliefs, Vote, ask_company, siblings_as_company, vote_of
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.matching import Matcher
+from usd2kg.grounding.embedded.matching import Matcher, Size
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.embedded.weighing import Finding, weigh
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import Companion, Nearness, ObjectView
+from usd2kg.scene import Companion, Company, Nearness, ObjectView
 from usd2kg.words import is_telling, split_identifier, words_of
 
 __all__ = ["EmbeddedGrounder"]
@@ -41,16 +43,6 @@ _PRIMITIVES = frozenset(
 )
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
 _NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
-_COMPANY = 0.8
-"""How far the company is trusted to tell the class, as a share of what the name would be."""
-_WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
-_SIZE_FLOOR, _NO_SIZE = 0.05, 0.3
-_SIZE_POWER, _SIZE_POWER_ALONE = 0.2, 0.45
-"""How far the size is heard beside a company, whose votes heed it already, and without one."""
-_SIZE_TRUST = 0.3
-_SUITED = 3
-"""The classes that are considered for their size alone."""
-_SHARE_FLOOR = 0.3
 _MOST_TOKENS = 5
 _SAME_SIZE = 0.03
 _NEARNESS_TEXTS = {
@@ -64,12 +56,6 @@ _UNREAD = 0.2
 _UNKNOWN = 0.12
 _DEFAULT = 0.1
 _CANDIDATES = 8
-
-
-@dataclass(frozen=True, slots=True)
-class _Finding:
-    group: str
-    match: Match
 
 
 class EmbeddedGrounder:
@@ -99,8 +85,9 @@ class EmbeddedGrounder:
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
-        run = _run_for(tbox, self._use_home_synonyms)
-        answers = [replace(run.predict(view), prim_path=path) for path, view in views]
+        with paused_collection():
+            run = _run_for(tbox, self._use_home_synonyms)
+            answers = [run.predict(path, view) for path, view in views]
         decided = [_abstaining(answer, tbox) for answer in answers] if self._abstains else answers
         return agree_by_asset([view for _, view in views], [_calibrated(answer, tbox) for answer in decided], tbox)
 
@@ -134,7 +121,9 @@ class _Run:
         self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
-        self._match = lru_cache(maxsize=100_000)(self._match_text)
+        self._match = lru_cache(maxsize=32768)(self._match_text)
+        self._vote = self._voting
+        """One object for all scenes: each remembers what it was told by it."""
 
     @cached_property
     def _sizes(self) -> SizeBeliefs:
@@ -145,73 +134,45 @@ class _Run:
         # Most stages spell their names out and never need it.
         return AbbreviationReader(self._lexicon, load_taxonomy())
 
-    def predict(self, view: ObjectView) -> Prediction:
+    def predict(self, prim_path: str, view: ObjectView) -> Prediction:
+        """Return the class of a view, with a score for confidence."""
         is_made_up = _is_made_up(view.name)
         findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
-        if not findings or findings[0].match.score < _CLEAR:
+        if not findings or findings[0].score < _CLEAR:
             # A tulip that is no class of the TBox is none of the things beside it either.
             is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
             short = [] if is_made_up or is_understood else self._by_abbreviation(view)
-            company = [] if is_understood else self._by_company(view)
-            findings = [] if is_understood else self._weigh(view, [*findings, *short], company)
-        if not findings or findings[0].match.score < _UNKNOWN:
-            return self._default("what is known about it does not say what it is")
+            findings = [] if is_understood else self._weigh(view, [*findings, *short])
+        if not findings or findings[0].score < _UNKNOWN:
+            return self._default(prim_path, "what is known about it does not say what it is")
         best = findings[0]
-        scores = {finding.match.class_iri: finding.match.score for finding in reversed(findings)}
-        candidates = sorted(
-            (Candidate(iri, score) for iri, score in scores.items()), key=lambda c: (-c.score, c.class_iri)
-        )
+        scores = {finding.class_iri: finding.score for finding in reversed(findings)}
+        candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
         return Prediction(
-            prim_path="",
-            class_iri=best.match.class_iri,
-            confidence=round(best.match.score, 4),
+            prim_path=prim_path,
+            class_iri=best.class_iri,
+            confidence=round(best.score, 4),
             status=Status.GROUNDED,
             grounder=EmbeddedGrounder.name,
-            explanation=best.match.explanation,
+            explanation=best.explain(),
             evidence=(best.group,),
-            candidates=tuple(candidates[:_CANDIDATES]),
+            candidates=tuple(Candidate(iri, score) for iri, score in candidates[:_CANDIDATES]),
         )
 
-    def _weigh(self, view: ObjectView, words: list[_Finding], company: list[_Finding]) -> list[_Finding]:
-        """Return the findings of words that are not clear by themselves, of the company and of the size together.
-
-        A product of experts (Hinton, 2002), each with a floor below which it rules nothing out and a power for how
-        far it is heard.
-        """
-        by_words, by_company, by_size = _best_by_class(words), _best_by_class(company), self._by_size(view)
-        weighed: dict[ClassIRI, tuple[float, _Finding]] = {}
-        # The more a name says, the less is asked of the company; what an abbreviation seems to say is often wrong.
-        said_best = 0.0 if view.is_masked else max((finding.match.score for finding in words), default=0.0)
-        power = _COMPANY_POWER * (1 - said_best)
-        size_power = _SIZE_POWER if view.company is not None else _SIZE_POWER_ALONE
-        suited = sorted(by_size, key=lambda iri: (-by_size[iri][1], iri))[:_SUITED]
-        for iri in dict.fromkeys([*by_words, *by_company, *suited]):
-            experts = [found[iri] for found in (by_words, by_company) if iri in found]
-            said, seen = (found[iri].match.score if iri in found else 0.0 for found in (by_words, by_company))
-            fit, share = by_size.get(iri, (_NO_SIZE, 0.0))
-            heard = (seen + _COMPANY_FLOOR * (_SHARE_FLOOR + share)) ** power
-            weight = (said + _WORDS_FLOOR) * heard * (fit + _SIZE_FLOOR) ** size_power
-            finding = max(experts, key=lambda found: found.match.score, default=None)
-            weighed[iri] = (weight, finding or _Finding("geometry", Match(iri, share, self._size_text(iri))))
-        total = sum(weight for weight, _ in weighed.values())
-        trust = max(
-            max((finding.match.score for finding in words), default=0.0),
-            _COMPANY * sum(finding.match.score for finding in company),
-            _SIZE_TRUST if by_size else 0.0,
+    def _weigh(self, view: ObjectView, words: list[Finding]) -> list[Finding]:
+        return weigh(
+            words,
+            self._by_company(view),
+            self._sizes.ask(view.own_size) if view.own_size is not None else {},
+            self._size_text,
+            is_masked=view.is_masked,
+            has_company=view.company is not None,
         )
-        findings = [
-            _Finding(finding.group, Match(iri, weight / total * trust, finding.match.explanation))
-            for iri, (weight, finding) in weighed.items()
-        ]
-        return sorted(findings, key=_by_score)
-
-    def _by_size(self, view: ObjectView) -> dict[ClassIRI, tuple[float, float]]:
-        return self._sizes.ask(view.own_size) if view.own_size is not None else {}
 
     def _size_text(self, iri: ClassIRI) -> str:
         return f"its name says nothing; many a {self._tbox.by_iri[iri].local_name} is of its size"
 
-    def _by_abbreviation(self, view: ObjectView) -> list[_Finding]:
+    def _by_abbreviation(self, view: ObjectView) -> list[Finding]:
         """Return what the name says if it is an abbreviation."""
         tokens = [part.lower() for part in split_identifier(view.name) if part.isalpha()]
         tokens = [token for token in tokens if is_telling(token)][:_MOST_TOKENS]
@@ -219,7 +180,7 @@ class _Run:
             return []
         readings = self._abbreviations.read(tokens, view.company)
         shares: dict[ClassIRI, float] = {}
-        best: dict[ClassIRI, tuple[float, str]] = {}
+        best: dict[ClassIRI, tuple[float, Reading, Match]] = {}
         # What is left of the probability is that it is no word at all.
         total = _UNREAD * (1 - sum(reading.probability for reading in readings))
         for reading in readings:
@@ -230,23 +191,23 @@ class _Run:
                 iri, share = matches[0].class_iri, likelihood * matches[0].score
                 shares[iri] = shares.get(iri, 0.0) + share
                 if iri not in best or best[iri][0] < share:
-                    said = f"“{view.name}” may be short for “{' '.join(reading.words)}”: {matches[0].explanation}"
-                    best[iri] = (share, said)
-        return [_Finding("name", Match(iri, share / total, best[iri][1])) for iri, share in shares.items()]
+                    best[iri] = share, reading, matches[0]
+        explain = {iri: partial(_short_text, view.name, reading, match) for iri, (_, reading, match) in best.items()}
+        return [Finding("name", iri, share / total, explain[iri]) for iri, share in shares.items()]
 
-    def _by_words(self, view: ObjectView) -> list[_Finding]:
+    def _by_words(self, view: ObjectView) -> list[Finding]:
         """Return what the words say, best first; other sources are asked only if the name is not clear."""
-        findings: list[_Finding] = []
+        findings: list[Finding] = []
         for group, text in _texts(view):
             if group in {"hierarchy", "parts"} and self._says_what_it_is(view.name):
                 # A tulip is no class of the TBox; that it has a stem does not make it a tube.
                 break
             is_name = group == "name"
             for match in self._match(text, view.parents if is_name else (), view.own_size if is_name else None):
-                said = match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
-                findings.append(_Finding(group, Match(match.class_iri, match.score * _SHARES[group], said)))
-            findings.sort(key=_by_score)
-            if findings and findings[0].match.score >= _CLEAR:
+                explain = partial(_match_text, match, group)
+                findings.append(Finding(group, match.class_iri, match.score * _SHARES[group], explain))
+            findings.sort(key=lambda finding: (-finding.score, finding.class_iri))
+            if findings and findings[0].score >= _CLEAR:
                 break
         return findings
 
@@ -259,17 +220,29 @@ class _Run:
     ) -> tuple[Match, ...]:
         return tuple(self._matcher.match(self._reader.read(text, parents), parents, size))
 
-    def _by_company(self, view: ObjectView) -> list[_Finding]:
+    def _voting(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
+        return vote_of(self._match(name, parents, size))
+
+    def _by_company(self, view: ObjectView) -> list[Finding]:
         """Return the classes of the things beside it and of its size, by their share."""
         if view.company is not None:
-            group, companions = "company", view.company.companions()
-        else:
-            group, companions = "hierarchy", siblings_as_company(view.siblings, view.parents)
-        votes = ask_company(companions, self._match)
+            return self._by_companions(view.company)
+        siblings = siblings_as_company(view.siblings, view.parents)
+        told = ((self._vote(found.name, found.parents, found.size), found) for found in siblings)
+        votes = ask_company((vote, found.nearness, found.distance, found) for vote, found in told if vote is not None)
         return [
-            _Finding(group, Match(iri, share, self._company_text(iri, votes.heaviest[iri])))
+            Finding("hierarchy", iri, share, partial(self._company_text, iri, votes.heaviest[iri][-1]))
             for iri, share in votes.shares.items()
         ]
+
+    def _by_companions(self, company: Company) -> list[Finding]:
+        votes = ask_company(company.judged(self._vote))
+
+        def explain(iri: ClassIRI) -> str:
+            _, nearness, distance, other = votes.heaviest[iri]
+            return self._company_text(iri, company.companion(other, nearness, distance))
+
+        return [Finding("company", iri, share, partial(explain, iri)) for iri, share in votes.shares.items()]
 
     def _company_text(self, iri: ClassIRI, companion: Companion) -> str:
         where = _NEARNESS_TEXTS[companion.nearness]
@@ -278,9 +251,9 @@ class _Run:
         size = ", of the same size," if alike and not is_told else ""
         return f"“{companion.name}” {where}{size} is {self._tbox.by_iri[iri].local_name}"
 
-    def _default(self, reason: str) -> Prediction:
+    def _default(self, prim_path: str, reason: str) -> Prediction:
         return Prediction(
-            prim_path="",
+            prim_path=prim_path,
             class_iri=self._lexicon.default,
             confidence=_DEFAULT,
             status=Status.SUPERCLASS,
@@ -301,17 +274,12 @@ def _is_made_up(name: str) -> bool:
     )
 
 
-def _best_by_class(findings: list[_Finding]) -> dict[ClassIRI, _Finding]:
-    best: dict[ClassIRI, _Finding] = {}
-    for finding in findings:
-        known = best.get(finding.match.class_iri)
-        if known is None or known.match.score < finding.match.score:
-            best[finding.match.class_iri] = finding
-    return best
+def _match_text(match: Match, group: str) -> str:
+    return match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
 
 
-def _by_score(finding: _Finding) -> tuple[float, str]:
-    return (-finding.match.score, finding.match.class_iri)
+def _short_text(name: str, reading: Reading, match: Match) -> str:
+    return f"“{name}” may be short for “{' '.join(reading.words)}”: {match.explanation}"
 
 
 def _texts(view: ObjectView) -> list[tuple[str, str]]:

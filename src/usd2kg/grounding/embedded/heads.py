@@ -7,38 +7,54 @@ exp(Σ weight · feature). The weights are in `data/heads.json`, written by `too
 import json
 import math
 from collections import Counter
-from collections.abc import Mapping
 from functools import lru_cache
 from importlib.resources import files
+from itertools import chain
+from operator import mul
+from typing import NamedTuple
 
 from usd2kg.grounding.embedded.lexicon import home_names
 
-__all__ = ["FEATURES", "likelihood", "propensity"]
-
-FEATURES = {
-    "score": "logarithm of the score of the best class at this end",
-    "telling": "logarithm of how likely the head itself does more than describe, for a single word",
-    "compound": "whether a term of several words ends here",
-    "size": "logarithm of how much likelier the size makes it that a thing is called so",
-    "no_usual_size": "whether nothing is known of the usual size of what is called so",
-    "guessed": "whether the head was misspelt: a brand or a word of another language may look like it",
-    "behind": "number of words behind it",
-    "glued": "whether a word is written on to the head, as in `RoomWindow`",
-    "propensity": "`propensity` of the head, for a single word",
-    "propensity_behind": "`propensity` of the words behind it, added up",
-    "linked": "whether a term that ends later holds the head, as `swab jar` does in `cotton_swab_jar`",
-    "turned": "whether the word that tells its kind stands behind the head, as in `plate_dinner`",
-    "place": "whether it is a place, after which things are called",
-}
-"""Name → what it is."""
+__all__ = ["Features", "likelihood", "propensity"]
 
 
-def likelihood(features: Mapping[str, float]) -> float:
+class Features(NamedTuple):
+    """What is known of one end."""
+
+    score: float = 0.0
+    """Logarithm of the score of the best class at this end."""
+    telling: float = 0.0
+    """Logarithm of how likely the head itself does more than describe, for a single word."""
+    compound: float = 0.0
+    """Whether a term of several words ends here."""
+    size: float = 0.0
+    """Logarithm of how much likelier the size makes it that a thing is called so."""
+    no_usual_size: float = 0.0
+    """Whether nothing is known of the usual size of what is called so."""
+    guessed: float = 0.0
+    """Whether the head was misspelt: a brand or a word of another language may look like it."""
+    behind: float = 0.0
+    """Number of words behind it."""
+    glued: float = 0.0
+    """Whether a word is written on to the head, as in `RoomWindow`."""
+    propensity: float = 0.0
+    """`propensity` of the head, for a single word."""
+    propensity_behind: float = 0.0
+    """`propensity` of the words behind it, added up."""
+    linked: float = 0.0
+    """Whether a term that ends later holds the head, as `swab jar` does in `cotton_swab_jar`."""
+    turned: float = 0.0
+    """Whether the word that tells its kind stands behind the head, as in `plate_dinner`."""
+    place: float = 0.0
+    """Whether it is a place, after which things are called."""
+
+
+def likelihood(features: Features) -> float:
     """Return how likely a phrase ends where these features were read, up to a factor that all its ends share."""
-    weights = _weights()
-    return math.exp(sum(weights[name] * value for name, value in features.items()))
+    return math.exp(sum(map(mul, _weights(), features)))
 
 
+@lru_cache(maxsize=16384)
 def propensity(word: str) -> float:
     """Return the logarithm of how many times oftener a word ends a name of several words than stands within one.
 
@@ -51,17 +67,12 @@ def propensity(word: str) -> float:
 
 @lru_cache(maxsize=1)
 def _counts() -> tuple[Counter[str], Counter[str]]:
-    ends: Counter[str] = Counter()
-    within: Counter[str] = Counter()
-    for names in home_names().values():
-        for *modifiers, head in (words for name in names if len(words := name.lower().split()) > 1):
-            ends[head] += 1
-            within.update(modifiers)
-    return ends, within
+    names = (name.lower().split() for found in home_names().values() for name in found)
+    compounds = [words for words in names if len(words) > 1]
+    return Counter(words.pop() for words in compounds), Counter(chain.from_iterable(compounds))
 
 
 @lru_cache(maxsize=1)
-def _weights() -> dict[str, float]:
+def _weights() -> Features:
     text = (files("usd2kg.grounding") / "data" / "heads.json").read_text(encoding="utf-8")
-    found: dict[str, float] = json.loads(text)["weights"]
-    return found
+    return Features(**json.loads(text)["weights"])

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
+from typing import NamedTuple
 
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
@@ -28,8 +29,7 @@ _PLAUSIBLE = 0.7
 """A sense that fits this share as well as the best one may be meant too."""
 
 
-@dataclass(frozen=True, slots=True)
-class Term:
+class Term(NamedTuple):
     """A term that names a class."""
 
     class_iri: ClassIRI
@@ -73,8 +73,9 @@ def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
     names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
     by_local_name = {cls.local_name: cls.iri for cls in home.classes}
     text = (files("usd2kg.grounding") / "data" / "home_names.csv").read_text(encoding="utf-8")
-    for row in csv.DictReader(io.StringIO(text)):
-        names[by_local_name[row["class"]]].append(row["name"])
+    _columns, *rows = csv.reader(io.StringIO(text))
+    for cls, name in rows:
+        names[by_local_name[cls]].append(name)
     return {iri: tuple(found) for iri, found in names.items()}
 
 
@@ -97,15 +98,16 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     depths = tbox.depths
     for cls in sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
-            for words in _variants(text, affixes, taxonomy):
-                _keep_best(terms, "".join(words), Term(cls.iri, " ".join(words), weight))
-    for key, term in list(terms.items()):
-        _anchor(key, term, tbox, terms, taxonomy, anchors)
+            for said in _variants(text, affixes, taxonomy):
+                _keep_best(terms, cls.iri, said, weight)
+    for key, term in terms.items():
+        if key in taxonomy:
+            _anchor(key, term, tbox, terms, taxonomy, anchors)
     _add_heads(terms)
     return Lexicon(
         terms=terms,
         anchors=anchors,
-        vocabulary=Counter(word for term in terms.values() for word in term.text.split()),
+        vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default=_default_class(tbox, taxonomy),
         listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
     )
@@ -119,7 +121,7 @@ def things_of(tbox: TBox) -> Sequence[OntologyClass]:
 
 def term_key(text: str, taxonomy: Taxonomy) -> str:
     """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
-    return "".join(next(_variants(text, frozenset(), taxonomy), ()))
+    return next(_variants(text, frozenset(), taxonomy), "").replace(" ", "")
 
 
 def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
@@ -129,9 +131,12 @@ def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str,
         yield text, _SYNONYM
 
 
-def _words(text: str) -> tuple[str, ...]:
+def _words(text: str) -> list[str]:
+    # Most terms are lower-case words already: there is nothing to take apart.
+    if text.islower() and text.isascii() and text.replace(" ", "").isalpha():
+        return text.split()
     plain = re.sub(r"\(.*?\)|\[.*?\]", " ", _SENSE_KEY.sub(r"\1", text))
-    return tuple(word.lower() for word in split_identifier(plain) if not word.isdigit())
+    return [word.lower() for word in split_identifier(plain) if not word.isdigit()]
 
 
 def _head(label: str) -> str:
@@ -148,20 +153,22 @@ def _affixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
     return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy)
 
 
-def _variants(text: str, affixes: frozenset[str], taxonomy: Taxonomy) -> Iterator[tuple[str, ...]]:
+def _variants(text: str, affixes: frozenset[str], taxonomy: Taxonomy) -> Iterator[str]:
+    """Yield the words of a text in the singular, and the same without the ontology's jargon."""
     words = _words(text)
-    if not words:
-        return
-    words = (*words[:-1], taxonomy.singular(words[-1]))
-    yield words
-    if len(words) > 1 and words[0] in affixes:
-        yield words[1:]
+    if words:
+        words[-1] = taxonomy.singular(words[-1])
+        yield " ".join(words)
+        if len(words) > 1 and words[0] in affixes:
+            yield " ".join(words[1:])
 
 
-def _keep_best(terms: dict[str, Term], key: str, term: Term) -> None:
+def _keep_best(terms: dict[str, Term], class_iri: ClassIRI, text: str, weight: float) -> None:
+    key = text.replace(" ", "")
+    known = terms.get(key)
     # Classes come from general to special, so that of two claims to a word the general class's stays.
-    if key not in terms or terms[key].weight < term.weight:
-        terms[key] = term
+    if known is None or known.weight < weight:
+        terms[key] = Term(class_iri, text, weight)
 
 
 def _add_heads(terms: dict[str, Term]) -> None:
@@ -184,7 +191,7 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
     below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
 
     def rank(root: ClassIRI) -> tuple[int, int, str]:
-        words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or ("",)
+        words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or [""]
         head = taxonomy.singular(words[-1])
         senses = taxonomy.senses(head)
         is_made = bool(senses) and senses[0].domain == "artifact"
@@ -198,18 +205,19 @@ def _anchor(
     key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy, anchors: dict[int, Anchor]
 ) -> None:
     """Align a term with its senses; those that fit much worse than the best are not meant."""
-    above = {iri for iri in tbox.closure(term.class_iri) if iri != term.class_iri}
+    senses, above = taxonomy.senses(key), tbox.closure(term.class_iri)
 
     def agrees(sense: Sense) -> bool:
-        lemmas = {taxonomy.name(up).replace(" ", "") for up, hops in taxonomy.walk_up(sense.synset) if hops}
-        return any(lemma in terms and terms[lemma].class_iri in above for lemma in lemmas)
+        lemmas = (taxonomy.name(up).replace(" ", "") for up, hops in taxonomy.walk_up(sense.synset) if hops)
+        named = (terms[lemma].class_iri for lemma in lemmas if lemma in terms)
+        return any(iri in above and iri != term.class_iri for iri in named)
 
-    senses = taxonomy.senses(key)
     # A sense below a word that names a superclass is the one the ontologist meant.
-    agreeing = [sense for sense in senses if agrees(sense)] if above and len(senses) > 1 else []
+    agreeing = [sense for sense in senses if agrees(sense)] if len(senses) > 1 else ()
     fits = {sense.synset: sense_weight(sense) for sense in agreeing or senses}
+    best = max(fits.values())
     for synset, value in fits.items():
-        share = value / max(fits.values())
+        share = value / best
         known = anchors.get(synset)
         weight = term.weight * share
         if share >= _PLAUSIBLE and (known is None or known.weight < weight):

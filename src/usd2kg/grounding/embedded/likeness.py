@@ -5,7 +5,7 @@ container although nobody wrote it down, as other shakers are. The weights are i
 `tools/fit_likeness.py`.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
@@ -27,6 +27,8 @@ _ENDING, _BEGINNING = 0.7, 0.5
 _ENDINGS = (3, 4, 5)
 _BEGINNING_LETTERS = 4
 
+Logits = NDArray[np.float64]
+
 
 class _Model(NamedTuple):
     """The weights."""
@@ -36,7 +38,7 @@ class _Model(NamedTuple):
     weights: NDArray[np.int8]
     """(features, classes), in units of `unit`."""
     unit: float
-    intercepts: NDArray[np.float64]
+    intercepts: Logits
     """(classes,)"""
     classes: tuple[ClassIRI, ...]
 
@@ -48,33 +50,85 @@ def likely_classes(words: tuple[str, ...]) -> tuple[tuple[ClassIRI, float], ...]
         words: in lower case, modifiers first, the head noun last and singular.
     """
     model = _load_model()
-    known = [(model.rows[name], value) for name, value in features_of(words).items() if name in model.rows]
+    *modifiers, head = words
+    parts = [_weigh_head(head)]
+    if modifiers:
+        parts += [_weigh_pair(modifiers[-1], head), _weigh_modifiers(tuple(modifiers))]
+    known = [part for part in parts if part is not None]
     if not known:
         return ()
-    rows, values = zip(*known, strict=True)
-    logits = model.intercepts + model.unit * (np.array(values) @ model.weights[list(rows)])
+    logits = sum(known, start=model.intercepts)
     shares = np.exp(logits - logits.max())
     shares /= shares.sum()
-    best = np.argsort(-shares, kind="stable")[:_MOST]
+    best = np.argsort(-shares, kind="stable")[:_MOST].tolist()
     return tuple((model.classes[place], float(shares[place])) for place in best)
 
 
 def features_of(words: tuple[str, ...]) -> dict[str, float]:
     """Return the features of a name: its words, what they are kinds of, and the letters of its head."""
     *modifiers, head = words
+    if not modifiers:
+        return _head_features(head)
+    return _head_features(head) | _pair_features(modifiers[-1], head) | _modifier_features(modifiers)
+
+
+def _head_features(head: str) -> dict[str, float]:
     features = {f"head {head}": 1.0, **_kinds("head", head)}
     for count in _ENDINGS:
         features[f"ending {head[-count:]}"] = _ENDING
     features[f"beginning {head[:_BEGINNING_LETTERS]}"] = _BEGINNING
-    if modifiers:
-        features["modified"] = 1.0
-        features[f"pair {modifiers[-1]} {head}"] = 1.0
-        features |= _kinds("pair", modifiers[-1] + head)
+    return features
+
+
+def _pair_features(modifier: str, head: str) -> dict[str, float]:
+    return {"modified": 1.0, f"pair {modifier} {head}": 1.0, **_kinds("pair", modifier + head)}
+
+
+def _modifier_features(modifiers: Iterable[str]) -> dict[str, float]:
+    features: dict[str, float] = {}
     for modifier in modifiers:
         features[f"modifier {modifier}"] = 1.0
         for name, value in _kinds("modifier", modifier).items():
             features[name] = max(value, features.get(name, 0.0))
     return features
+
+
+# The parts of a name return in others, and with them what they add.
+
+
+@lru_cache(maxsize=8192)
+def _weigh_head(head: str) -> Logits | None:
+    return _weigh(_head_features(head))
+
+
+@lru_cache(maxsize=16384)
+def _weigh_pair(modifier: str, head: str) -> Logits | None:
+    return _weigh(_pair_features(modifier, head))
+
+
+@lru_cache(maxsize=4096)
+def _weigh_modifiers(modifiers: tuple[str, ...]) -> Logits | None:
+    return _weigh(_modifier_features(modifiers))
+
+
+def _weigh(features: Mapping[str, float]) -> Logits | None:
+    """Return what features add to the logit of each class, (classes,); None if no weight is known."""
+    model = _load_model()
+    known = [(model.rows[name], value) for name, value in features.items() if name in model.rows]
+    if not known:
+        return None
+    return _weigh_rows(tuple(known))
+
+
+@lru_cache(maxsize=4096)
+def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
+    # Of most pairs nothing is known but that they are pairs.
+    model = _load_model()
+    rows, values = zip(*known, strict=True)
+    logits: Logits = np.array(values) @ model.weights[list(rows)]
+    logits *= model.unit
+    logits.flags.writeable = False
+    return logits
 
 
 @lru_cache(maxsize=65536)

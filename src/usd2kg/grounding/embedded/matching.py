@@ -1,20 +1,20 @@
 """From a noun phrase to classes: each word that may be its head is asked what it names."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from itertools import pairwise
+from collections.abc import Sequence
+from functools import lru_cache
 from math import log
+from operator import itemgetter
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.heads import likelihood, propensity
+from usd2kg.grounding.embedded.heads import Features, likelihood, propensity
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match, Namer
 from usd2kg.grounding.embedded.sizes import surprise
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.words import split_identifier
 
-__all__ = ["Matcher", "Size"]
+__all__ = ["Matcher", "Named", "Size"]
 
 _RESPELLED = 0.9
 _LEAST = 0.05
@@ -22,6 +22,7 @@ _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
 _WRONG_SIZE, _RIGHT_SIZE = 0.05, 10.0
 """How much a size that is wrong or right for what a thing is called makes a reading less or more likely, at most."""
+_LOG_WRONG, _LOG_RIGHT = log(_WRONG_SIZE), log(_RIGHT_SIZE)
 _SIZE_POWER, _SIZE_OFFSET = 0.6, 0.3
 """How far `surprise` is heard: models of things vary more than things do, and many names are of parts."""
 _NEAR_KIND = 1
@@ -29,24 +30,48 @@ _NEAR_KIND = 1
 _AGREEING = 0.8
 """Other matches of a reading count for their classes if they score this much of its best."""
 _SMALLEST_PLACE = 2.0
-"""Metres: what is smaller is no room, yard or aisle, but may be named after one."""
+"""Metres. What is called after a place and is smaller all round is something in the place or of it."""
 
 Size = tuple[float, float, float]
 
 
-class _Reading(NamedTuple):
-    """One way to tell the head of a name from what follows it."""
+class _Answer(NamedTuple):
+    """What one class has of a reading."""
 
-    weight: float
-    matches: list[Match]
+    match: Match
+    """The best one of the class."""
+    score: float
+    share: float
+    """1 for a match that is as good as the best one, less for a lesser sense of the word."""
 
-    def best_by_class(self) -> dict[ClassIRI, Match]:
-        """Return the best match of each class."""
-        return {match.class_iri: match for match in sorted(self.matches, key=lambda match: match.score)}
 
-    def speaks_for(self, match: Match) -> float:
-        """Return 1 for a match that is as good as the best one, less for a lesser sense of the word."""
-        return 1.0 if match.score > _AGREEING * max(found.score for found in self.matches) else match.score
+class _Head(NamedTuple):
+    """What is known of a word as the head of a name."""
+
+    place: float
+    """1 if it may be a place, else 0."""
+    telling: float
+    """Logarithm of how likely it does more than describe, at the end of a name of several words."""
+    telling_within: float
+    """The same before the last word."""
+    propensity: float
+    kinds: tuple[str, ...]
+    """What it is a kind of, itself first, without spaces: things whose usual size may be taken for its own."""
+
+
+class Named(NamedTuple):
+    """What the words up to one of them name."""
+
+    run: tuple[str, ...]
+    """The words at the end that are known together; empty if they name nothing."""
+    matches: tuple[Match, ...]
+    log_score: float
+    """Logarithm of the score of the best match."""
+    answers: tuple[_Answer, ...]
+    """The best match of each class."""
+
+
+_NOTHING = Named((), (), 0.0, ())
 
 
 class Matcher:
@@ -56,6 +81,10 @@ class Matcher:
         self._taxonomy = taxonomy
         self._reader = reader
         self._namer = Namer(tbox, lexicon, taxonomy, reader)
+        # What a word is depends on nothing else, and the readings of a name say the same words over and over.
+        self._head = lru_cache(maxsize=16384)(self._knowing)
+        self._named = lru_cache(maxsize=16384)(self._naming)
+        self._named_turned = lru_cache(maxsize=16384)(self._naming_turned)
 
     def match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None) -> list[Match]:
         """Return the classes a phrase may name, best first; none if no word of it is known.
@@ -76,106 +105,129 @@ class Matcher:
     ) -> tuple[list[Match], float]:
         """Return the classes a phrase may name as `match` does, and how likely a thing of that size is called so."""
         readings = [
-            self._reading(phrase, end, features, named) for end, features, named in self.ends(phrase, parents, size)
+            (likelihood(features), named.answers, end) for end, features, named in self.ends(phrase, parents, size)
         ]
-        total = sum(reading.weight for reading in readings)
-        best: dict[ClassIRI, Match] = {}
+        total = sum([weight for weight, _, _ in readings])
+        best: dict[ClassIRI, tuple[float, Match, int]] = {}
         shares: dict[ClassIRI, float] = {}
-        for reading in readings:
-            for iri, match in reading.best_by_class().items():
+        for weight, answers, end in readings:
+            for match, score, share in answers:
+                iri = match.class_iri
                 # Readings that agree on a class add up: a door handle and a lever are handles both.
-                shares[iri] = shares.get(iri, 0.0) + reading.weight / total * reading.speaks_for(match)
-                if iri not in best or best[iri].score * shares[iri] < match.score * reading.weight / total:
-                    best[iri] = match
-        answers = [
-            Match(iri, match.score * (_LEAST_SHARE + (1 - _LEAST_SHARE) * shares[iri]), match.explanation)
-            for iri, match in best.items()
+                shares[iri] = shares.get(iri, 0.0) + weight / total * share
+                if iri not in best or best[iri][0] * shares[iri] < score * weight / total:
+                    best[iri] = score, match, end
+        matches = [
+            Match(iri, score * (_LEAST_SHARE + (1 - _LEAST_SHARE) * shares[iri]), match.reason, phrase, end)
+            for iri, (score, match, end) in best.items()
         ]
-        return sorted(answers, key=lambda match: (-match.score, match.class_iri)), total
-
-    def _reading(self, phrase: NamePhrase, end: int, features: Mapping[str, float], named: list[Match]) -> "_Reading":
-        """Return the reading in which the phrase proper ends before word number `end`."""
-        note = f" (the thing in “{' '.join(phrase.words)}”)" if phrase.words[end:] else ""
-        note += "".join(f" (“{written}” read as “{read}”)" for written, read in phrase.corrections)
-        share = _RESPELLED if phrase.corrections else 1.0
-        matches = [Match(match.class_iri, match.score * share, match.explanation + note) for match in named]
-        return _Reading(likelihood(features), matches)
+        return sorted(matches, key=lambda match: (-match.score, match.class_iri)), total
 
     def ends(
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None
-    ) -> list[tuple[int, dict[str, float], list[Match]]]:
+    ) -> list[tuple[int, Features, Named]]:
         """Return the ends of the phrase proper that name something, nearest first.
 
         Each is the number of words before it, the features of `heads`, and what is named there.
         """
-        places = (*phrase.context, *_words_above(parents))
-        heads = [(end, *self._namer.name(phrase.words[:end], places)) for end in range(1, len(phrase.words) + 1)]
-        named = [
-            (end, {**self._features(phrase, end, run, found, size), "linked": float(_is_within(end, heads))}, found)
-            for end, run, found in heads
-            if found
+        words, places, is_respelled = (
+            phrase.words,
+            self._namer.places(phrase.context, parents),
+            bool(phrase.corrections),
+        )
+        heads = [self._named(words[:end], places, is_respelled) for end in range(1, len(words) + 1)]
+        found = [
+            (end, self._features(phrase, end, named, size, is_linked=_is_within(end, heads)), named)
+            for end, named in enumerate(heads, start=1)
+            if named.run
         ]
-        return [*named, *self._turned(phrase, size)]
+        for at in range(1, len(words)):
+            # The head may stand before the word that tells its kind, as in `plate_dinner`.
+            named = self._named_turned(words[at - 1], words[at], is_respelled)
+            if named.run and not phrase.is_glued(at):
+                found.append((at + 1, self._features(phrase, at + 1, named, size, is_turned=True), named))
+        return found
 
-    def _turned(self, phrase: NamePhrase, size: Size | None) -> Iterator[tuple[int, dict[str, float], list[Match]]]:
-        """Yield the ends at which the head stands before the word that tells its kind, as in `plate_dinner`."""
-        for at, (head, kind) in enumerate(pairwise(phrase.words), start=1):
-            run = (kind, self._taxonomy.singular(head))
-            found = list(self._namer.by_term("".join(run)))
-            if found and not phrase.is_glued(at):
-                features = self._features(phrase, at + 1, run, found, size)
-                yield at + 1, features | {"turned": 1.0}, found
+    def _naming(self, words: tuple[str, ...], places: tuple[str, ...], is_respelled: bool) -> Named:
+        return _named(*self._namer.name(words, places), is_respelled)
+
+    def _naming_turned(self, head: str, kind: str, is_respelled: bool) -> Named:
+        run = (kind, self._taxonomy.singular(head))
+        return _named(run, self._namer.by_term("".join(run)), is_respelled)
 
     def _features(
-        self, phrase: NamePhrase, end: int, run: tuple[str, ...], found: list[Match], size: Size | None
-    ) -> dict[str, float]:
-        after = phrase.words[end:]
-        is_lone = len(run) == 1
-        fit = None if size is None else self._fit(run, size)
-        telling = 1 - self._reader.trailing(run[-1], is_last=not after) if is_lone and len(phrase.words) > 1 else 1.0
-        return {
-            "score": log(max(match.score for match in found)),
-            "telling": log(max(telling, _LEAST)),
-            "compound": float(not is_lone),
-            "size": fit or 0.0,
-            "no_usual_size": float(size is not None and fit is None),
-            "guessed": float(any(read == run[-1] for _, read in phrase.corrections)),
-            "behind": float(len(after)),
-            "glued": float(phrase.is_glued(end)),
-            "propensity": propensity(run[-1]) if is_lone else 0.0,
-            "propensity_behind": sum(map(propensity, after)),
-            "linked": 0.0,
-            "turned": 0.0,
-            "place": float(self._reader.is_place(run[-1])),
-        }
+        self,
+        phrase: NamePhrase,
+        end: int,
+        named: Named,
+        size: Size | None,
+        *,
+        is_linked: bool = False,
+        is_turned: bool = False,
+    ) -> Features:
+        run, behind = named.run, phrase.words[end:]
+        head, is_lone = self._head(run[-1]), len(run) == 1
+        fit = None if size is None else self._fit(run, size, head)
+        # By position: this is asked for each end of each reading of a name.
+        return Features(
+            named.log_score,
+            (head.telling_within if behind else head.telling) if is_lone and len(phrase.words) > 1 else 0.0,
+            0.0 if is_lone else 1.0,
+            fit or 0.0,
+            1.0 if size is not None and fit is None else 0.0,
+            1.0 if any(read == run[-1] for _, read in phrase.corrections) else 0.0,
+            float(len(behind)),
+            1.0 if phrase.is_glued(end) else 0.0,
+            head.propensity if is_lone else 0.0,
+            sum([self._head(word).propensity for word in behind]) if behind else 0.0,
+            1.0 if is_linked else 0.0,
+            1.0 if is_turned else 0.0,
+            head.place,
+        )
 
-    def _fit(self, run: tuple[str, ...], size: Size) -> float | None:
+    def _fit(self, run: tuple[str, ...], size: Size, head: _Head) -> float | None:
         """Return the logarithm of how much likelier a size makes it that a thing is called so; None if unknown."""
-        if len(run) == 1 and max(size) < _SMALLEST_PLACE and self._reader.is_place(run[0]):
-            return log(_WRONG_SIZE)
+        is_lone = len(run) == 1
+        if head.place and is_lone and max(size) < _SMALLEST_PLACE:
+            return _LOG_WRONG
         # Of a compound only its own size counts: a spice rack is no rack of usual size.
         value = surprise(size, "".join(run))
-        if value is None and len(run) == 1:
-            value = self._fit_of_kind(run[0], size)
-        if value is None:
-            return None
-        return max(log(_WRONG_SIZE), min(log(_RIGHT_SIZE), _SIZE_POWER * value + _SIZE_OFFSET))
+        if value is None and is_lone:
+            values = (surprise(size, kind) for kind in head.kinds)
+            value = next((value for value in values if value is not None), None)
+        return None if value is None else max(_LOG_WRONG, min(_LOG_RIGHT, _SIZE_POWER * value + _SIZE_OFFSET))
 
-    def _fit_of_kind(self, word: str, size: Size) -> float | None:
-        """Return `surprise` for what a thing is a kind of: a fridge is a refrigerator."""
+    def _knowing(self, word: str) -> _Head:
+        telling, within = (1 - self._reader.trailing(word, is_last=is_last) for is_last in (True, False))
+        return _Head(
+            place=float(self._reader.is_place(word)),
+            telling=log(max(telling, _LEAST)),
+            telling_within=log(max(within, _LEAST)),
+            propensity=propensity(word),
+            kinds=self._near_kinds(word),
+        )
+
+    def _near_kinds(self, word: str) -> tuple[str, ...]:
+        """Return what a thing is a kind of, nearest first: a fridge is a refrigerator."""
         sense = max(self._taxonomy.senses(self._taxonomy.singular(word)), key=sense_weight, default=None)
         if sense is None:
-            return None
-        near = (up for up, hops in self._taxonomy.walk_up(sense.synset) if hops <= _NEAR_KIND)
-        values = (surprise(size, self._taxonomy.name(up).replace(" ", "")) for up in near)
-        return next((value for value in values if value is not None), None)
+            return ()
+        near = [up for up, hops in self._taxonomy.walk_up(sense.synset) if hops <= _NEAR_KIND]
+        return tuple(self._taxonomy.name(up).replace(" ", "") for up in near)
 
 
-def _is_within(end: int, heads: Iterable[tuple[int, tuple[str, ...], list[Match]]]) -> bool:
+def _named(run: tuple[str, ...], matches: tuple[Match, ...], is_respelled: bool) -> Named:
+    """Return what a run of words names; if they were misspelt it counts for less."""
+    if not matches:
+        return _NOTHING
+    part = _RESPELLED if is_respelled else 1.0
+    scores = sorted([(match.score * part, match) for match in matches], key=itemgetter(0))
+    best = {match.class_iri: (match, score) for score, match in scores}
+    good = _AGREEING * scores[-1][0]
+    answers = [_Answer(match, score, 1.0 if score > good else score) for match, score in best.values()]
+    return Named(run, matches, log(max([match.score for match in matches])), tuple(answers))
+
+
+def _is_within(end: int, heads: Sequence[Named]) -> bool:
     """Return whether a term that ends later begins at the head or before it: the swab of a `cotton_swab_jar`."""
-    return any(later > end > later - len(run) for later, run, _ in heads)
-
-
-def _words_above(parents: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the words of the names above, nearest first."""
-    return tuple(word.lower() for parent in reversed(parents) for word in split_identifier(parent))
+    return any(end > later - len(heads[later - 1].run) for later in range(end + 1, len(heads) + 1))

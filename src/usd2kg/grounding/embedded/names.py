@@ -1,14 +1,15 @@
 """Reading an object's name as a noun phrase: which of its words says what it is."""
 
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from usd2kg.grounding.embedded.abbreviations import usual_abbreviations
 from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
+from usd2kg.grounding.embedded.shortening import usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.languages import translate
 from usd2kg.words import is_telling, split_identifier
@@ -64,13 +65,21 @@ class NamePhrase:
         return at < len(self.glued) and self.glued[at]
 
 
-@dataclass(frozen=True, slots=True)
-class _Token:
+class _Token(NamedTuple):
     text: str
     number: str
     """Digits written on to the word, without a separator; empty if none."""
-    is_glued: bool = field(default=False, compare=False)
+    is_glued: bool = False
     """Whether it is written on to the word before."""
+
+
+class _Parent(NamedTuple):
+    """A name above, as a name may refer to it."""
+
+    telling: frozenset[str]
+    """The words that a name has to repeat, all of them, to refer to it by words alone."""
+    words: frozenset[tuple[str, str]]
+    """(word, digits written on to it), empty if it has none."""
 
 
 class NameReader:
@@ -79,14 +88,22 @@ class NameReader:
     def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
-        self._by_length: dict[int, list[str]] = {}
-        vocabulary = {word for word in taxonomy.words(_THING_DOMAINS) if len(word) > 3} | lexicon.vocabulary.keys()
-        for word in sorted(vocabulary):
-            self._by_length.setdefault(len(word), []).append(word)
         # What a word is depends on nothing else, and stages say the same words over and over.
         self.correct = lru_cache(maxsize=65536)(self._correct)
-        self.is_place = lru_cache(maxsize=65536)(self._is_place)
-        self._describes = lru_cache(maxsize=65536)(self._describing)
+        self.is_modifier = lru_cache(maxsize=16384)(self._is_modifier)
+        self.is_place = lru_cache(maxsize=16384)(self._is_place)
+        self._describes = lru_cache(maxsize=16384)(self._describing)
+        self._is_material = taxonomy.below(_MATERIALS)
+        self._is_kind_of_place = taxonomy.below(_PLACES)
+
+    @cached_property
+    def _by_length(self) -> dict[int, list[str]]:
+        """Length → the words that a misspelt one may mean; needed only where one is met."""
+        found: dict[int, list[str]] = {}
+        thing_words = {word for word in self._taxonomy.words(_THING_DOMAINS) if len(word) > 3}
+        for word in sorted(thing_words | self._lexicon.vocabulary.keys()):
+            found.setdefault(len(word), []).append(word)
+        return found
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
@@ -144,7 +161,7 @@ class NameReader:
         stems = {stem, word[:-1], stem[:-1] if stem[-1] == stem[-2] else stem, stem[:-1] + "y"}
         return any(found in self._taxonomy for found in stems)
 
-    def is_modifier(self, word: str) -> bool:
+    def _is_modifier(self, word: str) -> bool:
         """Return whether a word, at the end of a name, describes and does not say what the thing is."""
         if word in self._lexicon.terms:
             return False
@@ -181,20 +198,22 @@ class NameReader:
             return _FLAVOUR
         return _PLACE if self.is_place(word) else _OTHER_THING
 
-    def _is_material(self, synset: int) -> bool:
-        return any(self._taxonomy.name(up) in _MATERIALS for up, _ in self._taxonomy.walk_up(synset))
-
     def _is_place(self, word: str) -> bool:
         """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
         sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
-        return sense is not None and any(
-            self._taxonomy.name(up) in _PLACES for up, _ in self._taxonomy.walk_up(sense.synset)
-        )
+        return sense is not None and self._is_kind_of_place(sense.synset)
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
-        above = {token for parent in parents for token in _repeated(parent, tokens)}
-        references = [token for token in tokens if _is_reference(token, above)]
+        written = {token.text for token in tokens}
+        above: set[tuple[str, str]] = set()
+        for parent in map(_read_parent, parents):
+            # All of its words must be repeated: below `knifeBlock` a `breadKnife` is a knife. A number tells by itself.
+            is_whole = parent.telling <= written
+            above.update(parent.words if is_whole else (word for word in parent.words if word[1]))
+        references = [token for token in tokens if above and _is_reference(token, above)]
+        if not references:
+            return tokens, []
         own = [token for token in tokens if token not in references]
         if any(not self.is_modifier(word) for token in own for word in self.correct(token.text)):
             return own, references
@@ -273,21 +292,15 @@ def _tokens(name: str) -> list[_Token]:
     return tokens
 
 
-def _repeated(parent: str, tokens: list[_Token]) -> list[_Token]:
-    """Return the tokens of a parent's name that may stand in a name for the parent.
-
-    All of them must: below `knifeBlock` a `breadKnife` is a knife. A number tells by itself.
-    """
-    above = _tokens(parent)
-    telling = {token.text for token in above if is_telling(token.text)}
-    is_whole = telling <= {token.text for token in tokens}
-    return [token for token in above if is_whole or token.number]
+@lru_cache(maxsize=4096)
+def _read_parent(name: str) -> _Parent:
+    tokens = _tokens(name)
+    telling = frozenset(token.text for token in tokens if is_telling(token.text))
+    return _Parent(telling, frozenset((token.text, token.number) for token in tokens))
 
 
-def _is_reference(token: _Token, above: set[_Token]) -> bool:
-    if token in above:
+def _is_reference(token: _Token, above: set[tuple[str, str]]) -> bool:
+    if (token.text, token.number) in above:
         return True
     # `cab10` below `cabinet10`: the same number on a word that begins alike.
-    return bool(token.number) and any(
-        token.number == other.number and other.text.startswith(token.text) for other in above
-    )
+    return bool(token.number) and any(token.number == number and word.startswith(token.text) for word, number in above)

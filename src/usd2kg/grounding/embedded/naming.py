@@ -1,13 +1,16 @@
 """What a run of words names by itself: the TBox's terms first, then what the head noun is a kind of."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from bisect import bisect_left
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property, lru_cache, partial
+from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
+from usd2kg.grounding.embedded.lexicon import Lexicon, Term, sense_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
-from usd2kg.grounding.embedded.names import NameReader
+from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.words import split_identifier
 
 __all__ = ["Match", "Namer"]
 
@@ -19,14 +22,26 @@ _LIKENESS = 0.5
 """How far the class of names that are alike is heard, where a name is in no list and its head or kind is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Match:
+class Match(NamedTuple):
     """A class that a phrase may name."""
 
     class_iri: ClassIRI
     score: float
     """From 0 to 1; an uncalibrated guess at being right."""
-    explanation: str
+    reason: Callable[[], str]
+    """Gives why, whatever else the name says; of most matches nobody asks for it."""
+    phrase: NamePhrase = NamePhrase(())
+    """The name."""
+    end: int = 0
+    """Number of the word before which the phrase proper ends."""
+
+    @property
+    def explanation(self) -> str:
+        """What a person is told."""
+        words, corrections = self.phrase.words, self.phrase.corrections
+        behind = f" (the thing in “{' '.join(words)}”)" if words[self.end :] else ""
+        read = "".join(f" (“{written}” read as “{read}”)" for written, read in corrections)
+        return self.reason() + behind + read
 
 
 class Namer:
@@ -38,18 +53,27 @@ class Namer:
         self._taxonomy = taxonomy
         self._reader = reader
         self._roots = frozenset(tbox.roots)
+        # What words name depends on nothing else, and names say the same words over and over.
+        self._known = lru_cache(maxsize=16384)(self._naming)
+        self._places_above = lru_cache(maxsize=4096)(self._telling_words_above)
 
-    def name(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], list[Match]]:
+    def places(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the words of a name and of the names above that may be a place of something, nearest first."""
+        if not context:
+            return self._places_above(parents) if parents else ()
+        return (*filter(self._begins_term, context), *self._places_above(parents))
+
+    def name(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[Match, ...]]:
         """Return the longest known run of words at the end, and what the words name, heeding what is called alike."""
         run, found = self._at_head(words, places)
-        if not found or not self._lexicon.listed.issuperset(match.class_iri for match in found):
+        if not found or not self._lexicon.listed.issuperset([match.class_iri for match in found]):
             # Of classes that the home vocabulary does not have it knows nothing like.
             return run, found
         whole = (*words[:-1], self._taxonomy.singular(words[-1]))
         is_listed = "".join((*run[:-1], whole[-1])) in self._lexicon.terms and (len(run) > 1 or len(words) == 1)
         return run, found if is_listed else self._heeding_likeness(whole, found)
 
-    def _heeding_likeness(self, words: tuple[str, ...], found: list[Match]) -> list[Match]:
+    def _heeding_likeness(self, words: tuple[str, ...], found: Iterable[Match]) -> tuple[Match, ...]:
         """Return the matches of the head, mixed with what names like the whole one mean."""
         best = {match.class_iri: match for match in sorted(found, key=lambda match: match.score)}
         shares = {iri: share for iri, share in likely_classes(words) if iri in self._tbox.by_iri}
@@ -57,35 +81,29 @@ class Namer:
         for iri in dict.fromkeys([*best, *shares]):
             own = best.get(iri)
             score = (1 - _LIKENESS) * (own.score if own else 0.0) + _LIKENESS * _TERM * shares.get(iri, 0.0)
-            mixed.append(Match(iri, score, own.explanation if own else self._likeness_text(words, iri)))
-        return sorted(mixed, key=lambda match: (-match.score, match.class_iri))
+            mixed.append(Match(iri, score, own.reason if own else partial(self._likeness_text, words, iri)))
+        return tuple(sorted(mixed, key=lambda match: (-match.score, match.class_iri)))
 
-    def _likeness_text(self, words: tuple[str, ...], iri: ClassIRI) -> str:
-        similar = similar_name(words, iri)
-        like = f", like “{similar}”," if similar else ""
-        return f"what is called like “{' '.join(words)}”{like} is mostly {self._label(iri)}"
-
-    def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], list[Match]]:
+    def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[Match, ...]]:
         """Return the longest run of words that ends with the last one and is known, and its matches."""
-        is_modifier = self._reader.is_modifier(words[-1])
-        for start in range(len(words)):
-            run = words[start:]
-            if is_modifier and len(run) == 1:
-                break
-            key = "".join((*run[:-1], self._taxonomy.singular(run[-1])))
-            found = [*self.by_term(key), *self._by_kind(key, len(run) > 1)]
-            if found:
-                return run, [*self._in_place(key, run[-1], found, places), *found]
-        return (), []
+        *before, last = words
+        singular = self._taxonomy.singular(last)
+        for start in range(len(before) if self._reader.is_modifier(last) else len(words)):
+            key = "".join(before[start:]) + singular
+            if key in self._lexicon.terms or key in self._taxonomy:
+                found = self._known(key, last, start < len(before), places)
+                if found:
+                    return words[start:], found
+        return (), ()
 
-    def by_term(self, key: str) -> list[Match]:
+    def _naming(self, key: str, head: str, is_compound: bool, places: tuple[str, ...]) -> tuple[Match, ...]:
+        found = [*self.by_term(key), *self._by_kind(key, is_compound)]
+        return (*self._in_place(key, head, found, places), *found) if found else ()
+
+    def by_term(self, key: str) -> tuple[Match, ...]:
         """Return the class that a term without spaces names, if any."""
         term = self._lexicon.terms.get(key)
-        if term is None:
-            return []
-        named = "is the label of" if term.weight == 1.0 else "is a name for"
-        text = f"“{term.text}” {named} {self._label(term.class_iri)}"
-        return [Match(term.class_iri, _TERM * term.weight, text)]
+        return () if term is None else (Match(term.class_iri, _TERM * term.weight, partial(self._term_text, term)),)
 
     def _in_place(self, key: str, head: str, found: list[Match], places: tuple[str, ...]) -> Iterator[Match]:
         """Yield the class that is named after the place: a cabinet in the kitchen is a kitchen cabinet.
@@ -101,9 +119,8 @@ class Namer:
             if special is None or special.class_iri in above or special.class_iri in self._roots:
                 continue
             if any(self._tbox.is_subclass(special.class_iri, iri) for iri in above):
-                label = self._label(special.class_iri)
-                text = f"a “{key}” in “{place}” is a {special.text}, which is {label}"
-                yield Match(special.class_iri, _TERM * special.weight * _PLACED, text)
+                reason = partial(self._place_text, key, place, special)
+                yield Match(special.class_iri, _TERM * special.weight * _PLACED, reason)
                 return
 
     def _by_kind(self, key: str, is_compound: bool) -> Iterator[Match]:
@@ -116,12 +133,23 @@ class Namer:
                 score = (_COMPOUND_KIND if is_compound else _KIND) * sense_weight(sense) * _HOP_DECAY**hops
                 if anchor.class_iri in self._roots:
                     score *= _ROOT_SHARE
-                yield Match(
-                    anchor.class_iri, score * anchor.weight, self._kinds(sense.synset, synset, anchor.class_iri)
-                )
+                reason = partial(self._kinds_text, sense.synset, synset, anchor.class_iri)
+                yield Match(anchor.class_iri, score * anchor.weight, reason)
                 break
 
-    def _kinds(self, synset: int, target: int, class_iri: ClassIRI) -> str:
+    def _likeness_text(self, words: tuple[str, ...], iri: ClassIRI) -> str:
+        similar = similar_name(words, iri)
+        like = f", like “{similar}”," if similar else ""
+        return f"what is called like “{' '.join(words)}”{like} is mostly {self._label(iri)}"
+
+    def _term_text(self, term: Term) -> str:
+        named = "is the label of" if term.weight == 1.0 else "is a name for"
+        return f"“{term.text}” {named} {self._label(term.class_iri)}"
+
+    def _place_text(self, key: str, place: str, special: Term) -> str:
+        return f"a “{key}” in “{place}” is a {special.text}, which is {self._label(special.class_iri)}"
+
+    def _kinds_text(self, synset: int, target: int, class_iri: ClassIRI) -> str:
         names = [self._taxonomy.name(step) for step in self._taxonomy.path_up(synset, target)]
         chain = names if len(names) <= 4 else [*names[:2], "…", names[-1]]
         kinds = " is a kind of ".join(f"“{name}”" if name != "…" else name for name in chain)
@@ -129,3 +157,15 @@ class Namer:
 
     def _label(self, class_iri: ClassIRI) -> str:
         return self._tbox.by_iri[class_iri].local_name
+
+    def _telling_words_above(self, parents: tuple[str, ...]) -> tuple[str, ...]:
+        words = (word.lower() for parent in reversed(parents) for word in split_identifier(parent))
+        return tuple(filter(self._begins_term, words))
+
+    def _begins_term(self, word: str) -> bool:
+        at = bisect_left(self._term_keys, word)
+        return at < len(self._term_keys) and self._term_keys[at].startswith(word)
+
+    @cached_property
+    def _term_keys(self) -> list[str]:
+        return sorted(self._lexicon.terms)

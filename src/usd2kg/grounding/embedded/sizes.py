@@ -10,7 +10,14 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["SMALLEST_EXTENT", "log_likelihoods", "surprise", "thing_nouns", "typical_extents"]
+__all__ = [
+    "SMALLEST_EXTENT",
+    "likelihoods_of",
+    "log_likelihoods",
+    "surprise",
+    "thing_nouns",
+    "typical_extents",
+]
 
 SMALLEST_EXTENT = 0.001
 """Metres. A thinner extent counts as this: a sheet may be modelled without thickness, and zero has no logarithm."""
@@ -28,7 +35,7 @@ _BROAD_DENSITY = _BROAD_SHARE * math.factorial(3) / math.log(_LARGEST_EXTENT / S
 _PEAK = 0.375
 """Student's t density of 4 degrees of freedom and scale 1 at its centre: Γ(5/2) / (Γ(2) √(4π))."""
 
-_BLOCK = 24
+_BLOCK = 8
 """Boxes taken at a time: what they need fits into a processor's cache, which saves half the time and more."""
 
 _Floats = npt.NDArray[np.float64]
@@ -90,14 +97,22 @@ def surprise(size: tuple[float, float, float], noun: str) -> float | None:
     row = _rows().get(noun)
     if row is None:
         return None
-    logs, usual = _ask(size)
-    return float(logs[row]) - usual
+    return float(likelihoods_of(size)[row]) - _usual(size)
 
 
-@lru_cache(maxsize=4096)
-def _ask(size: tuple[float, float, float]) -> tuple[_Floats, float]:
+@lru_cache(maxsize=1024)
+def likelihoods_of(size: tuple[float, float, float]) -> _Floats:
+    """Return `log_likelihoods` of one size, kept for when it is asked for again; not to be written to."""
     logs = log_likelihoods(size)
-    return logs, float(np.logaddexp.reduce(logs)) - math.log(len(logs))
+    logs.flags.writeable = False
+    return logs
+
+
+@lru_cache(maxsize=16384)
+def _usual(size: tuple[float, float, float]) -> float:
+    """Return log mean over things of p(size | thing)."""
+    logs = likelihoods_of(size)
+    return float(np.logaddexp.reduce(logs)) - math.log(len(logs))
 
 
 def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
@@ -132,13 +147,12 @@ def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
 def _fill_log_densities(logs: _Floats, found: _Floats) -> None:
     """Write the result for boxes of the log extents `logs`, (n, 3), longest first, into `found`, (n, things)."""
     table = _load_table()
-    product = np.ones_like(found)
-    for k in range(3):
-        offsets = logs[:, k, np.newaxis] * table.half_rates[k]
-        offsets -= table.scaled_centres[k]
-        offsets *= offsets
-        offsets += 1.0
-        product *= offsets
+    offsets = logs[:, :, np.newaxis] * table.half_rates
+    offsets -= table.scaled_centres
+    offsets *= offsets
+    offsets += 1.0
+    product = offsets[:, 0] * offsets[:, 1]
+    product *= offsets[:, 2]
     # One square root and one logarithm for all three extents: (1 + t²/4)^(-5/2) is the slow part.
     np.sqrt(product, out=found)
     product *= product

@@ -1,10 +1,10 @@
 """WordNet's nouns for physical things: lemmas, senses in order of use, and what is a kind of what."""
 
 import gzip
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator
 from functools import lru_cache
 from importlib.resources import files
+from typing import NamedTuple
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
 
@@ -13,8 +13,7 @@ _PLURALS = (("ches", "ch"), ("shes", "sh"), ("sses", "ss"), ("xes", "x"), ("zes"
 _MORE_PLURALS = (("ves", "f"), ("ves", "fe"), ("es", "e"), ("es", ""), ("s", ""))
 
 
-@dataclass(frozen=True, slots=True)
-class Sense:
+class Sense(NamedTuple):
     """One meaning of a lemma."""
 
     synset: int
@@ -25,54 +24,105 @@ class Sense:
 
 
 class Taxonomy:
-    """A noun hierarchy. Synsets are numbers; lemmas are lower case, compounds with or without space."""
+    """A noun hierarchy. Synsets are numbers; lemmas are lower case, compounds without space or hyphen.
+
+    What a lemma or synset holds is taken apart when it is first asked for: no scene speaks of all of them.
+    """
 
     def __init__(self, text: str) -> None:
-        adjectives, *lines = text.splitlines()
-        self.adjectives = frozenset(adjectives.split())
-        self._domains: list[str] = []
-        self._hypernyms: list[tuple[int, ...]] = []
-        self._names: list[str] = []
-        self._senses: dict[str, list[tuple[int, int]]] = {}
-        for synset, line in enumerate(lines):
-            domain, above, lemmas = line.split("\t")
-            self._domains.append(domain)
-            self._hypernyms.append(tuple(map(int, above.split())))
-            for entry in lemmas.split("|"):
-                lemma, _, rank = entry.rpartition(":")
-                self._senses.setdefault(lemma.replace(" ", "").replace("-", ""), []).append((int(rank), synset))
-            self._names.append(lemmas.partition(":")[0])
-        for senses in self._senses.values():
-            senses.sort()
+        """Read the lines that `tools/build_wordnet.py` writes.
 
-    def senses(self, lemma: str) -> list[Sense]:
+        1. adjectives, parted by spaces;
+        2. domains, parted by spaces, the first called `a` below, the next `b`…;
+        3. the domain of each synset, a letter each;
+        4. what is above each synset: numbers of synsets parted by spaces; tabs part synsets;
+        5. the name of each synset; tabs;
+        6. lemmas; tabs;
+        7. for each lemma the domain and rank of its meanings, those used most first: `c1 f2`; tabs;
+        8. for each lemma the synsets of its meanings, in that order; tabs.
+
+        Further lines are no concern of this reader.
+        """
+        adjectives, domains, _, above, names, lemmas, kinds, senses = text.split("\n")[:8]
+        self.adjectives = frozenset(adjectives.split())
+        self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
+        self._above_texts = above.split("\t")
+        self._names = names.split("\t")
+        self._places = {lemma: at for at, lemma in enumerate(lemmas.split("\t"))}
+        self._kinds = kinds.split("\t")
+        self._synsets = senses.split("\t")
+        self._senses: dict[str, tuple[Sense, ...]] = {}
+        self._above: dict[int, tuple[int, ...]] = {}
+        self._singular = lru_cache(maxsize=16384)(self._find_singular)
+
+    def senses(self, lemma: str) -> tuple[Sense, ...]:
         """Return the meanings of a lemma or joined compound (`flowerpot`), most used first; maybe none."""
-        return [Sense(synset, rank, self._domains[synset]) for rank, synset in self._senses.get(lemma, ())]
+        found = self._senses.get(lemma)
+        if found is None:
+            if lemma not in self._places:
+                return ()
+            synsets, kinds = self._synsets[self._places[lemma]].split(), self.parse_kinds(self.kinds(lemma))
+            pairs = zip(synsets, kinds, strict=True)
+            found = self._senses[lemma] = tuple(Sense(int(synset), *kind) for synset, kind in pairs)
+        return found
+
+    def kinds(self, lemma: str) -> str:
+        """Return of what kinds the meanings of a lemma are, for `parse_kinds`; empty for an unknown one.
+
+        Many lemmas are of like kinds, so that what follows from these can be kept.
+        """
+        return self._kinds[self._places[lemma]] if lemma in self._places else ""
+
+    def parse_kinds(self, kinds: str) -> list[tuple[int, str]]:
+        """Return (rank, domain) of the meanings that `kinds` speaks of, most used first."""
+        return [(int(kind[1:]), self._domains[kind[0]]) for kind in kinds.split()]
+
+    @property
+    def lemmas(self) -> Collection[str]:
+        """All lemmas."""
+        return self._places.keys()
 
     def __contains__(self, lemma: str) -> bool:
-        return lemma in self._senses
+        return lemma in self._places
 
     def name(self, synset: int) -> str:
-        """Return the lemma that WordNet lists first for a synset."""
+        """Return the lemma that WordNet lists first for a synset, with its spaces."""
         return self._names[synset]
+
+    def above(self, synset: int) -> tuple[int, ...]:
+        """Return the synsets that a synset is directly a kind of."""
+        found = self._above.get(synset)
+        if found is None:
+            found = self._above[synset] = tuple(map(int, self._above_texts[synset].split()))
+        return found
 
     def walk_up(self, synset: int) -> Iterator[tuple[int, int]]:
         """Yield (synset, hops) from a synset upwards, nearest first, itself with 0 hops."""
-        seen = {synset}
-        level, hops = [synset], 0
-        while level:
-            for current in level:
-                yield current, hops
-            above = [up for current in level for up in self._hypernyms[current]]
-            level = [up for up in dict.fromkeys(above) if up not in seen]
-            seen.update(level)
-            hops += 1
+        hops = {synset: 0}
+        pending = [synset]
+        for current in pending:
+            yield current, hops[current]
+            for up in self.above(current):
+                if up not in hops:
+                    hops[up] = hops[current] + 1
+                    pending.append(up)
+
+    def below(self, names: frozenset[str]) -> Callable[[int], bool]:
+        """Return a function that tells whether a synset, or one above it, has one of these names."""
+        known: dict[int, bool] = {}
+
+        def is_below(synset: int) -> bool:
+            if synset not in known:
+                known[synset] = self._names[synset] in names or any(is_below(up) for up in self.above(synset))
+            return known[synset]
+
+        return is_below
 
     def path_up(self, synset: int, target: int) -> list[int]:
         """Return the synsets from `synset` up to `target`, both included, by a shortest way."""
         came_from: dict[int, int | None] = {synset: None}
         for current, _ in self.walk_up(synset):
-            for up in self._hypernyms[current]:
+            for up in self.above(current):
                 came_from.setdefault(up, current)
         path: list[int] = []
         step: int | None = target
@@ -87,19 +137,23 @@ class Taxonomy:
         >>> load_taxonomy().singular("knives")
         'knife'
         """
-        if word in self._senses or len(word) < 4:
-            return word
+        return word if word in self._places or len(word) < 4 else self._singular(word)
+
+    def _find_singular(self, word: str) -> str:
         for ending, singular in (*_PLURALS, *_MORE_PLURALS):
-            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._senses:
+            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._places:
                 return stem
         return word
 
     def words(self, domains: frozenset[str]) -> list[str]:
         """Return the single-word lemmas that have a meaning in one of `domains`, sorted."""
+        others = frozenset(letter for letter, domain in self._domains.items() if domain in domains).isdisjoint
         return sorted(
-            lemma
-            for lemma, senses in self._senses.items()
-            if lemma.isalpha() and any(self._domains[synset] in domains for _, synset in senses)
+            [
+                lemma
+                for lemma, kinds in zip(self._places, self._kinds, strict=True)
+                if lemma.isalpha() and not others(kinds)
+            ]
         )
 
 

@@ -1,0 +1,177 @@
+"""Time the embedded grounder: how long it takes to load, and how many objects a second it grounds.
+
+Usage: python benchmarks/grounding/run.py [NAMES] (default 1500)
+
+Names are put together from the words of the product's own vocabulary, all different, on things of random size in rooms
+of forty. Each measurement runs three times in a fresh interpreter on one core, of which the least counts; times are of
+the processor, memory is the peak. Beside each stands something simple that the same run measures.
+"""
+
+import os
+import random
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+from usd2kg.grounding import ground
+from usd2kg.grounding.embedded.lexicon import home_names
+from usd2kg.ontology import load_home_tbox
+from usd2kg.scene import Box, NamingRegime, Scene, SceneObject, StageFrame, abbreviate
+from usd2kg.words import words_of
+
+REPEATS = 3
+ROOM = 40
+LOAD = """
+import resource, sys, time
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.ontology import load_home_tbox
+from usd2kg.scene import ObjectView
+
+imported = time.process_time()
+EmbeddedGrounder().ground_views([("/cup", ObjectView(name="coffee_mug"))], load_home_tbox())
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
+print(imported, time.process_time(), peak)
+"""
+BARE = """
+import gzip, resource, sys, time
+from importlib.resources import files
+import numpy as np
+
+data = files("usd2kg.grounding") / "data"
+texts = [gzip.decompress((data / name).read_bytes()).decode() for name in ("wordnet.txt.gz", "frequencies.txt.gz")]
+texts += [(data / name).read_text("utf-8") for name in ("home_names.csv", "heads.json", "calibration.json")]
+with np.load(data / "likeness.npz") as arrays:
+    weights = [arrays[name] for name in arrays.files]
+texts.append((files("usd2kg.ontology") / "data" / "home.ttl").read_text("utf-8"))
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
+print(time.process_time(), peak)
+"""
+"""What any program does that imports numpy and reads the files that the first answer needs."""
+
+SAMPLES: dict[str, tuple[Callable[[list[str]], str], NamingRegime]] = {
+    "plain": ("".join, NamingRegime.SEMANTIC),
+    "abbreviated by their author": (lambda words: "_".join(map(abbreviate, words)), NamingRegime.SEMANTIC),
+    "abbreviated by the regime": ("".join, NamingRegime.ABBREVIATED),
+    "opaque": ("".join, NamingRegime.OPAQUE),
+}
+"""Kind of names → how the scene writes the words of one, and the naming regime."""
+
+
+def written_names(write: Callable[[list[str]], str]) -> Iterator[str]:
+    """Yield different names of two or three words of the vocabulary, without end."""
+    rng = random.Random(0)
+    things = sorted(
+        {name for names in home_names().values() for name in names if name.isascii() and name.count(" ") < 2}
+    )
+    words = sorted({word.lower() for thing in things for word in thing.split() if word.isalpha()})
+    seen = set()
+    while True:
+        said = [rng.choice(words), *rng.choice(things).split()]
+        name = write([word.capitalize() for word in said if word.isalnum()])
+        if name not in seen:
+            seen.add(name)
+            yield name
+
+
+def make_scene(names: list[str]) -> Scene:
+    """Return things with these names, forty to a room, of random size."""
+    rng = random.Random(1)
+    return Scene(
+        source="names put together",
+        content_hash="",
+        frame=StageFrame("Z", 1.0, 1.0, is_authored=True),
+        time=None,
+        prim_count=len(names),
+        objects=tuple(make_object(f"/World/Room_{at // ROOM}/{name}", rng) for at, name in enumerate(names)),
+        left_out={},
+    )
+
+
+def make_object(path: str, rng: random.Random) -> SceneObject:
+    """Return a thing of 1 cm to 2 m, without any evidence but its name, size and place."""
+    box = Box((0.0, 0.0, 0.0), (rng.uniform(0.01, 2), rng.uniform(0.01, 2), rng.uniform(0.01, 2)))
+    return SceneObject(
+        prim_path=path,
+        name=path.rpartition("/")[2],
+        type_name="Xform",
+        kind="component",
+        selected_by="listed",
+        parent_path=None,
+        box=box,
+        own_box=box,
+        part_boxes=(),
+        position=(0.0, 0.0, 0.0),
+        orientation=(0.0, 0.0, 0.0, 1.0),
+        mass_kg=None,
+        display_name="",
+        documentation="",
+        asset=(),
+        materials=(),
+        parts=(),
+        display_color=None,
+        instance_of=None,
+    )
+
+
+def measure(kind: str, count: int) -> None:
+    """Ground that many names; print seconds, seconds of the same number of plain look-ups, and megabytes."""
+    write, regime = SAMPLES[kind]
+    scene, tbox = make_scene(list(islice(written_names(write), count))), load_home_tbox()
+    ground(make_scene(["CoffeeMug"]), tbox)
+    start = time.process_time()
+    ground(scene, tbox, regime=regime)
+    print(time.process_time() - start, seconds_of_look_ups(scene), peak_megabytes())
+
+
+def seconds_of_look_ups(scene: Scene) -> float:
+    """Return the least time that it takes to look the words of each name up in a table, longest run first."""
+    table = {name.lower().replace(" ", ""): iri for iri, names in home_names().items() for name in names}
+    took = []
+    for _ in range(REPEATS):
+        words_of.cache_clear()
+        start = time.process_time()
+        for obj in scene.objects:
+            words = words_of(obj.name)
+            runs = ("".join(words[at:]) for at in range(len(words)))
+            next((table[run] for run in runs if run in table), None)
+        took.append(time.process_time() - start)
+    return min(took)
+
+
+def peak_megabytes() -> float:
+    """Return the largest memory that this process had, in megabytes; Linux counts kilobytes, macOS bytes."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
+
+
+def least(*arguments: str) -> list[float]:
+    """Return the least of each number that fresh interpreters print, given one core."""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    printed = [
+        subprocess.run([sys.executable, *arguments], check=True, capture_output=True, text=True, env=environment).stdout
+        for _ in range(REPEATS)
+    ]
+    return [min(numbers) for numbers in zip(*(map(float, text.split()) for text in printed), strict=True)]
+
+
+def main() -> None:
+    """Measure and print."""
+    count = sys.argv[1] if len(sys.argv) > 1 else "1500"
+    bare, bare_megabytes = least("-c", BARE)
+    imported, answered, megabytes = least("-c", LOAD)
+    print(f"numpy and the same files:    {bare:.2f} s, {bare_megabytes:.0f} MB")
+    print(f"import:                      {imported:.2f} s, {imported / bare:.1f} times as long")
+    print(f"import and first answer:     {answered:.2f} s, {answered / bare:.1f} times as long, {megabytes:.0f} MB")
+    print(f"{'names':<28} {'number':>7} {'a second':>9} {'look-ups each':>14} {'peak MB':>8}")
+    for kind in SAMPLES:
+        seconds, look_ups, megabytes = least(__file__, count, kind)
+        print(f"{kind:<28} {count:>7} {int(count) / seconds:>9.0f} {seconds / look_ups:>14.0f} {megabytes:>8.0f}")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        measure(sys.argv[2], int(sys.argv[1]))
+    else:
+        main()

@@ -1,0 +1,127 @@
+"""The best ways to read letters as words: with all that is passed over, those of adding everything up."""
+
+import math
+import random
+from collections.abc import Iterator, Mapping
+from functools import reduce
+
+import pytest
+
+from usd2kg.grounding.embedded import beam
+from usd2kg.grounding.embedded.beam import ROOT, Arc, Beam, Piece, log_sum
+
+SECONDS = {"tea": frozenset({"pot", "cup"}), "door": frozenset({"bell"})}
+NEVER = (-math.inf, 0.0)
+
+Ways = Mapping[tuple[int, int], tuple[tuple[float, float], Mapping[str, list[float]]]]
+"""(start, end) → what it costs that the letters between are no word, and the reasons for words."""
+Found = list[tuple[tuple[str, ...], float]]
+
+
+def seconds(word: str) -> frozenset[str]:
+    return SECONDS.get(word, frozenset())
+
+
+def piece(reasons: Mapping[str, list[float]]) -> Piece:
+    words = sorted(((reduce(log_sum, scores), word) for word, scores in reasons.items()), reverse=True)
+    return Piece(words, reasons, max(map(len, reasons.values()), default=0))
+
+
+def by_beam(ways: Ways, length: int) -> Found:
+    read = Beam(seconds)
+    paths = [ROOT]
+    arcs: list[list[Arc]] = [[] for _ in range(length + 1)]
+    for at in range(length):
+        starts = read.starts(paths)
+        for (start, end), (unread, reasons) in ways.items():
+            is_any = bool(reasons) or unread != NEVER
+            if start == at and starts.ordered and is_any:
+                arcs[end].append(Arc(starts, unread, piece(reasons)))
+        paths = read.best(arcs[at + 1])
+    return [(read.words(path), path[0]) for path in paths]
+
+
+def by_adding_up(ways: Ways, length: int) -> Found:
+    """Return the same with a list of all ways at each letter, cut to ten only when all are known."""
+    paths: list[dict[tuple[str, ...], tuple[float, int]]] = [{(): (0.0, 0)}, *({} for _ in range(length))]
+    for end in range(1, length + 1):
+        every = [way for (start, at), known in ways.items() if at == end for way in extended(paths[start], *known)]
+        best = max((score for score, _, _ in every), default=0.0)
+        for score, words, pieces in sorted(every, key=lambda way: -way[0]):
+            if score > best - beam._HOPELESS:
+                known_score, known_pieces = paths[end].get(words, (None, pieces))
+                paths[end][words] = (score if known_score is None else log_sum(known_score, score), known_pieces)
+        ranked = sorted(paths[end].items(), key=lambda path: (-path[1][0], path[0]))
+        paths[end] = dict(ranked[: beam._WIDTH])
+    return [(words, score) for words, (score, _) in paths[length].items()]
+
+
+def extended(
+    paths: Mapping[tuple[str, ...], tuple[float, int]], unread: tuple[float, float], reasons: Mapping[str, list[float]]
+) -> Iterator[tuple[float, tuple[str, ...], int]]:
+    for words, (score, pieces) in paths.items():
+        if pieces < beam._MOST_PIECES:
+            begun = score + (beam._NEXT_WORD if pieces else 0.0)
+            if unread != NEVER:
+                yield begun + sum(unread), words, pieces + 1
+            for word, scores in reasons.items():
+                bonus = beam._COMPOUND if words and word in seconds(words[-1]) else 0.0
+                yield from ((begun + reason + bonus, (*words, word), pieces + 1) for reason in scores)
+
+
+def assert_same(found: Found, expected: Found) -> None:
+    assert [words for words, _ in found] == [words for words, _ in expected]
+    assert [score for _, score in found] == pytest.approx([score for _, score in expected], abs=1e-9)
+
+
+def test_two_pieces_worked_by_hand():
+    ways = {(0, 1): (NEVER, {"tea": [-1.0]}), (1, 2): ((-2.0, 0.0), {"pot": [-3.0], "bell": [-3.0]})}
+    bonus, step = beam._COMPOUND, beam._NEXT_WORD
+    # A tea pot is known, a tea bell is not; the last letter may be no word.
+    expected = [(("tea", "pot"), -4 + bonus + step), (("tea",), -3 + step), (("tea", "bell"), -4 + step)]
+    assert_same(by_beam(ways, 2), expected)
+
+
+def test_all_ways_to_the_same_words_add_up():
+    ways = {(0, 1): ((-5.0, 0.0), {}), (1, 2): (NEVER, {"cup": [-1.0]}), (0, 2): (NEVER, {"cup": [-3.0, -3.0]})}
+    one = -5 - 1 + beam._NEXT_WORD
+    ((words, score),) = by_beam(ways, 2)
+    assert words == ("cup",)
+    assert score == pytest.approx(math.log(math.exp(one) + 2 * math.exp(-3)))
+
+
+def test_of_equal_readings_those_first_by_their_words_stay():
+    words = [f"w{at:02d}" for at in range(30)]
+    ways = {(0, 1): (NEVER, {word: [-2.0] for word in reversed(words)})}
+    assert [found for found, _ in by_beam(ways, 1)] == [(word,) for word in words[:10]]
+
+
+def test_nothing_leads_to_nothing():
+    assert by_beam({(0, 1): ((-1.0, 0.0), {})}, 2) == []
+
+
+def test_no_more_than_eight_pieces_are_read():
+    ways = {(at, at + 1): ((-1.0, 0.0), {"tea": [-1.0]}) for at in range(9)}
+    assert len(by_beam(ways, 8)) > 0
+    # The second beam may have found words by fewer pieces: here there are none.
+    assert by_beam(ways, 9) == by_adding_up(ways, 9) == []
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_what_is_passed_over_makes_no_difference(seed: int):
+    rng = random.Random(seed)
+    length, spread = rng.randint(1, 7), rng.choice([0.5, 3.0, 12.0])
+    vocabulary = ["tea", "pot", "cup", "door", "bell", *(f"w{at}" for at in range(rng.choice([2, 12])))]
+
+    def score() -> float:
+        # Some scores are equal, as those of rare words are.
+        return rng.choice([-rng.random() * spread - 3, -5.0])
+
+    ways = {}
+    for start in range(length):
+        for end in range(start + 1, length + 1):
+            if rng.random() < 0.7:
+                said = rng.sample(vocabulary, rng.randint(0, len(vocabulary)))
+                reasons = {word: [score() for _ in range(rng.choice([1, 1, 2]))] for word in said}
+                ways[start, end] = (rng.choice([NEVER, (score(), score())]), reasons)
+    assert_same(by_beam(ways, length), by_adding_up(ways, length))
