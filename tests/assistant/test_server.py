@@ -83,6 +83,8 @@ def test_errors_are_told_and_nothing_changes(kitchen: Path):
         assert "not valid SPARQL" in await call(client, "sparql", query="DELETE WHERE { ?s ?p ?o }")
         service = "SELECT * { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }"
         assert "no query leaves this machine" in await call(client, "sparql", query=service)
+        endless = "SELECT (COUNT(*) AS ?n) { ?a ?b ?c . ?d ?e ?f . ?g ?h ?i }"
+        assert "query: stopped after 10 s; ask for less" in await call(client, "sparql", query=endless)
         assert (await call(client, "objects"))["count"] == 294
 
     talk_to([str(kitchen)], conversation)
@@ -93,7 +95,7 @@ def test_a_picture_is_shown_where_the_stage_is_given(kitchen: Path):
     async def conversation(client: Client) -> Any:
         return await client.call_tool("show", {"thing": "toaster"})
 
-    result = talk_to([str(kitchen), "--scene", str(demo_scene())], conversation)
+    result = talk_to([str(kitchen), "--stage", str(demo_scene())], conversation)
     assert not result.is_error
     assert (result.content[0].type, result.content[0].mime_type) == ("image", "image/png")
     assert len(result.content[0].data) > 1000

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.grounding.records import ground_names, ground_view, local
+from tests.grounding.records import ground_names, ground_view, local, make_class, make_tbox
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.embedded.lexicon import build_lexicon
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
@@ -44,6 +44,26 @@ def reader(home_tbox: TBox) -> NameReader:
 )
 def test_a_name_is_its_telling_words(reader: NameReader, name: str, words: tuple[str, ...]):
     assert reader.read(name) == NamePhrase(words)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("TestTube_01", "TestTube"),
+        ("SM_test_tube_LOW", "TestTube"),
+        ("test_cup", "Cup"),
+        ("HighTable", "HighTable"),
+        ("Table_High", "Table"),
+        ("LOD0_Table", "Table"),
+        ("oak_high_table_2", "HighTable"),
+    ],
+)
+def test_a_pipelines_word_counts_where_it_is_part_of_a_term(name: str, expected: str):
+    classes = [
+        make_class("Thing"),
+        *(make_class(kind, "Thing") for kind in ("TestTube", "Tube", "HighTable", "Table", "Cup")),
+    ]
+    assert classes_of([name], make_tbox(*classes)) == {name: expected}
 
 
 class TestReferencesToParents:

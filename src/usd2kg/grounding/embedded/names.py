@@ -40,6 +40,8 @@ _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 _MOST_WORDS = 16
 """Words of a name that are read; display names are free text, and no thing's name is longer."""
+_LONGEST_TERM = 5
+"""Words of a term that is looked for around a word that alone says nothing."""
 _LONG = 7
 """Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
 _SHORTEST_PARTICIPLE = 5
@@ -107,7 +109,7 @@ class NameReader:
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
-        tokens = [token for token in _tokens(name) if is_telling(token.text)][:_MOST_WORDS]
+        tokens = self._telling(_tokens(name))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         glued: list[bool] = []
@@ -128,6 +130,25 @@ class NameReader:
                 corrections.append((token.text, " ".join(read)))
         context = tuple(token.text for token in references)
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
+
+    def _telling(self, tokens: list[_Token]) -> list[_Token]:
+        """Return the tokens that say something: those of a pipeline (`low`, `test`) only in a term: `TestTube`."""
+        kept = {at for at, token in enumerate(tokens) if is_telling(token.text)}
+        for at in range(min(len(tokens), _MOST_WORDS)):
+            if at not in kept:
+                kept.update(self._term_around(tokens, at))
+        return [tokens[at] for at in sorted(kept)]
+
+    def _term_around(self, tokens: list[_Token], at: int) -> range:
+        """Return where the longest term with more words than token `at` stands around it; nowhere if there is none."""
+        runs = [
+            range(start, end)
+            for start in range(max(0, at - _LONGEST_TERM), at + 1)
+            for end in range(at + 1, min(len(tokens), start + _LONGEST_TERM) + 1)
+            if end - start > 1
+        ]
+        terms = [run for run in runs if "".join(tokens[i].text for i in run) in self._lexicon.terms]
+        return max(terms, key=len, default=range(0))
 
     def _spelled_out(self, word: str) -> tuple[str, ...]:
         """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""
