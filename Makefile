@@ -21,7 +21,7 @@ demo: $(READY) ## Build the knowledge graph of the built-in kitchen and ask it t
 	$(BIN)/usd2kg demo -o build/kitchen.ttl
 
 test: $(READY) ## Run the tests
-	$(BIN)/python -m pytest -q
+	$(BIN)/python -m pytest -q -n auto --dist loadfile
 
 test-slow: $(READY) ## Run the tests that take long
 	$(BIN)/python -m pytest -q -m slow

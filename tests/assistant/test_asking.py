@@ -56,6 +56,11 @@ UNDERSTOOD: Mapping[str, tuple[str, dict[str, str]]] = {
     "list all the chairs": ("all", {"class": "chairs"}),
     "which objects are you unsure about?": ("unsure", {}),
     "how heavy is the wardrobe?": ("about", {"thing": "the wardrobe"}),
+    "is there a fridge?": ("is-there", {"class": "fridge"}),
+    "are there any apples here": ("is-there", {"class": "apples"}),
+    "which drawer contains the spoons?": ("where", {"thing": "the spoons"}),
+    "how many drawers does the cabinet have?": ("parts-of", {"class": "drawers", "thing": "the cabinet"}),
+    "how far is the cup from the sink?": ("distance", {"thing": "the cup", "other": "the sink"}),
     "what is the thing": ("about", {"thing": "the thing"}),
 }
 
@@ -109,10 +114,27 @@ def test_things_on_things(graph: GraphStore):
         ("is there a bowl on the tray?", False),
         ("is the apple in the bowl?", True),
         ("is there a cup in the bowl?", False),
+        ("is there a wardrobe?", True),
+        ("is there a unicorn?", False),
     ],
 )
 def test_yes_and_no(graph: GraphStore, text: str, verdict: bool):
     assert ask_offline(graph, text).verdict is verdict
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [("how many cups are there?", 1), ("how many plates are on the table?", 1), ("how many cups are in the bowl", 0)],
+)
+def test_numbers(graph: GraphStore, text: str, number: int):
+    asked = ask_offline(graph, text)
+    assert (asked.number, asked.summary()) == (number, f"{number}\n")
+
+
+def test_distances_are_gaps_between_boxes(graph: GraphStore):
+    # The table ends at x = 1.6, y = 0.8; the wardrobe begins at (3, 3): √(1.4² + 2.2²).
+    (row,) = ask_offline(graph, "how far is the dining table from the wardrobe?").answer.values
+    assert row[-1] == pytest.approx(2.608, abs=1e-3)
 
 
 def test_units_are_read(graph: GraphStore):
@@ -141,5 +163,7 @@ def test_a_long_list_is_cut_and_counted(graph: GraphStore):
 def test_what_is_not_there_is_told(graph: GraphStore):
     with pytest.raises(GraphError, match="nothing is called 'unicorn'"):
         ask_offline(graph, "where is the unicorn?")
+    with pytest.raises(GraphError, match=r"nothing is called 'wardrobbe' \(is 'Wardrobe' meant\?\)"):
+        ask_offline(graph, "where is the wardrobbe?")
     with pytest.raises(GraphError, match=r"is not understood; ask like .* or let a model write the query with --model"):
         ask_offline(graph, "sing me a song")

@@ -1,12 +1,13 @@
 """ask_offline: a question in plain English, answered from the ready questions, without any model."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.phrases import Phrase, match_phrase
 from usd2kg.errors import GraphError
-from usd2kg.graph import Answer, GraphStore, list_questions
+from usd2kg.graph import Answer, GraphStore, list_questions, term_list
 
 __all__ = ["AskedAnswer", "ask_offline"]
 
@@ -24,6 +25,19 @@ class AskedAnswer:
     """Its table, and the SPARQL that gave it."""
     verdict: bool | None = None
     """Yes or no, where that was asked."""
+    number: int | None = None
+    """How many, where that was asked."""
+
+    def as_json(self) -> dict[str, Any]:
+        """Return how it was understood, and yes, no or a number where one of these was asked."""
+        said = {"verdict": self.verdict, "number": self.number}
+        return {"understood": self.understood, **{name: value for name, value in said.items() if value is not None}}
+
+    def summary(self) -> str:
+        """Return yes, no or a number on a line of its own, where one of these was asked; else nothing."""
+        if self.number is not None:
+            return f"{self.number}\n"
+        return "" if self.verdict is None else "yes\n" if self.verdict else "no\n"
 
 
 def ask_offline(graph: GraphStore, text: str) -> AskedAnswer:
@@ -42,30 +56,31 @@ def ask_offline(graph: GraphStore, text: str) -> AskedAnswer:
     return _answer(graph, phrase)
 
 
+_DISTANCE = """
+SELECT ?object ?path ?other ?other_path ?distance_m WHERE {{
+  VALUES ?a {{ {things} }} VALUES ?b {{ {others} }}
+  ?a rdfs:label ?object ; u2k:primPath ?path . ?b rdfs:label ?other ; u2k:primPath ?other_path .
+  BIND(u2kf:gap(?a, ?b) AS ?distance_m)
+}} ORDER BY ?distance_m ?path"""
+
+
 def _answer(graph: GraphStore, phrase: Phrase) -> AskedAnswer:
     question, given = phrase
     verb, _, relation = question.partition("-")
     if verb in {"count", "is", "some"} and relation in _RELATED:
         return _some_related(graph, verb, _RELATED[relation], given)
-    if question == "how-many":
-        answer = graph.all_of(given["class"])
-        return AskedAnswer(f"all of class {given['class']}, counted", answer)
-    simple = {
-        "on": graph.on,
-        "inside": graph.inside,
-        "near": graph.near,
-        "above-of": graph.above,
-        "parts": graph.parts_of,
-        "where": graph.where_is,
-    }
-    if question in simple:
-        words = {"above-of": "above", "parts": "parts of", "where": "where is"}.get(question, question)
-        return AskedAnswer(f"{words} {given['thing']}", simple[question](given["thing"]))
-    if question == "all":
-        return AskedAnswer(f"all of class {given['class']}", graph.all_of(given["class"]))
-    if question == "about":
-        return AskedAnswer(f"all about {given['thing']}", description_answer(graph, given["thing"]))
+    if question in _OTHERS:
+        return _OTHERS[question](graph, **given)
+    if question in _SPOKEN:
+        ask, words = _SPOKEN[question]
+        named = given.get("thing") or given["class"]
+        return AskedAnswer(f"{words} {named}", ask(graph, named))
     return _listed(graph, question, given)
+
+
+def _how_many(graph: GraphStore, **given: str) -> AskedAnswer:
+    answer = graph.where_is(given["class"])
+    return AskedAnswer(f"all {given['class']}", answer, number=len(set(_column(answer, "path"))))
 
 
 def _listed(graph: GraphStore, question: str, given: Mapping[str, str]) -> AskedAnswer:
@@ -90,15 +105,58 @@ def _some_related(graph: GraphStore, verb: str, relation: str, given: Mapping[st
     """Return the things of a class, or of a name, that are on or in a thing, or on or in something there."""
     find = graph.on if relation == "on" else graph.inside
     related = find(given["thing"], is_direct=False)
-    nodes = set(_paths(graph, given["class"]))
-    column = related.columns.index("path")
-    kept = [index for index, row in enumerate(related.rows) if row[column] in nodes]
-    answer = replace(related, rows=tuple(related.rows[i] for i in kept), values=tuple(related.values[i] for i in kept))
-    return AskedAnswer(f"{given['class']} {relation} {given['thing']}", answer, bool(kept) if verb == "is" else None)
+    answer = _only(related, set(_column(graph.where_is(given["class"]), "path")))
+    found = len(answer.rows)
+    told = f"{given['class']} {relation} {given['thing']}"
+    return AskedAnswer(told, answer, bool(found) if verb == "is" else None, found if verb == "count" else None)
 
 
-def _paths(graph: GraphStore, name: str) -> list[str]:
-    """Return the prim paths of all things that a person may mean by a class or a name."""
-    answer = graph.where_is(name)
-    column = answer.columns.index("path")
-    return [row[column] or "" for row in answer.rows]
+def _some_parts(graph: GraphStore, **given: str) -> AskedAnswer:
+    name, thing = given["class"], given["thing"]
+    answer = _only(graph.parts_of(thing), set(_column(graph.where_is(name), "path")))
+    return AskedAnswer(f"{name} that are parts of {thing}", answer, number=len(answer.rows))
+
+
+def _is_there(graph: GraphStore, **given: str) -> AskedAnswer:
+    name = given["class"]
+    try:
+        answer = graph.where_is(name)
+    except GraphError:
+        # That nothing is called so is the answer here.
+        answer = Answer(("object",), (), (), "")
+    return AskedAnswer(f"whether there is {name}", answer, bool(answer.rows))
+
+
+def _distance(graph: GraphStore, thing: str, other: str) -> AskedAnswer:
+    query = _DISTANCE.format(things=term_list(graph.find(thing)), others=term_list(graph.find(other)))
+    return AskedAnswer(f"the gap between {thing} and {other}, in metres", graph.sparql(query))
+
+
+def _only(answer: Answer, paths: set[str]) -> Answer:
+    """Return the rows of an answer that are about the prims at these paths."""
+    kept = [index for index, path in enumerate(_column(answer, "path")) if path in paths]
+    return replace(answer, rows=tuple(answer.rows[i] for i in kept), values=tuple(answer.values[i] for i in kept))
+
+
+def _column(answer: Answer, name: str) -> list[str]:
+    at = answer.columns.index(name)
+    return [row[at] or "" for row in answer.rows]
+
+
+_SPOKEN: Mapping[str, tuple[Callable[[GraphStore, str], Answer], str]] = {
+    "on": (GraphStore.on, "on"),
+    "inside": (GraphStore.inside, "inside"),
+    "near": (GraphStore.near, "near"),
+    "above-of": (GraphStore.above, "above"),
+    "parts": (GraphStore.parts_of, "parts of"),
+    "where": (GraphStore.where_is, "where:"),
+    "all": (GraphStore.all_of, "all of class"),
+    "about": (description_answer, "all about"),
+}
+"""Question → how it is answered for what is named, and how it is told back."""
+_OTHERS: Mapping[str, Callable[..., AskedAnswer]] = {
+    "how-many": _how_many,
+    "is-there": _is_there,
+    "parts-of": _some_parts,
+    "distance": _distance,
+}

@@ -20,6 +20,7 @@ class Phrase(NamedTuple):
 
 _PARAMETERS = {
     "thing": "[^?]+?",
+    "other": "[^?]+?",
     "class": "[^?]+?",
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "mass": r"<number> ?(kilos?|(kilo)?grams?|kg|g)?",

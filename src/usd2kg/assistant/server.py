@@ -55,7 +55,7 @@ def make_server(
     def ask(question: str) -> dict[str, Any]:
         """Answer a question in plain English, like 'what is on the table?' or 'how many cups are there?'."""
         asked = _told(lambda: ask_offline(graph, question))
-        return {"understood": asked.understood, "verdict": asked.verdict, **_table(asked.answer)}
+        return {**asked.as_json(), **_table(asked.answer)}
 
     def questions() -> dict[str, Any]:
         """List the ready questions with their parameters, for ready_question."""

@@ -45,11 +45,9 @@ def ask_command(
         talk(asked.answer.sparql.strip())
     if json:
         rows = [dict(zip(asked.answer.columns, row, strict=True)) for row in asked.answer.values]
-        told = {"understood": asked.understood, "verdict": asked.verdict, "sparql": asked.answer.sparql, "rows": rows}
-        print_json(told)
+        print_json({**asked.as_json(), "sparql": asked.answer.sparql, "rows": rows})
         return
-    verdict = "" if asked.verdict is None else "yes\n" if asked.verdict else "no\n"
-    emit(verdict + answer_text(asked.answer), None)
+    emit(asked.summary() + answer_text(asked.answer), None)
 
 
 def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "AskedAnswer":

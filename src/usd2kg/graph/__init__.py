@@ -7,6 +7,7 @@ from usd2kg.graph.instantiate import PROFILES, KnowledgeGraph, instantiate
 from usd2kg.graph.iris import individual_iri, prim_path_of
 from usd2kg.graph.json_ld import CONTEXTS, context_text
 from usd2kg.graph.load import load_graph
+from usd2kg.graph.lookup import term_list
 from usd2kg.graph.merge import merge_imports
 from usd2kg.graph.neo4j import write_neo4j
 from usd2kg.graph.options import ANNOTATIONS, COLORS, GraphOptions, read_epoch, read_time
@@ -60,6 +61,7 @@ __all__ = [
     "read_property_graph",
     "read_time",
     "serialize_graph",
+    "term_list",
     "vocabulary_text",
     "write_graph",
     "write_neo4j",

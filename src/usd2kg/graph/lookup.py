@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import pyoxigraph as ox
+from rapidfuzz import fuzz, process
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
@@ -15,6 +16,10 @@ from usd2kg.words import split_identifier
 __all__ = ["Lookup", "NamedObject", "term_list"]
 
 _OBJECTS = "SELECT ?o ?p ?l WHERE { ?o u2k:primPath ?p ; rdfs:label ?l } ORDER BY ?p"
+
+_ASSETS = "SELECT DISTINCT ?o ?a ?p WHERE { ?o u2k:primPath ?p ; u2k:asset ?a } ORDER BY ?p"
+_ALIKE = 80
+"""Of 100: labels that are so like an unknown name are offered."""
 
 _MEMBERS = """
 SELECT DISTINCT ?o ?p WHERE {{
@@ -50,7 +55,7 @@ class Lookup:
     def find(self, thing: str) -> list[ox.NamedNode]:
         """Return the objects that a person means, by the first way that finds any.
 
-        Ways: prim path; label; class (subclasses included); all words in the label.
+        Ways: prim path; label; class (subclasses included); all words in the label; all words in the asset's name.
 
         Raises:
             GraphError: there is no such thing.
@@ -62,12 +67,17 @@ class Lookup:
             lambda: [node for node, _, label in self.objects if label.lower() == thing.lower()],
             lambda: self._members(self._find_classes(thing)),
             lambda: [node for node, _, label in self.objects if wanted and wanted <= _words(label)],
+            lambda: [row["o"] for row in self._select(_ASSETS) if wanted and wanted <= _words(row["a"].value)],
         )
         for way in ways:
             if found := way():
                 return found
+        labels = list(dict.fromkeys(label for _, _, label in self.objects))
+        alike = process.extract(thing, labels, scorer=fuzz.WRatio, processor=str.lower, score_cutoff=_ALIKE, limit=3)
+        near = [label for label, _, _ in alike]
+        meant = f" (is {' or '.join(map(repr, near))} meant?)" if near else ""
         raise GraphError(
-            f"{self._source}: nothing is called {thing!r}; expected a label, a class or a prim path, "
+            f"{self._source}: nothing is called {thing!r}{meant}; expected a label, a class or a prim path, "
             "see usd2kg query GRAPH all of CLASS"
         )
 

@@ -9,7 +9,7 @@ import pytest
 from tests.graph.records import thing
 from tests.graph.validation.broken import CONFIDENCE, ROOM, UPRIGHT, added, found_in, open_room
 from usd2kg.errors import GraphError
-from usd2kg.graph.validation import read_rules
+from usd2kg.graph.validation import read_objects, read_rules
 from usd2kg.ontology import TBox
 
 ROOM_ONLY = ROOM[:5]
@@ -144,3 +144,31 @@ def test_rules_that_cannot_be_used_are_refused(tmp_path: Path, text: str, told: 
     with pytest.raises(GraphError) as caught:
         read_rules(path)
     assert told in str(caught.value)
+
+
+@PROFILES
+def test_a_spoon_may_stick_out_of_a_cup(home_tbox: TBox, profile: str):
+    placed = with_thing("/Spoon", (0.21, 0.21, 0.76), (0.03, 0.02, 0.25), "Spoon")
+    graph = open_room(home_tbox, profile, added(f"k:Spoon {LINKS[profile][1]} k:Cup"), placed=placed)
+    assert "inside-smaller" not in {finding.rule for finding in found_in(graph)}
+
+
+@PROFILES
+def test_a_top_may_stand_on_slim_legs_but_not_on_one(home_tbox: TBox, profile: str):
+    legs = [(thing(f"/Leg_{i}", (x, 4, 0), (0.05, 0.05, 0.7)), "DesignedComponent") for i, x in enumerate((4, 6.95))]
+    placed = [*with_thing("/Top", (4, 3.6, 0.7), (3, 0.8, 0.04), "DesignedComponent"), *legs]
+    one, other = (f"k:Top {LINKS[profile][0]} k:Leg_{i} ." for i in (0, 1))
+    found = {f.rule for f in found_in(open_room(home_tbox, profile, added(one), placed=placed))}
+    assert "support-smaller" in found
+    found = {f.rule for f in found_in(open_room(home_tbox, profile, added(one + other), placed=placed))}
+    assert "support-smaller" not in found
+
+
+@PROFILES
+def test_the_confidence_of_a_relation_is_not_that_of_the_class(home_tbox: TBox, profile: str):
+    said = (
+        'DELETE { ?x sssom:confidence ?o } INSERT { ?x sssom:confidence "0.01"^^xsd:decimal } '
+        "WHERE { ?x sssom:confidence ?o ; owl:annotatedProperty ?p . FILTER(?p != rdf:type) }"
+    )
+    table = {p.prim_path: p.confidence for p in read_objects(open_room(home_tbox, profile, said).store)}
+    assert set(table.values()) == {0.75}

@@ -159,9 +159,11 @@ def _triple(values: Any) -> Vector | None:
 
 def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
     """Yield each object with the confidence in its class, from OWL's annotations or from RDF 1.2's reifiers."""
-    sources = {q.subject: q.object for q in store.quads_for_pattern(None, OWL.annotatedSource, None)}
+    typed = {q.subject for q in store.quads_for_pattern(None, OWL.annotatedProperty, RDF.type)}
+    annotated = store.quads_for_pattern(None, OWL.annotatedSource, None)
+    sources = {quad.subject: quad.object for quad in annotated if quad.subject in typed}
     for quad in store.quads_for_pattern(None, RDF.reifies, None):
-        if isinstance(quad.object, ox.Triple):
+        if isinstance(quad.object, ox.Triple) and quad.object.predicate == RDF.type:
             sources[quad.subject] = quad.object.subject
     for quad in store.quads_for_pattern(None, SSSOM.confidence, None):
         numbers = _numbers(str(getattr(quad.object, "value", "")))

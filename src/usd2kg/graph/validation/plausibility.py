@@ -97,7 +97,7 @@ def _supports(scene: SceneOfObjects) -> Iterator[tuple[GraphObject, GraphObject]
 
 def _support_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     for obj, carrier in _supports(scene):
-        if obj.size is None or carrier.size is None:
+        if obj.size is None or carrier.size is None or _has_legs(scene, obj):
             continue
         volumes = _volume(obj.size) / _volume(carrier.size)
         lengths = max(obj.size) / max(*carrier.size, _SMALLEST)
@@ -111,6 +111,15 @@ def _support_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphO
                 f"at most {rule.number('volume_ratio'):g} times as large or {rule.number('length_ratio'):g} as long"
             )
             yield obj, found, expected
+
+
+def _has_legs(scene: SceneOfObjects, obj: GraphObject) -> bool:
+    """Return whether a thing stands on several that are all smaller than it: a top may have slim legs."""
+    carriers = [scene.by_iri[iri] for iri in obj.supporters if iri in scene.by_iri]
+    return len(carriers) > 1 and all(
+        carrier.size is not None and obj.size is not None and _volume(carrier.size) < _volume(obj.size)
+        for carrier in carriers
+    )
 
 
 def _support_lighter(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
@@ -131,13 +140,15 @@ def _support_odd(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObjec
 
 
 def _inside_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+    """Yield what cannot be in its container. Spoons stand out of a pot: the longest extent says nothing."""
     slack = rule.number("slack")
     for obj in scene.objects:
         for container in (scene.by_iri[iri] for iri in obj.containers if iri in scene.by_iri):
             if obj.size is None or container.size is None:
                 continue
-            is_long = max(obj.size) > slack * math.hypot(*container.size)
-            if is_long or _volume(obj.size) > slack * _volume(container.size):
+            middle = sorted(obj.own_size or obj.size)[1]
+            is_wide = middle > slack * math.hypot(*container.size)
+            if is_wide or _volume(obj.size) > rule.number("volume_ratio") * _volume(container.size):
                 found = f"its box of {_size_text(obj.size)} is said to be inside {_named(container)}"
                 yield obj, found, f"to fit into that one's {_size_text(container.size)}"
 
