@@ -13,6 +13,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
+from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 
 __all__ = [
     "RDF_FORMATS",
@@ -87,7 +88,19 @@ def rdf_format(path: Path) -> ox.RdfFormat:
 
 
 def open_rdf(path: Path) -> BinaryIO:
-    """Open a file to read, through gzip where its name ends in .gz."""
+    """Open a file to read, through gzip where its name ends in .gz.
+
+    Raises:
+        SyntaxError: it is RDF/XML whose entities expand out of bounds.
+        OSError, EOFError, zlib.error: it cannot be read.
+    """
+    if rdf_format(path) == ox.RdfFormat.RDF_XML:
+        with _open_binary(path) as file:
+            refuse_entity_bomb_in_file(file)
+    return _open_binary(path)
+
+
+def _open_binary(path: Path) -> BinaryIO:
     return cast("BinaryIO", gzip.open(path)) if path.suffix.lower() == ".gz" else path.open("rb")
 
 

@@ -14,6 +14,7 @@ from usd2kg.graph.diff.thing import Link, Thing, Vector
 from usd2kg.graph.relation_terms import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.relations import SYMMETRIC_KINDS
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
+from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 
 __all__ = ["Writing", "read_statements", "things_of_graph", "writing_of"]
 
@@ -42,6 +43,9 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
     try:
         # A store would write numbers in its own way, and an update must name them as they are.
         with paused_collection():
+            if rdf_format == ox.RdfFormat.RDF_XML:
+                with path.open("rb") as file:
+                    refuse_entity_bomb_in_file(file)
             return frozenset(quad.triple for quad in ox.parse(path=str(path), format=rdf_format))
     except (SyntaxError, OSError) as error:
         reason = " ".join(str(error).split())
