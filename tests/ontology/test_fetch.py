@@ -145,6 +145,7 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path):
         ("not toml", "is no registry"),
         ("[[ontology]]\nname = 'x'", "is no registry"),
         ("ontology = 3", "is no registry"),
+        ("ontology = " + "[" * 100_000, "is no registry"),
     ],
 )
 def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):

@@ -1,8 +1,6 @@
-"""Ontology documents: sniffing their syntax, parsing them, closing over local imports."""
+"""Ontology documents: parsing them, closing over local imports."""
 
 import hashlib
-import json
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,8 +15,9 @@ from usd2kg.ontology.axioms import ClassAxioms
 from usd2kg.ontology.model import OntologyNote
 from usd2kg.ontology.owl_syntax import owl_as_rdf, read_owl_axioms
 from usd2kg.ontology.rdf_syntax import parse_rdf, read_rdf_axioms
+from usd2kg.ontology.sniff import sniff_syntax
 
-__all__ = ["Document", "close_imports", "find_document", "parse_document", "read_triples", "sniff_syntax"]
+__all__ = ["Document", "close_imports", "find_document", "parse_document", "read_triples"]
 
 _CATALOG = "catalog-v001.xml"
 _CATALOG_URI = "{urn:oasis:names:tc:entity:xmlns:xml:catalog}uri"
@@ -46,44 +45,6 @@ class Document:
     axioms: ClassAxioms
     digest: str
     """SHA-256 of the bytes."""
-
-
-def sniff_syntax(text: str) -> str | None:
-    """Return a key of the known syntaxes by looking at the content; None if it looks like none.
-
-    File endings are not looked at: `.owl` is used for at least three of them.
-
-    >>> sniff_syntax("# a comment\\nPrefix(:=<http://x#>)")
-    'ofn'
-    """
-    start = text.lstrip("\ufeff \t\r\n")
-    if start.startswith("<") and not re.match(r"<[a-zA-Z][a-zA-Z0-9+.-]*:[^\s<>]*>", start):
-        root = re.search(r"<(?![?!])([A-Za-z_][\w.-]*:)?([A-Za-z_][\w.-]*)", _without_xml_prolog(start))
-        return {"RDF": "rdf", "Ontology": "owx"}.get(root.group(2)) if root else None
-    body = re.sub(r"^\s*#[^\n]*\n", "", start, flags=re.MULTILINE).lstrip()
-    if re.match(r"(Prefix|Ontology)\s*\(", body):
-        return "ofn"
-    if re.match(r"(Prefix|Ontology)\s*:", body):
-        return "omn"
-    if re.match(r"@prefix|@base|prefix\s|base\s|<|_:|\[|[\w.-]*:[\w.-]*\s", body, flags=re.IGNORECASE):
-        return "jsonld" if _is_json(body) else "ttl"
-    return "jsonld" if _is_json(body) else None
-
-
-def _without_xml_prolog(text: str) -> str:
-    # The internal subset of a DOCTYPE holds entity declarations that look like tags.
-    text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
-    return re.sub(r"<!DOCTYPE[^\[>]*(\[.*?\]\s*)?>", "", text, count=1, flags=re.DOTALL)
-
-
-def _is_json(text: str) -> bool:
-    if text[:1] not in {"{", "["}:
-        return False
-    try:
-        json.loads(text)
-    except ValueError:
-        return False
-    return True
 
 
 def parse_document(path: Path) -> Document:

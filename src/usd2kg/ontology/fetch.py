@@ -13,8 +13,8 @@ from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
-from usd2kg.ontology.documents import sniff_syntax
 from usd2kg.ontology.registry import KnownDocument, KnownOntology
+from usd2kg.ontology.sniff import sniff_syntax
 
 __all__ = ["fetch_ontology"]
 

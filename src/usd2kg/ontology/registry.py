@@ -55,7 +55,7 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
         known = [_ontology(source, entry) for entry in entries]
     except OSError as error:
         raise OntologyError(f"{source}: cannot be read ({error.strerror}); name a registry of ontologies") from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise OntologyError(
             f"{source}: is no registry ({error!r}); expected [[ontology]] tables with name, title, version, licence "
             "and [[ontology.document]] with iri, file, address, sha256"
