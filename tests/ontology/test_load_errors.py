@@ -126,3 +126,8 @@ def test_documents_that_would_take_hours_or_overflow_are_refused_at_once(write, 
     start = process_time()
     assert refusal(write(content)).startswith(reason)
     assert process_time() - start < 2
+
+
+def test_text_that_the_parser_has_no_room_for_is_refused(write):
+    said = refusal(write(f'<a:a> <a:b> "{"x" * 2**24}" .', "long.ttl"))
+    assert said.startswith("looks like Turtle or N-Triples but does not parse (Reached the buffer maximal size of ")

@@ -17,6 +17,7 @@ from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 
 __all__ = [
     "RDF_FORMATS",
+    "TOO_LARGE",
     "GraphDocument",
     "GraphPart",
     "document_of",
@@ -36,6 +37,10 @@ RDF_FORMATS = {
     ".jsonld": ox.RdfFormat.JSON_LD,
 }
 """File ending → syntax of RDF that is read and written; each may be followed by .gz."""
+
+
+TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
+"""What is said of a file that the parser has no memory for."""
 
 
 class GraphPart(NamedTuple):
@@ -120,6 +125,9 @@ def read_document(path: Path) -> GraphDocument:
             parser = ox.parse(file, format=syntax)
             parts = tuple(_parts(parser))
             prefixes = dict(parser.prefixes)
+    except MemoryError as error:
+        # So pyoxigraph says it, whose parser holds no text of more than 16 MiB.
+        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = " ".join(str(error).split())
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error

@@ -80,7 +80,8 @@ def nearest_parents(scope: set[str], superclasses: Mapping[str, set[str]]) -> di
     for group, above in enumerate(levels.above):
         # Those above come first, so what lies nearest to a group outside the scope is known.
         found: set[int] = set().union(*({up} if inside[up] else nearest[up] for up in above))
-        nearest[group] = found - reachable(nearest, found) if len(found) > 1 else found
+        higher = reachable(nearest, found) if len(found) > 1 else set()
+        nearest[group] = found - higher
     return {
         iri: tuple(sorted(up for near in nearest[group] for up in inside[near]))
         for group, members in enumerate(inside)

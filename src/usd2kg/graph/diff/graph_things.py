@@ -11,6 +11,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.diff.thing import Link, Thing, Vector
+from usd2kg.graph.document import TOO_LARGE
 from usd2kg.graph.relation_terms import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.relations import SYMMETRIC_KINDS
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
@@ -47,6 +48,8 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
                 with path.open("rb") as file:
                     refuse_entity_bomb_in_file(file)
             return frozenset(quad.triple for quad in ox.parse(path=str(path), format=rdf_format))
+    except MemoryError as error:
+        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError) as error:
         reason = " ".join(str(error).split())
         raise GraphError(f"{path}: cannot be read as {rdf_format.name} ({reason}); build the graph again") from error
