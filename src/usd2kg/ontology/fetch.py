@@ -56,9 +56,8 @@ def fetch_ontology(
             tell(f"{path}: is there already")
             continue
         fetched[path] = _fetch(document, takes_changed=takes_changed)
-        tell(
-            f"{path}: {len(fetched[path]):,} bytes from {shown_address(document.address)}, sha256 {_digest(fetched[path])}"
-        )
+        length, source = len(fetched[path]), shown_address(document.address)
+        tell(f"{path}: {length:,} bytes from {source}, sha256 {_digest(fetched[path])}")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
