@@ -36,6 +36,7 @@ from usd2kg.graph import (
     write_graph,
     write_neo4j,
 )
+from usd2kg.graph.diff.graph_things import read_statements
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, XSD
 from usd2kg.ontology import TBox
 
@@ -448,3 +449,11 @@ def test_every_format_has_a_row_in_the_documents():
     page = (Path(__file__).parents[2] / "docs" / "formats.md").read_text("utf-8")
     for ending, known in GRAPH_FORMATS.items():
         assert f"`{ending}`" in page, known.name
+
+
+@pytest.mark.parametrize("read", [load_graph, read_document, read_statements])
+def test_a_text_that_is_too_long_is_refused_in_one_line(tmp_path: Path, read):
+    path = tmp_path / "long.ttl"
+    path.write_text(f'<a:a> <a:b> "{"x" * 2**24}" .', encoding="utf-8")
+    with pytest.raises(GraphError, match=r"^[^\n]*long\.ttl: holds a text that is too long .*at most 16 MiB[^\n]*$"):
+        read(path)

@@ -101,6 +101,12 @@ class TestJson:
         path.write_text(json.dumps(data), encoding="utf-8")
         assert read_grounding(path).predictions[0].review is None
 
+    def test_json_that_is_nested_too_deep_is_refused(self, tmp_path: Path):
+        path = tmp_path / "deep.json"
+        path.write_text("[" * 200_000, encoding="utf-8")
+        with pytest.raises(GroundingError, match=r"deep\.json: cannot be read as a grounding"):
+            read_grounding(path)
+
     def test_its_types_are_those_of_the_records(self, tmp_path: Path):
         path = tmp_path / "mapping.json"
         path.write_text(format_mapping(SMALL, TBOX, "json"), encoding="utf-8")

@@ -25,6 +25,17 @@ THINGS = b"""@prefix owl: <http://www.w3.org/2002/07/owl#> .
 """
 
 
+ANSWERS = {
+    "/to-file": b"HTTP/1.0 302 Found\r\nLocation: file:///etc/hostname\r\n\r\n",
+    "/to-ftp": b"HTTP/1.0 302 Found\r\nLocation: ftp://127.0.0.1:9/x\r\n\r\n",
+    "/to-nowhere": b"HTTP/1.0 302 Found\r\nLocation: http://[x/\r\n\r\n",
+    "/to-itself": b"HTTP/1.0 302 Found\r\nLocation: /to-itself\r\n\r\n",
+    "/garbage": b"garbage\r\n\r\n",
+    "/short": b"HTTP/1.0 200 OK\r\nContent-Length: 9999\r\n\r\n" + LAB,
+}
+"""Whole answers, as they go over the wire."""
+
+
 @contextmanager
 def server(pages: dict[str, bytes]) -> Iterator[str]:
     """Serve pages, `/moved` by a redirect to the first; yield the address."""
@@ -36,7 +47,10 @@ def server(pages: dict[str, bytes]) -> Iterator[str]:
                 self.send_header("Location", next(iter(pages)))
                 self.end_headers()
                 return
-            data = pages.get(self.path)
+            if self.path in ANSWERS:
+                self.wfile.write(ANSWERS[self.path])
+                return
+            data = pages.get(self.path.partition("?")[0])
             self.send_response(404 if data is None else 200)
             self.end_headers()
             self.wfile.write(data or b"")
@@ -145,6 +159,7 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path):
         ("not toml", "is no registry"),
         ("[[ontology]]\nname = 'x'", "is no registry"),
         ("ontology = 3", "is no registry"),
+        ("ontology = " + "[" * 100_000, "is no registry"),
     ],
 )
 def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):
@@ -173,3 +188,60 @@ def test_our_registry_knows_soma_as_it_is():
     for document in read_registry()["soma-home"].documents:
         data = shared_file(f"ontologies/soma/{document.file}").read_bytes()
         assert hashlib.sha256(data).hexdigest() == document.sha256
+
+
+@pytest.mark.parametrize(
+    ("page", "message"),
+    [
+        ("/to-file", "the server answered 302"),
+        ("/to-ftp", r"redirects to ftp://127\.0\.0\.1:9/x, which is no web address"),
+        ("/to-nowhere", "is no address that can be asked"),
+        ("/to-itself", "the server answered 302"),
+        ("/garbage", r"the server's answer is no HTTP \(BadStatusLine\)"),
+        ("/short", f"ended after {len(LAB)} of 9,999 bytes"),
+    ],
+)
+def test_a_server_that_misleads_is_refused(tmp_path: Path, page: str, message: str):
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address, lab=page, sha256=""))["lab"]
+        with pytest.raises(OntologyError, match=message):
+            fetch_ontology(known, tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("address", ["http://[x", "http://a b", "http://127.0.0.1:abc", "http://", "https:"])
+def test_an_address_that_cannot_be_asked_is_told(tmp_path: Path, address: str):
+    known = read_registry(registry(tmp_path, address, lab="/"))["lab"]
+    with pytest.raises(OntologyError, match=r"is no address that can be asked|cannot be reached"):
+        fetch_ontology(known, tmp_path / "new")
+
+
+def test_secrets_of_an_address_are_not_printed(tmp_path: Path):
+    lines: list[str] = []
+    with server(PAGES) as address:
+        known = read_registry(registry(tmp_path, address, lab="/lab?key=hidden"))["lab"]
+        fetch_ontology(known, tmp_path / "new", tell=lines.append)
+        gone = read_registry(registry(tmp_path, address, lab="/gone?key=hidden"))["lab"]
+        with pytest.raises(OntologyError, match=r"/gone: the server answered 404"):
+            fetch_ontology(gone, tmp_path / "gone")
+    assert f" bytes from {address}/lab, sha256 " in lines[0]
+    known = read_registry(registry(tmp_path, "http://me:hidden@127.0.0.1:abc"))["lab"]
+    with pytest.raises(OntologyError) as caught:
+        fetch_ontology(known, tmp_path / "secret")
+    assert str(caught.value).startswith("http://127.0.0.1:abc/lab: is no address")
+    assert "hidden" not in str(caught.value)
+
+
+@pytest.mark.parametrize("file", ["catalog-v001.xml", "Catalog-v001.XML"])
+def test_a_document_called_as_the_catalog_is_refused(tmp_path: Path, file: str):
+    path = registry(tmp_path, "http://127.0.0.1:1")
+    path.write_text(path.read_text().replace('file = "lab.ttl"', f'file = "{file}"'))
+    with pytest.raises(OntologyError, match="is kept for the catalog"):
+        read_registry(path)
+
+
+def test_an_ontology_without_documents_is_refused(tmp_path: Path):
+    path = tmp_path / "r.toml"
+    path.write_text('[[ontology]]\nname="n"\ntitle="t"\nversion="1"\nlicence="l"\ndocument=[]\n')
+    with pytest.raises(OntologyError, match=r"the ontology 'n' has no \[\[ontology\.document\]\]; add one"):
+        read_registry(path)

@@ -187,3 +187,47 @@ def test_hash_covers_the_whole_closure(write_turtle):
     assert load_tbox(home).content_hash == first
     write_turtle(UPPER + ":Extra a owl:Class .", "upper.ttl")
     assert load_tbox(home).content_hash != first
+
+
+@pytest.mark.parametrize("quoted", ["", "%2F"])
+def test_catalog_entry_with_an_absolute_place_is_not_opened(write_turtle, write_catalog, tmp_path, quoted):
+    place = str(write_turtle(UPPER, "elsewhere/secret.ttl"))
+    write_catalog(**{"http://example.com/upper": quoted + place[1:] if quoted else place})
+    tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
+    assert [note.code for note in tbox.notes] == ["missing-import"]
+
+
+def test_catalog_may_lead_to_a_folder_beside(write_turtle, tmp_path):
+    write_turtle(UPPER, "upper/u.ttl")
+    home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL, "home/home.ttl")
+    entry = '<uri name="http://example.com/upper" uri="../upper/u.ttl"/>'
+    (tmp_path / "home" / "catalog-v001.xml").write_text(CATALOG.format(entry))
+    assert names(load_tbox(home)) == ["Crockery", "Cup"]
+
+
+@pytest.mark.parametrize("text", ["secret words", "@prefix secret words", "<secret words", "{secret"])
+def test_nothing_is_quoted_from_outside_the_folder(write_turtle, tmp_path, text):
+    (tmp_path / "notes.txt").write_text(text)
+    home = write_turtle(ontology("http://example.com/home", "http://example.com/upper"), "home/home.ttl")
+    entry = '<uri name="http://example.com/upper" uri="../notes.txt"/>'
+    (tmp_path / "home" / "catalog-v001.xml").write_text(CATALOG.format(entry))
+    with pytest.raises(OntologyError, match=r"notes\.txt: (not an ontology|looks like Turtle)") as caught:
+        load_tbox(home)
+    assert "secret" not in str(caught.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-32", "nonsense"])
+def test_catalog_that_names_an_encoding_is_read_as_utf_8(write_turtle, tmp_path, encoding):
+    declared = f'<?xml version="1.0" encoding="{encoding}"?>'
+    entry = '<uri name="http://example.com/upper" uri="ü.ttl"/>'
+    (tmp_path / "catalog-v001.xml").write_text(declared + CATALOG.format(entry), encoding="utf-8")
+    write_turtle(UPPER, "ü.ttl")
+    home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
+    assert names(load_tbox(home)) == ["Crockery", "Cup"]
+
+
+def test_catalog_of_another_encoding_is_refused(write_turtle, tmp_path):
+    (tmp_path / "catalog-v001.xml").write_text(CATALOG.format(""), encoding="utf-32")
+    home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
+    with pytest.raises(OntologyError, match=r"catalog-v001\.xml: byte 0 is not UTF-8 text, expected a catalog"):
+        load_tbox(home)

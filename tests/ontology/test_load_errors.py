@@ -1,6 +1,7 @@
 """What is no ontology is refused in one line that says what to do."""
 
 import gzip
+from time import process_time
 
 import pytest
 
@@ -110,3 +111,23 @@ def test_ontology_that_only_imports_names_what_it_found(write):
     assert refusal(path).startswith("no class in scope (2 classes found, none placed in a hierarchy)")
     # What the message advises helps.
     assert [cls.local_name for cls in load_tbox(path, roots=["http://x/c"]).classes] == ["b", "c"]
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        ("a" + "\n" * 200_000, "not an ontology (begins with 'a')"),
+        ("<?xml version='1.0'?>" + "<!--" * 60_000, "not an ontology (begins with "),
+        ("<!DOCTYPE r [" + "<!--" * 60_000, "not an ontology (begins with "),
+        ("[" * 200_000, "looks like JSON-LD but does not parse (Parser error at line 1 column 65538"),
+    ],
+)
+def test_documents_that_would_take_hours_or_overflow_are_refused_at_once(write, content, reason):
+    start = process_time()
+    assert refusal(write(content)).startswith(reason)
+    assert process_time() - start < 2
+
+
+def test_text_that_the_parser_has_no_room_for_is_refused(write):
+    said = refusal(write(f'<a:a> <a:b> "{"x" * 2**24}" .', "long.ttl"))
+    assert said.startswith("looks like Turtle or N-Triples but does not parse (Reached the buffer maximal size of ")

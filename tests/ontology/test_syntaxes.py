@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from usd2kg.errors import OntologyError
 from usd2kg.ontology import load_tbox
-from usd2kg.ontology.documents import sniff_syntax
+from usd2kg.ontology.sniff import sniff_syntax
 
 HOME = "http://example.com/home#"
 

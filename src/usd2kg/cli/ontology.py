@@ -95,10 +95,14 @@ _Registry = Annotated[
 def known(registry: _Registry = None, json: JsonOutput = False) -> None:
     """List the ontologies that `ontology fetch` knows by name."""
     from usd2kg.ontology import read_registry  # noqa: PLC0415
+    from usd2kg.ontology.fetch import shown_address  # noqa: PLC0415
 
     ontologies = read_registry(registry).values()
     if json:
-        print_json([asdict(ontology) for ontology in ontologies])
+        told = [asdict(ontology) for ontology in ontologies]
+        for document in (document for ontology in told for document in ontology["documents"]):
+            document["address"] = shown_address(document["address"])
+        print_json(told)
         return
     rows = [(o.name, o.version, str(len(o.documents)), o.licence, o.title) for o in ontologies]
     emit(format_table(("name", "version", "documents", "licence", "title"), rows), None)

@@ -102,7 +102,7 @@ def read_matrix(path: Path) -> Matrix:
     """
     try:
         data = tomllib.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:
         raise EvaluationError(
             f"{path}: cannot be read as a matrix ({error}); expected TOML, see docs/evaluation.md"
         ) from error

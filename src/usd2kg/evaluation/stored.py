@@ -38,7 +38,7 @@ def read_run(path: Path) -> StoredRun:
             description=f"{data['grounder']}, {settings['regime']} names, evidence {settings['evidence']}",
             scores=tuple(_score(item) for item in data["scores"]),
         )
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise EvaluationError(
             f"{path}: cannot be read as a run ({type(error).__name__}: {error}); "
             "expected JSON written by usd2kg eval run --output"

@@ -13,9 +13,11 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
+from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 
 __all__ = [
     "RDF_FORMATS",
+    "TOO_LARGE",
     "GraphDocument",
     "GraphPart",
     "document_of",
@@ -35,6 +37,10 @@ RDF_FORMATS = {
     ".jsonld": ox.RdfFormat.JSON_LD,
 }
 """File ending → syntax of RDF that is read and written; each may be followed by .gz."""
+
+
+TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
+"""What is said of a file that the parser has no memory for."""
 
 
 class GraphPart(NamedTuple):
@@ -87,7 +93,19 @@ def rdf_format(path: Path) -> ox.RdfFormat:
 
 
 def open_rdf(path: Path) -> BinaryIO:
-    """Open a file to read, through gzip where its name ends in .gz."""
+    """Open a file to read, through gzip where its name ends in .gz.
+
+    Raises:
+        SyntaxError: it is RDF/XML whose entities expand out of bounds.
+        OSError, EOFError, zlib.error: it cannot be read.
+    """
+    if rdf_format(path) == ox.RdfFormat.RDF_XML:
+        with _open_binary(path) as file:
+            refuse_entity_bomb_in_file(file)
+    return _open_binary(path)
+
+
+def _open_binary(path: Path) -> BinaryIO:
     return cast("BinaryIO", gzip.open(path)) if path.suffix.lower() == ".gz" else path.open("rb")
 
 
@@ -107,6 +125,9 @@ def read_document(path: Path) -> GraphDocument:
             parser = ox.parse(file, format=syntax)
             parts = tuple(_parts(parser))
             prefixes = dict(parser.prefixes)
+    except MemoryError as error:
+        # So pyoxigraph says it, whose parser holds no text of more than 16 MiB.
+        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = " ".join(str(error).split())
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error

@@ -6,7 +6,7 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
-from usd2kg.graph.document import open_rdf, rdf_format
+from usd2kg.graph.document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.query import GraphStore
 
 __all__ = ["load_graph"]
@@ -28,6 +28,9 @@ def load_graph(path: Path | str) -> GraphStore:
     try:
         with open_rdf(path) as file:
             store.bulk_load(file, format=syntax)
+    except MemoryError as error:
+        # So pyoxigraph says it, whose parser holds no text of more than 16 MiB.
+        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = " ".join(str(error).split())
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error

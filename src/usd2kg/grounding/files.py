@@ -63,7 +63,7 @@ def read_grounding(path: Path) -> Grounding:
             raise ValueError("another format")
         predictions = tuple(_read_prediction(item) for item in data.pop("predictions"))
         return Grounding(predictions=predictions, **data)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise GroundingError(
             f"{path}: cannot be read as a grounding ({error}); expected JSON written by usd2kg ground --format json"
         ) from error

@@ -53,7 +53,7 @@ def read_scaling(path: Path) -> PlattScaling:
         scaling = PlattScaling(**data)
         if not (math.isfinite(scaling.intercept) and math.isfinite(scaling.slope)):
             raise ValueError("numbers that are not finite")
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise GroundingError(
             f"{path}: cannot be read as a calibration ({error}); expected JSON written by usd2kg eval calibrate"
         ) from error

@@ -8,7 +8,7 @@ from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.ontology.documents import Document, close_imports, find_document, parse_document, read_triples
+from usd2kg.ontology.documents import Document, close_imports, find_document, parse_document, parse_import, read_triples
 from usd2kg.ontology.load import HOME
 from usd2kg.ontology.model import TBox
 
@@ -49,7 +49,7 @@ def _read(path: Path, also: Iterable[str]) -> Closure:
     for iri in also:
         located = find_document(iri, path.parent)
         if located is not None:
-            pending.append(parse_document(located))
+            pending.append(parse_import(located, path.parent))
         elif iri != pending[0].iri:
             missing.add(iri)
     for document in pending:

@@ -1,11 +1,9 @@
-"""Ontology documents: sniffing their syntax, parsing them, closing over local imports."""
+"""Ontology documents: parsing them, closing over local imports."""
 
 import hashlib
-import json
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Literal
 from urllib.parse import unquote
 from xml.etree import ElementTree
@@ -14,11 +12,13 @@ import pyoxigraph as ox
 
 from usd2kg.errors import OntologyError
 from usd2kg.ontology.axioms import ClassAxioms
+from usd2kg.ontology.entities import refuse_entity_bomb
 from usd2kg.ontology.model import OntologyNote
 from usd2kg.ontology.owl_syntax import owl_as_rdf, read_owl_axioms
 from usd2kg.ontology.rdf_syntax import parse_rdf, read_rdf_axioms
+from usd2kg.ontology.sniff import sniff_syntax
 
-__all__ = ["Document", "close_imports", "find_document", "parse_document", "read_triples", "sniff_syntax"]
+__all__ = ["Document", "close_imports", "find_document", "parse_document", "parse_import", "read_triples"]
 
 _CATALOG = "catalog-v001.xml"
 _CATALOG_URI = "{urn:oasis:names:tc:entity:xmlns:xml:catalog}uri"
@@ -48,46 +48,12 @@ class Document:
     """SHA-256 of the bytes."""
 
 
-def sniff_syntax(text: str) -> str | None:
-    """Return a key of the known syntaxes by looking at the content; None if it looks like none.
-
-    File endings are not looked at: `.owl` is used for at least three of them.
-
-    >>> sniff_syntax("# a comment\\nPrefix(:=<http://x#>)")
-    'ofn'
-    """
-    start = text.lstrip("\ufeff \t\r\n")
-    if start.startswith("<") and not re.match(r"<[a-zA-Z][a-zA-Z0-9+.-]*:[^\s<>]*>", start):
-        root = re.search(r"<(?![?!])([A-Za-z_][\w.-]*:)?([A-Za-z_][\w.-]*)", _without_xml_prolog(start))
-        return {"RDF": "rdf", "Ontology": "owx"}.get(root.group(2)) if root else None
-    body = re.sub(r"^\s*#[^\n]*\n", "", start, flags=re.MULTILINE).lstrip()
-    if re.match(r"(Prefix|Ontology)\s*\(", body):
-        return "ofn"
-    if re.match(r"(Prefix|Ontology)\s*:", body):
-        return "omn"
-    if re.match(r"@prefix|@base|prefix\s|base\s|<|_:|\[|[\w.-]*:[\w.-]*\s", body, flags=re.IGNORECASE):
-        return "jsonld" if _is_json(body) else "ttl"
-    return "jsonld" if _is_json(body) else None
-
-
-def _without_xml_prolog(text: str) -> str:
-    # The internal subset of a DOCTYPE holds entity declarations that look like tags.
-    text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
-    return re.sub(r"<!DOCTYPE[^\[>]*(\[.*?\]\s*)?>", "", text, count=1, flags=re.DOTALL)
-
-
-def _is_json(text: str) -> bool:
-    if text[:1] not in {"{", "["}:
-        return False
-    try:
-        json.loads(text)
-    except ValueError:
-        return False
-    return True
-
-
-def parse_document(path: Path) -> Document:
+def parse_document(path: Path, *, quotes: bool = True) -> Document:
     """Return the parsed ontology at `path`.
+
+    Args:
+        path: the file.
+        quotes: whether the message about a file that is no ontology may quote it.
 
     Raises:
         OntologyError: the file is missing, of no known syntax, or malformed.
@@ -97,14 +63,15 @@ def parse_document(path: Path) -> Document:
     syntax = sniff_syntax(text)
     known = ", ".join(_SYNTAXES.values())
     if syntax is None:
-        found = " ".join(text[:60].split())
-        raise OntologyError(f"{path}: not an ontology (begins with {found!r}), expected one of {known}")
+        found = f" (begins with {' '.join(text[:60].split())!r})" if quotes else ""
+        raise OntologyError(f"{path}: not an ontology{found}, expected one of {known}")
     try:
         owl_syntax = _OWL_SYNTAXES.get(syntax)
         axioms = read_owl_axioms(text, owl_syntax) if owl_syntax else read_rdf_axioms(text, syntax)
-    except (ValueError, SyntaxError) as error:
+    except (ValueError, SyntaxError, MemoryError) as error:
+        found = f" ({_shorten(str(error))})" if quotes else ""
         raise OntologyError(
-            f"{path}: looks like {_SYNTAXES[syntax]} but does not parse ({_shorten(str(error))}); mend or re-export it"
+            f"{path}: looks like {_SYNTAXES[syntax]} but does not parse{found}; mend or re-export it"
         ) from error
     return Document(
         source=str(path),
@@ -128,7 +95,7 @@ def read_triples(path: Path) -> list[ox.Triple]:
         owl_syntax = _OWL_SYNTAXES.get(syntax or "")
         quads = parse_rdf(owl_as_rdf(text, owl_syntax), "rdf") if owl_syntax else parse_rdf(text, syntax or "ttl")
         return [quad.triple for quad in quads]
-    except (ValueError, SyntaxError) as error:
+    except (ValueError, SyntaxError, MemoryError) as error:
         raise OntologyError(f"{path}: cannot be read as RDF ({_shorten(str(error))}); mend or re-export it") from error
 
 
@@ -143,12 +110,12 @@ def _read(path: Path) -> bytes:
         raise OntologyError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
 
 
-def _decode(path: Path, data: bytes) -> str:
+def _decode(path: Path, data: bytes, expected: str = "an ontology") -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise OntologyError(
-            f"{path}: byte {error.start} is not UTF-8 text, expected an ontology; is it a binary or compressed file?"
+            f"{path}: byte {error.start} is not UTF-8 text, expected {expected}; is it a binary or compressed file?"
         ) from error
 
 
@@ -179,7 +146,7 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
                 missing.add(iri)
                 notes.append(OntologyNote("missing-import", _missing_import(iri, current)))
                 continue
-            imported = parse_document(path)
+            imported = parse_import(path, Path(current.source).parent)
             # An import may resolve to a document that calls itself by another IRI: keep it under both.
             found[iri] = imported
             if imported.iri not in found or imported.iri == iri:
@@ -187,6 +154,16 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
     distinct = {doc.digest: doc for doc in found.values()}
     others = sorted((doc for doc in distinct.values() if doc.digest != document.digest), key=lambda doc: doc.iri)
     return (document, *others), tuple(sorted(notes, key=lambda note: note.message))
+
+
+def parse_import(path: Path, folder: Path) -> Document:
+    """Return the parsed ontology that a document in `folder` imports.
+
+    Raises:
+        OntologyError: as `parse_document`; of a file outside the folder, whose place a stranger's catalog may have
+            chosen, nothing is quoted.
+    """
+    return parse_document(path, quotes=path.resolve().is_relative_to(folder.resolve()))
 
 
 def _missing_import(iri: str, document: Document) -> str:
@@ -218,11 +195,19 @@ def _is_file(path: Path) -> bool:
 def _read_catalog(path: Path) -> dict[str, Path]:
     if not path.is_file():
         return {}
+    text = _decode(path, _read(path), "a catalog")
     try:
-        root = ElementTree.parse(path).getroot()
-    except ElementTree.ParseError as error:
+        refuse_entity_bomb(text)
+        root = ElementTree.fromstring(text)
+    except (SyntaxError, ValueError) as error:
         raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); mend or remove it") from error
-    return {entry.attrib["name"]: path.parent / unquote(entry.attrib["uri"]) for entry in _entries(root)}
+    places = {entry.attrib["name"]: unquote(entry.attrib["uri"]) for entry in _entries(root)}
+    # Catalogs come with ontologies of strangers: they may name what lies beside them, not any file of this machine.
+    return {iri: path.parent / place for iri, place in places.items() if not _is_absolute(place)}
+
+
+def _is_absolute(place: str) -> bool:
+    return PurePosixPath(place).is_absolute() or bool(PureWindowsPath(place).anchor)
 
 
 def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:

@@ -4,23 +4,27 @@ Nothing else in this package uses the network.
 """
 
 import hashlib
+import re
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Sequence
+from http.client import HTTPException, InvalidURL
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
-from usd2kg.ontology.documents import sniff_syntax
-from usd2kg.ontology.registry import KnownDocument, KnownOntology
+from usd2kg.ontology.registry import CATALOG, KnownDocument, KnownOntology
+from usd2kg.ontology.sniff import sniff_syntax
 
-__all__ = ["fetch_ontology"]
+__all__ = ["fetch_ontology", "shown_address"]
 
 _ACCEPT = "text/turtle, application/rdf+xml, text/owl-functional, application/owl+xml, */*;q=0.5"
 _TIMEOUT_S = 60.0
 _MOST_BYTES = 200_000_000
+_SCHEMES = {"http", "https"}
 
 
 def fetch_ontology(
@@ -52,52 +56,94 @@ def fetch_ontology(
             tell(f"{path}: is there already")
             continue
         fetched[path] = _fetch(document, takes_changed=takes_changed)
-        tell(f"{path}: {len(fetched[path]):,} bytes from {document.address}, sha256 {_digest(fetched[path])}")
+        length, source = len(fetched[path]), shown_address(document.address)
+        tell(f"{path}: {length:,} bytes from {source}, sha256 {_digest(fetched[path])}")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{folder}: cannot be made ({error.strerror}); choose another folder") from error
     for path, data in fetched.items():
         write_whole(path, data)
-    write_whole(folder / "catalog-v001.xml", _catalog(ontology.documents).encode())
+    write_whole(folder / CATALOG, _catalog(ontology.documents).encode())
     return folder / ontology.documents[0].file
 
 
 def _fetch(document: KnownDocument, *, takes_changed: bool) -> bytes:
-    data = _download(document.address)
+    data, shown = _download(document.address), shown_address(document.address)
     try:
         is_ontology = sniff_syntax(data.decode("utf-8-sig")) is not None
     except UnicodeDecodeError:
         is_ontology = False
     if not is_ontology:
-        raise OntologyError(
-            f"{document.address}: gave {data[:40]!r}, expected an ontology; has <{document.iri}> moved?"
-        )
+        raise OntologyError(f"{shown}: gave {data[:40]!r}, expected an ontology; has <{document.iri}> moved?")
     found = _digest(data)
     if document.sha256 and found != document.sha256 and not takes_changed:
         raise OntologyError(
-            f"{document.address}: sha256 is {found}, expected {document.sha256}: it is another version; look at it, "
+            f"{shown}: sha256 is {found}, expected {document.sha256}: it is another version; look at it, "
             "and take it with --changed if it is right"
         )
     return data
 
 
+class _WebOnly(urllib.request.HTTPRedirectHandler):
+    """Follows redirects to web addresses only: ftp: and file: are no places of an ontology."""
+
+    def redirect_request(self, *args: Any) -> urllib.request.Request | None:
+        address = args[-1]
+        if urlsplit(address).scheme not in _SCHEMES:
+            raise urllib.error.URLError(f"it redirects to {shown_address(address)}, which is no web address")
+        return super().redirect_request(*args)
+
+
+def _opener() -> urllib.request.OpenerDirector:
+    opener = urllib.request.OpenerDirector()
+    for handler in (
+        urllib.request.ProxyHandler(),
+        urllib.request.HTTPHandler(),
+        urllib.request.HTTPSHandler(),
+        urllib.request.HTTPDefaultErrorHandler(),
+        urllib.request.HTTPErrorProcessor(),
+        _WebOnly(),
+    ):
+        opener.add_handler(handler)
+    return opener
+
+
+def shown_address(address: str) -> str:
+    """Return a web address as it may be printed: without user, password, query and fragment, which may be secret.
+
+    >>> shown_address("https://me:secret@lab.example/onto.ttl?key=1")
+    'https://lab.example/onto.ttl'
+    """
+    place = re.split(r"[?#]", address, maxsplit=1)[0]
+    return re.sub(r"^([^/]*//)[^/]*@", r"\1", place)
+
+
 def _download(address: str) -> bytes:
-    parts = urlsplit(address)
+    shown = shown_address(address)
     # Plain http is for what only http offers; the hash then vouches for the bytes.
-    if parts.scheme not in {"http", "https"}:
-        raise OntologyError(f"{address}: is no web address; expected https://… or http://…")
-    request = urllib.request.Request(address, headers={"Accept": _ACCEPT, "User-Agent": "usd2kg"})
+    if address.partition(":")[0].lower() not in _SCHEMES:
+        raise OntologyError(f"{shown}: is no web address; expected https://… or http://…")
     try:
-        with urllib.request.urlopen(request, timeout=_TIMEOUT_S) as answer:
+        request = urllib.request.Request(address, headers={"Accept": _ACCEPT, "User-Agent": "usd2kg"})
+        with _opener().open(request, timeout=_TIMEOUT_S) as answer:
             data: bytes = answer.read(_MOST_BYTES + 1)
+            promised = answer.headers.get("Content-Length", "")
     except urllib.error.HTTPError as error:
-        raise OntologyError(f"{address}: the server answered {error.code} {error.reason}; expected 200") from error
-    except (OSError, ValueError) as error:
+        error.close()
+        raise OntologyError(f"{shown}: the server answered {error.code}; expected 200") from error
+    except (ValueError, InvalidURL) as error:
+        raise OntologyError(f"{shown}: is no address that can be asked; mend it in the registry") from error
+    except HTTPException as error:
+        raise OntologyError(f"{shown}: the server's answer is no HTTP ({type(error).__name__}); try again") from error
+    except OSError as error:
         reason = getattr(error, "reason", error)
-        raise OntologyError(f"{address}: cannot be reached ({reason}); is this machine online?") from error
+        raise OntologyError(f"{shown}: cannot be reached ({reason}); is this machine online?") from error
     if len(data) > _MOST_BYTES:
-        raise OntologyError(f"{address}: is longer than {_MOST_BYTES:,} bytes; expected an ontology")
+        raise OntologyError(f"{shown}: is longer than {_MOST_BYTES:,} bytes; expected an ontology")
+    # Asked for a number of bytes, a read tells nothing of a connection that ended before.
+    if promised.isascii() and promised.isdigit() and len(data) < int(promised):
+        raise OntologyError(f"{shown}: ended after {len(data):,} of {int(promised):,} bytes; try again")
     return data
 
 

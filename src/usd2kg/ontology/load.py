@@ -11,9 +11,10 @@ from usd2kg.errors import OntologyError
 from usd2kg.ontology.axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.documents import Document, close_imports, parse_document
 from usd2kg.ontology.equivalence import all_equivalents, keep_one_of_each
+from usd2kg.ontology.levels import Levels, level, reachable
 from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
-from usd2kg.ontology.scope import ancestors, default_scope, nearest_parents, rooted_scope
+from usd2kg.ontology.scope import default_scope, nearest_parents, rooted_scope
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 
 __all__ = ["HOME", "load_home_tbox", "load_tbox"]
@@ -63,14 +64,16 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
     scope = keep_one_of_each(_scope(name, own, closure, roots, classes), document.iri, own, closure)
     superclasses = closure.superclasses()
     parents = nearest_parents(scope, superclasses)
+    levels = level({**dict.fromkeys(scope, ()), **superclasses})
+    dispositions = _dispositions(levels, superclasses, closure)
     return TBox(
         source=name,
         ontology_iri=document.iri,
         version_iri=document.version_iri,
         content_hash=_hash(documents),
-        classes=tuple(_class(iri, parents[iri], superclasses, closure) for iri in sorted(scope)),
+        classes=tuple(_class(iri, parents[iri], dispositions[levels.group_of[iri]], closure) for iri in sorted(scope)),
         imports=tuple(doc.iri for doc in documents[1:]),
-        notes=(*notes, *_cycle_notes(scope, superclasses, closure)),
+        notes=(*notes, *_cycle_notes(scope, levels, closure)),
     )
 
 
@@ -103,9 +106,7 @@ def _hash(documents: Iterable[Document]) -> str:
     return "sha256:" + hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
-def _class(
-    iri: str, parents: tuple[str, ...], superclasses: Mapping[str, set[str]], closure: ClassAxioms
-) -> OntologyClass:
+def _class(iri: str, parents: tuple[str, ...], dispositions: tuple[str, ...], closure: ClassAxioms) -> OntologyClass:
     equivalents = sorted(all_equivalents(iri, closure))
     texts = [closure.annotations[same] for same in (iri, *equivalents)]
     label = _label(iri, closure)
@@ -117,7 +118,7 @@ def _class(
         alt_labels=tuple(sorted(others - {label})),
         comment=next((comment for said in texts if (comment := said.pick(DEFINITIONS))), ""),
         parents=parents,
-        dispositions=_dispositions(iri, superclasses, closure),
+        dispositions=dispositions,
         equivalents=tuple(equivalents),
         wikidata=_wikidata((iri, *equivalents), closure),
     )
@@ -138,18 +139,22 @@ def _label(iri: str, closure: ClassAxioms) -> str:
     return closure.annotations[iri].pick(LABELS) or local_name(iri)
 
 
-def _dispositions(iri: str, superclasses: Mapping[str, set[str]], closure: ClassAxioms) -> tuple[str, ...]:
-    stated = {iri, *ancestors(superclasses, iri)}
-    dispositions = {up for cls in stated for up in closure.dispositions.get(cls, ())}
-    dispositions |= {up for disposition in dispositions for up in ancestors(superclasses, disposition)}
-    return tuple(sorted(dispositions))
+def _dispositions(levels: Levels, superclasses: Mapping[str, set[str]], closure: ClassAxioms) -> list[tuple[str, ...]]:
+    """Return for each group of classes the dispositions of its members, inherited ones among them, sorted."""
+    stated: list[frozenset[str]] = []
+    for group, above in zip(levels.groups, levels.above, strict=True):
+        own = {up for iri in group for up in closure.dispositions.get(iri, ())}
+        stated.append(frozenset(own).union(*(stated[up] for up in above)))
+    # Many classes have the same ones.
+    inherited = {some: tuple(sorted(some | reachable(superclasses, some))) for some in set(stated)}
+    return [inherited[some] for some in stated]
 
 
-def _cycle_notes(scope: set[str], superclasses: Mapping[str, set[str]], closure: ClassAxioms) -> list[OntologyNote]:
+def _cycle_notes(scope: set[str], levels: Levels, closure: ClassAxioms) -> list[OntologyNote]:
     return [
         OntologyNote("cycle", f"<{iri}> is stated to be a subclass of itself; the edges of that cycle are left out")
         for iri in sorted(scope)
-        if any(iri in ancestors(superclasses, parent) for parent in _other_parents(iri, closure))
+        if any(levels.group_of[iri] == levels.group_of[parent] for parent in _other_parents(iri, closure))
     ]
 
 

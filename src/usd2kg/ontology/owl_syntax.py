@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import pyhornedowl
 
 from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
+from usd2kg.ontology.entities import refuse_entity_bomb
 
 __all__ = ["owl_as_rdf", "read_owl_axioms"]
 
@@ -36,6 +37,7 @@ def owl_as_rdf(text: str, syntax: Literal["ofn", "omn", "owx"]) -> str:
 
 def _open(text: str, syntax: Literal["ofn", "omn", "owx"]) -> Any:
     if syntax == "owx":
+        refuse_entity_bomb(text)
         # The parser never returns from a document that ends within a literal.
         ElementTree.fromstring(text)
     return pyhornedowl.open_ontology_from_string(text, serialization=syntax)

@@ -11,6 +11,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
+from usd2kg.ontology.entities import refuse_entity_bomb
 
 __all__ = ["parse_rdf", "read_rdf_axioms"]
 
@@ -33,8 +34,11 @@ def parse_rdf(text: str, syntax: str) -> Iterator[ox.Quad]:
     """Return the statements of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
 
     Raises:
-        SyntaxError: the text does not parse; maybe not before the statements are taken.
+        SyntaxError: the text does not parse, maybe not before the statements are taken; or its XML entities expand
+            out of bounds.
     """
+    if syntax == "rdf":
+        refuse_entity_bomb(text)
     # A base makes documents readable that use relative IRIs without declaring one.
     return ox.parse(text, format=_FORMATS[syntax], base_iri="http://example.org/")
 

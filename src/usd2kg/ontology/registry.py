@@ -10,8 +10,10 @@ from typing import Any
 
 from usd2kg.errors import OntologyError
 
-__all__ = ["KnownDocument", "KnownOntology", "read_registry"]
+__all__ = ["CATALOG", "KnownDocument", "KnownOntology", "read_registry"]
 
+CATALOG = "catalog-v001.xml"
+"""Name of the OASIS catalog that is written beside the documents."""
 _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}")
 _SHA256 = re.compile(r"[0-9a-f]{64}|")
 
@@ -55,7 +57,7 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
         known = [_ontology(source, entry) for entry in entries]
     except OSError as error:
         raise OntologyError(f"{source}: cannot be read ({error.strerror}); name a registry of ontologies") from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise OntologyError(
             f"{source}: is no registry ({error!r}); expected [[ontology]] tables with name, title, version, licence "
             "and [[ontology.document]] with iri, file, address, sha256"
@@ -65,6 +67,8 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
 
 def _ontology(source: str, entry: Mapping[str, Any]) -> KnownOntology:
     documents = tuple(_document(source, document) for document in entry["document"])
+    if not documents:
+        raise OntologyError(f"{source}: the ontology {str(entry['name'])!r} has no [[ontology.document]]; add one")
     name, title, version, licence = (str(entry[key]) for key in ("name", "title", "version", "licence"))
     return KnownOntology(name, title, version, licence, documents)
 
@@ -73,6 +77,9 @@ def _document(source: str, entry: Mapping[str, Any]) -> KnownDocument:
     document = KnownDocument(*(str(entry[key]) for key in ("iri", "file", "address", "sha256")))
     if not _FILE_NAME.fullmatch(document.file):
         raise OntologyError(f"{source}: the file {document.file!r} is no plain file name; expected one without a path")
+    # The name is compared as file systems do that know no upper case.
+    if document.file.lower() == CATALOG:
+        raise OntologyError(f"{source}: the file {document.file!r} is kept for the catalog; choose another name")
     if not _SHA256.fullmatch(document.sha256):
         raise OntologyError(f"{source}: {document.file}: sha256 is no 64 hexadecimal digits; leave it empty or mend it")
     return document

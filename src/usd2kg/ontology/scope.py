@@ -5,10 +5,12 @@ equivalent of another, and that is a physical thing. "The file's own classes" wo
 Appliance, Room and the Designed… classes that SOMA declares.
 """
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import OntologyError
 from usd2kg.ontology.axioms import ClassAxioms
+from usd2kg.ontology.levels import level, reachable
 
 __all__ = ["ancestors", "default_scope", "nearest_parents", "rooted_scope"]
 
@@ -22,14 +24,7 @@ PHYSICAL_ROOTS = (
 
 def ancestors(superclasses: Mapping[str, set[str]], iri: str) -> set[str]:
     """Return all superclasses of a class, itself left out; cycles do no harm."""
-    found: set[str] = set()
-    pending = [iri]
-    while pending:
-        for parent in superclasses.get(pending.pop(), ()):
-            if parent not in found:
-                found.add(parent)
-                pending.append(parent)
-    return found - {iri}
+    return reachable(superclasses, [iri]) - {iri}
 
 
 def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
@@ -41,15 +36,21 @@ def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     placed = (own.linked() or own.classes) | set(own.equivalents)
     placed = {iri for iri in placed if not closure.annotations[iri].is_deprecated}
     superclasses = closure.superclasses()
-    # What is the same as an upper-level class is as general as that, and no more a candidate.
-    upper = {root: {root, *ancestors(superclasses, root)} for root in PHYSICAL_ROOTS}
-    return {iri for iri in placed if _is_below(iri, upper, superclasses)} or placed
+    subclasses = _turned(superclasses)
+    physical: set[str] = set()
+    for root in PHYSICAL_ROOTS:
+        # What is the same as an upper-level class is as general as that, and no more a candidate.
+        physical |= reachable(subclasses, [root]) - {root, *ancestors(superclasses, root)}
+    return placed & physical or placed
 
 
-def _is_below(iri: str, roots: Mapping[str, set[str]], superclasses: Mapping[str, set[str]]) -> bool:
-    """Return whether a class is below one of `roots` (root → it with all above it) and not the same as it."""
-    above = ancestors(superclasses, iri)
-    return any(root in above and iri not in stem for root, stem in roots.items())
+def _turned(superclasses: Mapping[str, set[str]]) -> dict[str, set[str]]:
+    """Return class → its direct subclasses."""
+    subclasses: dict[str, set[str]] = defaultdict(set)
+    for iri, parents in superclasses.items():
+        for parent in parents:
+            subclasses[parent].add(iri)
+    return subclasses
 
 
 def rooted_scope(roots: Iterable[str], closure: ClassAxioms) -> set[str]:
@@ -64,12 +65,8 @@ def rooted_scope(roots: Iterable[str], closure: ClassAxioms) -> set[str]:
         raise OntologyError(
             f"scope: <{unknown[0]}> is no class of the ontology; expected the IRI of one of its classes"
         )
-    superclasses = closure.superclasses()
-    return wanted | {
-        iri
-        for iri in closure.classes
-        if not closure.annotations[iri].is_deprecated and not ancestors(superclasses, iri).isdisjoint(wanted)
-    }
+    below = reachable(_turned(closure.superclasses()), wanted) & closure.classes
+    return wanted | {iri for iri in below if not closure.annotations[iri].is_deprecated}
 
 
 def nearest_parents(scope: set[str], superclasses: Mapping[str, set[str]]) -> dict[str, tuple[str, ...]]:
@@ -77,9 +74,16 @@ def nearest_parents(scope: set[str], superclasses: Mapping[str, set[str]]) -> di
 
     Superclasses outside the scope are passed through. Edges of a cycle are dropped, so the result is acyclic.
     """
-    above = {iri: ancestors(superclasses, iri) & scope for iri in scope}
-    strict = {iri: {up for up in ups if iri not in above[up]} for iri, ups in above.items()}
+    levels = level({**dict.fromkeys(scope, ()), **superclasses})
+    inside = [tuple(iri for iri in group if iri in scope) for group in levels.groups]
+    nearest: dict[int, set[int]] = {}
+    for group, above in enumerate(levels.above):
+        # Those above come first, so what lies nearest to a group outside the scope is known.
+        found: set[int] = set().union(*({up} if inside[up] else nearest[up] for up in above))
+        higher = reachable(nearest, found) if len(found) > 1 else set()
+        nearest[group] = found - higher
     return {
-        iri: tuple(sorted(up for up in ups if not any(up in strict[other] for other in ups - {up})))
-        for iri, ups in strict.items()
+        iri: tuple(sorted(up for near in nearest[group] for up in inside[near]))
+        for group, members in enumerate(inside)
+        for iri in members
     }

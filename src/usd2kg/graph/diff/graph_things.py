@@ -11,9 +11,11 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.diff.thing import Link, Thing, Vector
+from usd2kg.graph.document import TOO_LARGE
 from usd2kg.graph.relation_terms import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.relations import SYMMETRIC_KINDS
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
+from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 
 __all__ = ["Writing", "read_statements", "things_of_graph", "writing_of"]
 
@@ -42,7 +44,12 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
     try:
         # A store would write numbers in its own way, and an update must name them as they are.
         with paused_collection():
+            if rdf_format == ox.RdfFormat.RDF_XML:
+                with path.open("rb") as file:
+                    refuse_entity_bomb_in_file(file)
             return frozenset(quad.triple for quad in ox.parse(path=str(path), format=rdf_format))
+    except MemoryError as error:
+        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError) as error:
         reason = " ".join(str(error).split())
         raise GraphError(f"{path}: cannot be read as {rdf_format.name} ({reason}); build the graph again") from error

@@ -49,7 +49,7 @@ def _parse(path: Path) -> dict[str, Any]:
         return tomllib.loads(path.read_text("utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise GraphError(f"{path}: cannot be read as relation rules ({error}); expected a TOML file") from error
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise GraphError(f"{path}: not valid TOML ({error}); see docs/relations.md for an example") from error
 
 

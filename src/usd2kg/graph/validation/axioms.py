@@ -9,6 +9,7 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS
 from usd2kg.ontology import compact_iri
+from usd2kg.ontology.levels import Levels, level
 
 __all__ = ["Alternatives", "Axioms", "Disjointness"]
 
@@ -39,7 +40,7 @@ class Axioms:
             values = self._by_predicate.setdefault(triple.predicate, {}).setdefault(triple.subject, [])
             if triple.object not in values:
                 values.append(triple.object)
-        self._closures: dict[str, frozenset[str]] = {}
+        self._closures: dict[int, frozenset[str]] = {}
         self._clashes: dict[tuple[str, str], Disjointness | None] = {}
 
     def _all(self, name: ox.NamedNode) -> dict[Any, list[Any]]:
@@ -117,21 +118,30 @@ class Axioms:
 
     def closure(self, iri: str) -> frozenset[str]:
         """Return a class with all its named superclasses."""
-        if iri not in self._closures:
-            found, pending = {iri}, [iri]
-            while pending:
-                new = self.parents.get(pending.pop(), set()) - found
-                found |= new
-                pending.extend(new)
-            self._closures[iri] = frozenset(found)
-        return self._closures[iri]
+        group = self._levels.group_of.get(iri)
+        if group is None:
+            return frozenset({iri})
+        pending = [group]
+        while pending:
+            waiting = [up for up in self._levels.above[pending[-1]] if up not in self._closures]
+            if waiting:
+                pending.extend(waiting)
+                continue
+            done = pending.pop()
+            ups = (self._closures[up] for up in self._levels.above[done])
+            self._closures[done] = frozenset(self._levels.groups[done]).union(*ups)
+        return self._closures[group]
+
+    @cached_property
+    def _levels(self) -> Levels:
+        return level(self.parents)
 
     def clash(self, first: str, second: str) -> Disjointness | None:
         """Return why two classes cannot have a member in common: of the axioms that say so the most special one."""
         key = (first, second)
         if key not in self._clashes:
             above = self.closure(second)
-            pairs = [(a, b) for a in self.closure(first) for b in self.disjoint.get(a, set()) & above]
+            pairs = [(a, b) for a in self.closure(first) & self.disjoint.keys() for b in self.disjoint[a] & above]
             # Most superclasses means most special; IRIs settle the rest.
             pairs.sort(key=lambda pair: (-len(self.closure(pair[0])) - len(self.closure(pair[1])), pair))
             self._clashes[key] = Disjointness(*pairs[0]) if pairs else None

@@ -61,7 +61,7 @@ def read_rules(path: Path | str | None = None) -> Rules:
 def _replace(tables: dict[str, dict[str, Any]], path: Path) -> None:
     try:
         own = tomllib.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:
         raise GraphError(f"{path}: cannot be read as rules ({error}); expected a TOML file of tables") from error
     for name, table in own.items():
         if name not in tables or not isinstance(table, dict):

@@ -1,0 +1,84 @@
+"""XML entities are expanded as far as ontologies need it, and no further."""
+
+import pytest
+
+from usd2kg.errors import GraphError, OntologyError
+from usd2kg.graph import load_graph
+from usd2kg.graph.diff.graph_things import read_statements
+from usd2kg.graph.document import read_document
+from usd2kg.ontology import load_tbox
+from usd2kg.ontology.entities import refuse_entity_bomb
+
+OWL = 'xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:owl="http://www.w3.org/2002/07/owl#"'
+LAUGHS = '<!ENTITY a "' + "x" * 100 + '">' + "".join(f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in ("ab", "bc", "cd"))
+
+
+def document(entities: str, content: str = "x", root: str = "rdf:RDF") -> str:
+    return f'<?xml version="1.0"?><!DOCTYPE r [{entities}]><{root} {OWL}><!-- {content} --></{root}>'
+
+
+@pytest.mark.parametrize(
+    "entities",
+    [
+        "",
+        '<!ENTITY owl "http://www.w3.org/2002/07/owl#"><!ENTITY iof "http://iof.example/">',
+        '<!ENTITY base "http://iof.example/"><!ENTITY core "&base;Core/"><!ENTITY part "&core;Part">',
+        '<!ENTITY a "x"><!ENTITY b "&a;"><!ENTITY c "&b;"><!ENTITY d "&c;"><!ENTITY e "&d;">',
+        f'<!ENTITY a "{"x" * 1000}"><!ENTITY b "{"&a;" * 9}">',
+    ],
+)
+def test_entities_of_namespaces_are_taken(entities):
+    refuse_entity_bomb(document(entities))
+
+
+@pytest.mark.parametrize(
+    ("entities", "reason"),
+    [
+        (LAUGHS, "'d' stands for more than 10,000"),
+        ("<!-- <!ENTITY x ' -->" + LAUGHS, "'x' stands for more than 10,000"),
+        (LAUGHS.replace('"', "'"), "'d' stands for more than 10,000"),
+        (LAUGHS.replace("&", "&#38;"), "'d' stands for more than 10,000"),
+        (LAUGHS.replace("ENTITY ", "ENTITY%"), "'d' stands for more than 10,000"),
+        (f'<!ENTITY a "{"x" * 10_001}">', "'a' stands for more than 10,000"),
+        ('<!ENTITY a "x"><!ENTITY a "&a;&a;">', "more than 5 deep"),
+        ('<!ENTITY a "&b;"><!ENTITY b "&a;">', "more than 5 deep"),
+        ('<!ENTITY a "x">' + "".join(f'<!ENTITY {b} "&{a};">' for a, b in ("ab", "bc", "cd", "de", "ef")), "5 deep"),
+    ],
+)
+def test_entities_that_grow_are_refused(entities, reason):
+    with pytest.raises(SyntaxError, match=reason):
+        refuse_entity_bomb(document(entities))
+
+
+def test_many_uses_of_one_long_entity_are_refused():
+    # 1,000 × 9,000 = 9 million characters from 13,000.
+    with pytest.raises(SyntaxError, match="expand to 9,000,000 characters"):
+        refuse_entity_bomb(document(f'<!ENTITY a "{"x" * 9000}">', "&a;" * 1000))
+
+
+@pytest.mark.parametrize("root", ["rdf:RDF", "Ontology"])
+def test_ontology_is_refused_before_it_is_parsed(tmp_path, root):
+    path = tmp_path / "laughs.owl"
+    path.write_text(document(LAUGHS, root=root), encoding="utf-8")
+    with pytest.raises(OntologyError, match=r"laughs\.owl.*stands for more than 10,000 characters"):
+        load_tbox(path)
+
+
+@pytest.mark.parametrize("read", [load_graph, read_document, read_statements])
+def test_graph_is_refused_before_it_is_parsed(tmp_path, read):
+    path = tmp_path / "laughs.rdf"
+    # The declarations lie across the end of the first megabyte.
+    start = '<?xml version="1.0"?><!--'
+    path.write_text(start + " " * (2**20 - len(start) - 20) + "-->" + document(LAUGHS)[21:], encoding="utf-8")
+    with pytest.raises(GraphError, match=r"laughs\.rdf.*stands for more than 10,000 characters"):
+        read(path)
+
+
+def test_graph_with_entities_for_namespaces_is_read(tmp_path):
+    path = tmp_path / "flat.rdf"
+    about = (
+        f'<rdf:RDF {OWL}><rdf:Description rdf:about="&b;C"><rdf:type rdf:resource="&b;D"/></rdf:Description></rdf:RDF>'
+    )
+    path.write_text(f'<!DOCTYPE r [<!ENTITY b "http://b.example/">]>{about}', encoding="utf-8")
+    (triple,) = read_document(path).triples
+    assert (triple.subject.value, triple.object.value) == ("http://b.example/C", "http://b.example/D")
