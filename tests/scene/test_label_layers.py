@@ -288,6 +288,32 @@ def test_overwrite_leaves_no_tag_of_multiverse(write):
     assert not any(value == "Banana" for _, _, value in told(stage, "/Mug"))
 
 
+def test_overwrite_blocks_misspelt_classes_and_mends_types(write):
+    wrong = xform(
+        "Mug",
+        'string semantics:labels:class = "banana"',
+        'token[] semantics:label:class = ["banana"]',
+        'token[] semantics:label:room = ["kitchen"]',
+        'string semantics:a:params:semanticType = "class"',
+        'string semantics:a:params:semanticData = "banana"',
+        'string semantics:b:params:semanticType = "room"',
+        "rel semanticTags:semanticLabels = </Mug>",
+        cube("g"),
+        apis=["SemanticsLabelsAPI:class"],
+    )
+    report, stage = write(wrong, {"/Mug": label(qcodes=())}, mode="overwrite")
+    assert outcomes(report) == {"/Mug": "replaced"}
+    assert told(stage, "/Mug") == {("UsdSemantics", "class", "Cup"), ("UsdSemantics", "iri", f"{SOMA}Cup")}
+    query = UsdSemantics.LabelsQuery("class", Usd.TimeCode.Default())
+    assert list(query.ComputeUniqueDirectLabels(stage.GetPrimAtPath("/Mug"))) == ["Cup"]
+    # What says a room stays, in whatever spelling.
+    assert [note.message.split()[0] for note in lint_labels(stage)] == [
+        "semantics:b:params:semanticType",
+        "semantics:label:room",
+    ]
+    assert stage.GetPrimAtPath("/Mug").GetAttribute("semantics:label:class").GetTypeName() == "token[]"
+
+
 def test_overwrite_beats_samples_over_time(write):
     moving = xform("Mug", 'token[] semantics:labels:class.timeSamples = { 1: ["pupa"], 5: ["butterfly"] }', cube("g"))
     _, stage = write(moving, {"/Mug": label()}, mode="overwrite")

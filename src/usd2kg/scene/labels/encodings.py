@@ -21,6 +21,7 @@ __all__ = [
     "TAG_LABELS",
     "TAG_SCHEMA",
     "USD",
+    "USD_TYPE",
     "Found",
     "applied_schemas",
     "class_words",
@@ -29,6 +30,7 @@ __all__ = [
     "isaac_instance",
     "isaac_property",
     "isaac_schema",
+    "property_type",
     "schema_of",
     "semantic_names",
     "tag_targets",
@@ -38,6 +40,8 @@ __all__ = [
 LONGEST = 200
 """Letters that a label may have."""
 USD = "semantics:labels:"
+USD_TYPE = "token[]"
+"""The one type that OpenUSD reads its labels from."""
 TAG_LABELS = "semanticTag:semanticLabels"
 TAG_SCHEMA = "SemanticTagAPI"
 TAGS: dict[str, Strength] = {TAG_LABELS: "label", "semanticTag:semanticReports": "report"}
@@ -110,6 +114,13 @@ def _is_blocked(prim: Any, name: str) -> bool:
         return not read_targets(prim, name) and bool(relationship.HasAuthoredTargets())
     attribute = prim.GetAttribute(name)
     return bool(attribute) and bool(attribute.GetResolveInfo().ValueIsBlocked())
+
+
+def property_type(prim: Any, name: str) -> str:
+    """Return the value type of an authored attribute, such as `token[]`; empty for a relationship."""
+    # Not GetTypeName: where a schema is applied, that is the schema's type, whatever was authored.
+    specs = prim.GetProperty(name).GetPropertyStack()
+    return str(getattr(specs[0], "typeName", "")) if specs else ""
 
 
 def find_labels(prim: Any, names: list[str], time: Any) -> list[Found]:

@@ -193,18 +193,17 @@ def _author(spec: Any, opinions: Opinions, class_prim: str | None) -> None:
     for name, text in opinions.texts.items():
         Sdf.AttributeSpec(spec, name, Sdf.ValueTypeNames.String).default = text
     if class_prim is not None:
-        _point(spec, [class_prim])
-    for name in opinions.blocked:
-        if name == TAG_LABELS:
-            _point(spec, [])
-        else:
-            is_array = name.startswith("semantics:labels:")
-            value_type = Sdf.ValueTypeNames.TokenArray if is_array else Sdf.ValueTypeNames.String
+        _point(spec, TAG_LABELS, [class_prim])
+    for name, told in opinions.blocked.items():
+        if told:
+            value_type = Sdf.ValueTypeNames.Find(told) or Sdf.ValueTypeNames.String
             Sdf.AttributeSpec(spec, name, value_type).default = Sdf.ValueBlock()
+        else:
+            _point(spec, name, [])
 
 
-def _point(spec: Any, targets: list[str]) -> None:
-    paths = Sdf.RelationshipSpec(spec, TAG_LABELS, custom=False).targetPathList
+def _point(spec: Any, name: str, targets: list[str]) -> None:
+    paths = Sdf.RelationshipSpec(spec, name, custom=False).targetPathList
     paths.ClearEditsAndMakeExplicit()
     paths.explicitItems = targets
 
