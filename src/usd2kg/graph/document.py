@@ -37,6 +37,13 @@ RDF_FORMATS = {
 """File ending → syntax of RDF that is read and written; each may be followed by .gz."""
 
 
+_READ_ELSEWHERE = {
+    ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
+    ".graphml": "graphs are not read from GraphML, which is for other programs",
+}
+"""File ending that is written only → who reads it."""
+
+
 class GraphPart(NamedTuple):
     """The triples of one named graph."""
 
@@ -82,6 +89,8 @@ def rdf_format(path: Path) -> ox.RdfFormat:
     found = RDF_FORMATS.get(name.suffix.lower())
     if found is None:
         endings = ", ".join(RDF_FORMATS)
+        if readers := _READ_ELSEWHERE.get(name.suffix.lower()):
+            raise GraphError(f"{path}: {readers}; expected the same graph as one of {endings}")
         raise GraphError(f"{path}: the ending {name.suffix!r} names no RDF format; expected one of {endings}")
     return found
 
