@@ -134,7 +134,7 @@ def find_labels(prim: Any, names: list[str], time: Any) -> list[Found]:
         data = isaac_property(instance, "Data")
         found.append(Found(data, "Isaac", taxonomy, clean_values(prim, data, time)))
     # Multiverse repeats its labels among the reports: the stronger ones come first.
-    return found + [_tag(prim, name, target) for name in TAGS for target in tag_targets(prim, name)]
+    return found + [_tag(prim, name, target) for name in TAGS if name in names for target in tag_targets(prim, name)]
 
 
 def clean_values(prim: Any, name: str, time: Any) -> tuple[str, ...]:

@@ -127,7 +127,7 @@ def _lint_prim(prim: Any, time: Any) -> Iterator[LabelProblem]:
         *mistyped.values(),
         *(problem for entry in readable for problem in _lint_values(entry, taxonomies)),
         *_lint_pairs([entry for entry in found if entry.encoding == "Isaac"], names),
-        *(problem for name in TAGS for problem in _lint_targets(prim, name)),
+        *(problem for name in TAGS if name in names for problem in _lint_targets(prim, name)),
         *_lint_schemas(names, schemas),
         *_lint_contradictions(found),
         *(problem for name in names for problem in _lint_name(name)),
