@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from usd2kg.errors import OutputError
-from usd2kg.files import check_writable, write_whole
+from usd2kg.files import check_apart, check_writable, write_whole
 
 
 def test_a_new_file_holds_the_bytes_and_nothing_else_is_left(tmp_path: Path):
@@ -144,3 +144,21 @@ class TestChecks:
         monkeypatch.setattr(os, "access", lambda asked, mode: Path(asked).name != locked)
         with pytest.raises(OutputError, match="is not writable"):
             check_writable(path)
+
+
+@pytest.mark.parametrize("name", ["in.csv", "./in.csv", "sub/../in.csv", "soft.csv", "hard.csv"])
+def test_an_output_that_is_an_input_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str):
+    monkeypatch.chdir(tmp_path)
+    Path("sub").mkdir()
+    Path("in.csv").write_text("kept")
+    Path("soft.csv").symlink_to("in.csv")
+    os.link("in.csv", "hard.csv")
+    with pytest.raises(OutputError) as error:
+        check_apart([None, Path("out.csv"), Path(name)], ["http://localhost/sparql", None, Path("in.csv")])
+    assert str(error.value) == f"{Path(name)}: is an input, too, and would be overwritten; choose another output"
+
+
+def test_two_outputs_to_one_file_are_refused(tmp_path: Path):
+    with pytest.raises(OutputError, match=r"a\.csv: is named for two outputs; choose another output"):
+        check_apart([tmp_path / "a.csv", tmp_path / "b.csv", tmp_path / "x" / ".." / "a.csv"], [])
+    check_apart([Path(os.devnull), Path(os.devnull)], [Path(os.devnull)])

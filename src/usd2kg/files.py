@@ -7,7 +7,32 @@ from pathlib import Path
 
 from usd2kg.errors import OutputError
 
-__all__ = ["check_writable", "write_whole"]
+__all__ = ["check_apart", "check_writable", "is_same_file", "write_whole"]
+
+
+def check_apart(outputs: Iterable[Path | None], inputs: Iterable[Path | str | None]) -> None:
+    """Raise OutputError now if an output is the file of an input, or of another output; None stands for no file.
+
+    Inputs may be texts that name no file, such as the address of a store.
+    """
+    read = [Path(path) for path in inputs if path is not None]
+    written: list[Path] = []
+    for output in outputs:
+        # Devices take whatever is written.
+        if output is None or (output.exists() and not output.is_file()):
+            continue
+        if any(is_same_file(output, other) for other in read):
+            raise OutputError(f"{output}: is an input, too, and would be overwritten; choose another output")
+        if any(is_same_file(output, other) for other in written):
+            raise OutputError(f"{output}: is named for two outputs; choose another output")
+        written.append(output)
+
+
+def is_same_file(path: Path, other: Path) -> bool:
+    """Return whether two paths lead to one file, through links too; where there is none yet, whether they are alike."""
+    if path.exists() and other.exists():
+        return path.samefile(other)
+    return path.resolve() == other.resolve()
 
 
 def check_writable(path: Path) -> None:

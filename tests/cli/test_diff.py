@@ -166,3 +166,9 @@ def test_previous_needs_decisions(run: Run, room: Path, options: list[str], told
     done = run("build", room, *options)
     assert done.code == 2
     assert told in done.err
+
+
+def test_a_packed_graph_is_compared(run: Run, graph: Path):
+    packed = graph.parent / "packed.ttl.gz"
+    run("graph", "convert", graph, "-o", packed)
+    assert run("diff", graph, packed).code == 0

@@ -108,3 +108,32 @@ class TestExport:
         assert run("graph", "convert", graph, "-o", "g.graphml").code == 0
         found = nx.read_graphml("g.graphml")
         assert {data["label"] for _, data in found.nodes(data=True)} >= {"Table_1", "coffee_mug", "FruitBowl", "Apple"}
+
+
+@pytest.mark.parametrize(
+    ("ending", "told"),
+    [
+        (
+            ".ofn",
+            "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
+        ),
+        (".graphml", "graphs are not read from GraphML, which is for other programs"),
+    ],
+)
+def test_what_is_written_only_is_refused_with_its_readers(run: Run, graph: Path, ending: str, told: str):
+    other = graph.with_suffix(ending)
+    assert run("graph", "convert", graph, "-o", other).code == 0
+    convert = ["graph", "convert", other, "-o", "x.ttl"]
+    endings = ".ttl, .nt, .nq, .trig, .rdf, .owl, .jsonld"
+    for command in (["validate", other], ["query", other, "where is", "Table_1"], ["diff", other, graph], convert):
+        done = run(*command)
+        assert done.code == 2
+        assert done.err == f"usd2kg: {other}: {told}; expected the same graph as one of {endings}\n"
+
+
+def test_functional_syntax_is_read_for_its_classes(run: Run, graph: Path):
+    other = graph.with_suffix(".ofn")
+    run("graph", "convert", graph, "-o", other)
+    done = run("ontology", "show", other)
+    assert done.code == 0
+    assert "Table" in done.out

@@ -57,6 +57,11 @@ def test_the_layer_of_one_label(write, tmp_path):
     assert (tmp_path / "labels.usda").read_text() == (
         "#usda 1.0\n"
         "(\n"
+        "    customLayerData = {\n"
+        "        dictionary usd2kg = {\n"
+        '            string content = "labels"\n'
+        "        }\n"
+        "    }\n"
         '    doc = "Semantic labels over scene.usda, by usd2kg."\n'
         "    metersPerUnit = 1\n"
         "    subLayers = [\n"
@@ -129,7 +134,54 @@ def test_stage_metadata_is_restated(write):
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (1, 48)
     assert (stage.GetTimeCodesPerSecond(), stage.GetFramesPerSecond()) == (48, 24)
     assert stage.GetDefaultPrim().GetPath() == "/Mug"
-    assert stage.GetRootLayer().customLayerData == {"note": "kept", "usd2kg": {"ontology": "http://x"}}
+    assert stage.GetRootLayer().customLayerData == {
+        "note": "kept",
+        "usd2kg": {"content": "labels", "ontology": "http://x"},
+    }
+
+
+def test_a_layer_of_labels_is_written_anew(write, tmp_path):
+    for name in ("labels.usda", "labels.usdc", "labels.usd"):
+        write(MUG, {"/Mug": label()}, name)
+        _, stage = write(MUG, {"/Mug": label("Mug")}, name)
+        assert ("UsdSemantics", "class", "Mug") in told(stage, "/Mug")
+        assert ("UsdSemantics", "class", "Cup") not in told(stage, "/Mug")
+
+
+SWITCH = """
+def Xform "World" (
+    variants = { string v = "off" }
+    prepend variantSets = "v"
+)
+{
+    variantSet "v" = { "off" { } "on" ( prepend references = @./other.usda@ ) { } }
+}
+"""
+
+
+@pytest.mark.parametrize("other", [METRES + MUG, "not USD", 'x = "usd2kg"'])
+def test_a_file_that_is_no_layer_of_labels_stays(write_stage, tmp_path, other):
+    source = write_stage(METRES + SWITCH)
+    path = tmp_path / "other.usda"
+    path.write_text(other)
+    with pytest.raises(OutputError, match=r"other\.usda: exists and is no layer of labels of usd2kg, so it stays"):
+        write_labels(source, {"/World": label()}, path)
+    assert path.read_text() == other
+
+
+def test_a_flattened_labelled_stage_stays(write, tmp_path):
+    _, stage = write(MUG, {"/Mug": label()})
+    flat = tmp_path / "flat.usda"
+    stage.Export(str(flat))
+    with pytest.raises(OutputError, match="no layer of labels"):
+        write_labels(tmp_path / "scene.usda", {"/Mug": label()}, flat)
+
+
+def test_a_hard_link_to_the_scene_is_refused(write_stage, tmp_path):
+    source = write_stage(METRES + MUG)
+    os.link(source, tmp_path / "link.usda")
+    with pytest.raises(OutputError, match="the stage is made of this layer"):
+        write_labels(source, {"/Mug": label()}, tmp_path / "link.usda")
 
 
 def test_scene_and_layer_move_together(write, tmp_path):
@@ -153,7 +205,10 @@ def test_another_folder_and_another_working_directory(write_stage, tmp_path, mon
 def test_a_bare_layer_is_nothing_but_labels(write, tmp_path):
     _, _ = write(MUG, {"/Mug": label()}, is_bare=True)
     text = (tmp_path / "labels.usda").read_text()
-    assert text.startswith('#usda 1.0\n\nover "Mug"')
+    head, _, prims = text.partition("\n)\n\n")
+    assert 'string content = "labels"' in head
+    assert not {"subLayers", "metersPerUnit", "upAxis", "doc"} & set(head.split())
+    assert prims.startswith('over "Mug"')
     stage = Usd.Stage.Open(str(tmp_path / "scene.usda"))
     stage.GetSessionLayer().subLayerPaths.append(str(tmp_path / "labels.usda"))
     assert ("UsdSemantics", "class", "Cup") in told(stage, "/Mug")
@@ -231,6 +286,32 @@ def test_overwrite_leaves_no_tag_of_multiverse(write):
     _, stage = write(onto + tagged, {"/Mug": label()}, mode="overwrite", encodings=ALL, name="again.usda")
     assert ("Multiverse", SOMA, "Cup") in told(stage, "/Mug")
     assert not any(value == "Banana" for _, _, value in told(stage, "/Mug"))
+
+
+def test_overwrite_blocks_misspelt_classes_and_mends_types(write):
+    wrong = xform(
+        "Mug",
+        'string semantics:labels:class = "banana"',
+        'token[] semantics:label:class = ["banana"]',
+        'token[] semantics:label:room = ["kitchen"]',
+        'string semantics:a:params:semanticType = "class"',
+        'string semantics:a:params:semanticData = "banana"',
+        'string semantics:b:params:semanticType = "room"',
+        "rel semanticTags:semanticLabels = </Mug>",
+        cube("g"),
+        apis=["SemanticsLabelsAPI:class"],
+    )
+    report, stage = write(wrong, {"/Mug": label(qcodes=())}, mode="overwrite")
+    assert outcomes(report) == {"/Mug": "replaced"}
+    assert told(stage, "/Mug") == {("UsdSemantics", "class", "Cup"), ("UsdSemantics", "iri", f"{SOMA}Cup")}
+    query = UsdSemantics.LabelsQuery("class", Usd.TimeCode.Default())
+    assert list(query.ComputeUniqueDirectLabels(stage.GetPrimAtPath("/Mug"))) == ["Cup"]
+    # What says a room stays, in whatever spelling.
+    assert [note.message.split()[0] for note in lint_labels(stage)] == [
+        "semantics:b:params:semanticType",
+        "semantics:label:room",
+    ]
+    assert stage.GetPrimAtPath("/Mug").GetAttribute("semantics:label:class").GetTypeName() == "token[]"
 
 
 def test_overwrite_beats_samples_over_time(write):

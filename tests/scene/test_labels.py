@@ -1,7 +1,7 @@
 """Semantic labels that a stage carries: reading the three encodings, and finding what is wrong with them."""
 
 import pytest
-from pxr import Usd
+from pxr import Usd, UsdSemantics
 
 from tests.conftest import shared_file
 from tests.scene.usda import METRES, cube, prim, xform
@@ -108,7 +108,11 @@ def test_a_single_text_is_taken(stage, type_name):
 def test_what_is_no_text_is_no_label(stage, line):
     odd = stage(thing(line))
     assert read(odd) == ()
-    assert "holds no label" in messages(odd)[0] or line.startswith("rel")
+    kind = "of type int" if line.startswith("int") else "a relationship"
+    assert messages(odd)[0] == (
+        f"semantics:labels:class is {kind}, in which OpenUSD finds no labels, expected token[]; "
+        "author it anew with that type"
+    )
 
 
 @pytest.mark.parametrize("name", ["semantics:label:class", "semanticsLabels:class", "Semantics:labels:class"])
@@ -391,6 +395,25 @@ def test_duplicate_values(stage):
     found = messages(stage(labelled(usd("class", "cup", "mug", " cup", "cup"))))
     assert found == ["semantics:labels:class lists 'cup' 3 times; keep one"]
     assert messages(stage(labelled(usd("class", "cup", "Cup")))) == []
+
+
+@pytest.mark.parametrize(
+    ("type_name", "value", "is_read"),
+    [
+        ("string", '"cup"', False),
+        ("token", '"cup"', False),
+        ("string[]", '["cup"]', False),
+        ("rel", "</Thing>", False),
+        ("token[]", '["cup"]', True),
+    ],
+)
+def test_labels_of_another_type_are_not_read_by_openusd(stage, type_name, value, is_read):
+    found = stage(labelled(f"{type_name} semantics:labels:class = {value}"))
+    query = UsdSemantics.LabelsQuery("class", Usd.TimeCode.Default())
+    assert bool(query.ComputeUniqueDirectLabels(found.GetPrimAtPath("/Thing"))) == is_read
+    kind = "a relationship" if type_name == "rel" else f"of type {type_name}"
+    told = f"semantics:labels:class is {kind}, in which OpenUSD finds no labels, expected token[]; "
+    assert messages(found) == ([] if is_read else [told + "author it anew with that type"])
 
 
 def test_endless_values_are_neither_read_nor_repeated(stage):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from usd2kg.cli.carry_options import CarryOptions
-from usd2kg.cli.grounding_run import GroundingOptions, open_run
+from usd2kg.cli.grounding_run import GroundingOptions, check_files_apart, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
 from usd2kg.cli.options import (
@@ -79,6 +79,7 @@ def build_command(
     targets: Sequence[Path | None] = [None] * len(scenes)
     if store is None or output is not None:
         targets = _targets(scenes, output)
+    check_files_apart(targets, [*scenes, ontology, reading.objects, relating.relation_rules], chosen, asked, carrying)
     keeper = None
     if store is not None:
         check_names([base or default_base(str(scene)) for scene in scenes])

@@ -91,13 +91,14 @@ def diff_command(
     """Tell what changed between two graphs or scenes. Exit code 1 if anything did, as diff has it."""
     from usd2kg.cli.diff_data import changes_data  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.cli.diff_report import report_text  # noqa: PLC0415
-    from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
     from usd2kg.graph.diff import compare_things, make_update  # noqa: PLC0415
 
     chosen = _format(file_format, is_json=json, graph=graph)
     limits, kinds = tolerances.tolerances(), _kinds(relations)
     if output is not None:
         check_writable(output)
+        check_apart([output], [old, new, ontology])
     sides = _Sides(reading.read_options(), ontology, base, kinds, is_grounded=not no_ground)
     before, after = sides.open(old, new)
     if chosen == "sparql":

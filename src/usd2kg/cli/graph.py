@@ -8,7 +8,7 @@ import typer
 from usd2kg.cli.options import GraphPlace, SceneName
 from usd2kg.cli.output import emit, talk
 from usd2kg.errors import GraphError, OutputError
-from usd2kg.files import check_writable, write_whole
+from usd2kg.files import check_apart, check_writable, write_whole
 
 __all__ = ["app"]
 
@@ -34,6 +34,7 @@ def draw(
     if target.suffix.lower() not in {".svg", ".png"}:
         raise OutputError(f"{target}: pictures of graphs are SVG or PNG, expected a name ending in .svg or .png")
     check_writable(target)
+    check_apart([target], [graph])
     from usd2kg.graph.picture import draw_room, draw_surroundings, to_png  # noqa: PLC0415
     from usd2kg.graph.stores import open_graph  # noqa: PLC0415
 
@@ -72,6 +73,7 @@ def convert(
 
     graph_format(output)
     check_writable(output)
+    check_apart([output], [graph])
     document = read_document(graph)
     write_graph(document, output)
     talk(f"{len(document.triples)} triples written to {output}")
@@ -87,12 +89,14 @@ def export(
 ) -> None:
     """Write a graph as a property graph: nodes.csv, relationships.csv and a script that loads them."""
     from usd2kg.graph import read_document, read_property_graph, write_neo4j  # noqa: PLC0415
+    from usd2kg.graph.neo4j import NEO4J_FILES  # noqa: PLC0415
 
     if target != "neo4j":
         raise GraphError(f"--to {target!r} is unknown; expected neo4j, or usd2kg graph convert for files of RDF")
     folder = output or Path(f"{graph.stem}-neo4j")
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"{folder}: is not a folder; expected one for the files of the database")
+    check_apart((folder / name for name in NEO4J_FILES), [graph])
     found = read_property_graph(read_document(graph))
     write_neo4j(found, folder)
     counts = f"{len(found.nodes)} nodes and {len(found.edges)} relationships"

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from usd2kg.cli.carry_options import CarryOptions
-from usd2kg.cli.grounding_run import GroundingOptions, open_run
+from usd2kg.cli.grounding_run import GroundingOptions, check_files_apart, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
 from usd2kg.cli.options import AbbreviatedLength, OntologyFile, ReadingOptions, SceneFile
@@ -63,6 +63,7 @@ def ground_command(
     for target in (output, asked.queue):
         if target is not None:
             check_writable(target)
+    check_files_apart([output], [scene, ontology, paths, reading.objects], chosen, asked, carrying)
     wanted = grounding.read_paths(paths) if paths is not None else None
     tbox = open_tbox(ontology)
     options = reading.read_options()

@@ -1,6 +1,6 @@
 """A grounder for a scene as the options say it: one, or several in a row, with what people decided."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import NamingRegime, ObjectView, ReadOptions, Scene
 
-__all__ = ["GroundingOptions", "GroundingRun", "open_run"]
+__all__ = ["GroundingOptions", "GroundingRun", "check_files_apart", "open_run"]
 
 _PICTURE = (256, 256)
 
@@ -83,6 +83,22 @@ class GroundingRun:
             waiting = unsure_of(result, options.person)
             emit(format_queue(waiting, tbox), options.queue)
             talk(f"{len(waiting)} objects wait for a person: fill in the decisions of {options.queue}")
+
+
+def check_files_apart(
+    outputs: Iterable[Path | None],
+    inputs: Iterable[Path | None],
+    chosen: GroundingOptions,
+    asked: ModelOptions,
+    carrying: CarryOptions | None = None,
+) -> None:
+    """Raise OutputError where a file that would be written, by these options too, is one that is read."""
+    from usd2kg.files import check_apart  # noqa: PLC0415
+
+    carried = (carrying.unplaced, carrying.carried) if carrying is not None else ()
+    previous = carrying.previous if carrying is not None else None
+    read = (chosen.dictionary, chosen.class_sizes, asked.decisions, asked.calibration, asked.completions, previous)
+    check_apart((*outputs, asked.queue, *carried), (*inputs, *read))
 
 
 @contextmanager

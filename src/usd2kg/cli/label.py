@@ -96,12 +96,13 @@ def write_command(
     json: JsonOutput = False,
 ) -> None:
     """Write a layer over a scene in which prims carry their classes as labels. `write` may be left away."""
-    from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
     from usd2kg.labelling import label_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     target = output or Path(f"{scene.stem}.labels.usda")
     check_writable(target)
+    check_apart([target], [scene, run, ontology])
     tbox = open_tbox(ontology)
     options = _options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
     report = label_stage(

@@ -41,6 +41,11 @@ RDF_FORMATS = {
 
 TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
 """What is said of a file that the parser has no memory for."""
+_READ_ELSEWHERE = {
+    ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
+    ".graphml": "graphs are not read from GraphML, which is for other programs",
+}
+"""File ending that is written only → who reads it."""
 
 
 class GraphPart(NamedTuple):
@@ -88,6 +93,8 @@ def rdf_format(path: Path) -> ox.RdfFormat:
     found = RDF_FORMATS.get(name.suffix.lower())
     if found is None:
         endings = ", ".join(RDF_FORMATS)
+        if readers := _READ_ELSEWHERE.get(name.suffix.lower()):
+            raise GraphError(f"{path}: {readers}; expected the same graph as one of {endings}")
         raise GraphError(f"{path}: the ending {name.suffix!r} names no RDF format; expected one of {endings}")
     return found
 

@@ -9,7 +9,9 @@ from usd2kg.errors import OutputError
 from usd2kg.files import write_whole
 from usd2kg.graph.property_graph import PropertyGraph, Value
 
-__all__ = ["write_neo4j"]
+__all__ = ["NEO4J_FILES", "write_neo4j"]
+
+NEO4J_FILES = ("nodes.csv", "relationships.csv", "load.cypher")
 
 _TYPES = {str: "", float: ":double", int: ":long", bool: ":boolean"}
 _CASTS = {str: "{}", float: "toFloat({})", int: "toInteger({})", bool: "toBoolean({})"}
@@ -47,14 +49,15 @@ def write_neo4j(graph: PropertyGraph, folder: Path) -> tuple[Path, ...]:
     edge_types = graph.property_types(of_edges=True)
     nodes = ((node.id, ";".join(node.labels), *_cells(node.properties, node_types)) for node in graph.nodes)
     edges = ((e.start, e.end, e.type, *_cells(e.properties, edge_types)) for e in graph.edges)
-    contents: dict[str, Iterable[bytes]] = {
-        "nodes.csv": _csv(("iri:ID", ":LABEL", *_header(node_types)), nodes),
-        "relationships.csv": _csv((":START_ID", ":END_ID", ":TYPE", *_header(edge_types)), edges),
-        "load.cypher": (_script(graph, node_types, edge_types).encode(),),
-    }
-    for name, pieces in contents.items():
-        write_whole(folder / name, pieces)
-    return tuple(folder / name for name in contents)
+    contents: tuple[Iterable[bytes], ...] = (
+        _csv(("iri:ID", ":LABEL", *_header(node_types)), nodes),
+        _csv((":START_ID", ":END_ID", ":TYPE", *_header(edge_types)), edges),
+        (_script(graph, node_types, edge_types).encode(),),
+    )
+    paths = tuple(folder / name for name in NEO4J_FILES)
+    for path, pieces in zip(paths, contents, strict=True):
+        write_whole(path, pieces)
+    return paths
 
 
 def _header(types: Mapping[str, type]) -> list[str]:

@@ -16,8 +16,8 @@ __all__ = ["LabelLint", "lint_stage"]
 
 _ERRORS = frozenset(
     """
-    class-iri-contradict encodings-contradict isaac-half isaac-instance label-placeholder label-without-schema
-    property-misspelt tag-target-missing tag-target-no-class unreadable
+    class-iri-contradict encodings-contradict isaac-half isaac-instance label-placeholder label-type
+    label-without-schema property-misspelt tag-target-missing tag-target-no-class unreadable
     """.split()
 )
 """Rules of what makes tools read another label than was meant, or none."""

@@ -1,6 +1,7 @@
 """read_run: which class each prim has, from whatever file of a run is at hand."""
 
 import csv
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -51,7 +52,8 @@ def read_run(path: Path, tbox: TBox) -> Run:
     """Return the classes in a mapping (`.csv` or `.json` of `usd2kg ground`, a filled-in queue), else in a graph.
 
     Raises:
-        GroundingError: a mapping cannot be read, or names a class that is not in the scope of `tbox`.
+        GroundingError: a mapping cannot be read, or names a class that is not in the scope of `tbox`; a prim path is no
+            text, or a confidence no number from 0 to 1.
         GraphError: a graph cannot be read.
     """
     ending = path.suffix.lower()
@@ -80,9 +82,23 @@ def _resolved(where: str, answer: Answer, tbox: TBox) -> Answer:
     return Answer(answer.prim_path, iri, answer.confidence, answer.status, answer.is_reviewed)
 
 
+def _confidence(where: str, prim_path: str, told: object) -> float | None:
+    """Return a confidence as a file has it; None where it has none."""
+    if told is None:
+        return None
+    try:
+        number = float(str(told))
+    except ValueError:
+        number = math.nan
+    if not 0 <= number <= 1:
+        raise GroundingError(f"{where}: {prim_path} has the confidence {told!r}, expected a number from 0 to 1")
+    return number
+
+
 def _of_grounding(path: Path) -> Iterator[tuple[str, Answer]]:
     for p in read_grounding(path).predictions:
-        yield str(path), Answer(p.prim_path, p.class_iri, p.confidence, p.status.value, p.status is Status.REVIEWED)
+        confidence = _confidence(str(path), p.prim_path, p.confidence)
+        yield str(path), Answer(p.prim_path, p.class_iri, confidence, p.status.value, p.status is Status.REVIEWED)
 
 
 def _of_csv(path: Path) -> Iterator[tuple[str, Answer]]:
@@ -106,11 +122,8 @@ def _of_row(where: str, row: dict[str, str | None], column: str) -> Answer:
     answer = told[column] or None
     status = told["status"] or ("undecided" if answer is None else Status.REVIEWED if by_person else Status.GROUNDED)
     # The queue's confidence is that of the machine's answer, not of the person's.
-    number = "" if column == "decision" else told["confidence"]
-    try:
-        confidence = float(number) if number else None
-    except ValueError as error:
-        raise GroundingError(f"{where}: confidence {number!r}, expected a number from 0 to 1") from error
+    number = None if column == "decision" else told["confidence"] or None
+    confidence = _confidence(where, told["path"], number)
     return Answer(told["path"], answer, confidence, str(status), by_person and answer is not None)
 
 
@@ -118,13 +131,15 @@ def _of_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, Answer]]:
     graph = store.store
     about = _annotations(graph)
     for subject, _, path, _ in graph.quads_for_pattern(None, U2K.primPath, None, None):
-        assert isinstance(path, ox.Literal), "prim paths are texts"
+        if not isinstance(path, ox.Literal):
+            message = f'{store.source}: {subject} has the prim path {path}, expected a text such as "/World/Mug"'
+            raise GroundingError(message)
         classes = [node for _, _, node, _ in graph.quads_for_pattern(subject, RDF.type, None, None)]
         iri = _most_specific([node.value for node in classes if isinstance(node, ox.NamedNode)], tbox)
         told = about.get((subject, ox.NamedNode(iri))) if iri else None
         notes = _literals(graph, told if told is not None else subject)
-        number, status = notes.get(SSSOM.confidence), notes.get(U2K.status, "grounded" if iri else "")
-        confidence = float(number) if number is not None else None
+        status = notes.get(U2K.status, "grounded" if iri else "")
+        confidence = _confidence(store.source, path.value, notes.get(SSSOM.confidence))
         yield store.source, Answer(path.value, iri, confidence, status, status == Status.REVIEWED)
 
 

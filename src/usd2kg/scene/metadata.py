@@ -29,7 +29,7 @@ _T = TypeVar("_T")
 
 _MOST_TEXTS = 20
 _LONGEST_TEXT = 200
-_TEXT_TYPES = ("string", "token", "string[]", "token[]")
+_TEXT_TYPES = frozenset({"string", "token", "string[]", "token[]"})
 _TECHNICAL_NAMESPACES = frozenset(
     """
     arnold collection info inputs karma material mjc newton omni outputs physics primvars rdf ri rtx semantic
@@ -122,7 +122,7 @@ def texts_of(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
     default time.
     """
     attribute = prim.GetAttribute(attribute_name)
-    if not attribute or attribute.GetTypeName() not in _TEXT_TYPES:
+    if not attribute or str(attribute.GetTypeName()) not in _TEXT_TYPES:
         return ()
     try:
         return _as_texts(value_of(attribute, Usd.TimeCode.Default() if time is None else time))
@@ -140,6 +140,8 @@ def _as_texts(value: Any) -> tuple[str, ...]:
 
 def clean_text(text: str) -> str:
     """Return the text on one line, without characters that do not print (controls, changes of direction)."""
+    if text.isprintable():
+        return " ".join(text.split())
     return " ".join("".join(c for c in text if c.isprintable() or c.isspace()).split())
 
 

@@ -44,7 +44,7 @@ def test_how_a_graph_is_written_is_found(home_tbox: TBox, profile: str, annotati
     [
         ("a.ttl", None, r"a\.ttl: cannot be read as Turtle \(No such file"),
         ("a.ttl", "<x> <y", r"a\.ttl: cannot be read as Turtle"),
-        ("a.csv", "", r"a\.csv: the ending '\.csv' names no RDF format; expected \.ttl"),
+        ("a.csv", "", r"a\.csv: the ending '\.csv' names no RDF format; expected one of \.ttl"),
     ],
 )
 def test_files_that_are_no_graphs_are_refused(tmp_path: Path, name: str, text: str | None, told: str) -> None:

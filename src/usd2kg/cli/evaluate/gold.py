@@ -23,6 +23,7 @@ def annotate_command(
     """Make a gold file to fill in: a row for each object, with what helps to decide."""
     from usd2kg import grounding  # noqa: PLC0415
     from usd2kg.evaluation.template import gold_template  # noqa: PLC0415
+    from usd2kg.files import check_apart  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
@@ -30,6 +31,7 @@ def annotate_command(
         raise EvaluationError(
             f"{output}: exists, and may hold labels that took a person hours; choose another or --force"
         )
+    check_apart([output], [scene, ontology])
     found = read_scene(scene)
     tbox = open_tbox(ontology)
     suggestions = grounding.ground(found, tbox, grounding.make_grounder("embedded")) if suggest else None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from usd2kg.cli.evaluate.texts import number_text
-from usd2kg.cli.grounding_run import GroundingOptions, open_run
+from usd2kg.cli.grounding_run import GroundingOptions, check_files_apart, open_run
 from usd2kg.cli.groups import with_groups
 from usd2kg.cli.model_options import ModelOptions
 from usd2kg.cli.options import AbbreviatedLength, JsonOutput, OntologyFile, SceneFile
@@ -43,6 +43,7 @@ def run_command(
         raise EvaluationError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
     if output is not None:
         check_writable(output)
+    check_files_apart([output], [scene, gold, ontology], chosen, asked)
     groups, naming_regime = chosen.groups, chosen.naming_regime
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)

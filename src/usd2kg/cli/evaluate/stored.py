@@ -25,7 +25,9 @@ def calibrate_command(
     from usd2kg import evaluation  # noqa: PLC0415
     from usd2kg.evaluation.metrics.calibration import calibration_error  # noqa: PLC0415
     from usd2kg.evaluation.stored import read_run  # noqa: PLC0415
+    from usd2kg.files import check_apart  # noqa: PLC0415
 
+    check_apart([output], runs)
     stored = [read_run(path) for path in runs]
     described = {run.description for run in stored}
     if len(described) > 1:

@@ -1,6 +1,7 @@
 """The things of a graph in either profile, from its statements."""
 
 import math
+import zlib
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
@@ -11,7 +12,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.diff.thing import Link, Thing, Vector
-from usd2kg.graph.document import TOO_LARGE
+from usd2kg.graph.document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_terms import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.relations import SYMMETRIC_KINDS
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
@@ -38,21 +39,20 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
     Raises:
         GraphError: the file cannot be read, its ending names no RDF format, or it does not parse.
     """
-    rdf_format = ox.RdfFormat.from_extension(path.suffix.lower().removeprefix("."))
-    if rdf_format is None:
-        raise GraphError(f"{path}: the ending {path.suffix!r} names no RDF format; expected .ttl, .nt or another")
+    syntax = rdf_format(path)
     try:
         # A store would write numbers in its own way, and an update must name them as they are.
         with paused_collection():
-            if rdf_format == ox.RdfFormat.RDF_XML:
-                with path.open("rb") as file:
+            if syntax == ox.RdfFormat.RDF_XML:
+                with open_rdf(path) as file:
                     refuse_entity_bomb_in_file(file)
-            return frozenset(quad.triple for quad in ox.parse(path=str(path), format=rdf_format))
+            with open_rdf(path) as file:
+                return frozenset(quad.triple for quad in ox.parse(file, format=syntax))
     except MemoryError as error:
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
-    except (SyntaxError, OSError) as error:
-        reason = " ".join(str(error).split())
-        raise GraphError(f"{path}: cannot be read as {rdf_format.name} ({reason}); build the graph again") from error
+    except (SyntaxError, OSError, EOFError, zlib.error) as error:
+        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        raise GraphError(f"{path}: cannot be read as {syntax.name} ({reason}); build the graph again") from error
 
 
 class Writing(NamedTuple):

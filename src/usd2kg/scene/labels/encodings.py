@@ -21,6 +21,7 @@ __all__ = [
     "TAG_LABELS",
     "TAG_SCHEMA",
     "USD",
+    "USD_TYPE",
     "Found",
     "applied_schemas",
     "class_words",
@@ -29,6 +30,7 @@ __all__ = [
     "isaac_instance",
     "isaac_property",
     "isaac_schema",
+    "property_type",
     "schema_of",
     "semantic_names",
     "tag_targets",
@@ -38,6 +40,8 @@ __all__ = [
 LONGEST = 200
 """Letters that a label may have."""
 USD = "semantics:labels:"
+USD_TYPE = "token[]"
+"""The one type that OpenUSD reads its labels from."""
 TAG_LABELS = "semanticTag:semanticLabels"
 TAG_SCHEMA = "SemanticTagAPI"
 TAGS: dict[str, Strength] = {TAG_LABELS: "label", "semanticTag:semanticReports": "report"}
@@ -112,6 +116,13 @@ def _is_blocked(prim: Any, name: str) -> bool:
     return bool(attribute) and bool(attribute.GetResolveInfo().ValueIsBlocked())
 
 
+def property_type(prim: Any, name: str) -> str:
+    """Return the value type of an authored attribute, such as `token[]`; empty for a relationship."""
+    # Not GetTypeName: where a schema is applied, that is the schema's type, whatever was authored.
+    specs = prim.GetProperty(name).GetPropertyStack()
+    return str(getattr(specs[0], "typeName", "")) if specs else ""
+
+
 def find_labels(prim: Any, names: list[str], time: Any) -> list[Found]:
     """Return what the properties `names` of a prim say at `time`: OpenUSD's, then Isaac's, then Multiverse's."""
     found = []
@@ -123,7 +134,7 @@ def find_labels(prim: Any, names: list[str], time: Any) -> list[Found]:
         data = isaac_property(instance, "Data")
         found.append(Found(data, "Isaac", taxonomy, clean_values(prim, data, time)))
     # Multiverse repeats its labels among the reports: the stronger ones come first.
-    return found + [_tag(prim, name, target) for name in TAGS for target in tag_targets(prim, name)]
+    return found + [_tag(prim, name, target) for name in TAGS if name in names for target in tag_targets(prim, name)]
 
 
 def clean_values(prim: Any, name: str, time: Any) -> tuple[str, ...]:

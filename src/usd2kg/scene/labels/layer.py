@@ -10,7 +10,7 @@ from typing import Any
 from pxr import Sdf, Tf, Usd
 
 from usd2kg.errors import OutputError
-from usd2kg.files import check_writable, write_whole
+from usd2kg.files import check_writable, is_same_file, write_whole
 from usd2kg.scene.labels.carriers import Carrier, find_carrier
 from usd2kg.scene.labels.encodings import TAG_LABELS, semantic_names
 from usd2kg.scene.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelReport
@@ -21,6 +21,8 @@ from usd2kg.scene.stage import captured_diagnostics, open_stage, translated_erro
 __all__ = ["write_labels"]
 
 _ENDINGS = (".usda", ".usdc", ".usd")
+_MARK = "usd2kg"
+"""Key of `customLayerData` by which a layer of labels is known again."""
 _NOT_CARRIED_OVER = frozenset(
     "comment documentation layerRelocates primChildren primOrder subLayerOffsets subLayers".split()
 )
@@ -46,7 +48,8 @@ def write_labels(
 
     Raises:
         SceneError: the stage cannot be read.
-        OutputError: the layer cannot be written there, or is one of those that the stage is made of.
+        OutputError: the layer cannot be written there, is one of those that the stage is made of, or would replace a
+            file that is no layer of labels of ours.
     """
     chosen, target = options or LabelOptions(), Path(output)
     if target.suffix.lower() not in _ENDINGS:
@@ -58,8 +61,7 @@ def write_labels(
         layer = Sdf.Layer.CreateAnonymous(target.name)
         if not chosen.is_bare:
             _put_over(layer, opened.stage.GetRootLayer(), target)
-        if chosen.provenance:
-            layer.customLayerData = {**layer.customLayerData, "usd2kg": dict(chosen.provenance)}
+        layer.customLayerData = {**layer.customLayerData, _MARK: {"content": "labels", **chosen.provenance}}
         report = _label_prims(opened.stage, labels, layer, chosen)
         data = _serialize(layer, target.suffix.lower())
     write_whole(target, data)
@@ -68,8 +70,28 @@ def write_labels(
 
 def _refuse_source(stage: Any, target: Path) -> None:
     for layer in stage.GetUsedLayers():
-        if layer.realPath and Path(layer.realPath).resolve() == target.resolve():
+        if layer.realPath and is_same_file(Path(layer.realPath), target):
             raise OutputError(f"{target}: the stage is made of this layer, which is never changed; choose another name")
+    # A variant that is not selected, or a payload that is not loaded, may need a layer that the stage does not use now.
+    if target.is_file() and target.stat().st_size and not _is_of_labels(target):
+        raise OutputError(f"{target}: exists and is no layer of labels of usd2kg, so it stays; choose another name")
+
+
+def _is_of_labels(path: Path) -> bool:
+    """Return whether a file is a layer that `write_labels` wrote, to which nobody added prims of another type."""
+    try:
+        layer = Sdf.Layer.OpenAsAnonymous(str(path))
+    except Tf.ErrorException:
+        return False
+    if layer is None or _MARK not in layer.customLayerData:
+        return False
+    typed: list[Any] = []
+    # A flattened stage keeps the mark and holds the whole scene.
+    layer.Traverse(
+        Sdf.Path.absoluteRootPath,
+        lambda at: typed.append(at) if at.IsPrimPath() and layer.GetPrimAtPath(at).typeName else None,
+    )
+    return not typed
 
 
 def _put_over(layer: Any, source: Any, target: Path) -> None:
@@ -171,18 +193,17 @@ def _author(spec: Any, opinions: Opinions, class_prim: str | None) -> None:
     for name, text in opinions.texts.items():
         Sdf.AttributeSpec(spec, name, Sdf.ValueTypeNames.String).default = text
     if class_prim is not None:
-        _point(spec, [class_prim])
-    for name in opinions.blocked:
-        if name == TAG_LABELS:
-            _point(spec, [])
-        else:
-            is_array = name.startswith("semantics:labels:")
-            value_type = Sdf.ValueTypeNames.TokenArray if is_array else Sdf.ValueTypeNames.String
+        _point(spec, TAG_LABELS, [class_prim])
+    for name, told in opinions.blocked.items():
+        if told:
+            value_type = Sdf.ValueTypeNames.Find(told) or Sdf.ValueTypeNames.String
             Sdf.AttributeSpec(spec, name, value_type).default = Sdf.ValueBlock()
+        else:
+            _point(spec, name, [])
 
 
-def _point(spec: Any, targets: list[str]) -> None:
-    paths = Sdf.RelationshipSpec(spec, TAG_LABELS, custom=False).targetPathList
+def _point(spec: Any, name: str, targets: list[str]) -> None:
+    paths = Sdf.RelationshipSpec(spec, name, custom=False).targetPathList
     paths.ClearEditsAndMakeExplicit()
     paths.explicitItems = targets
 

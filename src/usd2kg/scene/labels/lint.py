@@ -16,6 +16,7 @@ from usd2kg.scene.labels.encodings import (
     TAG_LABELS,
     TAGS,
     USD,
+    USD_TYPE,
     Found,
     applied_schemas,
     class_words,
@@ -24,6 +25,7 @@ from usd2kg.scene.labels.encodings import (
     isaac_instance,
     isaac_property,
     isaac_schema,
+    property_type,
     schema_of,
     semantic_names,
     tag_targets,
@@ -32,7 +34,7 @@ from usd2kg.scene.model import Diagnostic, Encoding
 from usd2kg.scene.stage import UNREADABLE, error_text
 from usd2kg.words import split_identifier
 
-__all__ = ["LabelProblem", "find_problems", "lint_labels", "quote_labels", "stage_prims"]
+__all__ = ["LabelProblem", "find_problems", "lint_labels", "meant_property", "quote_labels", "stage_prims"]
 
 _PLACEHOLDERS = frozenset(
     """
@@ -119,13 +121,16 @@ def _lint_prim(prim: Any, time: Any) -> Iterator[LabelProblem]:
         return
     found = find_labels(prim, names, time)
     taxonomies = {entry.taxonomy for entry in found}
+    mistyped = {problem.about: problem for problem in _lint_types(prim, names)}
+    readable = [entry for entry in found if any(entry.values) or entry.property_name not in mistyped]
     problems = [
-        *(problem for entry in found for problem in _lint_values(entry, taxonomies)),
+        *mistyped.values(),
+        *(problem for entry in readable for problem in _lint_values(entry, taxonomies)),
         *_lint_pairs([entry for entry in found if entry.encoding == "Isaac"], names),
-        *(problem for name in TAGS for problem in _lint_targets(prim, name)),
+        *(problem for name in TAGS if name in names for problem in _lint_targets(prim, name)),
         *_lint_schemas(names, schemas),
         *_lint_contradictions(found),
-        *(problem for name in names if schema_of(name) is None for problem in _lint_name(name)),
+        *(problem for name in names for problem in _lint_name(name)),
     ]
     for rule, about, told, expected, advice in problems:
         yield LabelProblem(rule, str(prim.GetPath()), _layer_of(prim, about, time), told, expected, advice)
@@ -140,6 +145,15 @@ def _layer_of(prim: Any, about: str, time: Any) -> str | None:
 
 def _applies(spec: Any) -> list[str]:
     return list(spec.GetInfo("apiSchemas").GetAddedOrExplicitItems()) if spec.HasInfo("apiSchemas") else []
+
+
+def _lint_types(prim: Any, names: Sequence[str]) -> Iterator[_Problem]:
+    """Yield labels of OpenUSD's encoding of which its own reader takes no value, because of their type."""
+    for name in names:
+        found = property_type(prim, name)
+        if name.startswith(USD) and found != USD_TYPE:
+            told = f"{name} is {f'of type {found}' if found else 'a relationship'}, in which OpenUSD finds no labels"
+            yield _Problem("label-type", name, told, USD_TYPE, "author it anew with that type")
 
 
 def _lint_values(entry: Found, taxonomies: set[str]) -> Iterator[_Problem]:
@@ -258,15 +272,19 @@ def _words(values: list[str]) -> set[str]:
 
 def _lint_name(name: str) -> Iterator[_Problem]:
     """Yield a property that is no label but looks as if it was meant to be one."""
+    if meant := meant_property(name):
+        yield _Problem("property-misspelt", name, f"{name} is no label that any tool reads", meant, "rename it")
+
+
+def meant_property(name: str) -> str | None:
+    """Return the property of a label that a misspelt one was meant to be; None for labels, and for what is unlike."""
+    if schema_of(name) is not None:
+        return None
     if like := _LIKE_USD.fullmatch(name):
-        meant = USD + like[1]
-    elif like := _LIKE_ISAAC.fullmatch(name):
-        meant = isaac_property(like[1] or "Semantics", like[2].capitalize())
-    elif _LIKE_TAG.fullmatch(name):
-        meant = difflib.get_close_matches(name, TAGS, 1, 0)[0]
-    else:
-        return
-    yield _Problem("property-misspelt", name, f"{name} is no label that any tool reads", meant, "rename it")
+        return USD + like[1]
+    if like := _LIKE_ISAAC.fullmatch(name):
+        return isaac_property(like[1] or "Semantics", like[2].capitalize())
+    return difflib.get_close_matches(name, TAGS, 1, 0)[0] if _LIKE_TAG.fullmatch(name) else None
 
 
 def quote_labels(values: Sequence[str]) -> str:

@@ -5,21 +5,24 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from usd2kg.scene.labels.encodings import (
+    CLASS_TAXONOMIES,
     TAG_LABELS,
     TAG_SCHEMA,
     USD,
     Found,
     applied_schemas,
     class_words,
+    clean_values,
     find_labels,
     isaac_instance,
     isaac_property,
     isaac_schema,
+    property_type,
     schema_of,
     semantic_names,
     usd_schema,
 )
-from usd2kg.scene.labels.lint import quote_labels
+from usd2kg.scene.labels.lint import meant_property, quote_labels
 from usd2kg.scene.labels.model import ClassLabel, LabelOptions, Outcome
 from usd2kg.scene.model import Encoding
 
@@ -41,8 +44,8 @@ class Opinions:
     """Property → text, of Isaac's."""
     is_tagged: bool = False
     """Whether the prim is to point to its class prim, and to no other."""
-    blocked: list[str] = field(default_factory=list)
-    """Properties that are to say nothing any more."""
+    blocked: dict[str, str] = field(default_factory=dict)
+    """Property that is to say nothing any more → its value type, empty for a relationship."""
     applied: list[str] = field(default_factory=list)
     """Schemas to apply."""
     removed: list[str] = field(default_factory=list)
@@ -57,7 +60,8 @@ def plan_labels(prim: Any, label: ClassLabel, options: LabelOptions, time: Any) 
     if options.mode == "new" and labels:
         return Opinions("kept", f"has labels already: {_told(labels)}")
     if options.mode == "overwrite":
-        return _replace(prim, label, options, [entry for entry in found if entry.tells_class])
+        misspelt = _misspelt_classes(prim, names, time)
+        return _replace(prim, label, options, [entry for entry in found if entry.tells_class], misspelt)
     classes = [entry for entry in labels if entry.tells_class]
     if classes and not _means(classes, label):
         return Opinions("kept", f"its labels say another class: {_told(classes)}")
@@ -89,15 +93,34 @@ def _complete(label: ClassLabel, options: LabelOptions, labels: list[Found]) -> 
     return opinions
 
 
-def _replace(prim: Any, label: ClassLabel, options: LabelOptions, classes: list[Found]) -> Opinions:
+def _misspelt_classes(prim: Any, names: Iterable[str], time: Any) -> set[str]:
+    """Return the properties that were meant to say a class, under names that no tool reads."""
+    meant = {name: meant_property(name) or name for name in names}
+    types = {
+        instance
+        for name, wanted in meant.items()
+        if (instance := isaac_instance(wanted)) and wanted == isaac_property(instance, "Type")
+        if not CLASS_TAXONOMIES.isdisjoint(clean_values(prim, name, time))
+    }
+    return {
+        name
+        for name, wanted in meant.items()
+        if wanted != name
+        if wanted == TAG_LABELS
+        or wanted.removeprefix(USD).lower() in CLASS_TAXONOMIES
+        or isaac_instance(wanted) in types
+    }
+
+
+def _replace(prim: Any, label: ClassLabel, options: LabelOptions, classes: list[Found], misspelt: set[str]) -> Opinions:
     """Return the opinions that leave no other label of a class, and labels of other taxonomies as they are."""
-    opinions = Opinions("replaced" if any(any(entry.values) for entry in classes) else "written")
-    old = {name for entry in classes for name in _properties(entry)}
+    opinions = Opinions("replaced" if misspelt or any(any(entry.values) for entry in classes) else "written")
+    old = {name for entry in classes for name in _properties(entry)} | misspelt
     kept = {name for name in semantic_names(prim) if name not in old}
     taken = {instance for name in kept if (instance := isaac_instance(name))}
     _add(opinions, label, options.encodings, taken)
     said = {*opinions.tokens, *opinions.texts, *([TAG_LABELS] if opinions.is_tagged else [])}
-    opinions.blocked = sorted(name for name in old - said if prim.HasProperty(name))
+    opinions.blocked = {name: property_type(prim, name) for name in sorted(old - said) if prim.HasProperty(name)}
     used = {schema_of(name) for name in (*kept, *said)}
     opinions.removed = [schema for schema in applied_schemas(prim) if schema not in used]
     return opinions

@@ -1,6 +1,6 @@
 """The labels that prims and objects carry, in whatever encoding."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -18,25 +18,31 @@ _MOST_PARTS = 64
 class LabelReader:
     """Reads the labels of objects at one time; what stands above several objects is read once."""
 
-    def __init__(self, time: Any) -> None:
+    def __init__(self, time: Any, known: Mapping[str, tuple[Label, ...]] | None = None) -> None:
+        """Read at `time`; `known` gives the labels of the prims that were read already, by path."""
         self._time = time
+        self._known = known or {}
         self._above: dict[str, tuple[Label, ...]] = {}
 
     def read(self, nodes: list[Node]) -> ObjectLabels:
         """Return the labels of the object whose own nodes are `nodes`, its prim first."""
-        own = read_labels(nodes[0].prim, self._time) if nodes[0].is_labelled else ()
+        own = self._read(nodes[0].prim) if nodes[0].is_labelled else ()
         inherited = _distinct([*own, *self._inherited(nodes[0].parent)])[len(own) :]
-        below = [label for prim in _parts(nodes) for label in read_labels(prim, self._time)]
+        below = [label for prim in _parts(nodes) for label in self._read(prim)]
         if not (own or inherited or below):
             return NO_LABELS
         return ObjectLabels(own, inherited, _distinct(below)[:_MOST_PARTS])
+
+    def _read(self, prim: Any) -> tuple[Label, ...]:
+        known = self._known.get(str(prim.GetPath())) if self._known else None
+        return read_labels(prim, self._time) if known is None else known
 
     def _inherited(self, node: Node | None) -> list[Label]:
         found: list[Label] = []
         while node is not None:
             if node.is_labelled:
                 if node.path not in self._above:
-                    here = read_labels(node.prim, self._time)
+                    here = self._read(node.prim)
                     self._above[node.path] = tuple(replace(label, is_inherited=True) for label in here)
                 found += self._above[node.path]
             node = node.parent

@@ -1,6 +1,6 @@
 """survey_labels: all labels of a stage, what they stand on, and what is wrong with them one by one."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -69,13 +69,13 @@ def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = 
         nodes = {node.path: node for node in outline.nodes}
         prims = list(stage_prims(opened.stage))
         read = [(prim, labels) for prim in prims if (labels := _read(prim, time))]
-        paths = {str(prim.GetPath()) for prim, _ in read}
+        known = {str(prim.GetPath()): labels for prim, labels in read}
         return LabelSurvey(
             source=opened.source,
             prim_count=len(prims) - 1,
-            labelled=tuple(_labelled(prim, labels, nodes, selection.chosen, paths) for prim, labels in read),
+            labelled=tuple(_labelled(prim, labels, nodes, selection.chosen, known.keys()) for prim, labels in read),
             problems=tuple(problem for prim in prims for problem in find_problems(prim, time)),
-            unlabelled=_unlabelled(outline.nodes, selection.chosen, LabelReader(time)) if read else {},
+            unlabelled=_unlabelled(outline.nodes, selection.chosen, LabelReader(time, known)) if read else {},
         )
 
 
@@ -88,7 +88,7 @@ def _read(prim: Any, time: Any) -> tuple[Label, ...]:
 
 
 def _labelled(
-    prim: Any, labels: tuple[Label, ...], nodes: Mapping[str, Node], chosen: Mapping[str, str], paths: set[str]
+    prim: Any, labels: tuple[Label, ...], nodes: Mapping[str, Node], chosen: Mapping[str, str], paths: Set[str]
 ) -> LabelledPrim:
     path = str(prim.GetPath())
     node = nodes.get(path)
@@ -111,7 +111,7 @@ def _gprims(node: Node) -> int:
     return node.gprim_count + node.hidden_gprim_count
 
 
-def _whole_of(node: Node, chosen: Mapping[str, str], paths: set[str]) -> str | None:
+def _whole_of(node: Node, chosen: Mapping[str, str], paths: Set[str]) -> str | None:
     count = _gprims(node)
     above = node.parent
     while count and above is not None and _gprims(above) == count:
