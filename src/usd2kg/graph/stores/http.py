@@ -3,12 +3,10 @@
 The standard library speaks all that SPARQL's protocols need, so the core install has no HTTP package.
 """
 
-import base64
 import email.utils
 import gzip
 import http.client
 import logging
-import os
 import random
 import time
 import urllib.error
@@ -19,8 +17,9 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from usd2kg.errors import StoreError
+from usd2kg.graph.stores.addresses import shown_address
 
-__all__ = ["Call", "HttpClient", "Reply", "UnclearError", "check_address", "read_credentials"]
+__all__ = ["Call", "HttpClient", "Reply", "UnclearError"]
 
 logger = logging.getLogger(__name__)
 
@@ -49,6 +48,11 @@ class Call:
     may_repeat: bool = True
     """Whether doing it twice is the same as doing it once."""
 
+    @property
+    def place(self) -> str:
+        """The address as a message may hold it."""
+        return shown_address(self.url)
+
 
 @dataclass(frozen=True)
 class Reply:
@@ -74,44 +78,6 @@ class _NoRedirects(urllib.request.HTTPRedirectHandler):
 
     def redirect_request(self, *_: object) -> None:
         return None
-
-
-def check_address(url: str) -> str:
-    """Return the address of a server if it can be one.
-
-    Raises:
-        StoreError: it is none, or holds a password, which is not repeated in the message.
-    """
-    try:
-        parts = urlsplit(url)
-        host, port = parts.hostname, parts.port
-    except ValueError:
-        host, port, parts = None, None, urlsplit("")
-    if parts.username is not None or parts.password is not None:
-        raise StoreError(
-            f"store at {host}: its address holds a user or password, which ends up in logs; give them by the "
-            "environment variables USD2KG_STORE_USER and USD2KG_STORE_PASSWORD"
-        )
-    if parts.scheme not in {"http", "https"} or not host or port == 0 or not url.isprintable() or " " in url:
-        raise StoreError(f"store {url!r}: is no address of a server; expected one like http://localhost:7878")
-    return url
-
-
-def read_credentials(environment: Mapping[str, str] | None = None) -> str | None:
-    """Return the Authorization header for stores from the environment, None if it names no credentials.
-
-    Raises:
-        StoreError: only one of user and password is there, or a token besides them.
-    """
-    given = os.environ if environment is None else environment
-    user, password, token = (given.get(f"USD2KG_STORE_{name}") or "" for name in ("USER", "PASSWORD", "TOKEN"))
-    if bool(user) != bool(password) or (token and user):
-        raise StoreError(
-            "credentials of the store: expected USD2KG_STORE_USER with USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN"
-        )
-    if token:
-        return f"Bearer {token}"
-    return "Basic " + base64.b64encode(f"{user}:{password}".encode()).decode() if user else None
 
 
 class HttpClient:
@@ -145,11 +111,11 @@ class HttpClient:
                 return self._send_once(call, accepted)
             except _PassingError as fault:
                 if fault.is_done and not call.may_repeat:
-                    raise UnclearError(f"{call.url}: {fault}; it is not known what was done") from fault
+                    raise UnclearError(f"{call.place}: {fault}; it is not known what was done") from fault
                 if attempt == _TRIES - 1:
-                    raise StoreError(f"{call.url}: {fault}, {_TRIES} times; try again later") from fault
+                    raise StoreError(f"{call.place}: {fault}, {_TRIES} times; try again later") from fault
                 pause = _pause(attempt, fault.pause_s)
-                logger.info("%s: %s; tries again in %.1f s", call.url, fault, pause)
+                logger.info("%s: %s; tries again in %.1f s", call.place, fault, pause)
                 self._sleep(pause)
         raise AssertionError("the last attempt returns or raises")
 
@@ -166,7 +132,7 @@ class HttpClient:
                 return _read(response.status, response)
         except urllib.error.HTTPError as error:
             with error:
-                return _judge(call, error, accepted)
+                return _judge(call, error, accepted, self._authorization)
         except urllib.error.URLError as error:
             raise _fault(call, error.reason) from error
         except (OSError, http.client.HTTPException, EOFError, zlib.error) as error:
@@ -174,7 +140,7 @@ class HttpClient:
 
     def _warn(self, url: str, host: str | None) -> None:
         if url.startswith("http:") and host not in _LOOPBACK and not self._has_warned:
-            logger.warning("%s: the credentials travel unencrypted; use https", url)
+            logger.warning("%s: the credentials travel unencrypted; use https", shown_address(url))
             self._has_warned = True
 
 
@@ -185,7 +151,7 @@ def _read(status: int, response: http.client.HTTPResponse | urllib.error.HTTPErr
     return Reply(status, response.headers.get_content_type(), body)
 
 
-def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int]) -> Reply:
+def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int], secret: str | None) -> Reply:
     """Return the answer with an error status if it is accepted, else raise what it means."""
     status = error.code
     if status in accepted:
@@ -197,19 +163,23 @@ def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int]) 
         )
     if status in {401, 403}:
         raise StoreError(
-            f"{call.url}: the server refuses ({status}); give credentials that may do this by USD2KG_STORE_USER and "
+            f"{call.place}: the server refuses ({status}); give credentials that may do this by USD2KG_STORE_USER and "
             "USD2KG_STORE_PASSWORD, or by USD2KG_STORE_TOKEN"
         )
     if 300 <= status < 400:
-        target = urlsplit(error.headers.get("Location", ""))
-        place = f"{target.scheme}://{target.hostname}{target.path}" if target.hostname else target.path
-        raise StoreError(f"{call.url}: the server redirects to {place}, which is not followed; name that address")
+        place = shown_address(error.headers.get("Location", "nowhere"))
+        raise StoreError(f"{call.place}: the server redirects to {place}, which is not followed; name that address")
     try:
         told = _read(status, error).body
     except (OSError, http.client.HTTPException, EOFError, zlib.error):
         told = b""
-    reason = " ".join(told[:500].decode("utf-8", "replace").split()) or error.reason
-    raise StoreError(f"{call.url}: the server answers {status} ({reason}); check the address and what was asked")
+    reason = _without(secret, " ".join(told.decode("utf-8", "replace").split()))[:500] or error.reason
+    raise StoreError(f"{call.place}: the server answers {status} ({reason}); check the address and what was asked")
+
+
+def _without(secret: str | None, text: str) -> str:
+    """Return a text without the credentials that a server may have sent back."""
+    return text.replace(secret.partition(" ")[2], "…") if secret else text
 
 
 def _fault(call: Call, reason: object) -> Exception:
@@ -217,7 +187,9 @@ def _fault(call: Call, reason: object) -> Exception:
     if isinstance(reason, ConnectionRefusedError) or type(reason).__name__ == "gaierror":
         return _PassingError(f"cannot be reached ({_text(reason)})", is_done=False)
     if type(reason).__name__ == "SSLCertVerificationError":
-        return StoreError(f"{call.url}: its certificate is not trusted ({_text(reason)}); the connection was not made")
+        return StoreError(
+            f"{call.place}: its certificate is not trusted ({_text(reason)}); the connection was not made"
+        )
     return _PassingError(f"the connection broke ({_text(reason)})", is_done=True)
 
 
