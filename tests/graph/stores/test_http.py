@@ -1,13 +1,20 @@
 """Requests: what is repeated, what is refused, and that no secret gets out."""
 
+import gzip
 import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
 
 from tests.graph.stores.conftest import open_remote
 from tests.graph.stores.servers import free_port, way_to
 from usd2kg.errors import StoreError
+from usd2kg.graph.stores import NamedGraph, http
 from usd2kg.graph.stores.addresses import check_address, read_credentials, shown_address
+from usd2kg.graph.stores.catalog import StoredGraph
 from usd2kg.graph.stores.http import Call, HttpClient, UnclearError
 
 
@@ -135,3 +142,89 @@ def test_a_server_that_says_nothing_is_given_up():
         client = HttpClient(timeout_s=0.2, sleep=lambda _: None)
         with pytest.raises(StoreError, match=r"the connection broke \(timed out\), 5 times"):
             client.send(Call("GET", f"http://127.0.0.1:{silent.getsockname()[1]}/"))
+
+
+@contextmanager
+def answering(body: bytes, headers: dict[str, str]) -> Iterator[str]:
+    """Run a server that gives the same answer to all."""
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            self.rfile.read(int(self.headers.get("Content-Length") or 0))
+            self.send_response(200)
+            for name, value in {"Content-Length": str(len(body)), **headers}.items():
+                self.send_header(name, value)
+            self.end_headers()
+            self.wfile.write(body)
+
+        do_HEAD = do_POST  # noqa: N815
+
+        def log_message(self, *_: object) -> None:
+            pass
+
+    with HTTPServer(("127.0.0.1", 0), Handler) as server:
+        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05})
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}/query"
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+def test_an_answer_that_unpacks_to_too_much_is_not_unpacked(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(http, "_LARGEST", 3 << 20)
+    for size, is_fine in ((3 << 20, True), ((3 << 20) + 1, False)):
+        with answering(gzip.compress(bytes(size)), {"Content-Encoding": "gzip"}) as url:
+            client = HttpClient(sleep=lambda _: None)
+            if is_fine:
+                assert client.send(Call("POST", url, b"x")).body == bytes(size)
+                continue
+            with pytest.raises(StoreError, match="the server's answer is over 3 MiB; ask for less of it"):
+                client.send(Call("POST", url, b"x"))
+
+
+@pytest.mark.parametrize("headers", [{"Content-Length": "999"}, {"Content-Encoding": "gzip"}])
+def test_an_answer_that_is_cut_off_is_no_answer(headers: dict[str, str]):
+    body = gzip.compress(b"x" * 100)[:-9] if "Content-Encoding" in headers else b"x" * 100
+    with (
+        answering(body, headers) as url,
+        pytest.raises(StoreError, match="the connection broke"),
+    ):
+        HttpClient(sleep=lambda _: None).send(Call("POST", url, b"x"))
+
+
+def test_a_redirect_to_nowhere_is_one_line():
+    with way_to("http://127.0.0.1:1") as way:
+        way.fault = lambda *_: "302 http://[x/?S3CRET"
+        with pytest.raises(StoreError, match=r"redirects to http://\[x/, which is not followed"):
+            HttpClient().send(Call("POST", way.address, b"x"))
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        b'{"head":{},"boolean":true}',
+        b'{"head":{"vars":["x"]},"results":{"bindings":[{"x":{"type":"literal","value":"a"}}]}}',
+        b'{"head":{"vars":["n"]},"results":{"bindings":[{"n":{"type":"literal","value":"abc"}}]}}',
+        b'{"head":{"vars":["n"]},"results":{"bindings":[]}}',
+        b'{"head":' + b"[" * 200_000,
+    ],
+)
+def test_an_answer_to_another_question_is_one_line(answer: bytes, small: NamedGraph):
+    with answering(answer, {"Content-Type": "application/sparql-results+json"}) as url:
+        store = open_remote(url, update=url, data=url)
+        graph = StoredGraph("urn:x", "", True)
+        with pytest.raises(StoreError, match=r"where a number was asked for|neither SPARQL's JSON nor N-Triples"):
+            graph.count_triples(store.select)
+        with pytest.raises(StoreError, match=r"answers with other columns|where a number|neither SPARQL's JSON"):
+            store.load(small)
+
+
+def test_credentials_that_a_server_sends_back_are_not_shown():
+    with way_to("http://127.0.0.1:1") as way:
+        way.fault = lambda *_: "302 http://my.lab/x"
+        with pytest.raises(StoreError) as error:
+            HttpClient("Bearer S3CRET").send(Call("POST", f"{way.address}?S3CRET", b"x"))
+    assert "S3CRET" not in str(error.value)
+    assert http._without("Bearer S3CRET", "you sent Bearer S3CRET") == "you sent Bearer …"

@@ -28,6 +28,9 @@ _FIRST_PAUSE_S = 0.5
 _LONGEST_PAUSE_S = 30.0
 _PASSING = frozenset({429, 500, 502, 503, 504})
 """Statuses that may be gone the next time."""
+_LARGEST = 1 << 30
+"""Bytes of an unpacked answer: about 7 million triples."""
+_PIECE = 1 << 20
 _NOT_DONE = frozenset({429, 503})
 """Statuses of a server that turned the request away before it began."""
 _LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
@@ -76,8 +79,11 @@ class _PassingError(Exception):
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
     """Follows no redirect: neither credentials nor a scene shall go to a server that the user did not name."""
 
-    def redirect_request(self, *_: object) -> None:
+    # Before it asks whether to follow, the library reads the new address, and fails where that is none.
+    def http_error_302(self, req: object, fp: object, code: object, msg: object, headers: object) -> None:
         return None
+
+    http_error_301 = http_error_303 = http_error_307 = http_error_308 = http_error_302
 
 
 class HttpClient:
@@ -129,7 +135,7 @@ class HttpClient:
             request.add_unredirected_header("Authorization", self._authorization)
         try:
             with self._openers[host in _LOOPBACK].open(request, timeout=self._timeout_s) as response:
-                return _read(response.status, response)
+                return _read(call, response.status, response)
         except urllib.error.HTTPError as error:
             with error:
                 return _judge(call, error, accepted, self._authorization)
@@ -144,18 +150,26 @@ class HttpClient:
             self._has_warned = True
 
 
-def _read(status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> Reply:
-    body = response.read()
-    if response.headers.get("Content-Encoding", "").lower() == "gzip":
-        body = gzip.decompress(body)
-    return Reply(status, response.headers.get_content_type(), body)
+def _read(call: Call, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> Reply:
+    """Return an answer, unpacked piece by piece: a small one may unpack to more than the memory holds."""
+    is_packed = response.headers.get("Content-Encoding", "").lower() == "gzip"
+    source = gzip.GzipFile(fileobj=response) if is_packed else response
+    body = bytearray()
+    while piece := source.read(_PIECE):
+        body += piece
+        if len(body) > _LARGEST:
+            raise StoreError(f"{call.place}: the server's answer is over {_LARGEST >> 20} MiB; ask for less of it")
+    # What is read by pieces and cut off is else taken for whole.
+    if missing := getattr(response, "length", None):
+        raise http.client.IncompleteRead(b"", missing)
+    return Reply(status, response.headers.get_content_type(), bytes(body))
 
 
 def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int], secret: str | None) -> Reply:
     """Return the answer with an error status if it is accepted, else raise what it means."""
     status = error.code
     if status in accepted:
-        return _read(status, error)
+        return _read(call, status, error)
     if status in _PASSING:
         pause = _retry_after(error.headers.get("Retry-After"))
         raise _PassingError(
@@ -170,7 +184,7 @@ def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int], 
         place = shown_address(error.headers.get("Location", "nowhere"))
         raise StoreError(f"{call.place}: the server redirects to {place}, which is not followed; name that address")
     try:
-        told = _read(status, error).body
+        told = _read(call, status, error).body
     except (OSError, http.client.HTTPException, EOFError, zlib.error):
         told = b""
     reason = _without(secret, " ".join(told.decode("utf-8", "replace").split()))[:500] or error.reason
@@ -209,9 +223,9 @@ def _retry_after(value: str | None) -> float | None:
     """Return the seconds of a Retry-After header (RFC 9110, section 10.2.3); None where it is not understood."""
     if value is None:
         return None
-    if value.strip().isdecimal():
-        return float(value)
     try:
+        if value.strip().isdecimal():
+            return float(value)
         return max(0.0, email.utils.parsedate_to_datetime(value).timestamp() - time.time())
-    except ValueError:
+    except (ValueError, OverflowError):
         return None

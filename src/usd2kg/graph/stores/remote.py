@@ -15,7 +15,7 @@ from usd2kg.graph.answer import Answer
 from usd2kg.graph.federation import reaches_out
 from usd2kg.graph.query import GraphStore
 from usd2kg.graph.stores.addresses import check_address, shown_address
-from usd2kg.graph.stores.catalog import StoredGraph, list_graphs
+from usd2kg.graph.stores.catalog import StoredGraph, list_graphs, read_number
 from usd2kg.graph.stores.chunks import chunks
 from usd2kg.graph.stores.endpoints import FORM, Endpoints, find_query, find_writing
 from usd2kg.graph.stores.http import Call, HttpClient, Reply, UnclearError
@@ -225,7 +225,7 @@ class RemoteStore:
         self._client.send(Call("POST", self._endpoints.update, sparql.encode(), headers, may_repeat))
 
     def _count(self, iri: str) -> int:
-        return int(self.select(f"SELECT (COUNT(*) AS ?n) WHERE {{ GRAPH <{iri}> {{ ?s ?p ?o }} }}")[0]["n"] or 0)
+        return read_number(self.select(f"SELECT (COUNT(*) AS ?n) WHERE {{ GRAPH <{iri}> {{ ?s ?p ?o }} }}"))
 
     def _is_marked(self, staging: str) -> bool:
         return bool(self.select(f"SELECT ?t WHERE {{ GRAPH <{_STAGING}> {{ <{staging}> ?p ?t }} }}"))
@@ -241,6 +241,8 @@ class RemoteStore:
         """Take away what uploads left that were killed, once they cannot be under way any more."""
         limit = (datetime.now(UTC) - _STALE).strftime("%Y-%m-%dT%H:%M:%SZ")
         for row in self.select(f"SELECT ?s ?t WHERE {{ GRAPH <{_STAGING}> {{ ?s ?p ?t }} }}"):
-            name, started = row["s"] or "", row["t"] or ""
+            name, started = row.get("s"), row.get("t")
+            if name is None or started is None:
+                raise StoreError(f"{self.address}: answers with other columns than it was asked for; check the address")
             if started < limit and name.startswith(f"{_STAGING}:") and ">" not in name:
                 self._drop_staging(name)
