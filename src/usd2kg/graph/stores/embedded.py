@@ -10,6 +10,7 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.answer import Answer
+from usd2kg.graph.depth import check_depth
 from usd2kg.graph.federation import reaches_out
 from usd2kg.graph.query import GraphStore
 from usd2kg.graph.stores.catalog import StoredGraph, list_graphs
@@ -82,9 +83,10 @@ class EmbeddedStore:
         """Run a SPARQL 1.1 update, all of it or nothing; our usual prefixes need no declaration.
 
         Raises:
-            GraphError: the update does not parse, or asks for a file of another server.
+            GraphError: the update does not parse, is nested too deep, or asks for a file of another server.
             StoreError: as `check`.
         """
+        check_depth(sparql, is_update=True)
         if reaches_out(sparql):
             raise GraphError("update: LOAD and SERVICE ask another server, and none is asked; load a file instead")
         with self._writing() as store:
@@ -102,6 +104,7 @@ class EmbeddedStore:
 
     def select(self, sparql: str) -> list[dict[str, str | None]]:
         """Return the rows of a SELECT over the folder as it is."""
+        check_depth(sparql)
         with self._reading() as store:
             found = store.query(sparql)
             assert isinstance(found, ox.QuerySolutions)
