@@ -23,6 +23,8 @@ BREAKING = {
     "sums": "SELECT (" + "1+" * MANY + "1 AS ?x) {}",
     "paths": "SELECT * { ?s " + "<a:b>/" * MANY + "<a:b> ?o }",
     "patterns": "SELECT * {" + "?s ?p ?o ." * MANY + "}",
+    "conditions": "SELECT ?s { ?s ?p ?o } GROUP BY ?s HAVING " + "(?s = ?s)" * MANY,
+    "joins": "SELECT * {" + "{ ?s ?p ?o }" * MANY + "}",
     "columns": "SELECT " + "".join(f"(1 AS ?x{i})" for i in range(MANY)) + " {}",
 }
 FINE = {
