@@ -96,7 +96,7 @@ def remove_command(
     graphs = store.graphs()
     for graph in [choose_graph(graphs, scene, place) for scene in scenes]:
         store.remove(graph.iri)
-        talk(f"{place}: no longer holds <{graph.iri}>")
+        talk(f"{store.address}: no longer holds <{graph.iri}>")
 
 
 @app.command("update")
@@ -109,8 +109,9 @@ def update_command(
     from usd2kg.graph.stores import open_store  # noqa: PLC0415
 
     text = query_text(sparql)
-    open_store(place, update=update).update(text)
-    talk(f"{place}: updated")
+    store = open_store(place, update=update)
+    store.update(text)
+    talk(f"{store.address}: updated")
 
 
 def check_names(iris: Sequence[str]) -> None:

@@ -10,6 +10,7 @@ from usd2kg.errors import GraphError
 from usd2kg.graph import spoken
 from usd2kg.graph.answer import Answer, join_answers, make_answer, with_columns, without_columns
 from usd2kg.graph.bodies import parse_vector
+from usd2kg.graph.depth import check_depth
 from usd2kg.graph.federation import reaches_out
 from usd2kg.graph.functions import FUNCTION_NAMESPACE, make_functions
 from usd2kg.graph.lookup import Lookup, term_list
@@ -49,8 +50,9 @@ class GraphStore:
         """Return the answer to a SPARQL 1.1 query; our usual prefixes need no declaration, our functions are known.
 
         Raises:
-            GraphError: the query does not parse, or updates.
+            GraphError: the query does not parse, updates, or is nested too deep.
         """
+        check_depth(query)
         return self._run(query, {})
 
     def answer(self, question_id: str, given: Mapping[str, str] | None = None) -> Answer:

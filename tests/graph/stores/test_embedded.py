@@ -10,8 +10,8 @@ import pytest
 
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.stores import EmbeddedStore, NamedGraph, chosen_graphs, open_graph
-from usd2kg.graph.stores.embedded import _PENDING
 from usd2kg.graph.stores.folder_lock import hold_for_reading, hold_for_writing
+from usd2kg.graph.stores.pending import PENDING_NAME, write_pending
 
 
 def held(folder: Path) -> set[str]:
@@ -88,7 +88,7 @@ def test_a_killed_load_is_finished_by_the_next_reader(
     ox.serialize(large.triples, str(file), format=ox.RdfFormat.N_TRIPLES)
     done = subprocess.run([sys.executable, "-c", KILLED, str(folder), str(file), moment], check=False)
     assert done.returncode == -signal.SIGKILL
-    assert list(folder.glob(f"{_PENDING}*"))
+    assert list(folder.glob(f"{PENDING_NAME}*"))
     found = EmbeddedStore(folder).fetch([large.iri])
     # The new graph counts as loaded once it is on the disk under its name.
     assert len(found) == (triples(small) if moment == "unnamed" else triples(large))
@@ -157,3 +157,53 @@ def test_scenes_are_chosen_by_name_label_or_iri(tmp_path: Path, small: NamedGrap
         chosen_graphs(store, "x")
     with pytest.raises(GraphError, match=r"may be https://my.lab/k, https://my.lab/other; expected one, by its IRI"):
         chosen_graphs(store, store.graphs()[0].label)
+
+
+@pytest.mark.parametrize("damage", ["garbage", "letters", "cut", "cut between triples", "folder", "other graph"])
+def test_a_damaged_load_is_set_aside_and_the_store_still_read(
+    tmp_path: Path, small: NamedGraph, caplog: pytest.LogCaptureFixture, damage: str
+):
+    store, pending = EmbeddedStore(tmp_path), tmp_path / PENDING_NAME
+    store.load(small)
+    write_pending(tmp_path, small.iri, small.triples)
+    lines = pending.read_bytes().splitlines(keepends=True)
+    damaged = {
+        "garbage": b"not a graph\n",
+        "letters": b"\xff\xfe\n",
+        "cut": lines[0] + lines[1][:20],
+        "cut between triples": b"".join(lines[:3]),
+        "other graph": b"# <urn:x>\n" + b"".join(lines[1:]),
+    }
+    pending.unlink()
+    if damage == "folder":
+        pending.mkdir()
+    else:
+        pending.write_bytes(damaged[damage])
+    assert len(store.fetch([small.iri])) == triples(small)
+    assert "what it left is damaged" in caplog.text
+    assert "load that scene again" in caplog.text
+    assert not pending.exists()
+    assert len(list(tmp_path.glob("usd2kg.damaged.*"))) == 1
+
+
+@pytest.mark.parametrize("name", ["CURRENT", "MANIFEST-*", "*.sst"])
+def test_a_damaged_store_is_one_line(tmp_path: Path, small: NamedGraph, name: str):
+    store = EmbeddedStore(tmp_path)
+    store.load(small)
+    for path in tmp_path.glob(name):
+        path.write_bytes(b"junk\n")
+    for use in (store.graphs, store.check):
+        with pytest.raises(StoreError, match=r"the store is damaged .*; restore the folder from a copy, or") as error:
+            use()
+        assert "\n" not in str(error.value)
+
+
+def test_a_lock_alone_makes_no_store_of_other_things(tmp_path: Path, small: NamedGraph):
+    (tmp_path / "usd2kg.lock").touch()
+    (tmp_path / "thesis.tex").write_text("mine")
+    with pytest.raises(StoreError, match="holds other things; expected a new folder or a store"):
+        EmbeddedStore(tmp_path).load(small)
+    assert {path.name for path in tmp_path.iterdir()} == {"thesis.tex", "usd2kg.lock"}
+    (tmp_path / "thesis.tex").rename(tmp_path / "OPTIONS-000007")
+    EmbeddedStore(tmp_path).load(small)
+    assert len(held(tmp_path)) == triples(small)

@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 from xml.sax.saxutils import escape, quoteattr
@@ -56,6 +57,8 @@ def render(found: Any, media_type: str, most: int) -> Rendered:
         prefixes = PREFIXES if rdf_format == ox.RdfFormat.TURTLE else None
         text = ox.serialize(kept[:most], format=rdf_format, prefixes=prefixes)
         assert text is not None, "without an output file, serialize returns the bytes"
+        if rdf_format == ox.RdfFormat.RDF_XML:
+            text = _NO_XML.sub("\N{REPLACEMENT CHARACTER}", text.decode()).encode()
         return Rendered(text, min(len(kept), most), len(kept) > most)
     names = [variable.value for variable in found.variables]
     head, line, joint, tail = _WRITERS[media_type](names)
@@ -114,18 +117,27 @@ def _xml(names: list[str]) -> _Writer:
 _XML_HEAD = '<?xml version="1.0"?>\n<sparql xmlns="http://www.w3.org/2005/sparql-results#">'
 
 
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What XML 1.0 cannot hold in any spelling (section 2.2), as RDF can: one such character makes all rows unreadable."""
+
+
+def _xml_text(text: str) -> str:
+    """Return a text as XML; what XML cannot hold becomes U+FFFD, and JSON, CSV and TSV still give it as it is."""
+    return escape(_NO_XML.sub("\N{REPLACEMENT CHARACTER}", text), {"\r": "&#13;"})
+
+
 def _xml_term(term: Any) -> str:
     if isinstance(term, ox.NamedNode):
-        return f"<uri>{escape(term.value)}</uri>"
+        return f"<uri>{_xml_text(term.value)}</uri>"
     if isinstance(term, ox.BlankNode):
-        return f"<bnode>{escape(term.value)}</bnode>"
+        return f"<bnode>{_xml_text(term.value)}</bnode>"
     if isinstance(term, ox.Triple):
         parts = zip(("subject", "predicate", "object"), term, strict=False)
         return "<triple>" + "".join(f"<{name}>{_xml_term(part)}</{name}>" for name, part in parts) + "</triple>"
     about = f" xml:lang={quoteattr(term.language)}" if term.language else ""
     if not term.language and term.datatype.value != _XSD_STRING:
         about = f" datatype={quoteattr(term.datatype.value)}"
-    return f"<literal{about}>{escape(term.value)}</literal>"
+    return f"<literal{about}>{_xml_text(term.value)}</literal>"
 
 
 def _csv(names: list[str]) -> _Writer:

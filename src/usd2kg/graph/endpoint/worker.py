@@ -14,6 +14,7 @@ from typing import Any, BinaryIO
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.graph.depth import check_depth
 from usd2kg.graph.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
 from usd2kg.graph.endpoint.negotiation import negotiate
 from usd2kg.graph.federation import reaches_out
@@ -60,9 +61,10 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], most: int) 
     """Return the media type and the results of a request: query, accept, default_graphs, named_graphs.
 
     Raises:
-        GraphError: the query does not parse, updates, or asks another server.
+        GraphError: the query does not parse, updates, is nested too deep, or asks another server.
         NotAcceptableError: no media type fits.
     """
+    check_depth(request["query"])
     if reaches_out(request["query"]):
         raise GraphError("query: SERVICE asks another server, and no query leaves this machine; take that part out")
     try:

@@ -3,11 +3,11 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.stores.named_graph import short_name
 from usd2kg.graph.vocabulary import OWL, RDFS, U2K
 
-__all__ = ["Select", "StoredGraph", "choose_graph", "list_graphs"]
+__all__ = ["Select", "StoredGraph", "choose_graph", "list_graphs", "read_number"]
 
 Select = Callable[[str], list[dict[str, str | None]]]
 """Runs a SELECT over a store as it is, and returns rows: variable → text."""
@@ -46,11 +46,11 @@ class StoredGraph:
 
     def count_triples(self, select: Select) -> int:
         """Return how many triples the graph has."""
-        return _number(select(_TRIPLES.replace("IRI", self.iri)))
+        return read_number(select(_TRIPLES.replace("IRI", self.iri)))
 
     def count_objects(self, select: Select) -> int:
         """Return how many objects of a stage the graph describes."""
-        return _number(select(_OBJECTS.replace("IRI", self.iri)))
+        return read_number(select(_OBJECTS.replace("IRI", self.iri)))
 
 
 def list_graphs(select: Select) -> tuple[StoredGraph, ...]:
@@ -82,5 +82,17 @@ def _listed(graphs: Sequence[StoredGraph]) -> str:
     return ", ".join(graph.iri for graph in graphs[:most]) + rest
 
 
-def _number(rows: list[dict[str, str | None]]) -> int:
-    return int(rows[0]["n"] or 0)
+def read_number(rows: list[dict[str, str | None]]) -> int:
+    """Return the number that a store answers to a query for one, ?n.
+
+    Raises:
+        StoreError: the answer holds none.
+    """
+    text = rows[0].get("n") if rows else None
+    if text is None or not (text.isascii() and text.isdecimal()):
+        raise StoreError(f"the store answers {_cut(text)} where a number was asked for; is it a SPARQL server?")
+    return int(text)
+
+
+def _cut(text: str | None) -> str:
+    return "nothing" if text is None else repr(text[:50])

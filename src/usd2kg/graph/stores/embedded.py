@@ -1,32 +1,34 @@
 """EmbeddedStore: many scenes in one folder, asked without a server."""
 
 import logging
-import os
-import tempfile
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.answer import Answer
+from usd2kg.graph.depth import check_depth
 from usd2kg.graph.federation import reaches_out
 from usd2kg.graph.query import GraphStore
 from usd2kg.graph.stores.catalog import StoredGraph, list_graphs
 from usd2kg.graph.stores.folder_lock import LOCK_NAME, hold_for_reading, hold_for_writing
 from usd2kg.graph.stores.named_graph import NamedGraph, renamed_blanks
+from usd2kg.graph.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
 from usd2kg.graph.vocabulary import PREFIXES
 
 __all__ = ["EmbeddedStore"]
 
 logger = logging.getLogger(__name__)
 
-_PENDING = "usd2kg.pending.nq"
-"""The graph that is being put in place. Once it has this name it counts as loaded: whoever opens the folder next
-finishes the work if this process dies."""
 _ROCKS = "CURRENT"
 """Every folder of Oxigraph has a file of this name."""
+_OURS = re.compile(
+    r"usd2kg\.(lock|pending|damaged).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
+)
+"""Names of what a store that is only begun may hold."""
 _WAIT_S = 10.0
 
 
@@ -62,7 +64,7 @@ class EmbeddedStore:
         """
         with self._writing() as store:
             try:
-                self._write_pending(graph.iri, renamed_blanks(graph))
+                write_pending(self._folder, graph.iri, renamed_blanks(graph))
                 self._finish(store)
             except OSError as error:
                 raise StoreError(f"{self._folder}: could not be written ({_reason(error)}); free some space") from error
@@ -81,9 +83,10 @@ class EmbeddedStore:
         """Run a SPARQL 1.1 update, all of it or nothing; our usual prefixes need no declaration.
 
         Raises:
-            GraphError: the update does not parse, or asks for a file of another server.
+            GraphError: the update does not parse, is nested too deep, or asks for a file of another server.
             StoreError: as `check`.
         """
+        check_depth(sparql, is_update=True)
         if reaches_out(sparql):
             raise GraphError("update: LOAD and SERVICE ask another server, and none is asked; load a file instead")
         with self._writing() as store:
@@ -101,6 +104,7 @@ class EmbeddedStore:
 
     def select(self, sparql: str) -> list[dict[str, str | None]]:
         """Return the rows of a SELECT over the folder as it is."""
+        check_depth(sparql)
         with self._reading() as store:
             found = store.query(sparql)
             assert isinstance(found, ox.QuerySolutions)
@@ -149,12 +153,13 @@ class EmbeddedStore:
         except OSError as error:
             raise StoreError(f"{self._folder}: cannot be made ({error.strerror}); choose another folder") from error
         with hold_for_writing(self._folder, self._wait_s):
-            for remains in self._folder.glob(f"{_PENDING}.*"):
+            for remains in self._folder.glob(f"{PENDING_NAME}.*"):
                 remains.unlink()
-            store = self._open_store()
-            if (self._folder / _PENDING).exists():
-                self._finish(store)
-            yield store
+            with self._told():
+                store = self._open_store()
+                if (self._folder / PENDING_NAME).exists() and not set_aside_damaged(self._folder):
+                    self._finish(store)
+                yield store
 
     @contextmanager
     def _reading(self) -> Iterator[ox.Store]:
@@ -162,15 +167,26 @@ class EmbeddedStore:
             raise StoreError(
                 f"{self._folder}: is no store; expected a folder that usd2kg build --store or usd2kg store load made"
             )
-        if (self._folder / _PENDING).exists():
+        if (self._folder / PENDING_NAME).exists():
             # Whoever was loading has died, or is still at it: then this waits.
             self.check()
-        with hold_for_reading(self._folder, self._wait_s):
+        with hold_for_reading(self._folder, self._wait_s), self._told():
             try:
                 store = ox.Store.read_only(str(self._folder))
             except OSError as error:
                 raise StoreError(f"{self._folder}: cannot be read as a store ({_reason(error)})") from error
             yield store
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Say what to do where the files of the store turn out to be damaged, which may be at any read of them."""
+        try:
+            yield
+        except RuntimeError as error:
+            raise StoreError(
+                f"{self._folder}: the store is damaged ({_reason(error)}); restore the folder from a copy, or load its "
+                "scenes into a new folder"
+            ) from error
 
     def _open_store(self) -> ox.Store:
         try:
@@ -188,45 +204,20 @@ class EmbeddedStore:
 
     def _is_empty(self) -> bool:
         # A first load that was killed early leaves its lock, and maybe a store that is only begun.
-        return (self._folder / LOCK_NAME).exists() or not any(self._folder.iterdir())
-
-    def _write_pending(self, iri: str, triples: Iterable[ox.Triple]) -> None:
-        """Write a graph beside the store, whole or not at all, and on the disk before anything is replaced."""
-        node = ox.NamedNode(iri)
-        handle, temporary = tempfile.mkstemp(dir=self._folder, prefix=f"{_PENDING}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(f"# {node}\n".encode())
-                quads = (ox.Quad(triple.subject, triple.predicate, triple.object, node) for triple in triples)
-                ox.serialize(quads, file, format=ox.RdfFormat.N_QUADS)
-                file.flush()
-                os.fsync(file.fileno())
-            Path(temporary).replace(self._folder / _PENDING)
-        finally:
-            Path(temporary).unlink(missing_ok=True)
-        _sync_folder(self._folder)
+        names = {path.name for path in self._folder.iterdir()}
+        return not names or (LOCK_NAME in names and all(map(_OURS.fullmatch, names)))
 
     def _finish(self, store: ox.Store) -> None:
         """Put the pending graph in place; may be done again after it was broken off."""
-        path = self._folder / _PENDING
+        path = self._folder / PENDING_NAME
         with path.open("rb") as file:
-            iri = file.readline().decode().strip("# <>\n")
-            logger.info("%s: puts <%s> in place", self._folder, iri)
-            store.remove_graph(ox.NamedNode(iri))
+            node = read_name(file)
+            logger.info("%s: puts %s in place", self._folder, node)
+            store.remove_graph(node)
             # Neither renames blank nodes.
             store.bulk_extend(ox.parse(file, format=ox.RdfFormat.N_QUADS))
         store.flush()
         path.unlink()
-
-
-def _sync_folder(folder: Path) -> None:
-    """Have a new name in a folder survive a loss of power, where the system knows how."""
-    with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
 
 
 def _reason(error: BaseException) -> str:

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 from usd2kg.errors import StoreError
-from usd2kg.graph.stores.http import Call, HttpClient, check_address
+from usd2kg.graph.stores.addresses import check_address, shown_address
+from usd2kg.graph.stores.http import Call, HttpClient
 
 __all__ = ["FORM", "Endpoints", "find_query", "find_writing"]
 
@@ -41,7 +42,8 @@ def find_query(client: HttpClient, address: str) -> str:
         reply = client.send(call, _ABSENT)
         if reply.status == 200 and reply.content_type in {_RESULTS, "application/json"}:
             return url
-    raise StoreError(f"{address}: takes no SPARQL query, nor does {address.rstrip('/')}/query; check the address")
+    shown = shown_address(address)
+    raise StoreError(f"{shown}: takes no SPARQL query, nor does {shown.rstrip('/')}/query; check the address")
 
 
 def find_writing(client: HttpClient, query: str, update: str | None, data: str | None) -> Endpoints:
@@ -64,7 +66,10 @@ def _find_update(client: HttpClient, base: str) -> str:
         call = Call("POST", url, urlencode({"update": "INSERT DATA {}"}).encode(), {"Content-Type": FORM})
         if client.send(call, _ABSENT).status < 300:
             return url
-    raise StoreError(f"{base}: takes no SPARQL update; check that it may be written to, or name it with --store-update")
+    shown = shown_address(base)
+    raise StoreError(
+        f"{shown}: takes no SPARQL update; check that it may be written to, or name it with --store-update"
+    )
 
 
 def _find_data(client: HttpClient, base: str) -> str | None:

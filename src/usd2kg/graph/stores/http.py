@@ -3,12 +3,10 @@
 The standard library speaks all that SPARQL's protocols need, so the core install has no HTTP package.
 """
 
-import base64
 import email.utils
 import gzip
 import http.client
 import logging
-import os
 import random
 import time
 import urllib.error
@@ -19,8 +17,9 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from usd2kg.errors import StoreError
+from usd2kg.graph.stores.addresses import shown_address
 
-__all__ = ["Call", "HttpClient", "Reply", "UnclearError", "check_address", "read_credentials"]
+__all__ = ["Call", "HttpClient", "Reply", "UnclearError"]
 
 logger = logging.getLogger(__name__)
 
@@ -29,6 +28,9 @@ _FIRST_PAUSE_S = 0.5
 _LONGEST_PAUSE_S = 30.0
 _PASSING = frozenset({429, 500, 502, 503, 504})
 """Statuses that may be gone the next time."""
+_LARGEST = 1 << 30
+"""Bytes of an unpacked answer: about 7 million triples."""
+_PIECE = 1 << 20
 _NOT_DONE = frozenset({429, 503})
 """Statuses of a server that turned the request away before it began."""
 _LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
@@ -48,6 +50,11 @@ class Call:
     headers: Mapping[str, str] | None = None
     may_repeat: bool = True
     """Whether doing it twice is the same as doing it once."""
+
+    @property
+    def place(self) -> str:
+        """The address as a message may hold it."""
+        return shown_address(self.url)
 
 
 @dataclass(frozen=True)
@@ -72,46 +79,11 @@ class _PassingError(Exception):
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
     """Follows no redirect: neither credentials nor a scene shall go to a server that the user did not name."""
 
-    def redirect_request(self, *_: object) -> None:
+    # Before it asks whether to follow, the library reads the new address, and fails where that is none.
+    def http_error_302(self, req: object, fp: object, code: object, msg: object, headers: object) -> None:
         return None
 
-
-def check_address(url: str) -> str:
-    """Return the address of a server if it can be one.
-
-    Raises:
-        StoreError: it is none, or holds a password, which is not repeated in the message.
-    """
-    try:
-        parts = urlsplit(url)
-        host, port = parts.hostname, parts.port
-    except ValueError:
-        host, port, parts = None, None, urlsplit("")
-    if parts.username is not None or parts.password is not None:
-        raise StoreError(
-            f"store at {host}: its address holds a user or password, which ends up in logs; give them by the "
-            "environment variables USD2KG_STORE_USER and USD2KG_STORE_PASSWORD"
-        )
-    if parts.scheme not in {"http", "https"} or not host or port == 0 or not url.isprintable() or " " in url:
-        raise StoreError(f"store {url!r}: is no address of a server; expected one like http://localhost:7878")
-    return url
-
-
-def read_credentials(environment: Mapping[str, str] | None = None) -> str | None:
-    """Return the Authorization header for stores from the environment, None if it names no credentials.
-
-    Raises:
-        StoreError: only one of user and password is there, or a token besides them.
-    """
-    given = os.environ if environment is None else environment
-    user, password, token = (given.get(f"USD2KG_STORE_{name}") or "" for name in ("USER", "PASSWORD", "TOKEN"))
-    if bool(user) != bool(password) or (token and user):
-        raise StoreError(
-            "credentials of the store: expected USD2KG_STORE_USER with USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN"
-        )
-    if token:
-        return f"Bearer {token}"
-    return "Basic " + base64.b64encode(f"{user}:{password}".encode()).decode() if user else None
+    http_error_301 = http_error_303 = http_error_307 = http_error_308 = http_error_302
 
 
 class HttpClient:
@@ -145,11 +117,11 @@ class HttpClient:
                 return self._send_once(call, accepted)
             except _PassingError as fault:
                 if fault.is_done and not call.may_repeat:
-                    raise UnclearError(f"{call.url}: {fault}; it is not known what was done") from fault
+                    raise UnclearError(f"{call.place}: {fault}; it is not known what was done") from fault
                 if attempt == _TRIES - 1:
-                    raise StoreError(f"{call.url}: {fault}, {_TRIES} times; try again later") from fault
+                    raise StoreError(f"{call.place}: {fault}, {_TRIES} times; try again later") from fault
                 pause = _pause(attempt, fault.pause_s)
-                logger.info("%s: %s; tries again in %.1f s", call.url, fault, pause)
+                logger.info("%s: %s; tries again in %.1f s", call.place, fault, pause)
                 self._sleep(pause)
         raise AssertionError("the last attempt returns or raises")
 
@@ -163,10 +135,10 @@ class HttpClient:
             request.add_unredirected_header("Authorization", self._authorization)
         try:
             with self._openers[host in _LOOPBACK].open(request, timeout=self._timeout_s) as response:
-                return _read(response.status, response)
+                return _read(call, response.status, response)
         except urllib.error.HTTPError as error:
             with error:
-                return _judge(call, error, accepted)
+                return _judge(call, error, accepted, self._authorization)
         except urllib.error.URLError as error:
             raise _fault(call, error.reason) from error
         except (OSError, http.client.HTTPException, EOFError, zlib.error) as error:
@@ -174,22 +146,30 @@ class HttpClient:
 
     def _warn(self, url: str, host: str | None) -> None:
         if url.startswith("http:") and host not in _LOOPBACK and not self._has_warned:
-            logger.warning("%s: the credentials travel unencrypted; use https", url)
+            logger.warning("%s: the credentials travel unencrypted; use https", shown_address(url))
             self._has_warned = True
 
 
-def _read(status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> Reply:
-    body = response.read()
-    if response.headers.get("Content-Encoding", "").lower() == "gzip":
-        body = gzip.decompress(body)
-    return Reply(status, response.headers.get_content_type(), body)
+def _read(call: Call, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> Reply:
+    """Return an answer, unpacked piece by piece: a small one may unpack to more than the memory holds."""
+    is_packed = response.headers.get("Content-Encoding", "").lower() == "gzip"
+    source = gzip.GzipFile(fileobj=response) if is_packed else response
+    body = bytearray()
+    while piece := source.read(_PIECE):
+        body += piece
+        if len(body) > _LARGEST:
+            raise StoreError(f"{call.place}: the server's answer is over {_LARGEST >> 20} MiB; ask for less of it")
+    # What is read by pieces and cut off is else taken for whole.
+    if missing := getattr(response, "length", None):
+        raise http.client.IncompleteRead(b"", missing)
+    return Reply(status, response.headers.get_content_type(), bytes(body))
 
 
-def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int]) -> Reply:
+def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int], secret: str | None) -> Reply:
     """Return the answer with an error status if it is accepted, else raise what it means."""
     status = error.code
     if status in accepted:
-        return _read(status, error)
+        return _read(call, status, error)
     if status in _PASSING:
         pause = _retry_after(error.headers.get("Retry-After"))
         raise _PassingError(
@@ -197,19 +177,23 @@ def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int]) 
         )
     if status in {401, 403}:
         raise StoreError(
-            f"{call.url}: the server refuses ({status}); give credentials that may do this by USD2KG_STORE_USER and "
+            f"{call.place}: the server refuses ({status}); give credentials that may do this by USD2KG_STORE_USER and "
             "USD2KG_STORE_PASSWORD, or by USD2KG_STORE_TOKEN"
         )
     if 300 <= status < 400:
-        target = urlsplit(error.headers.get("Location", ""))
-        place = f"{target.scheme}://{target.hostname}{target.path}" if target.hostname else target.path
-        raise StoreError(f"{call.url}: the server redirects to {place}, which is not followed; name that address")
+        place = shown_address(error.headers.get("Location", "nowhere"))
+        raise StoreError(f"{call.place}: the server redirects to {place}, which is not followed; name that address")
     try:
-        told = _read(status, error).body
+        told = _read(call, status, error).body
     except (OSError, http.client.HTTPException, EOFError, zlib.error):
         told = b""
-    reason = " ".join(told[:500].decode("utf-8", "replace").split()) or error.reason
-    raise StoreError(f"{call.url}: the server answers {status} ({reason}); check the address and what was asked")
+    reason = _without(secret, " ".join(told.decode("utf-8", "replace").split()))[:500] or error.reason
+    raise StoreError(f"{call.place}: the server answers {status} ({reason}); check the address and what was asked")
+
+
+def _without(secret: str | None, text: str) -> str:
+    """Return a text without the credentials that a server may have sent back."""
+    return text.replace(secret.partition(" ")[2], "…") if secret else text
 
 
 def _fault(call: Call, reason: object) -> Exception:
@@ -217,7 +201,9 @@ def _fault(call: Call, reason: object) -> Exception:
     if isinstance(reason, ConnectionRefusedError) or type(reason).__name__ == "gaierror":
         return _PassingError(f"cannot be reached ({_text(reason)})", is_done=False)
     if type(reason).__name__ == "SSLCertVerificationError":
-        return StoreError(f"{call.url}: its certificate is not trusted ({_text(reason)}); the connection was not made")
+        return StoreError(
+            f"{call.place}: its certificate is not trusted ({_text(reason)}); the connection was not made"
+        )
     return _PassingError(f"the connection broke ({_text(reason)})", is_done=True)
 
 
@@ -237,9 +223,9 @@ def _retry_after(value: str | None) -> float | None:
     """Return the seconds of a Retry-After header (RFC 9110, section 10.2.3); None where it is not understood."""
     if value is None:
         return None
-    if value.strip().isdecimal():
-        return float(value)
     try:
+        if value.strip().isdecimal():
+            return float(value)
         return max(0.0, email.utils.parsedate_to_datetime(value).timestamp() - time.time())
-    except ValueError:
+    except (ValueError, OverflowError):
         return None

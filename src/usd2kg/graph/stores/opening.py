@@ -8,9 +8,10 @@ from usd2kg.errors import GraphError
 from usd2kg.graph.answer import Answer
 from usd2kg.graph.load import load_graph
 from usd2kg.graph.query import GraphStore
+from usd2kg.graph.stores.addresses import read_credentials
 from usd2kg.graph.stores.catalog import StoredGraph, choose_graph
 from usd2kg.graph.stores.embedded import EmbeddedStore
-from usd2kg.graph.stores.http import HttpClient, read_credentials
+from usd2kg.graph.stores.http import HttpClient
 from usd2kg.graph.stores.named_graph import NamedGraph
 from usd2kg.graph.stores.remote import RemoteStore
 

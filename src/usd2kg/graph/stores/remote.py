@@ -14,10 +14,11 @@ from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.answer import Answer
 from usd2kg.graph.federation import reaches_out
 from usd2kg.graph.query import GraphStore
-from usd2kg.graph.stores.catalog import StoredGraph, list_graphs
+from usd2kg.graph.stores.addresses import check_address, shown_address
+from usd2kg.graph.stores.catalog import StoredGraph, list_graphs, read_number
 from usd2kg.graph.stores.chunks import chunks
 from usd2kg.graph.stores.endpoints import FORM, Endpoints, find_query, find_writing
-from usd2kg.graph.stores.http import Call, HttpClient, Reply, UnclearError, check_address
+from usd2kg.graph.stores.http import Call, HttpClient, Reply, UnclearError
 from usd2kg.graph.stores.named_graph import NamedGraph
 from usd2kg.graph.stores.results import read_answer, with_prefixes
 from usd2kg.graph.vocabulary import DCTERMS
@@ -64,8 +65,8 @@ class RemoteStore:
 
     @property
     def address(self) -> str:
-        """The address, as the user gave it."""
-        return self._address
+        """The address, as messages may hold it."""
+        return shown_address(self._address)
 
     @cached_property
     def _query_url(self) -> str:
@@ -81,7 +82,7 @@ class RemoteStore:
         Raises:
             StoreError: it is out of reach, refuses, or does not take them.
         """
-        logger.info("%s: %s", self._address, self._endpoints)
+        logger.info("%s: takes updates at %s", self.address, shown_address(self._endpoints.update))
 
     def load(self, graph: NamedGraph) -> None:
         """Put a graph under its name, in place of what was there: all of it, or nothing.
@@ -113,11 +114,11 @@ class RemoteStore:
         for part in chunks(graph.triples, self._chunk):
             self._send_part(staging, part, sent)
             sent += len(part)
-            logger.info("%s: %d of %d triples of <%s>", self._address, sent, len(graph.triples), graph.iri)
+            logger.info("%s: %d of %d triples of <%s>", self.address, sent, len(graph.triples), graph.iri)
         held = self._count(staging)
         if held != sent:
             raise _UploadLostError(
-                f"{self._address}: holds {held} triples of the {sent} that were sent for <{graph.iri}>; what was there "
+                f"{self.address}: holds {held} triples of the {sent} that were sent for <{graph.iri}>; what was there "
                 "before is unchanged"
             )
         self._put_in_place(graph.iri, staging, mark)
@@ -135,11 +136,11 @@ class RemoteStore:
                     continue
                 if held != before + len(part):
                     raise _UploadLostError(
-                        f"{self._address}: the connection broke within a part of the upload; what was there before is "
+                        f"{self.address}: the connection broke within a part of the upload; what was there before is "
                         "unchanged"
                     ) from None
             return
-        raise StoreError(f"{self._address}: breaks the connection at each upload; what was there before is unchanged")
+        raise StoreError(f"{self.address}: breaks the connection at each upload; what was there before is unchanged")
 
     def _part_call(self, staging: str, text: bytes) -> Call:
         if self._endpoints.data is None:
@@ -158,7 +159,7 @@ class RemoteStore:
                 if self._is_marked(staging):
                     continue
             return
-        raise StoreError(f"{self._address}: breaks the connection when <{iri}> is put in place; it is unchanged")
+        raise StoreError(f"{self.address}: breaks the connection when <{iri}> is put in place; it is unchanged")
 
     def remove(self, iri: str) -> None:
         """Take a graph out.
@@ -211,8 +212,8 @@ class RemoteStore:
             try:
                 copy.bulk_load(input=reply.body, format=ox.RdfFormat.N_TRIPLES)
             except SyntaxError as error:
-                raise StoreError(f"{self._address}: answers with no triples of <{iri}> ({error})") from error
-        return GraphStore(copy, self._address)
+                raise StoreError(f"{self.address}: answers with no triples of <{iri}> ({error})") from error
+        return GraphStore(copy, self.address)
 
     def _ask(self, sparql: str, graphs: Sequence[str]) -> Reply:
         form = [("query", sparql), *(("default-graph-uri", iri) for iri in graphs)]
@@ -224,7 +225,7 @@ class RemoteStore:
         self._client.send(Call("POST", self._endpoints.update, sparql.encode(), headers, may_repeat))
 
     def _count(self, iri: str) -> int:
-        return int(self.select(f"SELECT (COUNT(*) AS ?n) WHERE {{ GRAPH <{iri}> {{ ?s ?p ?o }} }}")[0]["n"] or 0)
+        return read_number(self.select(f"SELECT (COUNT(*) AS ?n) WHERE {{ GRAPH <{iri}> {{ ?s ?p ?o }} }}"))
 
     def _is_marked(self, staging: str) -> bool:
         return bool(self.select(f"SELECT ?t WHERE {{ GRAPH <{_STAGING}> {{ <{staging}> ?p ?t }} }}"))
@@ -240,6 +241,8 @@ class RemoteStore:
         """Take away what uploads left that were killed, once they cannot be under way any more."""
         limit = (datetime.now(UTC) - _STALE).strftime("%Y-%m-%dT%H:%M:%SZ")
         for row in self.select(f"SELECT ?s ?t WHERE {{ GRAPH <{_STAGING}> {{ ?s ?p ?t }} }}"):
-            name, started = row["s"] or "", row["t"] or ""
+            name, started = row.get("s"), row.get("t")
+            if name is None or started is None:
+                raise StoreError(f"{self.address}: answers with other columns than it was asked for; check the address")
             if started < limit and name.startswith(f"{_STAGING}:") and ">" not in name:
                 self._drop_staging(name)
