@@ -3,7 +3,7 @@
 import logging
 import uuid
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from datetime import UTC, datetime, timedelta
 from functools import cached_property
 from urllib.parse import urlencode
@@ -94,16 +94,15 @@ class RemoteStore:
         self._drop_stale()
         for attempt in range(_TRIES):
             staging = f"{_STAGING}:{uuid.uuid4()}"
-            try:
-                self._load_once(graph, staging)
-            except _UploadLostError:
-                self._drop_staging(staging)
-                if attempt == _TRIES - 1:
-                    raise
-            except BaseException:
-                self._drop_staging(staging)
-                raise
-            else:
+            with ExitStack() as cleaning:
+                cleaning.callback(self._drop_staging, staging)
+                try:
+                    self._load_once(graph, staging)
+                except _UploadLostError:
+                    if attempt == _TRIES - 1:
+                        raise
+                    continue
+                cleaning.pop_all()
                 return
 
     def _load_once(self, graph: NamedGraph, staging: str) -> None:
