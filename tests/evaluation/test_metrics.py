@@ -152,6 +152,13 @@ def test_risk_coverage_worked_by_hand() -> None:
     assert accuracy_at_coverage(scores, 0.9) is None, "the unanswered object is never taken"
 
 
+def test_second_labels_are_right_where_they_are_accepted() -> None:
+    scores = [score("Cup", "Bowl", 0.9, also="Bowl"), score("Cup", "Bowl", 0.7)]
+    assert risk_coverage(scores) == ((1 / 2, 1.0), (1.0, 1.0))
+    assert risk_coverage(scores, accepting=True) == ((1 / 2, 0.0), (1.0, 1 / 2))
+    assert accuracy_at_coverage(scores, 0.5, accepting=True) == 1.0
+
+
 def test_bootstrap_is_deterministic_and_holds_the_mean() -> None:
     values = [1.0] * 70 + [0.0] * 30
     first, again = bootstrap_interval(values), bootstrap_interval(values)

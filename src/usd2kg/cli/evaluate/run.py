@@ -106,6 +106,7 @@ def _run_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -
         ("hierarchical F1 (HF1)", f"{s.hf1:.3f}", f"{s.hf1_interval.lower:.3f} to {s.hf1_interval.upper:.3f}"),
         ("calibration error", number_text(s.calibration_error, ".3f"), None),
         ("EMA of the surest 80 %", number_text(s.accuracy_at_80, ".1f"), None),
+        ("  accepting a second label %", number_text(s.accepted_at_80, ".1f"), None),
         ("object selection recall", f"{selection.recall:.3f}", None),
         ("object selection precision", number_text(selection.precision, ".3f"), "against gold that may be incomplete"),
         ("seconds", f"{result.seconds:.3f}", None),

@@ -51,23 +51,26 @@ def calibration_error(scores: Sequence[Score], bins: int = 10) -> float | None:
     return sum(b.count * abs(b.accuracy - b.confidence) for b in filled) / total if total else None
 
 
-def risk_coverage(scores: Sequence[Score]) -> tuple[tuple[float, float], ...]:
+def risk_coverage(scores: Sequence[Score], *, accepting: bool = False) -> tuple[tuple[float, float], ...]:
     """Return (coverage, risk) as answers are taken in falling confidence; equal confidences are taken together.
 
     Coverage is the share of all objects, risk the share of wrong answers among those taken. Unanswered objects are
-    never taken.
+    never taken. With `accepting`, an answer that is one of the gold's second labels is not wrong.
     """
     answered = sorted((s for s in scores if s.confidence is not None), key=lambda s: -(s.confidence or 0.0))
     points = []
     wrong = 0
     for taken, score in enumerate(answered, 1):
-        wrong += not score.is_exact
+        wrong += not (score.is_accepted if accepting else score.is_exact)
         if taken == len(answered) or answered[taken].confidence != score.confidence:
             points.append((taken / len(scores), wrong / taken))
     return tuple(points)
 
 
-def accuracy_at_coverage(scores: Sequence[Score], coverage: float) -> float | None:
-    """Return the accuracy of the surest answers that make up at least `coverage`; None if there are too few."""
-    reached = [risk for share, risk in risk_coverage(scores) if share >= coverage - 1e-12]
+def accuracy_at_coverage(scores: Sequence[Score], coverage: float, *, accepting: bool = False) -> float | None:
+    """Return the accuracy of the surest answers that make up at least `coverage`; None if there are too few.
+
+    With `accepting`, the gold's second labels count as right.
+    """
+    reached = [risk for share, risk in risk_coverage(scores, accepting=accepting) if share >= coverage - 1e-12]
     return 1 - reached[0] if reached else None

@@ -83,6 +83,7 @@ def detail_table(result: SceneResult) -> Table:
         "HF1 95 %",
         "calibration error",
         "EMA % at 80 % coverage",
+        "the same, accepting",
     )
     runs = runs_of(result)
     keys = [(method, regime) for method in methods_of(result) for regime in REGIMES if (method, regime) in runs]
@@ -101,6 +102,7 @@ def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
         interval_text(first.hf1_interval, 3),
         number_text(first.calibration_error, 3),
         number_text(first.accuracy_at_80, 1),
+        number_text(first.accepted_at_80, 1),
     )
 
 
