@@ -24,6 +24,8 @@ class Reply:
     """Server-sent events for a client that asks for a stream; None for a server that answers whole all the same."""
     pause_s: float = 0.0
     """Seconds between two events."""
+    together: threading.Barrier | None = None
+    """No answer comes before as many requests are here."""
 
     def encode(self) -> bytes:
         return str(self.body).encode() if self.is_raw else json.dumps(self.body).encode()
@@ -104,6 +106,8 @@ class FakeServer:
                     self._reply(server._take(received), received)
 
             def _reply(self, reply: Reply, received: Received) -> None:
+                if reply.together is not None:
+                    reply.together.wait(timeout=60)
                 if reply.hangs:
                     server._is_closing.wait()
                     self.close_connection = True

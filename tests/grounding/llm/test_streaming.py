@@ -2,6 +2,7 @@
 
 import itertools
 import logging
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -397,6 +398,7 @@ class TestRefusals:
     def test_requests_on_their_way_together_all_get_over_a_refusal(self):
         """Four are refused before the first of them can tell the others."""
         refusal = servers.refuse(400, "response_format json_schema is unknown")
+        refusal = replace(refusal, together=threading.Barrier(4))
         with (
             servers.serve(*[refusal] * 4, servers.openai_reply(CUP)) as server,
             connect(server, OPENAI) as client,

@@ -146,7 +146,8 @@ def test_a_run_with_a_shortlist_grounds_with_offered_classes(client: LocalClient
         found = ground(scene, tbox, grounder).predictions
         again = LLMGrounder(Asker(client, cache=cache), options, shortlist=2, workers=1)
         assert ground(scene, tbox, again).predictions == found
-    (batch,) = grounder.plan(make_views(*NAMES), tbox)
+    views = zip((f"/Room/{name}" for name in NAMES), make_views(*NAMES), strict=True)
+    (batch,) = grounder.plan(list(views), tbox)
     assert len(batch.classes) < 40 < len(tbox.classes)
     assert all(prediction.status is Status.GROUNDED for prediction in found)
     assert {prediction.class_iri for prediction in found} <= {*batch.classes.values()}
