@@ -19,7 +19,18 @@ HERE = Path(__file__).parent
 RESULTS = HERE / "results.json"
 TABLE = HERE / "README.md"
 BUILD = HERE.parents[1] / "build" / "accuracy"
-KEPT = ("n", "names", "answered", "ema", "ema_also", "ema_by_name", "hf1", "calibration_error", "accuracy_at_80")
+KEPT = (
+    "n",
+    "names",
+    "answered",
+    "ema",
+    "ema_also",
+    "ema_by_name",
+    "hf1",
+    "calibration_error",
+    "accuracy_at_80",
+    "accepted_at_80",
+)
 REGIMES = ("semantic", "abbreviated", "opaque", "opaque-anonymous")
 INTERVALS = ("ema_interval", "ema_name_interval", "hf1_interval")
 

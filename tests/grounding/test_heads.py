@@ -6,10 +6,11 @@ from importlib.resources import files
 
 import pytest
 
-from tests.grounding.records import ground_names, local
+from tests.grounding.records import ground_names, ground_view, local
 from usd2kg.grounding.embedded.heads import Features, likelihood, propensity
 from usd2kg.grounding.embedded.lexicon import home_names
 from usd2kg.ontology import TBox
+from usd2kg.scene import ObjectView
 
 FITTED = json.loads((files("usd2kg.grounding") / "data" / "heads.json").read_text("utf-8"))
 
@@ -37,6 +38,26 @@ def test_propensity_counts_where_a_word_stands_in_names_of_several():
     within = sum(words[:-1].count("oil") for words in names)
     assert propensity("oil") == pytest.approx(math.log((ends + 1) / (within + 1)))
     assert propensity("xqzv") == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "parent", "expected"),
+    [
+        # The parent's name says that the sink is what it belongs to.
+        ("doorSink_L", "sinkUnit", "Door"),
+        ("doorSink_L", "Kitchen", "Sink"),
+        # A part of the whole that the parent is.
+        ("OfficeChair_Caster", "OfficeChair_02", "DesignedComponent"),
+    ],
+)
+def test_what_the_parent_is_called_tells_the_head(home_tbox: TBox, name: str, parent: str, expected: str):
+    view = ObjectView(name=name, parents=("World", parent))
+    assert local(ground_view(view, home_tbox)) == expected
+
+
+def test_the_special_term_is_taken_for_the_general_one(home_tbox: TBox):
+    expected = {"plate_dinner": "DinnerPlate", "Bottle_Water": "WaterBottle", "glass_wine": "WineGlass"}
+    assert dict(zip(expected, map(local, ground_names(list(expected), home_tbox)), strict=True)) == expected
 
 
 def test_heads_in_front_and_at_the_end(home_tbox: TBox):

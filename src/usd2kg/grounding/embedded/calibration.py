@@ -15,7 +15,7 @@ from usd2kg.ontology import TBox
 
 __all__ = ["FEATURES", "features_of", "probability"]
 
-FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "is_company", "is_foreign")
+FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "has_subclasses", "is_company", "is_foreign")
 """What the parameters are called."""
 _LABEL = 0.95
 """A score that only the class's own label reaches."""
@@ -28,6 +28,7 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
     - `margin`: how far the next class is behind;
     - `is_label`: whether the name is the class's own label;
     - `is_general`: whether the class is a root of the TBox, true of so much that a better one may be missed;
+    - `has_subclasses`: whether classes are below it, of which a person may have chosen one: a table fork for a fork;
     - `is_company`: whether other objects or the size decided and not the words;
     - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it.
     """
@@ -39,6 +40,7 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
         "margin": first - second,
         "is_label": float(first > _LABEL),
         "is_general": float(prediction.class_iri is not None and not tbox.by_iri[prediction.class_iri].parents),
+        "has_subclasses": float(prediction.class_iri is not None and bool(tbox.children[prediction.class_iri])),
         "is_company": float(not {"company", "geometry"}.isdisjoint(prediction.evidence)),
         "is_foreign": float(prediction.class_iri is not None and prediction.class_iri not in home_names()),
     }
@@ -47,7 +49,8 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
 def probability(features: Mapping[str, float]) -> float:
     """Return the probability that the answer is the class a person would choose, to four decimals."""
     weights = _weights()
-    return round(1 / (1 + math.exp(-sum(weights[name] * value for name, value in features.items()))), 4)
+    # A feature that is being fitted for the first time has no weight yet.
+    return round(1 / (1 + math.exp(-sum(weights.get(name, 0.0) * value for name, value in features.items()))), 4)
 
 
 @lru_cache(maxsize=1)

@@ -47,6 +47,10 @@ class Features(NamedTuple):
     """Whether the word that tells its kind stands behind the head, as in `plate_dinner`."""
     place: float = 0.0
     """Whether it is a place, after which things are called."""
+    whole: float = 0.0
+    """Whether the parent's name says its class, and things follow: below `OfficeChair` an `OfficeChair_Caster`."""
+    repeated: float = 0.0
+    """Whether the parent's name holds the head, and words stand before it: below `sinkUnit` a `doorSink` is a door."""
 
 
 def likelihood(features: Features) -> float:

@@ -13,11 +13,14 @@ from usd2kg.grounding.embedded.naming import Match, Namer
 from usd2kg.grounding.embedded.sizes import surprise
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.words import words_of
 
 __all__ = ["Matcher", "Named", "Size"]
 
 _RESPELLED = 0.9
 _LEAST = 0.05
+_SELDOM = 0.2
+"""A word that does no more than describe less often than this is a thing; `NameReader.trailing` gives things less."""
 _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
 _WRONG_SIZE, _RIGHT_SIZE = 0.05, 10.0
@@ -55,8 +58,22 @@ class _Head(NamedTuple):
     telling_within: float
     """The same before the last word."""
     propensity: float
+    is_thing: bool
+    """Whether it seldom does no more than describe."""
     kinds: tuple[str, ...]
     """What it is a kind of, itself first, without spaces: things whose usual size may be taken for its own."""
+
+
+class _Above(NamedTuple):
+    """What the name of the parent says."""
+
+    class_iri: ClassIRI | None
+    """What it may be, by its last words; None if it says nothing."""
+    words: frozenset[str]
+    """As they are written, if there are several: `mugs` is no `mug`."""
+
+
+_NO_PARENT = _Above(None, frozenset())
 
 
 class Named(NamedTuple):
@@ -69,21 +86,25 @@ class Named(NamedTuple):
     """Logarithm of the score of the best match."""
     answers: tuple[_Answer, ...]
     """The best match of each class."""
+    class_iri: ClassIRI | None
+    """The class of the best match; None if they name nothing."""
 
 
-_NOTHING = Named((), (), 0.0, ())
+_NOTHING = Named((), (), 0.0, (), None)
 
 
 class Matcher:
     """Finds the classes for the phrases of one TBox."""
 
     def __init__(self, tbox: TBox, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader) -> None:
+        self._tbox = tbox
         self._taxonomy = taxonomy
         self._reader = reader
         self._namer = Namer(tbox, lexicon, taxonomy, reader)
         # What a word is depends on nothing else, and the readings of a name say the same words over and over.
         self._head = lru_cache(maxsize=16384)(self._knowing)
         self._named = lru_cache(maxsize=16384)(self._naming)
+        self._above = lru_cache(maxsize=4096)(self._reading_above)
         self._named_turned = lru_cache(maxsize=16384)(self._naming_turned)
 
     def match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None) -> list[Match]:
@@ -135,18 +156,34 @@ class Matcher:
             self._namer.places(phrase.context, parents),
             bool(phrase.corrections),
         )
+        above = self._above(parents[-1]) if parents else _NO_PARENT
         heads = [self._named(words[:end], places, is_respelled) for end in range(1, len(words) + 1)]
         found = [
-            (end, self._features(phrase, end, named, size, is_linked=_is_within(end, heads)), named)
+            (end, self._features(phrase, end, named, size, above, is_linked=_is_within(end, heads)), named)
             for end, named in enumerate(heads, start=1)
             if named.run
         ]
+        turned = []
         for at in range(1, len(words)):
             # The head may stand before the word that tells its kind, as in `plate_dinner`.
             named = self._named_turned(words[at - 1], words[at], is_respelled)
             if named.run and not phrase.is_glued(at):
-                found.append((at + 1, self._features(phrase, at + 1, named, size, is_turned=True), named))
-        return found
+                # A dinner plate is a plate: what speaks for the plate must not speak against the dinner plate.
+                found = [reading for reading in found if reading[0] != at or not self._is_below(named, reading[2])]
+                turned.append((at + 1, self._features(phrase, at + 1, named, size, above, is_turned=True), named))
+        return [*found, *turned]
+
+    def _is_below(self, special: Named, general: Named) -> bool:
+        one, other = special.class_iri, general.class_iri
+        return one is not None and other is not None and one != other and self._tbox.is_subclass(one, other)
+
+    def _reading_above(self, parent: str) -> _Above:
+        words = self._reader.read(parent).words
+        written = words_of(parent)
+        return _Above(
+            class_iri=self._named(words, (), False).class_iri if words else None,
+            words=frozenset(written) if len(written) > 1 else frozenset(),
+        )
 
     def _naming(self, words: tuple[str, ...], places: tuple[str, ...], is_respelled: bool) -> Named:
         return _named(*self._namer.name(words, places), is_respelled)
@@ -161,6 +198,7 @@ class Matcher:
         end: int,
         named: Named,
         size: Size | None,
+        above: _Above,
         *,
         is_linked: bool = False,
         is_turned: bool = False,
@@ -168,6 +206,8 @@ class Matcher:
         run, behind = named.run, phrase.words[end:]
         head, is_lone = self._head(run[-1]), len(run) == 1
         fit = None if size is None else self._fit(run, size, head)
+        is_of_parents_class = above.class_iri is not None and named.class_iri == above.class_iri
+        is_whole = is_of_parents_class and any(self._head(word).is_thing for word in behind)
         # By position: this is asked for each end of each reading of a name.
         return Features(
             named.log_score,
@@ -183,6 +223,8 @@ class Matcher:
             1.0 if is_linked else 0.0,
             1.0 if is_turned else 0.0,
             head.place,
+            1.0 if is_whole else 0.0,
+            1.0 if is_lone and end > 1 and run[-1] in above.words else 0.0,
         )
 
     def _fit(self, run: tuple[str, ...], size: Size, head: _Head) -> float | None:
@@ -204,6 +246,7 @@ class Matcher:
             telling=log(max(telling, _LEAST)),
             telling_within=log(max(within, _LEAST)),
             propensity=propensity(word),
+            is_thing=self._reader.trailing(word) < _SELDOM,
             kinds=self._near_kinds(word),
         )
 
@@ -225,7 +268,7 @@ def _named(run: tuple[str, ...], matches: tuple[Match, ...], is_respelled: bool)
     best = {match.class_iri: (match, score) for score, match in scores}
     good = _AGREEING * scores[-1][0]
     answers = [_Answer(match, score, 1.0 if score > good else score) for match, score in best.values()]
-    return Named(run, matches, log(max([match.score for match in matches])), tuple(answers))
+    return Named(run, matches, log(max([match.score for match in matches])), tuple(answers), scores[-1][1].class_iri)
 
 
 def _is_within(end: int, heads: Sequence[Named]) -> bool:

@@ -1,7 +1,9 @@
 """Reading an object's name as a noun phrase: which of its words says what it is."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 from rapidfuzz import process
@@ -29,6 +31,8 @@ _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
 """Where things hang and stand, and are called after: `clock_wall`."""
+_BUILT = frozenset(["wall", "ceiling"])
+_FASTENED = frozenset(["hung", "mounted", "recessed"])
 _MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
 _DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
 _MOUNT, _PLACE = 0.3, 0.4
@@ -99,12 +103,12 @@ class NameReader:
         self._is_kind_of_place = taxonomy.below(_PLACES)
 
     @cached_property
-    def _by_length(self) -> dict[int, list[str]]:
-        """Length → the words that a misspelt one may mean; needed only where one is met."""
-        found: dict[int, list[str]] = {}
+    def _by_first_letter_and_length(self) -> dict[tuple[str, int], list[str]]:
+        """(First letter, length) → the words that a misspelt one may mean; needed only where one is met."""
+        found: dict[tuple[str, int], list[str]] = {}
         thing_words = {word for word in self._taxonomy.words(_THING_DOMAINS) if len(word) > 3}
         for word in sorted(thing_words | self._lexicon.vocabulary.keys()):
-            found.setdefault(len(word), []).append(word)
+            found.setdefault((word[0], len(word)), []).append(word)
         return found
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
@@ -129,6 +133,9 @@ class NameReader:
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
         context = tuple(token.text for token in references)
+        if len(words) > 2 and words[-1] in _FASTENED and words[-2] in _BUILT:
+            # A `toilet_wall_hung` is no wall.
+            del words[-2:], glued[-2:]
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
     def _telling(self, tokens: list[_Token]) -> list[_Token]:
@@ -235,10 +242,20 @@ class NameReader:
         references = [token for token in tokens if above and _is_reference(token, above)]
         if not references:
             return tokens, []
+        # Below `Mug` a `coffee_mug` is a mug of its own; below `Toilet` a `toilet_seat` is no seat of any kind.
+        pairs = [pair for pair in pairwise(tokens) if self._is_term(pair)]
+        references = [
+            token
+            for token in references
+            if token.number or not any(_is_half(token, pair, references) for pair in pairs)
+        ]
         own = [token for token in tokens if token not in references]
         if any(not self.is_modifier(word) for token in own for word in self.correct(token.text)):
             return own, references
         return tokens, []
+
+    def _is_term(self, pair: tuple[_Token, _Token]) -> bool:
+        return pair[0].text + self._taxonomy.singular(pair[1].text) in self._lexicon.terms
 
     def _correct(self, word: str) -> tuple[str, ...]:
         """Return a word as known words: itself, its singular, a compound split, or the nearest spelling."""
@@ -280,16 +297,25 @@ class NameReader:
             return None
         ranked: list[tuple[int, bool, float, str]] = []
         for length in range(len(word) - budget, len(word) + budget + 1):
-            near = process.extract(
-                word, self._by_length.get(length, []), scorer=OSA.distance, score_cutoff=budget, limit=8
-            )
+            alike = self._by_first_letter_and_length.get((word[0], length), [])
+            near = process.extract(word, alike, scorer=OSA.distance, score_cutoff=budget, limit=8)
             for candidate, distance, _ in near:
                 # The TBox's own words first: they are what the scene is likely to be about.
                 is_foreign = candidate not in self._lexicon.vocabulary
-                if candidate[0] == word[0] and not (is_foreign and len(word) < _SHORTEST_RESPELLED):
+                is_short = is_foreign and len(word) < _SHORTEST_RESPELLED
+                if not is_short and _may_be_slip(word, candidate):
                     is_doubling = _undoubled(candidate) == _undoubled(word)
                     ranked.append((int(distance), not is_doubling, -thing_prior(candidate) + 2 * is_foreign, candidate))
         return (min(ranked)[3],) if ranked else None
+
+
+def _may_be_slip(word: str, candidate: str) -> bool:
+    """Return whether a word may be a misspelt noun; a participle is none, unless its letters are just in disorder.
+
+    >>> _may_be_slip("squeezed", "squeezer"), _may_be_slip("lampshaed", "lampshade")
+    (False, True)
+    """
+    return not word.endswith("ed") or sorted(candidate) == sorted(word)
 
 
 def _undoubled(word: str) -> str:
@@ -325,3 +351,8 @@ def _is_reference(token: _Token, above: set[tuple[str, str]]) -> bool:
         return True
     # `cab10` below `cabinet10`: the same number on a word that begins alike.
     return bool(token.number) and any(token.number == number and word.startswith(token.text) for word, number in above)
+
+
+def _is_half(token: _Token, pair: tuple[_Token, _Token], references: Sequence[_Token]) -> bool:
+    """Return whether a reference is one of two words of which the other is none."""
+    return token in pair and any(other not in references for other in pair)
