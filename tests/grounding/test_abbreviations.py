@@ -120,6 +120,9 @@ def test_the_forms_of_any_word_are_at_most_one_in_sum(word: str):
         (["drwr", "blk"], ("drawer", "black")),
         (["micro"], ("microwave",)),
         (["lamp"], ("lamp",)),  # what is spelled out is read too
+        (["smfrdg"], ("fridge",)),  # a static mesh
+        (["smcffmchn"], ("coffee", "machine")),
+        (["frdgsm"], ("fridge", "semi")),  # at the end it is a word like others
     ],
 )
 def test_the_likeliest_reading(tokens: list[str], words: tuple[str, ...]):

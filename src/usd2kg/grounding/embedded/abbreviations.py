@@ -38,6 +38,9 @@ _UNREAD = {
     **{count: (_UNKNOWN_WORD, count * _UNKNOWN_LETTER) for count in (3, 4, 5, 6)},
 }
 """Number of letters → what it costs that they are no word, in two terms."""
+_PREFIXES = frozenset(["sm", "sk", "skm", "prop", "prp"])
+_PREFIX = (math.log(0.1), 0.0)
+"""A word of a pipeline that is written on to the beginning of a name: the SM of `smtckck`, a static mesh."""
 _NEVER = (-math.inf, 0.0)
 _NO_WORD = Piece((), {}, 0)
 _CHOICES = 7
@@ -92,7 +95,9 @@ class AbbreviationReader:
             starts = beam.starts(paths)
             if starts.ordered:
                 for end, piece in self._pieces(letters, at, borders[at], near):
-                    arcs[end].append(Arc(starts, _UNREAD.get(end - at, _NEVER), piece))
+                    is_prefix = at == 0 and letters[:end] in _PREFIXES
+                    unread = _PREFIX if is_prefix else _UNREAD.get(end - at, _NEVER)
+                    arcs[end].append(Arc(starts, unread, piece))
             paths = beam.best(arcs[at + 1])
         return _readings(paths, beam)
 
