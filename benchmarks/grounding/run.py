@@ -1,6 +1,6 @@
 """Time the embedded grounder: how long it takes to load, and how many objects a second it grounds.
 
-Usage: python benchmarks/grounding/run.py [NAMES] (default 1500)
+Usage: python -m benchmarks.grounding.run [NAMES] (default 1500)
 
 Names are those of the lists of `benchmarks/names`, as people write them, or put together from the words of the
 product's own vocabulary; all different, on things of random size in rooms of forty. The first hundred are timed apart:
@@ -20,10 +20,11 @@ from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
 
+from benchmarks.bare import bare_object, bare_scene
 from usd2kg.grounding import ground
 from usd2kg.grounding.embedded.lexicon import home_names
 from usd2kg.ontology import load_home_tbox
-from usd2kg.scene import Box, NamingRegime, Scene, SceneObject, StageFrame, abbreviate
+from usd2kg.scene import NamingRegime, Scene, abbreviate
 from usd2kg.words import words_of
 
 REPEATS = 3
@@ -98,53 +99,18 @@ SAMPLES: dict[str, tuple[Iterator[str], NamingRegime]] = {
 
 
 def make_scene(names: list[str]) -> Scene:
-    """Return things with these names, forty to a room, of random size."""
+    """Return things with these names, forty to a room, of 1 cm to 2 m each way."""
     rng = random.Random(1)
-    return Scene(
-        source="names put together",
-        content_hash="",
-        frame=StageFrame("Z", 1.0, 1.0, is_authored=True),
-        time=None,
-        prim_count=len(names),
-        objects=tuple(make_object(f"/World/Room_{at // ROOM}/{name}", rng) for at, name in enumerate(names)),
-        left_out={},
-    )
-
-
-def make_object(path: str, rng: random.Random) -> SceneObject:
-    """Return a thing of 1 cm to 2 m, without any evidence but its name, size and place."""
-    box = Box((0.0, 0.0, 0.0), (rng.uniform(0.01, 2), rng.uniform(0.01, 2), rng.uniform(0.01, 2)))
-    return SceneObject(
-        prim_path=path,
-        name=path.rpartition("/")[2],
-        type_name="Xform",
-        kind="component",
-        selected_by="listed",
-        parent_path=None,
-        box=box,
-        own_box=box,
-        part_boxes=(),
-        position=(0.0, 0.0, 0.0),
-        orientation=(0.0, 0.0, 0.0, 1.0),
-        mass_kg=None,
-        display_name="",
-        documentation="",
-        asset=(),
-        materials=(),
-        parts=(),
-        display_color=None,
-        instance_of=None,
-    )
+    sizes = [(rng.uniform(0.01, 2), rng.uniform(0.01, 2), rng.uniform(0.01, 2)) for _ in names]
+    paths = [f"/World/Room_{at // ROOM}/{name}" for at, name in enumerate(names)]
+    return bare_scene("names put together", list(map(bare_object, paths, sizes)))
 
 
 def measure(kind: str, count: int) -> None:
     """Ground a hundred names, then that many; print the seconds of both, those of plain look-ups, and megabytes."""
     names, regime = SAMPLES[kind]
-    first, scene, tbox = (
-        make_scene(list(islice(names, FIRST))),
-        make_scene(list(islice(names, count))),
-        load_home_tbox(),
-    )
+    first, scene = (make_scene(list(islice(names, number))) for number in (FIRST, count))
+    tbox = load_home_tbox()
     ground(make_scene(["CoffeeMug"]), tbox)
     start = time.process_time()
     ground(first, tbox, regime=regime)
@@ -193,7 +159,7 @@ def main() -> None:
     print(f"import and first answer:     {answered:.2f} s, {answered / bare:.1f} times as long, {megabytes:.0f} MB")
     print(f"{'names':<28} {'first 100':>9} {'then':>7} {'a second':>9} {'look-ups each':>14} {'peak MB':>8}")
     for kind in SAMPLES:
-        first, seconds, look_ups, megabytes = least(__file__, count, kind)
+        first, seconds, look_ups, megabytes = least("-m", "benchmarks.grounding.run", count, kind)
         rate, ratio = int(count) / seconds, seconds / look_ups
         print(f"{kind:<28} {first:>7.2f} s {count:>7} {rate:>9.0f} {ratio:>14.0f} {megabytes:>8.0f}")
 

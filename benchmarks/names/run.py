@@ -1,6 +1,6 @@
 """Accuracy on names alone: lists of things as they are called in scenes, with size, group and class.
 
-Usage: python benchmarks/names/run.py [ONTOLOGY]
+Usage: python -m benchmarks.names.run [ONTOLOGY]
 
 Each list holds different things, written and labelled by the authors of this project before any answer was seen, by the
 conventions for SOMA-HOME. The grounder was improved on the errors in all but two, of which only the score was looked
@@ -14,10 +14,11 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from benchmarks.bare import bare_object, bare_scene
 from usd2kg.grounding import ground
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import Box, NamingRegime, Scene, SceneObject, StageFrame
+from usd2kg.scene import NamingRegime, SceneObject
 
 HERE = Path(__file__).parent
 TRAIN = (
@@ -65,28 +66,7 @@ def load(path: Path, tbox: TBox) -> list[Thing]:
 def thing(row: dict[str, str], tbox: TBox) -> Thing:
     """Return the thing of one row, standing at the origin."""
     size = (float(row["long_m"]), float(row["middle_m"]), float(row["short_m"]))
-    box = Box((0.0, 0.0, 0.0), size)
-    obj = SceneObject(
-        prim_path=f"/World/{row['parent']}/{row['name']}",
-        name=row["name"],
-        type_name="Xform",
-        kind="component",
-        selected_by="listed",
-        parent_path=None,
-        box=box,
-        own_box=box,
-        part_boxes=(),
-        position=(0.0, 0.0, 0.0),
-        orientation=(0.0, 0.0, 0.0, 1.0),
-        mass_kg=None,
-        display_name="",
-        documentation="",
-        asset=(),
-        materials=(),
-        parts=(),
-        display_color=None,
-        instance_of=None,
-    )
+    obj = bare_object(f"/World/{row['parent']}/{row['name']}", size)
     target = tbox.resolve(row["class"])
     others = [tbox.resolve(name) for name in (row["also"] or "").split("|") if name]
     return Thing(obj, target, frozenset([target, *others]))
@@ -94,15 +74,7 @@ def thing(row: dict[str, str], tbox: TBox) -> Thing:
 
 def measure(things: list[Thing], tbox: TBox, regime: NamingRegime) -> tuple[float, float]:
     """Return the share in % that is exactly right, and that is accepted."""
-    scene = Scene(
-        source="a list of names",
-        content_hash="",
-        frame=StageFrame("Z", 1.0, 1.0, is_authored=True),
-        time=None,
-        prim_count=len(things),
-        objects=tuple(found.obj for found in things),
-        left_out={},
-    )
+    scene = bare_scene("a list of names", [found.obj for found in things])
     answers = ground(scene, tbox, regime=regime).by_path
     right = [answers[found.obj.prim_path].class_iri == found.target for found in things]
     accepted = [answers[found.obj.prim_path].class_iri in found.accepted for found in things]

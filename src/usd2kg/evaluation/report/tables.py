@@ -83,7 +83,7 @@ def detail_table(result: SceneResult) -> Table:
         "HF1 95 %",
         "calibration error",
         "EMA % at 80 % coverage",
-        "the same, accepting",
+        "EMA % accept-also at 80 % coverage",
     )
     runs = runs_of(result)
     keys = [(method, regime) for method in methods_of(result) for regime in REGIMES if (method, regime) in runs]

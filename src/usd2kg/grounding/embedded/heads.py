@@ -48,7 +48,7 @@ class Features(NamedTuple):
     place: float = 0.0
     """Whether it is a place, after which things are called."""
     whole: float = 0.0
-    """Whether the parent's name says its class, and things follow: below `OfficeChair` an `OfficeChair_Caster`."""
+    """Whether the parent's name says its class, and things follow: below `RockingChair` a `RockingChair_Spindle`."""
     repeated: float = 0.0
     """Whether the parent's name holds the head, and words stand before it: below `sinkUnit` a `doorSink` is a door."""
 

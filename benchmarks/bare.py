@@ -1,0 +1,51 @@
+"""Scenes of things of which nothing is known but name, place in the tree, and size."""
+
+from collections.abc import Sequence
+
+from usd2kg.scene import Box, Scene, SceneObject, StageFrame
+
+__all__ = ["bare_object", "bare_scene"]
+
+
+def bare_object(path: str, size: tuple[float, float, float]) -> SceneObject:
+    """Return a thing at the origin.
+
+    Args:
+        path: its prim path, which ends with its name.
+        size: extents in metres along x, y and z.
+    """
+    box = Box((0.0, 0.0, 0.0), size)
+    return SceneObject(
+        prim_path=path,
+        name=path.rpartition("/")[2],
+        type_name="Xform",
+        kind="component",
+        selected_by="listed",
+        parent_path=None,
+        box=box,
+        own_box=box,
+        part_boxes=(),
+        position=(0.0, 0.0, 0.0),
+        orientation=(0.0, 0.0, 0.0, 1.0),
+        mass_kg=None,
+        display_name="",
+        documentation="",
+        asset=(),
+        materials=(),
+        parts=(),
+        display_color=None,
+        instance_of=None,
+    )
+
+
+def bare_scene(source: str, objects: Sequence[SceneObject]) -> Scene:
+    """Return a scene of these things, in metres, with Z up."""
+    return Scene(
+        source=source,
+        content_hash="",
+        frame=StageFrame("Z", 1.0, 1.0, is_authored=True),
+        time=None,
+        prim_count=len(objects),
+        objects=tuple(objects),
+        left_out={},
+    )
