@@ -1,14 +1,15 @@
-"""Fit the probabilities of the embedded grounder on the labelled scenes of `benchmarks/accuracy/matrix.toml`.
+"""Fit the probabilities of the embedded grounder on the labelled scenes and lists of names that are not tests.
 
 Usage: python tools/fit_calibration.py
 
 Writes `src/usd2kg/grounding/data/calibration.json`: weights of a logistic model, and how well it does on each scene
-when fitted on the others. An answer is right if it is the gold class. Each distinct name of a scene and regime counts
+when fitted on the other scenes and the lists. An answer is right if it is the gold class. Each distinct name of a scene and regime counts
 once, so that fifty copies of one box do not decide.
 """
 
 import json
 import re
+import sys
 import tomllib
 from collections import Counter
 from pathlib import Path
@@ -18,15 +19,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.evaluation.gold import read_gold
-from usd2kg.grounding import ground
+from usd2kg.grounding.embedded.beliefs import Beliefs
 from usd2kg.grounding.embedded.calibration import FEATURES, features_of
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding.model import Prediction
+from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import NamingRegime, read_scene
+from usd2kg.scene import NamingRegime, Scene, read_scene, view_objects
 
 ROOT = Path(__file__).parents[1]
 MATRIX = ROOT / "benchmarks/accuracy/matrix.toml"
 OUTPUT = ROOT / "src/usd2kg/grounding/data/calibration.json"
-REGIMES = (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED, NamingRegime.OPAQUE)
+sys.path.insert(0, str(ROOT))
+
+from benchmarks.bare import bare_scene  # noqa: E402  (scripts are no packages of the product)
+from benchmarks.names.run import TRAIN, load  # noqa: E402
+
+LISTED = 0.5
+"""What a list of names counts against a scene: nobody has built with them."""
 RIDGE = 1.0
 """Strength of the pull of the weights to zero, the intercept's apart."""
 ROUNDS = 50
@@ -42,7 +52,7 @@ class Sample(NamedTuple):
     is_right: Array
     """(n,), 0 or 1."""
     weights: Array
-    """(n,), adding up to 1 for each regime."""
+    """(n,), adding up to 1 for each regime of a scene."""
 
 
 def main() -> None:
@@ -52,8 +62,9 @@ def main() -> None:
         path = (MATRIX.parent / scene["path"]).resolve()
         if path.exists() and "test" not in re.findall(r"\w+", scene["name"]):
             scenes[scene["name"]] = sample(scene)
-    report = {name: check(name, scenes) for name in scenes}
-    weights = fit(list(scenes.values()))
+    lists = [sample_of_list(listed) for listed in TRAIN]
+    report = {left_out: check(left_out, scenes, lists) for left_out in scenes}
+    weights = fit([*scenes.values(), *lists])
     text = {
         "weights": {name: round(float(weight), 4) for name, weight in zip(FEATURES, weights, strict=True)},
         "error_on_each_scene_when_left_out": report,
@@ -69,17 +80,54 @@ def sample(scene: dict[str, Any]) -> Sample:
     gold = read_gold(MATRIX.parent / scene["gold"], tbox)
     paths = [label.prim_path for label in gold]
     read = read_scene(MATRIX.parent / scene["path"], paths=paths)
-    rows, right, weights = [], [], []
-    for regime in REGIMES:
-        answers = ground(read, tbox, regime=regime, paths=paths).by_path
-        known = [label for label in gold if answers[label.prim_path].candidates]
-        names = Counter(read.by_path[label.prim_path].name for label in known)
-        for label in known:
-            answer = answers[label.prim_path]
-            rows.append([features_of(answer, tbox)[name] for name in FEATURES])
-            right.append(float(answer.class_iri == label.target))
-            weights.append(1 / names[read.by_path[label.prim_path].name] / len(names))
-    return Sample(np.array(rows), np.array(right), np.array(weights))
+    samples = []
+    for regime in NamingRegime:
+        answers = decide(read, paths, regime, tbox)
+        is_right = [answers[label.prim_path][0].class_iri == label.target for label in gold]
+        names = [read.by_path[path].name for path in paths]
+        samples.append(sample_of_answers([answers[path] for path in paths], is_right, names, tbox))
+    return joined(samples)
+
+
+def sample_of_list(listed: str) -> Sample:
+    """Return the answers of a list of names, spelled out and abbreviated."""
+    tbox = open_tbox(None)
+    things = load(ROOT / f"benchmarks/names/{listed}.csv", tbox)
+    scene, paths = bare_scene(listed, [thing.obj for thing in things]), [thing.obj.prim_path for thing in things]
+    samples = []
+    for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED):
+        answers = decide(scene, paths, regime, tbox)
+        is_right = [answers[thing.obj.prim_path][0].class_iri == thing.target for thing in things]
+        samples.append(sample_of_answers([answers[path] for path in paths], is_right, paths, tbox))
+    both = joined(samples)
+    return both._replace(weights=both.weights * LISTED)
+
+
+def decide(
+    scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox
+) -> dict[str, tuple[Prediction, Beliefs]]:
+    """Return prim path → the uncalibrated answer, and what is believed of it whatever it is called."""
+    views = {obj.prim_path: view for obj, view in view_objects(scene, regime)}
+    answers = EmbeddedGrounder().decide([(path, views[path]) for path in paths], tbox)
+    return dict(zip(paths, answers, strict=True))
+
+
+def sample_of_answers(
+    answers: list[tuple[Prediction, Beliefs]], is_right: list[bool], names: list[str], tbox: TBox
+) -> Sample:
+    """Return the answers of one regime; each distinct name weighs the same, all together 1."""
+    counts = Counter(names)
+    features = [features_of(answer, beliefs, tbox) for answer, beliefs in answers]
+    return Sample(
+        features=np.array([[found[name] for name in FEATURES] for found in features]),
+        is_right=np.array(is_right, dtype=float),
+        weights=np.array([1 / counts[name] / len(counts) for name in names]),
+    )
+
+
+def joined(samples: list[Sample]) -> Sample:
+    """Return several samples as one."""
+    return Sample(*(np.concatenate(columns) for columns in zip(*samples, strict=True)))
 
 
 def fit(samples: list[Sample]) -> Array:
@@ -97,9 +145,9 @@ def fit(samples: list[Sample]) -> Array:
     return beta
 
 
-def check(name: str, scenes: dict[str, Sample]) -> dict[str, float]:
+def check(name: str, scenes: dict[str, Sample], lists: list[Sample]) -> dict[str, float]:
     """Return the calibration error of the model on a scene that it was not fitted on, and the mean right answers."""
-    beta = fit([one for other, one in scenes.items() if other != name])
+    beta = fit([*(one for other, one in scenes.items() if other != name), *lists])
     left_out = scenes[name]
     p = 1 / (1 + np.exp(-left_out.features @ beta))
     bins = np.minimum((p * 10).astype(int), 9)

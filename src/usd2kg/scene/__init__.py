@@ -38,6 +38,7 @@ from usd2kg.scene.model import (
 )
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
 from usd2kg.scene.selection import ASKED_FOR
+from usd2kg.scene.standing import Look, Neighbour
 from usd2kg.scene.views import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -85,7 +86,9 @@ __all__ = [
     "LabelledPrim",
     "MaterialDetails",
     "NamingRegime",
+    "Look",
     "Nearness",
+    "Neighbour",
     "ObjectLabels",
     "ObjectView",
     "ReadOptions",

@@ -14,6 +14,7 @@ from typing import overload
 
 from usd2kg.scene.company import Company, companies
 from usd2kg.scene.model import Scene, SceneObject, Vector
+from usd2kg.scene.standing import Look, Plan, Standing
 from usd2kg.words import split_identifier
 
 __all__ = [
@@ -97,6 +98,8 @@ class ObjectView:
     mass_kg: float | None = None
     position: Vector | None = None
     """World translation in metres."""
+    standing: Standing | None = None
+    """How it stands among the others, whatever they are called."""
     display_name: str = ""
     documentation: str = ""
     asset: tuple[str, ...] = ()
@@ -113,6 +116,17 @@ class ObjectView:
     def own_size(self) -> Vector | None:
         """The extent that says most of what the thing is: however it is turned, it has the same."""
         return self.oriented_size or self.size
+
+    @property
+    def look(self) -> Look | None:
+        """What is seen of it besides names; None where its size is not known."""
+        if self.own_size is None or self.size is None:
+            return None
+        is_nested = len(self.groups) < len(self.parents)
+        if self.standing is None:
+            return Look(self.own_size, self.size[2], None, is_nested)
+        height = self.size[2] if self.standing.is_laid_out else None
+        return Look(self.own_size, height, self.standing.elevation, is_nested)
 
 
 def abbreviate(name: str, length: int = ABBREVIATED_LENGTH) -> str:
@@ -153,6 +167,7 @@ def view_objects(
     masked = _masked_names(scene, regime, length)
     families = _families(scene)
     has_company = "company" in shown and regime is not NamingRegime.OPAQUE_ANONYMOUS
+    plan = Plan(scene)
     others = companies(scene) if has_company else [None] * len(scene.objects)
     for index, obj in enumerate(scene.objects):
         parents, siblings = _company(obj, families, regime)
@@ -161,6 +176,7 @@ def view_objects(
             name=masked[index] if "name" in shown else "",
             is_masked=regime is not NamingRegime.SEMANTIC,
             company=others[index],
+            standing=Standing(plan, index, is_anonymous=not has_company) if "position" in shown else None,
         )
         yield obj, _with_evidence(view, obj, shown, parents, grouping, siblings)
 
@@ -178,6 +194,7 @@ def _with_evidence(
         name=view.name,
         is_masked=view.is_masked,
         company=view.company,
+        standing=view.standing,
         parents=parents if "hierarchy" in shown else (),
         groups=grouping if "hierarchy" in shown else (),
         siblings=siblings if "hierarchy" in shown else (),

@@ -9,19 +9,22 @@ from collections.abc import Mapping
 from functools import lru_cache
 from importlib.resources import files
 
+from usd2kg.grounding.embedded.beliefs import Beliefs
 from usd2kg.grounding.embedded.lexicon import home_names
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import TBox
 
 __all__ = ["FEATURES", "features_of", "probability"]
 
-FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "has_subclasses", "is_company", "is_foreign")
+FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "has_subclasses", "is_company", "is_foreign", "company_score", "belief")
 """What the parameters are called."""
+_BY_LOOK = frozenset({"company", "geometry"})
+_LEAST, _USUAL = 0.01, 0.1
 _LABEL = 0.95
 """A score that only the class's own label reaches."""
 
 
-def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
+def features_of(prediction: Prediction, beliefs: Beliefs, tbox: TBox) -> dict[str, float]:
     """Return the features of an answer.
 
     - `score`: of the likeliest class, 0 to 1;
@@ -30,10 +33,12 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
     - `is_general`: whether the class is a root of the TBox, true of so much that a better one may be missed;
     - `has_subclasses`: whether classes are below it, of which a person may have chosen one: a table fork for a fork;
     - `is_company`: whether other objects or the size decided and not the words;
-    - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it.
+    - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
+    - `belief`: how probable the class is by size, stance and place, the logarithm against a tenth; 0 without a size.
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
+    is_by_look = not _BY_LOOK.isdisjoint(prediction.evidence)
     return {
         "intercept": 1.0,
         "score": first,
@@ -41,9 +46,17 @@ def features_of(prediction: Prediction, tbox: TBox) -> dict[str, float]:
         "is_label": float(first > _LABEL),
         "is_general": float(prediction.class_iri is not None and not tbox.by_iri[prediction.class_iri].parents),
         "has_subclasses": float(prediction.class_iri is not None and bool(tbox.children[prediction.class_iri])),
-        "is_company": float(not {"company", "geometry"}.isdisjoint(prediction.evidence)),
+        "is_company": float(is_by_look),
         "is_foreign": float(prediction.class_iri is not None and prediction.class_iri not in home_names()),
+        "company_score": first if is_by_look else 0.0,
+        "belief": _belief(prediction, beliefs),
     }
+
+
+def _belief(prediction: Prediction, beliefs: Beliefs) -> float:
+    if prediction.class_iri is None or not beliefs.shares or not _BY_LOOK.isdisjoint(prediction.evidence):
+        return 0.0
+    return math.log((beliefs.shares.get(prediction.class_iri, 0.0) + _LEAST) / _USUAL)
 
 
 def probability(features: Mapping[str, float]) -> float:

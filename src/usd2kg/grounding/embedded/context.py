@@ -1,34 +1,27 @@
-"""What the surroundings of an object say of it: the classes of the things beside it, and what is of its size.
+"""What the company of an object says of it: the classes of the things beside it and of those of its size.
 
 Each named companion votes for the class its name points at (a kernel estimate, Nadaraya and Watson, 1964, over size
 and place in the tree): the nearer in the tree and the more alike in size, the heavier the vote.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import islice
 from typing import Generic, NamedTuple, TypeVar
 
-import numpy as np
-
-from usd2kg.grounding.embedded.frequencies import thing_prior
-from usd2kg.grounding.embedded.matching import Size
 from usd2kg.grounding.embedded.naming import Match
-from usd2kg.grounding.embedded.sizes import likelihoods_of, thing_nouns
 from usd2kg.ontology import ClassIRI
 from usd2kg.scene import Companion, Nearness
 
-__all__ = ["SizeBeliefs", "Vote", "Votes", "ask_company", "siblings_as_company", "vote_of"]
+__all__ = ["Vote", "Votes", "ask_company", "siblings_as_company", "vote_of"]
 
 _WEIGHTS = {Nearness.NEXT: 1.0, Nearness.SIBLING: 0.35, Nearness.TWIN: 0.6, Nearness.ALIKE: 0.12}
-_TWIN_BONUS = 3.0
+_TWIN_BONUS = 6.0
 """Companions of exactly the same size are most likely copies."""
 _TWIN = 0.01
-_SIZE_SPREAD = 0.3
+_SIZE_SPREAD = 0.2
 """How much the sizes of things of one class differ that stand together, as `size_distance`."""
 _UNKNOWN_SIZE = 0.5
-_PRIOR_POWER = 0.5
-"""How much heed is paid to what things are most common: all of them stand in scenes, each in some."""
 _MOST_SIBLINGS = 48
 _CLEAREST = 0.5
 """A companion whose own name says less has no vote."""
@@ -53,10 +46,6 @@ class Votes(NamedTuple, Generic[C]):
     """Class → its share; they add up to less than 1: the rest is that the company says nothing."""
     heaviest: dict[ClassIRI, Voter[C]]
     """Class → the companion that spoke for it with most weight."""
-
-
-Classify = Callable[[str, tuple[str, ...], Size | None], Sequence[Match]]
-"""Gives the classes for a name, the names above it and the thing's size in metres, best first."""
 
 
 def siblings_as_company(names: Iterable[str], parents: tuple[str, ...]) -> list[Companion]:
@@ -93,33 +82,3 @@ def _weight(nearness: Nearness, distance: float | None) -> float:
     if distance < _TWIN:
         return weight * _TWIN_BONUS
     return weight * math.exp(-0.5 * (distance / _SIZE_SPREAD) ** 2)
-
-
-class SizeBeliefs:
-    """Which classes an object's size speaks for, by the usual sizes of a thousand everyday things."""
-
-    def __init__(self, classify: Classify) -> None:
-        nouns = thing_nouns()
-        matches = [classify(noun, (), None) for noun in nouns]
-        self.classes = tuple(sorted({found[0].class_iri for found in matches if found}))
-        places = {iri: place for place, iri in enumerate(self.classes)}
-        self._rows = np.array([row for row, found in enumerate(matches) if found], dtype=int)
-        self._places = np.array([places[found[0].class_iri] for found in matches if found], dtype=int)
-        weights = np.array([thing_prior(nouns[row].split()[-1]) for row in self._rows]) * _PRIOR_POWER
-        self._weights = np.exp(weights - weights.max(initial=-np.inf)) if len(weights) else weights
-        self._totals = np.bincount(self._places, self._weights, minlength=len(self.classes))
-
-    def ask(self, size: Size) -> dict[ClassIRI, tuple[float, float]]:
-        """Return class → (likelihood of the size, 1 for the class it suits best; probability of the class).
-
-        The class of the greatest probability comes first; of equal ones the first by IRI.
-        """
-        if not self.classes:
-            return {}
-        logs = likelihoods_of(size)[self._rows]
-        joint = np.bincount(self._places, self._weights * np.exp(logs - logs.max()), minlength=len(self.classes))
-        likelihoods, posterior = joint / self._totals, joint / joint.sum()
-        relative = likelihoods / likelihoods.max()
-        order = np.argsort(-posterior, kind="stable")
-        beliefs = zip(relative[order].tolist(), posterior[order].tolist(), strict=True)
-        return dict(zip([self.classes[place] for place in order.tolist()], beliefs, strict=True))

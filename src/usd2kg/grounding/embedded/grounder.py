@@ -9,20 +9,25 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
 
+import numpy as np
+
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.embedded.abbreviations import AbbreviationReader, Reading
+from usd2kg.grounding.embedded.beliefs import NO_BELIEFS, Beliefs, ThingBeliefs, log_likelihoods_of_look, neighbour_weights
 from usd2kg.grounding.embedded.calibration import features_of, probability
-from usd2kg.grounding.embedded.context import SizeBeliefs, Vote, ask_company, siblings_as_company, vote_of
+from usd2kg.grounding.embedded.context import Vote, ask_company, siblings_as_company, vote_of
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.matching import Matcher, Size
+from usd2kg.grounding.embedded.matching import Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match
+from usd2kg.grounding.embedded.sizes import Size
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.embedded.weighing import Finding, weigh
+from usd2kg.grounding.embedded.whereabouts import PLACES, Floats, place_of_look, place_of_thing, place_shares, places_named
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import Companion, Company, Nearness, ObjectView
+from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
 from usd2kg.words import is_telling, split_identifier, words_of
 
 __all__ = ["EmbeddedGrounder"]
@@ -45,6 +50,9 @@ _PRIMITIVES = frozenset(
 _NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
 _MOST_TOKENS = 5
 _SAME_SIZE = 0.03
+_MOST_NEIGHBOURS = 48
+_SIBLING_METRES = 4.0
+"""How far away a sibling is taken to be of which only the name is known."""
 _NEARNESS_TEXTS = {
     Nearness.NEXT: "right beside it",
     Nearness.SIBLING: "in the same group",
@@ -86,14 +94,17 @@ class EmbeddedGrounder:
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
         with paused_collection():
-            run = _run_for(tbox, self._use_home_synonyms)
-            answers = [run.predict(path, view) for path, view in views]
-        decided = [_abstaining(answer, tbox) for answer in answers] if self._abstains else answers
-        return agree_by_asset([view for _, view in views], [_calibrated(answer, tbox) for answer in decided], tbox)
+            decided = [
+                replace(answer, confidence=probability(features_of(answer, beliefs, tbox)))
+                for answer, beliefs in self.decide(views, tbox)
+            ]
+            return agree_by_asset([view for _, view in views], decided, tbox)
 
-
-def _calibrated(prediction: Prediction, tbox: TBox) -> Prediction:
-    return replace(prediction, confidence=probability(features_of(prediction, tbox)))
+    def decide(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[tuple[Prediction, Beliefs]]:
+        """Return for each (prim path, view) a prediction with a score for confidence, and what its look says."""
+        run = _run_for(tbox, self._use_home_synonyms)
+        answers = [run.predict(path, view) for path, view in views]
+        return [(_abstaining(answer, tbox), look) for answer, look in answers] if self._abstains else answers
 
 
 def _abstaining(prediction: Prediction, tbox: TBox) -> Prediction:
@@ -122,33 +133,34 @@ class _Run:
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
         self._match = lru_cache(maxsize=32768)(self._match_text)
-        self._vote = self._voting
-        """One object for all scenes: each remembers what it was told by it."""
+        self._vote, self._place = self._voting, self._placing
+        """One object each for all scenes, which remember what they were told by it."""
 
     @cached_property
-    def _sizes(self) -> SizeBeliefs:
-        return SizeBeliefs(self._match)
+    def _beliefs(self) -> ThingBeliefs:
+        return ThingBeliefs(self._match)
 
     @cached_property
     def _abbreviations(self) -> AbbreviationReader:
         # Most stages spell their names out and never need it.
         return AbbreviationReader(self._lexicon, load_taxonomy())
 
-    def predict(self, prim_path: str, view: ObjectView) -> Prediction:
-        """Return the class of a view, with a score for confidence."""
+    def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, Beliefs]:
+        """Return the class of a view, with a score for confidence, and what is believed of it whatever it is called."""
+        beliefs = self._believe(view)
         is_made_up = _is_made_up(view.name)
         findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
         if not findings or findings[0].score < _CLEAR:
             # A tulip that is no class of the TBox is none of the things beside it either.
             is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
             short = [] if is_made_up or is_understood else self._by_abbreviation(view)
-            findings = [] if is_understood else self._weigh(view, [*findings, *short])
+            findings = [] if is_understood else self._weigh(view, beliefs, [*findings, *short])
         if not findings or findings[0].score < _UNKNOWN:
-            return self._default(prim_path, "what is known about it does not say what it is")
+            return self._default(prim_path, "what is known about it does not say what it is"), beliefs
         best = findings[0]
         scores = {finding.class_iri: finding.score for finding in reversed(findings)}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
-        return Prediction(
+        prediction = Prediction(
             prim_path=prim_path,
             class_iri=best.class_iri,
             confidence=round(best.score, 4),
@@ -158,19 +170,39 @@ class _Run:
             evidence=(best.group,),
             candidates=tuple(Candidate(iri, score) for iri, score in candidates[:_CANDIDATES]),
         )
+        return prediction, beliefs
 
-    def _weigh(self, view: ObjectView, words: list[Finding]) -> list[Finding]:
+    def _weigh(self, view: ObjectView, beliefs: Beliefs, words: list[Finding]) -> list[Finding]:
         return weigh(
             words,
             self._by_company(view),
-            self._sizes.ask(view.own_size) if view.own_size is not None else {},
-            self._size_text,
+            beliefs.shares,
+            partial(self._belief_text, view, beliefs.place),
             is_masked=view.is_masked,
-            has_company=view.company is not None,
         )
 
-    def _size_text(self, iri: ClassIRI) -> str:
-        return f"its name says nothing; many a {self._tbox.by_iri[iri].local_name} is of its size"
+    def _believe(self, view: ObjectView) -> Beliefs:
+        """Return what an object is believed to be by its size, how it stands and what is around it."""
+        look = view.look
+        if look is None:
+            return NO_BELIEFS
+        return self._beliefs.ask(look, place_shares(self._place_around(view), places_named(view.parents)))
+
+    def _place_around(self, view: ObjectView) -> Floats:
+        """Return the logarithm of how likely the objects around it are in each kind of place."""
+        told, metres = np.empty((0, 0)), np.empty(0)
+        if view.standing is not None:
+            told, metres = view.standing.around(self._place, _MOST_NEIGHBOURS)
+        elif view.siblings:
+            told = np.array([self._thing_place(name, view.parents) for name in view.siblings[:_MOST_NEIGHBOURS]])
+            metres = np.full(len(told), _SIBLING_METRES)
+        return neighbour_weights(metres) @ told if len(told) else np.zeros(len(PLACES))
+
+    def _belief_text(self, view: ObjectView, place: str | None, iri: ClassIRI) -> str:
+        elevation = view.look.elevation if view.look is not None else None
+        where = "" if elevation is None else f", {elevation:.1f} m above the ground"
+        among = f", among things of the kind of place “{place}”" if place else ""
+        return f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].local_name}"
 
     def _by_abbreviation(self, view: ObjectView) -> list[Finding]:
         """Return what the name says if it is an abbreviation."""
@@ -222,6 +254,15 @@ class _Run:
 
     def _voting(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
         return vote_of(self._match(name, parents, size))
+
+    def _placing(self, neighbour: Neighbour) -> Floats:
+        """Return the logarithm of how likely a thing is in each kind of place, by its name or else by its look."""
+        by_name = self._thing_place(neighbour.name, neighbour.parents)
+        return by_name if by_name.any() else place_of_look(log_likelihoods_of_look(neighbour.look))
+
+    def _thing_place(self, name: str, parents: tuple[str, ...]) -> Floats:
+        row = self._matcher.thing(self._reader.read(name, parents)) if name else None
+        return np.zeros(len(PLACES)) if row is None else place_of_thing(row)
 
     def _by_company(self, view: ObjectView) -> list[Finding]:
         """Return the classes of the things beside it and of its size, by their share."""

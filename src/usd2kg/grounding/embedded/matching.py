@@ -10,12 +10,12 @@ from usd2kg.grounding.embedded.heads import Features, likelihood, propensity
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match, Namer
-from usd2kg.grounding.embedded.sizes import surprise
+from usd2kg.grounding.embedded.sizes import Size, surprise, thing_row
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.words import words_of
 
-__all__ = ["Matcher", "Named", "Size"]
+__all__ = ["Matcher", "Named"]
 
 _RESPELLED = 0.9
 _LEAST = 0.05
@@ -34,8 +34,6 @@ _AGREEING = 0.8
 """Other matches of a reading count for their classes if they score this much of its best."""
 _SMALLEST_PLACE = 2.0
 """Metres. What is called after a place and is smaller all round is something in the place or of it."""
-
-Size = tuple[float, float, float]
 
 
 class _Answer(NamedTuple):
@@ -143,6 +141,16 @@ class Matcher:
             for iri, (score, match, end) in best.items()
         ]
         return sorted(matches, key=lambda match: (-match.score, match.class_iri)), total
+
+    def thing(self, phrase: NamePhrase) -> int | None:
+        """Return the row of the everyday thing that a phrase names by its last words, see `thing_rows`; maybe None."""
+        if not phrase.words:
+            return None
+        *before, last = phrase.words
+        singular = self._taxonomy.singular(last)
+        runs = ["".join(before[start:]) + singular for start in range(len(phrase.words))]
+        rows = (thing_row(noun) for noun in (*runs, *self._head(last).kinds))
+        return next((row for row in rows if row is not None), None)
 
     def ends(
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None

@@ -1,4 +1,4 @@
-"""Weighing what the words, the company and the size of an object say against each other."""
+"""Weighing what the words, the company and the size and place of an object say against each other."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -9,16 +9,14 @@ from usd2kg.ontology import ClassIRI
 
 __all__ = ["Finding", "weigh"]
 
-_COMPANY = 0.8
-"""How far the company is trusted to tell the class, as a share of what the name would be."""
-_WORDS_FLOOR, _COMPANY_FLOOR, _COMPANY_POWER = 0.02, 0.01, 0.7
-_SIZE_FLOOR, _NO_SIZE = 0.05, 0.3
-_SIZE_POWER, _SIZE_POWER_ALONE = 0.2, 0.45
-"""How far the size is heard beside a company, whose votes heed it already, and without one."""
-_SIZE_TRUST = 0.3
-_SUITED = 3
-"""The classes that are considered for their size alone."""
-_SHARE_FLOOR = 0.3
+_WORDS_FLOOR, _SEEN_FLOOR, _BELIEF_FLOOR = 0.02, 0.01, 0.04
+"""What each kind of evidence gives a class that it does not speak for: it rules nothing out."""
+_BELIEF_POWER = 0.5
+"""How far the beliefs are heard of what the company speaks for, whose votes heed the size already."""
+_SUITED = 8
+"""The classes that are considered for the beliefs alone."""
+_COMPANY_TRUST, _BELIEF_TRUST = 0.8, 0.5
+"""How far the company and the beliefs are trusted to tell the class, as a share of what the name would be."""
 
 
 class Finding(NamedTuple):
@@ -35,43 +33,42 @@ class Finding(NamedTuple):
 def weigh(
     words: Sequence[Finding],
     company: Sequence[Finding],
-    by_size: Mapping[ClassIRI, tuple[float, float]],
-    explain_size: Callable[[ClassIRI], str],
+    beliefs: Mapping[ClassIRI, float],
+    explain_belief: Callable[[ClassIRI], str],
     *,
     is_masked: bool,
-    has_company: bool,
 ) -> list[Finding]:
-    """Return the findings of words that are not clear by themselves, of the company and of the size together.
+    """Return the findings of words that are not clear by themselves, of the company and of the beliefs together.
 
-    A product of experts (Hinton, 2002), each with a floor below which it rules nothing out and a power for how
-    far it is heard.
+    An object is of a kind with its company, or a thing of its own, which the beliefs tell: a mixture. That and the
+    words are a product of experts (Hinton, 2002), each with a floor below which it rules nothing out:
+
+        (words + 0.02) · (company · (belief + 0.04)^½ + (1 - Σ company) · belief + 0.01)^power
 
     Args:
         words: what the words say, whether spelled out or abbreviated.
-        company: what the company says, each class once.
-        by_size: class → (likelihood of the size, probability of the class), the most probable first.
-        explain_size: gives the sentence for a class that the size alone speaks for.
+        company: what the company says, each class once; the scores add up to 1 at most.
+        beliefs: class → its probability by size and place, the greatest first.
+        explain_belief: gives the sentence for a class that the beliefs speak for.
         is_masked: whether the name is not the authored one.
-        has_company: whether the company's votes heed the size.
     """
     by_words, by_company = _best_by_class(words), _best_by_class(company)
     weighed: dict[ClassIRI, tuple[float, Finding]] = {}
     best_said = max((finding.score for finding in words), default=0.0)
-    # The more a name says, the less is asked of the company; what an abbreviation seems to say is often wrong.
-    power = _COMPANY_POWER * (1 - (0.0 if is_masked else best_said))
-    size_power = _SIZE_POWER if has_company else _SIZE_POWER_ALONE
-    for iri in dict.fromkeys([*by_words, *by_company, *islice(by_size, _SUITED)]):
-        said, seen = by_words.get(iri), by_company.get(iri)
-        fit, share = by_size.get(iri, (_NO_SIZE, 0.0))
-        heard = ((seen.score if seen else 0.0) + _COMPANY_FLOOR * (_SHARE_FLOOR + share)) ** power
-        weight = ((said.score if said else 0.0) + _WORDS_FLOOR) * heard * (fit + _SIZE_FLOOR) ** size_power
-        experts = [found for found in (said, seen) if found is not None]
-        if experts:
-            weighed[iri] = weight, max(experts, key=lambda found: found.score)
-        else:
-            weighed[iri] = weight, Finding("geometry", iri, share, partial(explain_size, iri))
+    votes = sum(finding.score for finding in company)
+    # The more a name says, the less is asked of the others; what an abbreviation seems to say is often wrong.
+    power = 1 - (0.0 if is_masked else best_said)
+    for iri in dict.fromkeys([*by_words, *by_company, *islice(beliefs, _SUITED)]):
+        said, beside = by_words.get(iri), by_company.get(iri)
+        belief = beliefs.get(iri, 0.0)
+        shared = beside.score * (belief + _BELIEF_FLOOR) ** _BELIEF_POWER if beside else 0.0
+        own = (1 - votes) * belief
+        weight = ((said.score if said else 0.0) + _WORDS_FLOOR) * (shared + own + _SEEN_FLOOR) ** power
+        by_belief = Finding("geometry", iri, own, partial(explain_belief, iri))
+        experts = [found for found in (said, beside._replace(score=shared) if beside else None) if found is not None]
+        weighed[iri] = weight, max([*experts, by_belief], key=lambda found: found.score)
     total = sum(weight for weight, _ in weighed.values())
-    trust = max(best_said, _COMPANY * sum(finding.score for finding in company), _SIZE_TRUST if by_size else 0.0)
+    trust = max(best_said, _COMPANY_TRUST * votes, _BELIEF_TRUST if beliefs else 0.0)
     findings = [
         Finding(finding.group, iri, weight / total * trust, finding.explain)
         for iri, (weight, finding) in weighed.items()

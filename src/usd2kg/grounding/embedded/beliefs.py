@@ -1,0 +1,82 @@
+"""What an object is by its size, how it stands and what is around it, whatever it is called.
+
+Bayes' rule over everyday things, whose usual sizes and whereabouts are known, and then over their classes:
+
+    P(thing | evidence) ∝ P(thing | place) · p(size | thing) · P(how it stands | thing)
+
+The kind of place is told by the things around the object and by the names of the prims above it.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from usd2kg.grounding.embedded.naming import Match
+from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, thing_nouns
+from usd2kg.grounding.embedded.whereabouts import PLACES, Floats, log_stances, thing_shares
+from usd2kg.ontology import ClassIRI
+from usd2kg.scene import Look
+
+__all__ = ["NO_BELIEFS", "Beliefs", "Classify", "ThingBeliefs", "log_likelihoods_of_look", "neighbour_weights"]
+
+_NEIGHBOUR, _REACH = 0.4, 4.0
+"""What a thing right beside counts for the kind of place, and in how many metres that falls to its e-th part."""
+_PLACE_IS_CLEAR = 0.5
+
+Classify = Callable[[str, tuple[str, ...], Size | None], Sequence[Match]]
+"""Gives the classes for a name, the names above it and the thing's size in metres, best first."""
+
+
+class Beliefs(NamedTuple):
+    """What one object is believed to be."""
+
+    shares: Mapping[ClassIRI, float]
+    """Class → its probability, the greatest first, of equal ones the first by IRI."""
+    place: str | None
+    """The kind of place it is in, where that is clear."""
+
+
+NO_BELIEFS = Beliefs({}, None)
+
+
+def neighbour_weights(metres: Floats) -> Floats:
+    """Return what things at these distances count for the kind of place."""
+    weights: Floats = _NEIGHBOUR * np.exp(-metres / _REACH)
+    return weights
+
+
+def log_likelihoods_of_look(look: Look) -> Floats:
+    """Return log P(what is seen of an object | thing) for each thing, natural logarithm, (things,)."""
+    return likelihoods_of(look.size) + log_stances(look)
+
+
+class ThingBeliefs:
+    """The beliefs about objects in one TBox, by what its classes' names say of everyday things."""
+
+    def __init__(self, classify: Classify) -> None:
+        matches = [classify(noun, (), None) for noun in thing_nouns()]
+        self.classes = tuple(sorted({found[0].class_iri for found in matches if found}))
+        columns = {iri: column for column, iri in enumerate(self.classes)}
+        self._rows = np.array([row for row, found in enumerate(matches) if found], dtype=int)
+        self._columns = np.array([columns[found[0].class_iri] for found in matches if found], dtype=int)
+
+    def ask(self, look: Look, places: Floats) -> Beliefs:
+        """Return what an object is believed to be.
+
+        Args:
+            look: what is seen of it.
+            places: probability of each kind of place, (places,).
+        """
+        if not self.classes:
+            return NO_BELIEFS
+        logs = log_likelihoods_of_look(look)
+        logs = (logs + np.log(thing_shares(places)))[self._rows]
+        joint = np.bincount(self._columns, np.exp(logs - logs.max()), minlength=len(self.classes))
+        shares = joint / joint.sum()
+        order = np.argsort(-shares, kind="stable")
+        likeliest = int(places.argmax())
+        return Beliefs(
+            shares=dict(zip([self.classes[column] for column in order.tolist()], shares[order].tolist(), strict=True)),
+            place=PLACES[likeliest] if places[likeliest] > _PLACE_IS_CLEAR else None,
+        )
