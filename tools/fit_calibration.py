@@ -3,8 +3,8 @@
 Usage: python tools/fit_calibration.py
 
 Writes `src/usd2kg/grounding/data/calibration.json`: weights of a logistic model, and how well it does on each scene
-when fitted on the other scenes and the lists. An answer is right if it is the gold class. Each distinct name of a scene and regime counts
-once, so that fifty copies of one box do not decide.
+when fitted on the other scenes and the lists. An answer is right if it is the gold class. Each distinct name of a scene
+and regime counts once, so that fifty copies of one box do not decide.
 """
 
 import json
@@ -103,9 +103,7 @@ def sample_of_list(listed: str) -> Sample:
     return both._replace(weights=both.weights * LISTED)
 
 
-def decide(
-    scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox
-) -> dict[str, tuple[Prediction, Beliefs]]:
+def decide(scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox) -> dict[str, tuple[Prediction, Beliefs]]:
     """Return prim path → the uncalibrated answer, and what is believed of it whatever it is called."""
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime)}
     answers = EmbeddedGrounder().decide([(path, views[path]) for path in paths], tbox)

@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from usd2kg.evaluation.gold import read_gold
 from usd2kg.grounding.embedded.heads import Features
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.matching import Matcher, Size
+from usd2kg.grounding.embedded.matching import Matcher
 from usd2kg.grounding.embedded.names import NameReader
+from usd2kg.grounding.embedded.sizes import Size
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox

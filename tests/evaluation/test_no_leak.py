@@ -4,7 +4,9 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tests.conftest import shared_file
 from tests.grounding.records import words_written
@@ -16,6 +18,7 @@ from usd2kg.scene import (
     Companion,
     Label,
     NamingRegime,
+    Neighbour,
     ObjectView,
     Scene,
     SceneObject,
@@ -50,6 +53,18 @@ def _texts(view: ObjectView) -> Iterator[str]:
 
 def _companions(view: ObjectView) -> list[Companion]:
     return view.company.companions() if view.company else []
+
+
+def _neighbours(view: ObjectView) -> list[Neighbour]:
+    asked: list[Neighbour] = []
+
+    def judge(neighbour: Neighbour) -> NDArray[np.float64]:
+        asked.append(neighbour)
+        return np.zeros(1)
+
+    assert view.standing is not None
+    view.standing.around(judge, 48)
+    return asked
 
 
 def _path_of(companion: Companion) -> str:
@@ -112,6 +127,17 @@ def test_no_companion_is_the_target(scene: Scene, regime: NamingRegime) -> None:
         assert len(set(found)) == len(found)
 
 
+@pytest.mark.parametrize("regime", MASKED)
+def test_no_neighbour_is_the_target_or_bears_its_name_above(scene: Scene, regime: NamingRegime) -> None:
+    for obj, view in view_objects(scene, regime):
+        found = ["/".join(("", *near.parents, near.name)) for near in _neighbours(view)]
+        if regime is NamingRegime.OPAQUE_ANONYMOUS:
+            assert set(found) <= {"/"}
+        else:
+            assert obj.prim_path not in found
+            assert not any(path.startswith(obj.prim_path + "/") for path in found)
+
+
 @pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
 def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, regime: NamingRegime) -> None:
     bearers = Counter(word for obj in scene.objects for word in set(words_of(obj.name)))
@@ -132,7 +158,10 @@ def test_another_name_of_the_target_makes_no_difference(scene: Scene, regime: Na
         assert other.name == "Zebra_77"
         assert _companions(before) == _companions(after)
         assert list(before.siblings) == list(after.siblings)
-        assert replace(before, company=None, siblings=()) == replace(after, company=None, siblings=())
+        assert _neighbours(before) == _neighbours(after)
+        assert before.look == after.look
+        unlike = {"company": None, "siblings": (), "standing": None}
+        assert replace(before, **unlike) == replace(after, **unlike)
         one, two = (grounder.ground_views([("/x", view)], home_tbox) for view in (before, after))
         assert one == two
 

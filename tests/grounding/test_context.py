@@ -1,22 +1,21 @@
-"""What the surroundings say: votes of the companions, and the classes that a size speaks for."""
+"""What the company says: votes of the companions."""
 
 import math
 
 import pytest
 
-from tests.grounding.records import SOMA, make_class, make_object, make_scene, make_tbox
+from tests.grounding.records import SOMA, make_object, make_scene
 from usd2kg.grounding.embedded import context
+from usd2kg.grounding.embedded.beliefs import Classify
 from usd2kg.grounding.embedded.context import (
-    Classify,
-    SizeBeliefs,
     Votes,
     ask_company,
     siblings_as_company,
     vote_of,
 )
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder, _run_for
-from usd2kg.grounding.embedded.matching import Size
 from usd2kg.grounding.embedded.naming import Match
+from usd2kg.grounding.embedded.sizes import Size
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, Companion, NamingRegime, Nearness, ObjectView, view_objects
 
@@ -127,80 +126,6 @@ def test_a_chair_among_chairs_of_its_size_in_a_real_company(home_tbox: TBox):
     found = votes(*view.company.companions(), classify=_run_for(home_tbox, True)._match).shares
     assert found[SOMA + "DesignedChair"] > 0.7
     assert found[SOMA + "Table"] < 0.1
-
-
-# --- sizes -------------------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def beliefs(home_tbox: TBox) -> SizeBeliefs:
-    return _run_for(home_tbox, True)._sizes
-
-
-def ranked(beliefs: SizeBeliefs, size: tuple[float, float, float]) -> list[str]:
-    """Return the local names of the classes, the one that the size suits best first."""
-    found = beliefs.ask(size)
-    return [iri.rpartition("#")[2] for iri in sorted(found, key=lambda iri: -found[iri][0])]
-
-
-@pytest.mark.parametrize(
-    ("size", "suits", "rather_than"),
-    [
-        ((0.09, 0.09, 0.1), {"Cup", "Glass", "WaterGlass", "Bowl", "Jar"}, ["Refrigerator", "Sofa", "Door"]),
-        ((0.6, 0.65, 1.8), {"Refrigerator"}, ["Cup", "Bowl", "Spoon"]),
-        ((2.0, 0.9, 0.8), {"Sofa"}, ["Cup", "Plate", "Jar"]),
-        ((0.9, 0.04, 2.05), {"Door"}, ["Cup", "Sofa", "Bowl"]),
-        ((0.19, 0.04, 0.02), {"Spoon", "Fork", "TableKnife", "Knife", "Cutlery"}, ["Refrigerator", "Table"]),
-    ],
-    ids=["mug", "refrigerator", "sofa", "door", "spoon"],
-)
-def test_a_size_speaks_for_what_is_usually_of_it(
-    beliefs: SizeBeliefs, size: tuple[float, float, float], suits: set[str], rather_than: list[str]
-):
-    order = ranked(beliefs, size)
-    assert set(order[:3]) & suits
-    found = {iri.rpartition("#")[2]: belief for iri, belief in beliefs.ask(size).items()}
-    best = max(found[name] for name in suits if name in found)
-    assert [name for name in rather_than if found[name][0] > best[0] / 20] == []
-    assert [name for name in rather_than if found[name][1] > best[1] / 5] == []
-
-
-@pytest.mark.parametrize("size", [(0.1, 0.09, 0.09), (2, 1, 1), (0, 0, 0), (80, 70, 9), (0.3, 0, 0.2)])
-def test_beliefs_are_shares(beliefs: SizeBeliefs, size: tuple[float, float, float]):
-    found = beliefs.ask(size)
-    assert set(found) == set(beliefs.classes)
-    assert max(value for value, _ in found.values()) == pytest.approx(1)
-    assert all(0 < value <= 1 and 0 < share <= 1 for value, share in found.values())
-    assert sum(share for _, share in found.values()) == pytest.approx(1)
-
-
-def test_the_way_a_thing_lies_makes_no_difference(beliefs: SizeBeliefs):
-    assert beliefs.ask((0.6, 1.8, 0.65)) == beliefs.ask((1.8, 0.65, 0.6))
-
-
-def test_the_classes_are_those_of_the_tbox(beliefs: SizeBeliefs, home_tbox: TBox):
-    assert set(beliefs.classes) <= set(home_tbox.by_iri)
-    assert len(beliefs.classes) > 40
-    assert list(beliefs.classes) == sorted(set(beliefs.classes))
-
-
-def test_a_tbox_of_other_things_has_no_beliefs():
-    # Nothing whose size is known is one of its classes.
-    abstract = _run_for(make_tbox(make_class("Qualia"), make_class("Zorg", "Qualia")), False)._sizes
-    assert abstract.classes == ()
-    assert abstract.ask((1, 1, 1)) == {}
-
-
-def test_beliefs_follow_the_names_that_the_nouns_match():
-    # A TBox with two classes: everything is a Small thing by its name, or a Large one.
-    def classify(noun: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
-        return {"mug": [Match("small", 1, str)], "refrigerator": [Match("large", 1, str)]}.get(noun, [])
-
-    beliefs = SizeBeliefs(classify)
-    assert beliefs.classes == ("large", "small")
-    assert beliefs.ask((0.09, 0.09, 0.1))["small"][0] == 1
-    assert beliefs.ask((0.6, 0.65, 1.8))["large"][0] == 1
-    assert beliefs.ask((0.6, 0.65, 1.8))["small"][0] < 1e-3
 
 
 def test_siblings_of_which_only_the_names_are_known_vote_alike():

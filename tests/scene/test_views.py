@@ -137,6 +137,7 @@ def test_semantic_regime_shows_everything():
         parts=("handle",),
         labels=("mug",),
         company=view.company,
+        standing=view.standing,
         is_masked=False,
     )
     assert list(view.siblings) == ["Plate"]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.scene.model import Scene, Vector
+from usd2kg.scene.model import Box, Scene, Vector
 
 __all__ = ["Look", "Neighbour", "Plan", "Standing"]
 
@@ -67,8 +67,8 @@ class Plan:
     def is_laid_out(self) -> bool:
         """Whether the objects stand apart: assets of a library may all stand at the origin, which tells nothing.
 
-        They do not if, of at most 64 of them, more than half stand in most of the eight that are nearest, so that the
-        centre of each is within the plan of the other.
+        They do not if, of at most 64 of them, more than half share their space with most of the eight that are nearest,
+        so that the centre of each is within the plan of the other, and half of the lower one beside the other.
         """
         known = np.flatnonzero(~np.isnan(self._grounds))
         sample = known[:: max(1, len(known) // _SAMPLE)].tolist()
@@ -162,14 +162,15 @@ class Plan:
 
     def _is_piled(self, index: int) -> bool:
         near = self._nearest(index, _MOST_COMPARED)[0].tolist()
-        return 2 * sum([self._holds_centre(index, other) and self._holds_centre(other, index) for other in near]) > len(
-            near
-        )
+        return 2 * sum([self._stand_in_each_other(index, other) for other in near]) > len(near)
 
-    def _holds_centre(self, index: int, other: int) -> bool:
-        """Return whether the centre of another object is within the plan of one."""
-        box, (x, y, _) = self._objects[index].box, self._centres[other].tolist()
-        return box is not None and box.lower[0] <= x <= box.upper[0] and box.lower[1] <= y <= box.upper[1]
+    def _stand_in_each_other(self, one: int, other: int) -> bool:
+        boxes = self._objects[one].box, self._objects[other].box
+        if boxes[0] is None or boxes[1] is None:
+            return False
+        shared = min(boxes[0].upper[2], boxes[1].upper[2]) - max(boxes[0].lower[2], boxes[1].lower[2])
+        is_level = shared > min(boxes[0].size[2], boxes[1].size[2]) / 2
+        return is_level and _holds(boxes[0], boxes[1].center) and _holds(boxes[1], boxes[0].center)
 
 
 class Standing:
@@ -198,3 +199,8 @@ class Standing:
         """
         others, metres = self._plan.nearest(self._index, most)
         return self._plan.told(judge, others, is_anonymous=self._is_anonymous), metres
+
+
+def _holds(box: Box, point: Vector) -> bool:
+    """Return whether a point is within the plan of a box."""
+    return box.lower[0] <= point[0] <= box.upper[0] and box.lower[1] <= point[1] <= box.upper[1]

@@ -7,7 +7,7 @@ from usd2kg.grounding.embedded.sizes import typical_extents
 
 
 def test_by_class_then_by_label():
-    # class_sizes.csv: soma:Bottle is 0.29 m high; thing_sizes.csv: an accordion is 0.46 m long.
+    # class_sizes.csv: soma:Bottle is 0.29 m high; things.csv: an accordion is 0.46 m long.
     assert usual_extent("http://www.ease-crc.org/ont/SOMA.owl#Bottle", "accordion") == 0.29
     assert usual_extent("https://lab.example/onto#A", "accordion") == pytest.approx(0.46)
     assert usual_extent("https://lab.example/onto#A", "gadget of ours") is None

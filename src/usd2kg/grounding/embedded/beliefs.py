@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, thing_nouns
@@ -40,9 +41,9 @@ class Beliefs(NamedTuple):
 NO_BELIEFS = Beliefs({}, None)
 
 
-def neighbour_weights(metres: Floats) -> Floats:
+def neighbour_weights(metres: npt.ArrayLike) -> Floats:
     """Return what things at these distances count for the kind of place."""
-    weights: Floats = _NEIGHBOUR * np.exp(-metres / _REACH)
+    weights: Floats = _NEIGHBOUR * np.exp(-np.asarray(metres) / _REACH)
     return weights
 
 

@@ -16,7 +16,18 @@ from usd2kg.ontology import TBox
 
 __all__ = ["FEATURES", "features_of", "probability"]
 
-FEATURES = ("intercept", "score", "margin", "is_label", "is_general", "has_subclasses", "is_company", "is_foreign", "company_score", "belief")
+FEATURES = (
+    "intercept",
+    "score",
+    "margin",
+    "is_label",
+    "is_general",
+    "has_subclasses",
+    "is_company",
+    "is_foreign",
+    "company_score",
+    "belief",
+)
 """What the parameters are called."""
 _BY_LOOK = frozenset({"company", "geometry"})
 _LEAST, _USUAL = 0.01, 0.1

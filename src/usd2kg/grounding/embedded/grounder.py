@@ -13,7 +13,13 @@ import numpy as np
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.embedded.abbreviations import AbbreviationReader, Reading
-from usd2kg.grounding.embedded.beliefs import NO_BELIEFS, Beliefs, ThingBeliefs, log_likelihoods_of_look, neighbour_weights
+from usd2kg.grounding.embedded.beliefs import (
+    NO_BELIEFS,
+    Beliefs,
+    ThingBeliefs,
+    log_likelihoods_of_look,
+    neighbour_weights,
+)
 from usd2kg.grounding.embedded.calibration import features_of, probability
 from usd2kg.grounding.embedded.context import Vote, ask_company, siblings_as_company, vote_of
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
@@ -24,7 +30,14 @@ from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.sizes import Size
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.embedded.weighing import Finding, weigh
-from usd2kg.grounding.embedded.whereabouts import PLACES, Floats, place_of_look, place_of_thing, place_shares, places_named
+from usd2kg.grounding.embedded.whereabouts import (
+    PLACES,
+    Floats,
+    place_of_look,
+    place_of_thing,
+    place_shares,
+    places_named,
+)
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
@@ -190,13 +203,11 @@ class _Run:
 
     def _place_around(self, view: ObjectView) -> Floats:
         """Return the logarithm of how likely the objects around it are in each kind of place."""
-        told, metres = np.empty((0, 0)), np.empty(0)
         if view.standing is not None:
             told, metres = view.standing.around(self._place, _MOST_NEIGHBOURS)
-        elif view.siblings:
-            told = np.array([self._thing_place(name, view.parents) for name in view.siblings[:_MOST_NEIGHBOURS]])
-            metres = np.full(len(told), _SIBLING_METRES)
-        return neighbour_weights(metres) @ told if len(told) else np.zeros(len(PLACES))
+            return neighbour_weights(metres) @ told if len(told) else np.zeros(len(PLACES))
+        siblings = [self._thing_place(name, view.parents) for name in view.siblings[:_MOST_NEIGHBOURS]]
+        return sum(siblings, start=np.zeros(len(PLACES))) * neighbour_weights(_SIBLING_METRES)
 
     def _belief_text(self, view: ObjectView, place: str | None, iri: ClassIRI) -> str:
         elevation = view.look.elevation if view.look is not None else None

@@ -17,7 +17,16 @@ from usd2kg.grounding.embedded.sizes import SMALLEST_EXTENT, thing_rows
 from usd2kg.scene import Look
 from usd2kg.words import split_identifier
 
-__all__ = ["PLACES", "Floats", "log_stances", "place_of_look", "place_of_thing", "place_shares", "places_named", "thing_shares"]
+__all__ = [
+    "PLACES",
+    "Floats",
+    "log_stances",
+    "place_of_look",
+    "place_of_thing",
+    "place_shares",
+    "places_named",
+    "thing_shares",
+]
 
 PLACES = (
     "kitchen",
@@ -132,7 +141,8 @@ def place_shares(logs: Floats, named: Iterable[str] = ()) -> Floats:
 
 def place_of_thing(row: int) -> Floats:
     """Return log P(a thing is there | kind of place) up to a constant, (places,): of a row, see `thing_rows`."""
-    return _shares_of_places()[row]
+    logs: Floats = _shares_of_places()[row]
+    return logs
 
 
 def place_of_look(logs: Floats) -> Floats:
@@ -155,8 +165,9 @@ def _shares_of_places() -> Floats:
 
 
 def thing_shares(places: Floats) -> Floats:
-    """Return the share of each thing among those of a place that is of each kind with these probabilities, (things,)."""
-    return _shares_of_things() @ places
+    """Return the share of each thing among all those in a place, given the probability of each kind, (things,)."""
+    shares: Floats = _shares_of_things() @ places
+    return shares
 
 
 @lru_cache(maxsize=1)
