@@ -7,14 +7,18 @@ from usd2kg.scene import Box, Scene, SceneObject, StageFrame
 __all__ = ["bare_object", "bare_scene"]
 
 
-def bare_object(path: str, size: tuple[float, float, float]) -> SceneObject:
-    """Return a thing at the origin.
+def bare_object(
+    path: str, size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> SceneObject:
+    """Return a thing.
 
     Args:
         path: its prim path, which ends with its name.
         size: extents in metres along x, y and z.
+        at: the corner of its box with the least coordinates, in metres.
     """
-    box = Box((0.0, 0.0, 0.0), size)
+    (x, y, z), (width, depth, height) = at, size
+    box = Box(at, (x + width, y + depth, z + height))
     return SceneObject(
         prim_path=path,
         name=path.rpartition("/")[2],
@@ -25,7 +29,7 @@ def bare_object(path: str, size: tuple[float, float, float]) -> SceneObject:
         box=box,
         own_box=box,
         part_boxes=(),
-        position=(0.0, 0.0, 0.0),
+        position=at,
         orientation=(0.0, 0.0, 0.0, 1.0),
         mass_kg=None,
         display_name="",

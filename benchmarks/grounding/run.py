@@ -103,7 +103,11 @@ def make_scene(names: list[str]) -> Scene:
     rng = random.Random(1)
     sizes = [(rng.uniform(0.01, 2), rng.uniform(0.01, 2), rng.uniform(0.01, 2)) for _ in names]
     paths = [f"/World/Room_{at // ROOM}/{name}" for at, name in enumerate(names)]
-    return bare_scene("names put together", list(map(bare_object, paths, sizes)))
+    # Rooms of things that stand apart: what is around a thing is asked, too.
+    spots = [
+        (10.0 * (at // ROOM) + rng.uniform(0, 6), rng.uniform(0, 6), rng.uniform(0, 2)) for at in range(len(names))
+    ]
+    return bare_scene("names put together", list(map(bare_object, paths, sizes, spots)))
 
 
 def measure(kind: str, count: int) -> None:

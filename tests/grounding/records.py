@@ -11,6 +11,7 @@ from usd2kg.scene.company import Ways
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 LAB = "https://lab.example/onto#"
+DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 
 
 def make_object(path: str, **known: Any) -> SceneObject:

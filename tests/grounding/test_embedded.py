@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import (
+    DUL,
     SOMA,
     ground_names,
     ground_view,
@@ -177,6 +178,22 @@ class TestWhereTheNameSaysNothing:
         assert "Refrigerator" not in ranks[0]
         assert "Cup" not in ranks[1]
         assert all(p.candidates[0].score < 0.5 for p in (mug, fridge))
+
+    def test_the_place_speaks_where_nothing_else_does(self, home_tbox: TBox):
+        box = Box((0, 0, 0), (0.6, 0.6, 0.85))
+        names = ["frying_pan", "saucepan", "ladle", "kettle", "cutting_board", "spatula"]
+        others = [make_object(f"/Room/{name}", box=Box((1, y, 0.9), (1.2, y + 0.2, 1))) for y, name in enumerate(names)]
+        view = first_view(make_object("/Room/obj_7", box=box), *others, regime=NamingRegime.OPAQUE)
+        answer = ground_view(view, home_tbox)
+        assert local(answer) in {"Dishwasher", "Stove"}
+        assert answer.evidence == ("geometry",)
+        assert "0.0 m above the ground, among things of the kind of place “kitchen”" in answer.explanation
+
+    def test_a_doubtful_look_lowers_the_confidence(self, home_tbox: TBox):
+        plate, wall = ((0.27, 0.27, 0.03), (4.0, 2.5, 0.2))
+        sure, doubtful = (ground_view(first_view(sized("/Room/plate", size)), home_tbox) for size in (plate, wall))
+        assert local(sure) == local(doubtful) == "Plate"
+        assert (sure.confidence or 0) > (doubtful.confidence or 0) + 0.02
 
     def test_the_size_decides_between_companions(self, home_tbox: TBox):
         others = [sized(f"/Hall/{name}", None) for name in ("fridge_1", "mug_1")]
@@ -382,6 +399,14 @@ class TestHomeSynonyms:
         (without,) = EmbeddedGrounder(use_home_synonyms=False).ground_views(views, bare)
         assert local(with_home) == "BedsideTable"
         assert without.status is Status.SUPERCLASS
+
+    def test_a_class_of_ones_own_is_meant_where_the_home_vocabulary_knows_a_general_one_only(self):
+        # To the home vocabulary a teddy is an artifact; an ontology with toys below the artifacts means those.
+        toys = make_tbox(
+            make_class("DesignedArtifact", base=DUL),
+            replace(make_class("Toy"), parents=(DUL + "DesignedArtifact",)),
+        )
+        assert [local(found) for found in ground_names(["teddy_bear", "flag"], toys)] == ["Toy", "DesignedArtifact"]
 
     def test_the_setting_is_recorded(self):
         assert EmbeddedGrounder().settings != EmbeddedGrounder(use_home_synonyms=False).settings

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
-from usd2kg.grounding.embedded.lexicon import Lexicon, build_lexicon, sense_weight
+from usd2kg.grounding.embedded.lexicon import Lexicon, build_lexicon, home_names, sense_weight
 from usd2kg.grounding.embedded.taxonomy import Sense, load_taxonomy
 from usd2kg.ontology import TBox
 
@@ -85,6 +85,22 @@ def test_an_own_label_wins_over_the_synonym_of_another_class():
     assert named(lexicon_of(tbox), "mug") == "Mug"
     tbox = make_tbox(make_class("Cup"), make_class("Amug", synonyms=("cup",)))
     assert named(lexicon_of(tbox), "cup") == "Cup"
+
+
+def test_classes_of_other_ontologies_borrow_the_names_of_a_home_class_with_their_label(home_tbox: TBox):
+    other = make_tbox(make_class("Thing"), make_class("HotPlate", "Thing", label="hotplate"), make_class("Furniture"))
+    lexicon = lexicon_of(other, dict(home_names()))
+    assert named(lexicon, "gasburner") == "HotPlate"
+    assert lexicon.terms["hotplate"].weight > lexicon.terms["gasburner"].weight
+    # What counts as furniture differs from ontology to ontology.
+    assert named(lexicon, "carpet") is None
+    # In the home TBox itself nothing is borrowed.
+    assert lexicon_of(home_tbox, dict(home_names())).terms["gasburner"].class_iri.endswith("#Hotplate")
+
+
+def test_a_borrowed_name_is_no_meaning_of_its_own():
+    other = make_tbox(make_class("Floor"), make_class("Covering"))
+    assert anchored(lexicon_of(other, dict(home_names())), "floorcovering") == {}
 
 
 def test_of_two_equal_claims_the_general_class_keeps_the_word():

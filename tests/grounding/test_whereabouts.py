@@ -14,6 +14,7 @@ from usd2kg.grounding.embedded.whereabouts import (
     place_of_thing,
     place_shares,
     places_named,
+    stance_of,
     thing_shares,
 )
 from usd2kg.scene import Look
@@ -29,7 +30,7 @@ def row(noun: str) -> int:
 
 def stance(noun: str, **known) -> float:
     look = Look(**({"size": (0.3, 0.2, 0.1), "height": None, "elevation": None, "is_nested": False} | known))
-    return float(log_stances(look)[row(noun)])
+    return float(log_stances(stance_of(look))[row(noun)])
 
 
 # --- the table ---------------------------------------------------------------------------------------
@@ -66,7 +67,7 @@ def test_shares_of_how_things_stand_add_up_to_one():
     ],
 )
 def test_names_above_speak_of_places(names, places):
-    assert places_named(names) == places
+    assert list(places_named(tuple(names))) == places
 
 
 def test_nothing_known_makes_all_places_alike():
@@ -159,4 +160,4 @@ def test_parts_are_below_other_objects():
 
 def test_flat_things_and_the_highest_are_finite():
     for look in (Look((0, 0, 0), 0, 0, False), Look((90, 80, 0), 0, 1e6, True), Look((1, 1, 1), 1, -0.0, False)):
-        assert np.isfinite(log_stances(look)).all()
+        assert np.isfinite(log_stances(stance_of(look))).all()

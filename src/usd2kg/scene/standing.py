@@ -1,6 +1,7 @@
 """Where an object stands: how high above the ground around it, and what is nearest to it in space."""
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable
 from functools import cached_property
 from typing import NamedTuple
@@ -61,6 +62,7 @@ class Plan:
 
     def __init__(self, scene: Scene) -> None:
         self._objects = scene.objects
+        self._elevations: dict[int, float | None] = {}
         self._told: dict[tuple[Judge, bool], NDArray[np.float32]] = {}
 
     @cached_property
@@ -76,15 +78,20 @@ class Plan:
 
     def elevation(self, index: int) -> float | None:
         """Return how high an object stands, see `Look.elevation`."""
+        if index not in self._elevations:
+            self._elevations[index] = self._measure_elevation(index)
+        return self._elevations[index]
+
+    def _measure_elevation(self, index: int) -> float | None:
         box = self._objects[index].box
         if box is None or not self.is_laid_out:
             return None
         own = lowest = box.lower[2]
-        for cell in self._around(index):
-            grounds = self._grounds[cell]
-            at = int(np.searchsorted(grounds, own - _STOREY))
+        for cell in self._cells_around(index):
+            grounds = self._grounds_by_cell[cell]
+            at = bisect_left(grounds, own - _STOREY)
             if at < len(grounds):
-                lowest = min(lowest, float(grounds[at]))
+                lowest = min(lowest, grounds[at])
         return own - lowest
 
     def nearest(self, index: int, most: int) -> tuple[_Indices, _Floats]:
@@ -148,13 +155,18 @@ class Plan:
         x, y, _ = self._centres[index].tolist()
         return math.floor(x / _CELL), math.floor(y / _CELL)
 
-    def _around(self, index: int) -> list[_Indices]:
+    @cached_property
+    def _grounds_by_cell(self) -> dict[tuple[int, int], list[float]]:
+        """Cell → the grounds of its objects, the lowest first."""
+        return {cell: self._grounds[found].tolist() for cell, found in self._cells.items()}
+
+    def _cells_around(self, index: int) -> list[tuple[int, int]]:
         x, y = self._cell(index)
         near = [(x + dx, y + dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
-        return [self._cells[cell] for cell in near if cell in self._cells]
+        return [cell for cell in near if cell in self._cells]
 
     def _nearest(self, index: int, most: int) -> tuple[_Indices, _Floats]:
-        others = np.concatenate(self._around(index))
+        others = np.concatenate([self._cells[cell] for cell in self._cells_around(index)])
         others = others[others != index]
         metres = np.sqrt(np.square(self._centres[others] - self._centres[index]).sum(axis=1))
         order = np.argsort(metres, kind="stable")[:most]

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, thing_nouns
-from usd2kg.grounding.embedded.whereabouts import PLACES, Floats, log_stances, thing_shares
+from usd2kg.grounding.embedded.whereabouts import PLACES, Floats, log_stances, stance_of, thing_shares
 from usd2kg.ontology import ClassIRI
 from usd2kg.scene import Look
 
@@ -32,13 +32,25 @@ Classify = Callable[[str, tuple[str, ...], Size | None], Sequence[Match]]
 class Beliefs(NamedTuple):
     """What one object is believed to be."""
 
-    shares: Mapping[ClassIRI, float]
-    """Class → its probability, the greatest first, of equal ones the first by IRI."""
+    classes: Mapping[ClassIRI, int]
+    """Class → its place in `probabilities`."""
+    probabilities: Floats
+    """(classes,): how probable each class is."""
     place: str | None
     """The kind of place it is in, where that is clear."""
 
+    def probability(self, iri: ClassIRI) -> float:
+        """Return how probable a class is; 0 for one that no everyday thing is of."""
+        return float(self.probabilities[self.classes[iri]]) if iri in self.classes else 0.0
 
-NO_BELIEFS = Beliefs({}, None)
+    def ranked(self) -> dict[ClassIRI, float]:
+        """Return class → its probability, the greatest first, of equal ones the first by IRI."""
+        order = np.argsort(-self.probabilities, kind="stable").tolist()
+        classes, probabilities = list(self.classes), self.probabilities.tolist()
+        return {classes[at]: probabilities[at] for at in order}
+
+
+NO_BELIEFS = Beliefs({}, np.empty(0), None)
 
 
 def neighbour_weights(metres: npt.ArrayLike) -> Floats:
@@ -49,7 +61,7 @@ def neighbour_weights(metres: npt.ArrayLike) -> Floats:
 
 def log_likelihoods_of_look(look: Look) -> Floats:
     """Return log P(what is seen of an object | thing) for each thing, natural logarithm, (things,)."""
-    return likelihoods_of(look.size) + log_stances(look)
+    return likelihoods_of(look.size) + log_stances(stance_of(look))
 
 
 class ThingBeliefs:
@@ -57,10 +69,10 @@ class ThingBeliefs:
 
     def __init__(self, classify: Classify) -> None:
         matches = [classify(noun, (), None) for noun in thing_nouns()]
-        self.classes = tuple(sorted({found[0].class_iri for found in matches if found}))
-        columns = {iri: column for column, iri in enumerate(self.classes)}
+        classes = sorted({found[0].class_iri for found in matches if found})
+        self.classes = {iri: column for column, iri in enumerate(classes)}
         self._rows = np.array([row for row, found in enumerate(matches) if found], dtype=int)
-        self._columns = np.array([columns[found[0].class_iri] for found in matches if found], dtype=int)
+        self._columns = np.array([self.classes[found[0].class_iri] for found in matches if found], dtype=int)
 
     def ask(self, look: Look, places: Floats) -> Beliefs:
         """Return what an object is believed to be.
@@ -74,10 +86,6 @@ class ThingBeliefs:
         logs = log_likelihoods_of_look(look)
         logs = (logs + np.log(thing_shares(places)))[self._rows]
         joint = np.bincount(self._columns, np.exp(logs - logs.max()), minlength=len(self.classes))
-        shares = joint / joint.sum()
-        order = np.argsort(-shares, kind="stable")
         likeliest = int(places.argmax())
-        return Beliefs(
-            shares=dict(zip([self.classes[column] for column in order.tolist()], shares[order].tolist(), strict=True)),
-            place=PLACES[likeliest] if places[likeliest] > _PLACE_IS_CLEAR else None,
-        )
+        place = PLACES[likeliest] if places[likeliest] > _PLACE_IS_CLEAR else None
+        return Beliefs(self.classes, joint / joint.sum(), place)

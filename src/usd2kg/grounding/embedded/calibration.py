@@ -35,7 +35,7 @@ _LABEL = 0.95
 """A score that only the class's own label reaches."""
 
 
-def features_of(prediction: Prediction, beliefs: Beliefs, tbox: TBox) -> dict[str, float]:
+def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, float]:
     """Return the features of an answer.
 
     - `score`: of the likeliest class, 0 to 1;
@@ -45,7 +45,14 @@ def features_of(prediction: Prediction, beliefs: Beliefs, tbox: TBox) -> dict[st
     - `has_subclasses`: whether classes are below it, of which a person may have chosen one: a table fork for a fork;
     - `is_company`: whether other objects or the size decided and not the words;
     - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
-    - `belief`: how probable the class is by size, stance and place, the logarithm against a tenth; 0 without a size.
+    - `company_score`: the score, where they did;
+    - `belief`: how probable the class is by what the object looks like, the logarithm against a tenth; 0 where its size
+      is not known and where the words did not decide.
+
+    Args:
+        prediction: the answer, with the scores of its candidates.
+        look: what the object is believed to be by its size, how it stands, and where the names above say.
+        tbox: the classes.
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
@@ -60,14 +67,14 @@ def features_of(prediction: Prediction, beliefs: Beliefs, tbox: TBox) -> dict[st
         "is_company": float(is_by_look),
         "is_foreign": float(prediction.class_iri is not None and prediction.class_iri not in home_names()),
         "company_score": first if is_by_look else 0.0,
-        "belief": _belief(prediction, beliefs),
+        "belief": _belief(prediction, look),
     }
 
 
-def _belief(prediction: Prediction, beliefs: Beliefs) -> float:
-    if prediction.class_iri is None or not beliefs.shares or not _BY_LOOK.isdisjoint(prediction.evidence):
+def _belief(prediction: Prediction, look: Beliefs) -> float:
+    if prediction.class_iri is None or not look.classes or not _BY_LOOK.isdisjoint(prediction.evidence):
         return 0.0
-    return math.log((beliefs.shares.get(prediction.class_iri, 0.0) + _LEAST) / _USUAL)
+    return math.log((look.probability(prediction.class_iri) + _LEAST) / _USUAL)
 
 
 def probability(features: Mapping[str, float]) -> float:

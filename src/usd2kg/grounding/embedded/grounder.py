@@ -40,7 +40,7 @@ from usd2kg.grounding.embedded.whereabouts import (
 )
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
+from usd2kg.scene import Companion, Company, Look, Nearness, Neighbour, ObjectView
 from usd2kg.words import is_telling, split_identifier, words_of
 
 __all__ = ["EmbeddedGrounder"]
@@ -146,6 +146,8 @@ class _Run:
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
         self._match = lru_cache(maxsize=32768)(self._match_text)
+        # Copies of one model look the same and stand alike.
+        self._looks = lru_cache(maxsize=8192)(self._believe_look)
         self._vote, self._place = self._voting, self._placing
         """One object each for all scenes, which remember what they were told by it."""
 
@@ -159,17 +161,17 @@ class _Run:
         return AbbreviationReader(self._lexicon, load_taxonomy())
 
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, Beliefs]:
-        """Return the class of a view, with a score for confidence, and what is believed of it whatever it is called."""
-        beliefs = self._believe(view)
+        """Return the class of a view, with a score for confidence, and what it looks like whatever it is called."""
+        look = self._look(view)
         is_made_up = _is_made_up(view.name)
         findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
         if not findings or findings[0].score < _CLEAR:
             # A tulip that is no class of the TBox is none of the things beside it either.
             is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
             short = [] if is_made_up or is_understood else self._by_abbreviation(view)
-            findings = [] if is_understood else self._weigh(view, beliefs, [*findings, *short])
+            findings = [] if is_understood else self._weigh(view, [*findings, *short])
         if not findings or findings[0].score < _UNKNOWN:
-            return self._default(prim_path, "what is known about it does not say what it is"), beliefs
+            return self._default(prim_path, "what is known about it does not say what it is"), look
         best = findings[0]
         scores = {finding.class_iri: finding.score for finding in reversed(findings)}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
@@ -183,23 +185,30 @@ class _Run:
             evidence=(best.group,),
             candidates=tuple(Candidate(iri, score) for iri, score in candidates[:_CANDIDATES]),
         )
-        return prediction, beliefs
+        return prediction, look
 
-    def _weigh(self, view: ObjectView, beliefs: Beliefs, words: list[Finding]) -> list[Finding]:
+    def _look(self, view: ObjectView) -> Beliefs:
+        """Return what an object is believed to be by its size and how it stands, and by where the names above say."""
+        return NO_BELIEFS if view.look is None else self._looks(view.look, places_named(view.parents))
+
+    def _weigh(self, view: ObjectView, words: list[Finding]) -> list[Finding]:
+        beliefs = self._believe(view)
         return weigh(
             words,
             self._by_company(view),
-            beliefs.shares,
+            beliefs.ranked(),
             partial(self._belief_text, view, beliefs.place),
             is_masked=view.is_masked,
         )
 
     def _believe(self, view: ObjectView) -> Beliefs:
         """Return what an object is believed to be by its size, how it stands and what is around it."""
-        look = view.look
-        if look is None:
+        if view.look is None:
             return NO_BELIEFS
-        return self._beliefs.ask(look, place_shares(self._place_around(view), places_named(view.parents)))
+        return self._beliefs.ask(view.look, place_shares(self._place_around(view), places_named(view.parents)))
+
+    def _believe_look(self, look: Look, named: tuple[str, ...]) -> Beliefs:
+        return self._beliefs.ask(look, place_shares(np.zeros(len(PLACES)), named))
 
     def _place_around(self, view: ObjectView) -> Floats:
         """Return the logarithm of how likely the objects around it are in each kind of place."""

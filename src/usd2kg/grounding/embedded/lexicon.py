@@ -16,7 +16,7 @@ from usd2kg.words import split_identifier
 
 __all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
 
-_LABEL, _SYNONYM, _HEAD = 1.0, 0.92, 0.6
+_LABEL, _SYNONYM, _LENT, _HEAD = 1.0, 0.92, 0.9, 0.6
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
@@ -25,7 +25,7 @@ _HAPPENINGS = frozenset("activity event action process state situation task".spl
 """Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
 _SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.\S*$")
 """A class called after a sense of WordNet: `chair.n.01`, `chair.n.wn.artifact..seat`."""
-_PLAUSIBLE = 0.7
+_PLAUSIBLE = 0.85
 """A sense that fits this share as well as the best one may be meant too."""
 
 
@@ -103,6 +103,10 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     for key, term in terms.items():
         if key in taxonomy:
             _anchor(key, term, tbox, terms, taxonomy, anchors)
+    # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
+    for class_iri, text in list(_lent_names(tbox, terms, taxonomy, synonyms)):
+        for said in _variants(text, frozenset(), taxonomy):
+            _keep_best(terms, class_iri, said, _LENT)
     _add_heads(terms)
     return Lexicon(
         terms=terms,
@@ -111,6 +115,21 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         default=_default_class(tbox, taxonomy),
         listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
     )
+
+
+def _lent_names(
+    tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]
+) -> Iterator[tuple[ClassIRI, str]]:
+    """Yield names of things for classes of other ontologies that have the label of a class of the home TBox.
+
+    Only for those without classes below: what counts as furniture or a tool differs from ontology to ontology.
+    """
+    home = load_home_tbox()
+    for iri, (label, *names) in synonyms.items():
+        if iri not in tbox.by_iri and home.children.get(iri) == ():
+            own = terms.get(term_key(label, taxonomy))
+            if own is not None and own.weight == _LABEL:
+                yield from ((own.class_iri, name) for name in names)
 
 
 def things_of(tbox: TBox) -> Sequence[OntologyClass]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import Lexicon, Term, sense_weight
+from usd2kg.grounding.embedded.lexicon import Anchor, Lexicon, Term, sense_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
@@ -53,6 +53,7 @@ class Namer:
         self._taxonomy = taxonomy
         self._reader = reader
         self._roots = frozenset(tbox.roots)
+        self._has_own = not lexicon.listed.issuperset(tbox.by_iri)
         # What words name depends on nothing else, and names say the same words over and over.
         self._known = lru_cache(maxsize=16384)(self._naming)
         self._places_above = lru_cache(maxsize=4096)(self._telling_words_above)
@@ -97,8 +98,17 @@ class Namer:
         return (), ()
 
     def _naming(self, key: str, head: str, is_compound: bool, places: tuple[str, ...]) -> tuple[Match, ...]:
-        found = [*self.by_term(key), *self._by_kind(key, is_compound)]
+        kinds = tuple(self._by_kind(key, is_compound))
+        found = [*self._unless_special(self.by_term(key), kinds), *kinds]
         return (*self._in_place(key, head, found, places), *found) if found else ()
+
+    def _unless_special(self, terms: tuple[Match, ...], kinds: tuple[Match, ...]) -> tuple[Match, ...]:
+        """Return the classes that a term names, but by a label, if no class of the TBox's own below them suits."""
+        return tuple(
+            match
+            for match in terms
+            if match.score == _TERM or not any(self._is_own_below(kind.class_iri, match.class_iri) for kind in kinds)
+        )
 
     def by_term(self, key: str) -> tuple[Match, ...]:
         """Return the class that a term without spaces names, if any."""
@@ -126,16 +136,33 @@ class Namer:
     def _by_kind(self, key: str, is_compound: bool) -> Iterator[Match]:
         """Yield for each sense of a noun the nearest class above it in the taxonomy."""
         for sense in self._taxonomy.senses(key):
-            for synset, hops in self._taxonomy.walk_up(sense.synset):
-                anchor = self._lexicon.anchors.get(synset)
-                if anchor is None:
-                    continue
+            found = self._nearest_above(sense.synset)
+            if found is not None:
+                synset, hops, anchor = found
                 score = (_COMPOUND_KIND if is_compound else _KIND) * sense_weight(sense) * _HOP_DECAY**hops
                 if anchor.class_iri in self._roots:
                     score *= _ROOT_SHARE
                 reason = partial(self._kinds_text, sense.synset, synset, anchor.class_iri)
                 yield Match(anchor.class_iri, score * anchor.weight, reason)
-                break
+
+    def _nearest_above(self, synset: int) -> tuple[int, int, Anchor] | None:
+        """Return the nearest synset above that has a class, its hops and the class; special classes go first.
+
+        The home vocabulary has a teddy among the artifacts; an ontology with toys below the artifacts means those.
+        """
+        nearest: tuple[int, int, Anchor] | None = None
+        for up, hops in self._taxonomy.walk_up(synset):
+            anchor = self._lexicon.anchors.get(up)
+            if anchor is not None and (nearest is None or self._is_own_below(anchor.class_iri, nearest[2].class_iri)):
+                nearest = up, hops, anchor
+                if not self._has_own:
+                    break
+        return nearest
+
+    def _is_own_below(self, special: ClassIRI, general: ClassIRI) -> bool:
+        """Return whether a class is one that the home vocabulary does not know, below one that it does."""
+        is_own = general in self._lexicon.listed and special not in self._lexicon.listed
+        return is_own and self._tbox.is_subclass(special, general)
 
     def _likeness_text(self, words: tuple[str, ...], iri: ClassIRI) -> str:
         similar = similar_name(words, iri)

@@ -112,9 +112,15 @@ def surprise(size: Size, noun: str) -> float | None:
     return float(likelihoods_of(size)[row]) - _usual(size)
 
 
-@lru_cache(maxsize=512)
 def likelihoods_of(size: Size) -> _Floats:
     """Return `log_likelihoods` of one size, kept for when it is asked for again; not to be written to."""
+    long, middle, short = size
+    # Copies of one model differ by what the arithmetic leaves.
+    return _kept_likelihoods((round(long, 4), round(middle, 4), round(short, 4)))
+
+
+@lru_cache(maxsize=512)
+def _kept_likelihoods(size: Size) -> _Floats:
     logs = log_likelihoods(size)
     logs.flags.writeable = False
     return logs

@@ -15,6 +15,8 @@ _BELIEF_POWER = 0.5
 """How far the beliefs are heard of what the company speaks for, whose votes heed the size already."""
 _SUITED = 8
 """The classes that are considered for the beliefs alone."""
+_MOST = 8
+"""The classes that are told."""
 _COMPANY_TRUST, _BELIEF_TRUST = 0.8, 0.5
 """How far the company and the beliefs are trusted to tell the class, as a share of what the name would be."""
 
@@ -38,7 +40,7 @@ def weigh(
     *,
     is_masked: bool,
 ) -> list[Finding]:
-    """Return the findings of words that are not clear by themselves, of the company and of the beliefs together.
+    """Return what words that are not clear by themselves, the company and the beliefs say together, the best first.
 
     An object is of a kind with its company, or a thing of its own, which the beliefs tell: a mixture. That and the
     words are a product of experts (Hinton, 2002), each with a floor below which it rules nothing out:
@@ -53,27 +55,31 @@ def weigh(
         is_masked: whether the name is not the authored one.
     """
     by_words, by_company = _best_by_class(words), _best_by_class(company)
-    weighed: dict[ClassIRI, tuple[float, Finding]] = {}
     best_said = max((finding.score for finding in words), default=0.0)
     votes = sum(finding.score for finding in company)
     # The more a name says, the less is asked of the others; what an abbreviation seems to say is often wrong.
     power = 1 - (0.0 if is_masked else best_said)
+    weighed: list[tuple[float, ClassIRI, float, float]] = []
     for iri in dict.fromkeys([*by_words, *by_company, *islice(beliefs, _SUITED)]):
-        said, beside = by_words.get(iri), by_company.get(iri)
         belief = beliefs.get(iri, 0.0)
-        shared = beside.score * (belief + _BELIEF_FLOOR) ** _BELIEF_POWER if beside else 0.0
+        said = by_words[iri].score if iri in by_words else 0.0
+        shared = by_company[iri].score * (belief + _BELIEF_FLOOR) ** _BELIEF_POWER if iri in by_company else 0.0
         own = (1 - votes) * belief
-        weight = ((said.score if said else 0.0) + _WORDS_FLOOR) * (shared + own + _SEEN_FLOOR) ** power
-        by_belief = Finding("geometry", iri, own, partial(explain_belief, iri))
-        experts = [found for found in (said, beside._replace(score=shared) if beside else None) if found is not None]
-        weighed[iri] = weight, max([*experts, by_belief], key=lambda found: found.score)
-    total = sum(weight for weight, _ in weighed.values())
+        weighed.append(((said + _WORDS_FLOOR) * (shared + own + _SEEN_FLOOR) ** power, iri, shared, own))
+    total = sum([weight for weight, *_ in weighed])
     trust = max(best_said, _COMPANY_TRUST * votes, _BELIEF_TRUST if beliefs else 0.0)
-    findings = [
-        Finding(finding.group, iri, weight / total * trust, finding.explain)
-        for iri, (weight, finding) in weighed.items()
-    ]
-    return sorted(findings, key=lambda finding: (-finding.score, finding.class_iri))
+    weighed.sort(key=lambda one: (-one[0], one[1]))
+    found = []
+    for weight, iri, shared, own in weighed[:_MOST]:
+        said = by_words[iri].score if iri in by_words else 0.0
+        if said >= max(shared, own) and iri in by_words:
+            expert = by_words[iri]
+        elif shared >= own and iri in by_company:
+            expert = by_company[iri]
+        else:
+            expert = Finding("geometry", iri, own, partial(explain_belief, iri))
+        found.append(expert._replace(score=weight / total * trust))
+    return found
 
 
 def _best_by_class(findings: Sequence[Finding]) -> dict[ClassIRI, Finding]:

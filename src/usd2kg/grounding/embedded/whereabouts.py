@@ -7,7 +7,6 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterable
 from functools import lru_cache
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -20,11 +19,13 @@ from usd2kg.words import split_identifier
 __all__ = [
     "PLACES",
     "Floats",
+    "Stance",
     "log_stances",
     "place_of_look",
     "place_of_thing",
     "place_shares",
     "places_named",
+    "stance_of",
     "thing_shares",
 ]
 
@@ -114,14 +115,15 @@ class _Table(NamedTuple):
     """(2, things): share of the things with long and middle, and with middle and short extents equal."""
 
 
-def places_named(names: Iterable[str]) -> list[str]:
+@lru_cache(maxsize=4096)
+def places_named(names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the kinds of places that the names of prims speak of.
 
-    >>> places_named(["KitchenDining", "shelf_02"])
-    ['kitchen', 'dining']
+    >>> places_named(("KitchenDining", "shelf_02"))
+    ('kitchen', 'dining')
     """
     words = (word.lower() for name in names for word in split_identifier(name))
-    return [place for word in words for place in _NAMED.get(word, ())]
+    return tuple(place for word in words for place in _NAMED.get(word, ()))
 
 
 def place_shares(logs: Floats, named: Iterable[str] = ()) -> Floats:
@@ -177,22 +179,48 @@ def _shares_of_things() -> Floats:
     return shares
 
 
-def log_stances(look: Look) -> Floats:
-    """Return log P(how it stands, what is equal about its form | thing) for each thing, natural logarithm, (things,).
+class Stance(NamedTuple):
+    """How an object stands and what is equal about its form, as far as it counts."""
 
-    Of the look all counts but the size itself.
-    """
-    table = _load_table()
-    ordered = [math.log(max(extent, SMALLEST_EXTENT)) for extent in sorted(look.size, reverse=True)]
-    likely = table.nested if look.is_nested else 1 - table.nested
-    for equal, (longer, shorter) in zip(table.regular, pairwise(ordered), strict=True):
-        likely = likely * (equal if longer - shorter < _REGULAR else 1 - equal)
-    if look.elevation is not None:
-        likely = likely * table.at_height[bisect_right(_HEIGHTS, look.elevation)]
+    range: int | None
+    """Number of the range of elevation; None if it is not known."""
+    upright: tuple[int, ...]
+    """Which of its extents, the longest 0, may point up; none if it is not known."""
+    equal: tuple[bool, bool]
+    """Whether the long and the middle extent are equal, and the middle and the short one."""
+    is_nested: bool
+
+
+def stance_of(look: Look) -> Stance:
+    """Return how an object stands by its look."""
+    long, middle, short = (math.log(max(extent, SMALLEST_EXTENT)) for extent in sorted(look.size, reverse=True))
+    upright: tuple[int, ...] = ()
     if look.height is not None:
-        apart = [abs(extent - math.log(max(look.height, SMALLEST_EXTENT))) for extent in ordered]
-        likely = likely * table.turned[[one <= min(apart) + _SAME_EXTENT for one in apart]].sum(axis=0)
+        height = math.log(max(look.height, SMALLEST_EXTENT))
+        apart = abs(long - height), abs(middle - height), abs(short - height)
+        least = min(apart) + _SAME_EXTENT
+        upright = tuple(place for place, distance in enumerate(apart) if distance <= least)
+    return Stance(
+        range=None if look.elevation is None else bisect_right(_HEIGHTS, look.elevation),
+        upright=upright,
+        equal=(long - middle < _REGULAR, middle - short < _REGULAR),
+        is_nested=look.is_nested,
+    )
+
+
+@lru_cache(maxsize=256)
+def log_stances(stance: Stance) -> Floats:
+    """Return log P(stance | thing) for each thing, natural logarithm, (things,); not to be written to."""
+    table = _load_table()
+    likely = table.nested if stance.is_nested else 1 - table.nested
+    for regular, is_equal in zip(table.regular, stance.equal, strict=True):
+        likely = likely * (regular if is_equal else 1 - regular)
+    if stance.range is not None:
+        likely = likely * table.at_height[stance.range]
+    if stance.upright:
+        likely = likely * table.turned[list(stance.upright)].sum(axis=0)
     logs: Floats = np.log(likely)
+    logs.flags.writeable = False
     return logs
 
 
