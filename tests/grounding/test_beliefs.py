@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.grounding.records import make_class, make_tbox
-from usd2kg.grounding.embedded.beliefs import ThingBeliefs, log_likelihoods_of_look, neighbour_weights
+from usd2kg.grounding.embedded.beliefs import Beliefs, ThingBeliefs, log_likelihoods_of_look, neighbour_weights
 from usd2kg.grounding.embedded.grounder import _run_for
 from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of
@@ -15,6 +15,10 @@ from usd2kg.ontology import TBox
 from usd2kg.scene import Look
 
 ANYWHERE = np.full(len(PLACES), 1 / len(PLACES))
+
+
+def asked(beliefs: ThingBeliefs, look: Look, places: np.ndarray) -> Beliefs:
+    return beliefs.ask(log_likelihoods_of_look(look), places)
 
 
 def place(name: str) -> np.ndarray:
@@ -27,7 +31,7 @@ def beliefs(home_tbox: TBox) -> ThingBeliefs:
 
 
 def ranked(beliefs: ThingBeliefs, look: Look, places: np.ndarray = ANYWHERE) -> list[str]:
-    return [iri.rpartition("#")[2] for iri in beliefs.ask(look, places).ranked()]
+    return [iri.rpartition("#")[2] for iri in asked(beliefs, look, places).ranked()]
 
 
 @pytest.mark.parametrize(
@@ -60,7 +64,7 @@ def test_the_same_box_is_something_else_elsewhere(beliefs: ThingBeliefs):
     kind=st.sampled_from(PLACES),
 )
 def test_beliefs_are_shares_in_order(beliefs, size, height, elevation, is_nested, kind):
-    found = beliefs.ask(Look(size, height, elevation, is_nested), place(kind)).ranked()
+    found = asked(beliefs, Look(size, height, elevation, is_nested), place(kind)).ranked()
     assert set(found) == set(beliefs.classes)
     assert sum(found.values()) == pytest.approx(1)
     assert list(found.values()) == sorted(found.values(), reverse=True)
@@ -68,14 +72,14 @@ def test_beliefs_are_shares_in_order(beliefs, size, height, elevation, is_nested
 
 def test_the_way_a_thing_lies_makes_no_difference_where_nobody_knows_it(beliefs: ThingBeliefs):
     one, other = (Look(size, None, None, False) for size in ((0.6, 1.8, 0.65), (1.8, 0.65, 0.6)))
-    assert beliefs.ask(one, ANYWHERE).ranked() == beliefs.ask(other, ANYWHERE).ranked()
+    assert asked(beliefs, one, ANYWHERE).ranked() == asked(beliefs, other, ANYWHERE).ranked()
 
 
 def test_a_place_is_told_where_it_is_clear(beliefs: ThingBeliefs):
     look = Look((0.1, 0.1, 0.1), None, None, False)
-    assert beliefs.ask(look, place("gym")).place == "gym"
-    assert beliefs.ask(look, ANYWHERE).place is None
-    assert beliefs.ask(look, place_shares(np.zeros(len(PLACES)), ["kitchen", "dining"])).place is None
+    assert asked(beliefs, look, place("gym")).place == "gym"
+    assert asked(beliefs, look, ANYWHERE).place is None
+    assert asked(beliefs, look, place_shares(np.zeros(len(PLACES)), ["kitchen", "dining"])).place is None
 
 
 def test_the_classes_are_those_of_the_tbox(beliefs: ThingBeliefs, home_tbox: TBox):
@@ -88,7 +92,7 @@ def test_a_tbox_of_other_things_has_no_beliefs():
     # Nothing whose size is known is one of its classes.
     abstract = _run_for(make_tbox(make_class("Qualia"), make_class("Zorg", "Qualia")), False)._beliefs
     assert abstract.classes == {}
-    assert abstract.ask(Look((1, 1, 1), 1, 0, False), ANYWHERE).ranked() == {}
+    assert asked(abstract, Look((1, 1, 1), 1, 0, False), ANYWHERE).ranked() == {}
 
 
 def test_beliefs_follow_the_names_that_the_nouns_match():
@@ -99,8 +103,8 @@ def test_beliefs_follow_the_names_that_the_nouns_match():
     beliefs = ThingBeliefs(classify)
     assert list(beliefs.classes) == ["large", "small"]
     cup, cold = (Look(size, size[2], 0.0, False) for size in ((0.09, 0.09, 0.1), (0.6, 0.65, 1.8)))
-    assert beliefs.ask(cup, place("kitchen")).ranked()["small"] > 0.9
-    assert beliefs.ask(cold, place("kitchen")).ranked()["large"] > 0.99
+    assert asked(beliefs, cup, place("kitchen")).ranked()["small"] > 0.9
+    assert asked(beliefs, cold, place("kitchen")).ranked()["large"] > 0.99
 
 
 def test_evidence_of_a_look_adds_up():

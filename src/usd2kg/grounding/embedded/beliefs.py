@@ -74,16 +74,15 @@ class ThingBeliefs:
         self._rows = np.array([row for row, found in enumerate(matches) if found], dtype=int)
         self._columns = np.array([self.classes[found[0].class_iri] for found in matches if found], dtype=int)
 
-    def ask(self, look: Look, places: Floats) -> Beliefs:
+    def ask(self, logs: Floats, places: Floats) -> Beliefs:
         """Return what an object is believed to be.
 
         Args:
-            look: what is seen of it.
+            logs: log P(what is seen of it | thing) for each thing, (things,), see `log_likelihoods_of_look`.
             places: probability of each kind of place, (places,).
         """
         if not self.classes:
             return NO_BELIEFS
-        logs = log_likelihoods_of_look(look)
         logs = (logs + np.log(thing_shares(places)))[self._rows]
         joint = np.bincount(self._columns, np.exp(logs - logs.max()), minlength=len(self.classes))
         likeliest = int(places.argmax())

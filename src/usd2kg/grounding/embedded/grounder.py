@@ -27,21 +27,24 @@ from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match
-from usd2kg.grounding.embedded.sizes import Size
+from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, rounded
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.embedded.weighing import Finding, weigh
 from usd2kg.grounding.embedded.whereabouts import (
     PLACE_TEXTS,
     PLACES,
     Floats,
+    Stance,
+    log_stances,
     place_of_look,
     place_of_thing,
     place_shares,
     places_named,
+    stance_of,
 )
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import Companion, Company, Look, Nearness, Neighbour, ObjectView
+from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
 from usd2kg.words import is_telling, split_identifier, words_of
 
 __all__ = ["EmbeddedGrounder"]
@@ -190,7 +193,10 @@ class _Run:
 
     def _look(self, view: ObjectView) -> Beliefs:
         """Return what an object is believed to be by its size and how it stands, and by where the names above say."""
-        return NO_BELIEFS if view.look is None else self._looks(view.look, places_named(view.parents))
+        look = view.look
+        if look is None:
+            return NO_BELIEFS
+        return self._looks(rounded(look.size), stance_of(look), places_named(view.parents))
 
     def _weigh(self, view: ObjectView, words: list[Finding]) -> list[Finding]:
         beliefs = self._believe(view)
@@ -206,10 +212,13 @@ class _Run:
         """Return what an object is believed to be by its size, how it stands and what is around it."""
         if view.look is None:
             return NO_BELIEFS
-        return self._beliefs.ask(view.look, place_shares(self._place_around(view), places_named(view.parents)))
+        return self._beliefs.ask(
+            log_likelihoods_of_look(view.look), place_shares(self._place_around(view), places_named(view.parents))
+        )
 
-    def _believe_look(self, look: Look, named: tuple[str, ...]) -> Beliefs:
-        return self._beliefs.ask(look, place_shares(np.zeros(len(PLACES)), named))
+    def _believe_look(self, size: Size, stance: Stance, named: tuple[str, ...]) -> Beliefs:
+        logs = likelihoods_of(size) + log_stances(stance)
+        return self._beliefs.ask(logs, place_shares(np.zeros(len(PLACES)), named))
 
     def _place_around(self, view: ObjectView) -> Floats:
         """Return the logarithm of how likely the objects around it are in each kind of place."""

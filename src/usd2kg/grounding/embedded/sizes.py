@@ -16,6 +16,7 @@ __all__ = [
     "Size",
     "likelihoods_of",
     "log_likelihoods",
+    "rounded",
     "surprise",
     "thing_nouns",
     "thing_row",
@@ -114,9 +115,13 @@ def surprise(size: Size, noun: str) -> float | None:
 
 def likelihoods_of(size: Size) -> _Floats:
     """Return `log_likelihoods` of one size, kept for when it is asked for again; not to be written to."""
-    long, middle, short = size
-    # Copies of one model differ by what the arithmetic leaves.
-    return _kept_likelihoods((round(long, 4), round(middle, 4), round(short, 4)))
+    return _kept_likelihoods(rounded(size))
+
+
+def rounded(size: Size) -> Size:
+    """Return a size to a tenth of a millimetre: copies of one model differ by what the arithmetic leaves."""
+    x, y, z = size
+    return round(x, 4), round(y, 4), round(z, 4)
 
 
 @lru_cache(maxsize=512)
