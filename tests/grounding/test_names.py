@@ -66,6 +66,11 @@ def test_a_pipelines_word_counts_where_it_is_part_of_a_term(name: str, expected:
     assert classes_of([name], make_tbox(*classes)) == {name: expected}
 
 
+def test_letters_that_tell_a_side_are_no_term():
+    tbox = make_tbox(make_class("Thing"), make_class("Art", "Thing"), make_class("Panel", "Thing"))
+    assert classes_of(["panel_A_rt"], tbox) == {"panel_A_rt": "Panel"}
+
+
 class TestReferencesToParents:
     def test_the_parents_name_is_context_and_not_the_thing(self, reader: NameReader):
         phrase = reader.read("cabinet10_drawer_top", ("kitchen", "cabinet10"))
