@@ -136,6 +136,10 @@ class TestWhereTheNameSaysNothing:
         told = ground_view(replace(in_company("obj_4", ["chair_1", "chair_2"]), labels=("drawer",)), home_tbox)
         assert (local(told), told.evidence) == ("Drawer", ("labels",))
 
+    def test_names_that_a_program_made_up_have_no_vote(self, home_tbox: TBox):
+        view = in_company("obj_7", [*(f"pCube{i}" for i in range(8)), "Cup_1"], NamingRegime.OPAQUE)
+        assert local(ground_view(view, home_tbox)) == "Cup"
+
     def test_the_company_is_not_asked_about_a_clear_name(self, home_tbox: TBox):
         prediction = ground_view(in_company("Spoon_3", ["chair_1", "chair_2", "chair_3"]), home_tbox)
         assert prediction == ground_view(replace(in_company("Spoon_3", []), company=None), home_tbox)

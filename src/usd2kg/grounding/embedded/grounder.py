@@ -283,7 +283,7 @@ class _Run:
         return tuple(self._matcher.match(self._reader.read(text, parents), parents, size))
 
     def _voting(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
-        return vote_of(self._match(name, parents, size))
+        return None if _is_made_up(name) else vote_of(self._match(name, parents, size))
 
     def _placing(self, neighbour: Neighbour) -> Floats:
         """Return the logarithm of how likely a thing is in each kind of place, by its name or else by its look."""
@@ -291,7 +291,7 @@ class _Run:
         return by_name if by_name.any() else place_of_look(log_likelihoods_of_look(neighbour.look))
 
     def _thing_place(self, name: str, parents: tuple[str, ...]) -> Floats:
-        row = self._matcher.thing(self._reader.read(name, parents)) if name else None
+        row = None if _is_made_up(name) else self._matcher.thing(self._reader.read(name, parents))
         return np.zeros(len(PLACES)) if row is None else place_of_thing(row)
 
     def _by_company(self, view: ObjectView) -> list[Finding]:
