@@ -162,6 +162,14 @@ def test_the_order_of_the_words_is_that_of_the_letters():
     assert best("mchn", "cff")[0] == "machine"
 
 
+def test_a_token_that_is_spelled_out_stands_for_itself():
+    # "dr" may be a door or a drawer; "cab" between two others could be half of a word.
+    found = READER.read(["cabinet", "dr"], spelled={"cabinet"})
+    assert found[0].words == ("cabinet", "door")
+    assert {reading.words[0] for reading in found} == {"cabinet"}
+    assert [(*reading.words, reading.probability) for reading in READER.read(["cup"], spelled={"cup"})] == [("cup", 1)]
+
+
 class TestCompany:
     def test_a_word_of_the_stage_is_likelier(self):
         alone, among_cuffs = read("cff"), read("cff", company=company("Cuff_1", "Cuff_2", "Cuff_3"))
@@ -313,3 +321,31 @@ def test_a_masked_cup_among_cups_is_a_cup_by_the_words_of_its_company(home_tbox:
 def test_a_name_spelled_out_is_not_taken_for_an_abbreviation(home_tbox: TBox):
     for name in ("Cup", "oven_door", "lamp"):
         assert "short for" not in ground_view(ObjectView(name=name), home_tbox).explanation
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("ceil_fan_bld_03", "DesignedComponent"),
+        ("smoke_det", "Appliance"),
+        ("shwr_hd_rain_250", "DesignedComponent"),
+        ("PrsCooker_Inox", "Pot"),
+        ("wrkbnch_maple_vise", "Table"),
+    ],
+)
+def test_words_that_are_unknown_among_known_ones_are_read_as_abbreviations(home_tbox: TBox, name: str, expected: str):
+    prediction = ground_view(ObjectView(name=name), home_tbox)
+    assert local(prediction) == expected
+    assert f"“{name}” may be short for “" in prediction.explanation
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [("GasRange_Viking", "Stove"), ("mortero_granito", "Bowl"), ("Pfannenwender_Silikon", "Spatula")],
+)
+def test_brands_and_foreign_words_are_not_taken_apart(home_tbox: TBox, name: str, expected: str):
+    assert local(ground_view(ObjectView(name=name), home_tbox)) == expected
+
+
+def test_an_object_whose_display_name_tells_is_asked_for_no_rest(home_tbox: TBox):
+    assert local(ground_view(ObjectView(name="x", display_name="coffee mug"), home_tbox)) == "Cup"

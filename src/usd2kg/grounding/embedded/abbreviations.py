@@ -6,7 +6,7 @@ names on the stage. P(written | w) is that of the usual ways to shorten a word: 
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache, reduce
 from itertools import accumulate
 from typing import NamedTuple
@@ -73,18 +73,23 @@ class AbbreviationReader:
         self._tbox_total = sum(self._tbox_words.values())
         self._rate, self._gather = self._rating, self._gathering
         """One function for all scenes: each remembers what it was told by it."""
-        self._seconds = lru_cache(maxsize=32768)(self._second_words)
-        self._known = lru_cache(maxsize=65536)(self._known_piece)
+        self._seconds = lru_cache(maxsize=4096)(self._second_words)
+        self._known = lru_cache(maxsize=8192)(self._known_piece)
 
-    def read(self, tokens: Sequence[str], company: Company | None = None) -> list[Reading]:
+    def read(
+        self, tokens: Sequence[str], company: Company | None = None, spelled: Container[str] = ()
+    ) -> list[Reading]:
         """Return the likeliest readings of a name, best first.
 
         Args:
             tokens: its runs of letters, lower case; each may hold several words.
             company: the other objects of the stage, whose names may hold the same words.
+            spelled: the tokens that are words in full, which stand for nothing else.
         """
         letters = "".join(tokens)
-        borders = [border for border, token in zip(accumulate(map(len, tokens)), tokens, strict=True) for _ in token]
+        ends = list(accumulate(map(len, tokens)))
+        borders = [end for end, token in zip(ends, tokens, strict=True) for _ in token]
+        whole = {end - len(token): token for end, token in zip(ends, tokens, strict=True) if token in spelled}
         near = None
         if company is not None:
             near = company.words_written(forms_of, self._rate, self._gather, _CHOICES)
@@ -93,7 +98,10 @@ class AbbreviationReader:
         arcs: list[list[Arc]] = [[] for _ in range(len(letters) + 1)]
         for at in range(len(letters)):
             starts = beam.starts(paths)
-            if starts.ordered:
+            if starts.ordered and at in whole:
+                word = whole[at]
+                arcs[at + len(word)].append(Arc(starts, _NEVER, Piece([(0.0, word)], {word: [0.0]}, 1)))
+            elif starts.ordered:
                 for end, piece in self._pieces(letters, at, borders[at], near):
                     is_prefix = at == 0 and letters[:end] in _PREFIXES
                     unread = _PREFIX if is_prefix else _UNREAD.get(end - at, _NEVER)

@@ -27,6 +27,7 @@ from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match
+from usd2kg.grounding.embedded.shortening import may_be_short
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, rounded
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.grounding.embedded.weighing import Finding, weigh
@@ -76,6 +77,8 @@ _NEARNESS_TEXTS = {
     Nearness.TWIN: "of the same size",
     Nearness.ALIKE: "of about the same size",
 }
+_BELIEVED, _UNLIKELY = 0.7, 0.02
+"""Of the readings of a name with unknown words: one that is heeded, and one that is not asked what it names."""
 _UNREAD = 0.2
 """The weight of a reading of an abbreviation that names no class: it may be right all the same."""
 _UNKNOWN = 0.12
@@ -169,6 +172,8 @@ class _Run:
         look = self._look(view)
         is_made_up = _is_made_up(view.name)
         findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
+        if findings and findings[0].score >= _CLEAR and findings[0].group == "name":
+            findings = self._completed(view, findings)
         if not findings or findings[0].score < _CLEAR:
             # A tulip that is no class of the TBox is none of the things beside it either.
             is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
@@ -240,7 +245,32 @@ class _Run:
         tokens = [token for token in tokens if is_telling(token)][:_MOST_TOKENS]
         if not tokens or (not view.is_masked and all(self._reader.is_known(token) for token in tokens)):
             return []
-        readings = self._abbreviations.read(tokens, view.company)
+        return self._of_readings(view, self._abbreviations.read(tokens, view.company))
+
+    def _completed(self, view: ObjectView, said: list[Finding]) -> list[Finding]:
+        """Return what the name says where words of it are unknown and likely abbreviations: the blade of a `fan_bld`.
+
+        Args:
+            view: the object.
+            said: what the name says without those words, returned as it is where they are likelier none.
+        """
+        matches = self._match(view.name, view.parents, view.own_size)
+        words = matches[0].phrase.words[-_MOST_TOKENS:] if matches else ()
+        spelled = {word for word in words if self._reader.is_known(word) or not may_be_short(word)}
+        if spelled.issuperset(words):
+            return said
+        readings = self._abbreviations.read(words, view.company, spelled)
+        if readings[0].probability < _BELIEVED or spelled.issuperset(readings[0].words):
+            return said
+        rest = 1 - readings[0].probability
+        findings = [
+            *self._of_readings(view, [found for found in readings if found.probability > _UNLIKELY]),
+            *(finding._replace(score=rest * finding.score) for finding in said),
+        ]
+        return sorted(findings, key=lambda finding: (-finding.score, finding.class_iri))
+
+    def _of_readings(self, view: ObjectView, readings: Sequence[Reading]) -> list[Finding]:
+        """Return what the readings of a name say."""
         shares: dict[ClassIRI, float] = {}
         best: dict[ClassIRI, tuple[float, Reading, Match]] = {}
         # What is left of the probability is that it is no word at all.

@@ -96,17 +96,17 @@ def _modifier_features(modifiers: Iterable[str]) -> dict[str, float]:
 # The parts of a name return in others, and with them what they add.
 
 
-@lru_cache(maxsize=8192)
+@lru_cache(maxsize=4096)
 def _weigh_head(head: str) -> Logits | None:
     return _weigh(_head_features(head))
 
 
-@lru_cache(maxsize=16384)
+@lru_cache(maxsize=2048)
 def _weigh_pair(modifier: str, head: str) -> Logits | None:
     return _weigh(_pair_features(modifier, head))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=2048)
 def _weigh_modifiers(modifiers: tuple[str, ...]) -> Logits | None:
     return _weigh(_modifier_features(modifiers))
 
@@ -120,7 +120,7 @@ def _weigh(features: Mapping[str, float]) -> Logits | None:
     return _weigh_rows(tuple(known))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=2048)
 def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
     # Of most pairs nothing is known but that they are pairs.
     model = _load_model()
@@ -131,7 +131,7 @@ def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
     return logits
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def _kinds(role: str, word: str) -> Mapping[str, float]:
     """Return the synsets above the likeliest meanings of a word, as features."""
     taxonomy = load_taxonomy()

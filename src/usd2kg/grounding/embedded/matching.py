@@ -101,9 +101,9 @@ class Matcher:
         self._namer = Namer(tbox, lexicon, taxonomy, reader)
         # What a word is depends on nothing else, and the readings of a name say the same words over and over.
         self._head = lru_cache(maxsize=16384)(self._knowing)
-        self._named = lru_cache(maxsize=16384)(self._naming)
+        self._named = lru_cache(maxsize=4096)(self._naming)
         self._above = lru_cache(maxsize=4096)(self._reading_above)
-        self._named_turned = lru_cache(maxsize=16384)(self._naming_turned)
+        self._named_turned = lru_cache(maxsize=4096)(self._naming_turned)
 
     def match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None) -> list[Match]:
         """Return the classes a phrase may name, best first; none if no word of it is known.

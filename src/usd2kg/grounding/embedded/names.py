@@ -31,8 +31,8 @@ _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
 """Where things hang and stand, and are called after: `clock_wall`."""
-_BUILT = frozenset(["wall", "ceiling"])
-_FASTENED = frozenset(["hung", "mounted", "recessed"])
+_BUILT, _FASTENED = frozenset(["wall", "ceiling"]), frozenset(["hung", "mounted", "recessed"])
+"""What things are fastened to, and how: the last words of `toilet_wall_hung`, which say nothing of its kind."""
 _MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
 _DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
 _MOUNT, _PLACE = 0.3, 0.4

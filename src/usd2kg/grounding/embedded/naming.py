@@ -55,7 +55,7 @@ class Namer:
         self._roots = frozenset(tbox.roots)
         self._has_own = not lexicon.listed.issuperset(tbox.by_iri)
         # What words name depends on nothing else, and names say the same words over and over.
-        self._known = lru_cache(maxsize=16384)(self._naming)
+        self._known = lru_cache(maxsize=4096)(self._naming)
         self._places_above = lru_cache(maxsize=4096)(self._telling_words_above)
 
     def places(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
 
-__all__ = ["Choice", "FormIndex", "find_range", "forms_of", "usual_abbreviations"]
+__all__ = ["Choice", "FormIndex", "find_range", "forms_of", "may_be_short", "usual_abbreviations"]
 
 _VOWELS = "aeiou"
 _FULL = 0.15
@@ -23,6 +23,8 @@ _REMEMBERED = 4
 """So many first letters are worth remembering: there are some ten thousand, and few words begin with each."""
 _NONE, _BEGINNING, _WHOLE = range(3)
 """How a form stands to the letters of a word in one style, before they are cut."""
+_LONGEST_SHORT, _MAY_HAVE_VOWELS = 8, 5
+"""Letters of an abbreviation, and of one that may keep all of its vowels."""
 _NO_VOWELS = str.maketrans("", "", _VOWELS)
 _LAST = "\U0010ffff"
 """Sorts behind every letter."""
@@ -41,6 +43,16 @@ def usual_abbreviations() -> dict[str, str]:
     """Return short form → word of the abbreviations that people have agreed on: `kbd` is a keyboard."""
     text = (files("usd2kg.grounding") / "data" / "abbreviations.csv").read_text(encoding="utf-8")
     return {row["short"]: row["word"] for row in csv.DictReader(io.StringIO(text))}
+
+
+def may_be_short(word: str) -> bool:
+    """Return whether an unknown word looks abbreviated: of few letters, or of hardly a vowel. Brands mostly do not.
+
+    >>> may_be_short("cush"), may_be_short("wrkbnch"), may_be_short("granito")
+    (True, True, False)
+    """
+    vowels = len(word) - len(word.translate(_NO_VOWELS))
+    return word.isalpha() and len(word) <= _LONGEST_SHORT and (len(word) <= _MAY_HAVE_VOWELS or vowels < 2)
 
 
 def _styled(word: str) -> tuple[str, str, str]:
@@ -104,7 +116,7 @@ class FormIndex:
         self._letters = [letters for letters, _, _ in skeletons]
         self._behind = [(word, code) for _, word, code in skeletons]
         self._all = _Places(0, len(self._words), 0, len(self._letters))
-        self._near = lru_cache(maxsize=32768)(self._find_near)
+        self._near = lru_cache(maxsize=8192)(self._find_near)
 
     def choices(self, form: str) -> list[Choice] | None:
         """Return the likeliest words for a form, best first; None if nothing that begins so is a form either."""
