@@ -166,6 +166,25 @@ class TestSpelling:
         assert reader.read(word).words == (word,)
         assert reader.read(word).corrections == ()
 
+    @pytest.mark.parametrize(
+        ("word", "read"),
+        [
+            ("microwv", "microwave"),
+            ("cabnet", "cabinet"),
+            ("toastr", "toaster"),
+            ("refrigrtr", "refrigerator"),
+            ("dishwshr", "dishwasher"),
+        ],
+    )
+    def test_a_word_that_lacks_vowels_is_filled(self, reader: NameReader, word: str, read: str):
+        assert reader.read(word).words == (read,)
+
+    @pytest.mark.parametrize("word", ["cbnt", "tstr", "dor"])
+    def test_a_word_without_any_or_of_few_letters_is_left_to_the_search_for_abbreviations(
+        self, reader: NameReader, word: str
+    ):
+        assert reader.read(word).words == (word,)
+
     def test_a_correction_makes_less_sure(self, home_tbox: TBox):
         right, wrong = ground_names(["Cupboard", "Cuboard"], home_tbox)
         assert wrong.candidates[0].score < right.candidates[0].score

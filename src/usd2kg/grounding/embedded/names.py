@@ -11,7 +11,7 @@ from rapidfuzz.distance import OSA
 
 from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
-from usd2kg.grounding.embedded.shortening import usual_abbreviations
+from usd2kg.grounding.embedded.shortening import consonants_of, usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.languages import translate
 from usd2kg.words import is_telling, split_identifier
@@ -51,6 +51,8 @@ _LONGEST_TERM = 5
 _LONG = 7
 """Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
 _SHORTEST_PARTICIPLE = 5
+_LEAST_CONSONANTS = 4
+"""Letters of a word without its vowels that are enough to know it by, where it has some vowels left."""
 _SHORTEST_UNKNOWN = 5
 """Shorter words that are unknown are abbreviations sooner than misspelt."""
 
@@ -111,6 +113,15 @@ class NameReader:
         thing_words = {word for word in self._taxonomy.words(_THING_DOMAINS) if len(word) > 3}
         for word in sorted(thing_words | self._lexicon.vocabulary.keys()):
             found.setdefault((word[0], len(word)), []).append(word)
+        return found
+
+    @cached_property
+    def _by_consonants(self) -> dict[str, list[str]]:
+        """Letters without the vowels behind the first → the words that are written so."""
+        found: dict[str, list[str]] = {}
+        for words in self._by_first_letter_and_length.values():
+            for word in words:
+                found.setdefault(consonants_of(word), []).append(word)
         return found
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
@@ -269,7 +280,7 @@ class NameReader:
             return (singular,)
         # A long word with one letter amiss is misspelt sooner than made of two words.
         slip = self._respell(word, 1) if len(word) >= _LONG else None
-        return slip or self._split(word) or self._respell(word, 1 if len(word) < 8 else 2) or (word,)
+        return slip or self._with_vowels(word) or self._split(word) or self._respell(word, 1 if len(word) < 8 else 2) or (word,)
 
     def _split(self, word: str) -> tuple[str, ...] | None:
         """Split a compound into known words, the longest last word first; pipeline tokens at the end fall off."""
@@ -295,6 +306,14 @@ class NameReader:
             return True
         return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in self._taxonomy.senses(word))
 
+    def _with_vowels(self, word: str) -> tuple[str, ...] | None:
+        """Return the noun of which a word has all consonants in order and some of the vowels: `microwv`."""
+        consonants = consonants_of(word)
+        if not _LEAST_CONSONANTS <= len(consonants) < len(word):
+            return None
+        alike = [found for found in self._by_consonants.get(consonants, ()) if _is_within(word, found)]
+        return (max(alike, key=thing_prior),) if alike else None
+
     def _respell(self, word: str, budget: int) -> tuple[str, ...] | None:
         if len(word) < _SHORTEST_UNKNOWN or not word.isalpha():
             return None
@@ -319,6 +338,12 @@ def _may_be_slip(word: str, candidate: str) -> bool:
     (False, True)
     """
     return not word.endswith("ed") or sorted(candidate) == sorted(word)
+
+
+def _is_within(letters: str, word: str) -> bool:
+    """Return whether a word holds some letters in their order."""
+    rest = iter(word)
+    return all(letter in rest for letter in letters)
 
 
 def _undoubled(word: str) -> str:

@@ -9,7 +9,15 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
 
-__all__ = ["Choice", "FormIndex", "find_range", "forms_of", "may_be_short", "usual_abbreviations"]
+__all__ = [
+    "Choice",
+    "FormIndex",
+    "consonants_of",
+    "find_range",
+    "forms_of",
+    "may_be_short",
+    "usual_abbreviations",
+]
 
 _VOWELS = "aeiou"
 _FULL = 0.15
@@ -53,6 +61,11 @@ def may_be_short(word: str) -> bool:
     """
     vowels = len(word) - len(word.translate(_NO_VOWELS))
     return word.isalpha() and len(word) <= _LONGEST_SHORT and (len(word) <= _MAY_HAVE_VOWELS or vowels < 2)
+
+
+def consonants_of(word: str) -> str:
+    """Return the first letter of a word and its letters behind it that are no vowels."""
+    return word[0] + word[1:].translate(_NO_VOWELS)
 
 
 def _styled(word: str) -> tuple[str, str, str]:
