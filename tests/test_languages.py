@@ -122,6 +122,9 @@ def test_german_names(identifier, expected):
         ("tavolo_da_cucina", "kitchen table", "it"),
         ("sedia_rossa", "red chair", "it"),
         ("forbici", "scissors", "it"),
+        ("armadi", "wardrobe", "it"),  # -io, -co, -cia and -ga have plurals of their own
+        ("arance_rosse", "red orange", "it"),
+        ("cajon_central", "central drawer", "es"),  # an adjective that English has too speaks for no mixture
     ],
 )
 def test_romance_names_put_the_head_last(identifier, expected, language):

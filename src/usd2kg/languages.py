@@ -31,10 +31,19 @@ _ENDINGS: dict[tuple[str, str], tuple[str, ...]] = {
 _REPLACED_ENDINGS: dict[tuple[str, str], dict[str, tuple[str, ...]]] = {
     ("es", ""): {"z": ("ces",)},
     ("es", "adjective"): {"o": ("a", "as")},
-    ("fr", ""): {"u": ("ux",)},
-    ("fr", "adjective"): {"u": ("ux",)},
-    ("it", ""): {"o": ("i", "a"), "a": ("e",), "e": ("i",)},
-    ("it", "adjective"): {"o": ("a", "i", "e"), "e": ("i",)},
+    ("fr", ""): {"u": ("ux",), "al": ("aux",)},
+    ("fr", "adjective"): {
+        "u": ("ux",),
+        "al": ("aux",),
+        "eux": ("euse", "euses"),
+        "er": ("ère", "ères"),
+        "f": ("ve", "ves"),
+    },
+    ("it", ""): {
+        **{"o": ("i", "a"), "a": ("e",), "e": ("i",), "io": ("i",)},
+        **{"co": ("chi",), "go": ("ghi",), "ca": ("che",), "ga": ("ghe",), "cia": ("ce",), "gia": ("ge",)},
+    },
+    ("it", "adjective"): {"o": ("a", "i", "e"), "e": ("i",), "io": ("i",), "co": ("chi", "che"), "go": ("ghi", "ghe")},
 }
 _RANKS = {"adjective": 0, "unknown": 1, "english": 1, "material": 2}
 """What comes before the nouns in English, first to last."""
@@ -145,8 +154,10 @@ def _whole_forms(entry: _Entry) -> Iterator[tuple[str, _Form]]:
     yield from _spelled(entry.word, entry, 0)
     for ending in _ENDINGS.get(entry.kind, ("",))[1:]:
         yield from _spelled(entry.word + ending, entry, 1)
-    for ending in _REPLACED_ENDINGS.get(entry.kind, {}).get(entry.word[-1], ()):
-        yield from _spelled(entry.word[:-1] + ending, entry, 1)
+    for replaced, endings in _REPLACED_ENDINGS.get(entry.kind, {}).items():
+        if entry.word.endswith(replaced):
+            for ending in endings:
+                yield from _spelled(entry.word.removesuffix(replaced) + ending, entry, 1)
     # An umlaut costs more than an ending: Küchen are rooms (Küche), not cakes (Kuchen).
     if entry.kind == ("de", "") and (stem := _with_umlaut(entry.word)):
         for ending in ("", "e", "er", "n", "en", "ern"):
@@ -367,8 +378,9 @@ def _by_itself(word: str, language: str) -> _Word:
 
 @lru_cache(maxsize=1)
 def _english_words() -> frozenset[str]:
-    lexicons = _lexicons().values()
-    return frozenset(word for lexicon in lexicons for form in lexicon.whole.values() for word in form.entry.english)
+    """Return the English words that speak of things; adjectives (`central`) are much the same in all languages."""
+    forms = chain.from_iterable(lexicon.whole.values() for lexicon in _lexicons().values())
+    return frozenset(word for form in forms if form.entry.role != "adjective" for word in form.entry.english)
 
 
 def _in_english_order(terms: list[_Term], language: str) -> tuple[str, ...]:

@@ -128,6 +128,35 @@ class TestReferencesToParents:
         assert [local(p) for p in found] == list(views)
 
 
+class TestHeadsOfHierarchies:
+    """Names that tell where a thing is before they tell what it is."""
+
+    @pytest.mark.parametrize(
+        ("name", "parent", "size", "expected"),
+        [
+            ("sink_area_trash_drawer_main", "kitchen_urdf", (0.66, 0.6, 0.56), "Drawer"),
+            ("sink_area_dish_washer_door", "kitchen_urdf", (0.7, 0.58, 0.03), "Door"),
+            # A door of a cabinet's size, though no list has a door with that name.
+            ("UpperCabinet_Shaker_Door", "Cabinets", (0.72, 0.4, 0.02), "Door"),
+        ],
+    )
+    def test_the_last_thing_is_the_head_behind_a_place(
+        self, home_tbox: TBox, name: str, parent: str, size: tuple[float, float, float], expected: str
+    ):
+        view = ObjectView(name=name, parents=("World", parent), size=size)
+        assert local(ground_view(view, home_tbox)) == expected
+
+    @pytest.mark.parametrize(
+        ("name", "expected"),
+        [("Silla_Comedor_Roble", "DesignedChair"), ("seau_glacons_inox", "DesignedContainer")],
+    )
+    def test_the_head_of_a_name_in_a_romance_language_is_known_by_its_grammar(
+        self, home_tbox: TBox, reader: NameReader, name: str, expected: str
+    ):
+        assert reader.read(name).is_head_last
+        assert local(ground_names([name], home_tbox)[0]) == expected
+
+
 class TestSpelling:
     MISSPELT: ClassVar = {
         "Cuboard": "Cupboard",
@@ -184,6 +213,10 @@ class TestSpelling:
         self, reader: NameReader, word: str
     ):
         assert reader.read(word).words == (word,)
+
+    def test_of_words_as_near_the_one_of_the_same_letters_is_meant(self, reader: NameReader):
+        # A crossing is as near.
+        assert reader.read("crossaint").words == ("croissant",)
 
     def test_a_correction_makes_less_sure(self, home_tbox: TBox):
         right, wrong = ground_names(["Cupboard", "Cuboard"], home_tbox)

@@ -44,6 +44,7 @@ from usd2kg.grounding.embedded.whereabouts import (
     stance_of,
 )
 from usd2kg.grounding.model import Candidate, Prediction, Status
+from usd2kg.languages import translate
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
 from usd2kg.words import is_telling, split_identifier, words_of
@@ -67,6 +68,8 @@ _PRIMITIVES = frozenset(
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
 _NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
 _MOST_TOKENS = 5
+_SHORTEST_NOUN = 3
+"""The SS of `tblspn_ss` is no noun, though a dictionary may have it."""
 _SAME_SIZE = 0.03
 _MOST_NEIGHBOURS = 48
 _SIBLING_METRES = 4.0
@@ -243,7 +246,8 @@ class _Run:
         """Return what the name says if it is an abbreviation."""
         tokens = [part.lower() for part in split_identifier(view.name) if part.isalpha()]
         tokens = [token for token in tokens if is_telling(token)][:_MOST_TOKENS]
-        if not tokens or (not view.is_masked and all(self._reader.is_known(token) for token in tokens)):
+        is_spelled_out = all(self._reader.is_known(token) for token in tokens) or translate(tuple(tokens)) is not None
+        if not tokens or (is_spelled_out and not view.is_masked):
             return []
         return self._of_readings(view, self._abbreviations.read(tokens, view.company))
 
@@ -305,7 +309,9 @@ class _Run:
 
     def _says_what_it_is(self, name: str) -> bool:
         words = self._reader.read(name).words
-        return bool(words) and not self._reader.is_modifier(words[-1]) and self._reader.is_noun(words[-1])
+        if not words or len(words[-1]) < _SHORTEST_NOUN:
+            return False
+        return not self._reader.is_modifier(words[-1]) and self._reader.is_noun(words[-1])
 
     def _match_text(
         self, text: str, parents: tuple[str, ...], size: tuple[float, float, float] | None = None

@@ -27,6 +27,8 @@ class Features(NamedTuple):
     """Logarithm of how likely the head itself does more than describe, for a single word."""
     compound: float = 0.0
     """Whether a term of several words ends here."""
+    compound_within: float = 0.0
+    """Whether one ends here and words stand behind it, as behind the `sink area` of `sink_area_drawer`."""
     size: float = 0.0
     """Logarithm of how much likelier the size makes it that a thing is called so."""
     no_usual_size: float = 0.0
@@ -34,13 +36,13 @@ class Features(NamedTuple):
     guessed: float = 0.0
     """Whether the head was misspelt: a brand or a word of another language may look like it."""
     behind: float = 0.0
-    """Number of words behind it."""
+    """Whether words stand behind it."""
     glued: float = 0.0
     """Whether a word is written on to the head, as in `RoomWindow`."""
     propensity: float = 0.0
     """`propensity` of the head, for a single word."""
     propensity_behind: float = 0.0
-    """`propensity` of the words behind it, added up."""
+    """Mean `propensity` of the words behind it."""
     linked: float = 0.0
     """Whether a term that ends later holds the head, as `swab jar` does in `cotton_swab_jar`."""
     turned: float = 0.0

@@ -171,6 +171,8 @@ class Matcher:
             for end, named in enumerate(heads, start=1)
             if named.run
         ]
+        if phrase.is_head_last:
+            return [reading for reading in found if reading[0] == len(words)]
         turned = []
         for at in range(1, len(words)):
             # The head may stand before the word that tells its kind, as in `plate_dinner`.
@@ -213,7 +215,7 @@ class Matcher:
     ) -> Features:
         run, behind = named.run, phrase.words[end:]
         head, is_lone = self._head(run[-1]), len(run) == 1
-        fit = None if size is None else self._fit(run, size, head)
+        fit = None if size is None else self._fit(run, size, head, phrase.words[: max(0, end - 1)])
         is_of_parents_class = above.class_iri is not None and named.class_iri == above.class_iri
         is_whole = is_of_parents_class and any(self._head(word).is_thing for word in behind)
         # By position: this is asked for each end of each reading of a name.
@@ -221,13 +223,14 @@ class Matcher:
             named.log_score,
             (head.telling_within if behind else head.telling) if is_lone and len(phrase.words) > 1 else 0.0,
             0.0 if is_lone else 1.0,
+            1.0 if behind and not is_lone else 0.0,
             fit or 0.0,
             1.0 if size is not None and fit is None else 0.0,
             1.0 if any(read == run[-1] for _, read in phrase.corrections) else 0.0,
-            float(len(behind)),
+            1.0 if behind else 0.0,
             1.0 if phrase.is_glued(end) else 0.0,
             head.propensity if is_lone else 0.0,
-            sum([self._head(word).propensity for word in behind]) if behind else 0.0,
+            sum([self._head(word).propensity for word in behind]) / len(behind) if behind else 0.0,
             1.0 if is_linked else 0.0,
             1.0 if is_turned else 0.0,
             head.place,
@@ -235,13 +238,17 @@ class Matcher:
             1.0 if is_lone and end > 1 and run[-1] in above.words else 0.0,
         )
 
-    def _fit(self, run: tuple[str, ...], size: Size, head: _Head) -> float | None:
+    def _fit(self, run: tuple[str, ...], size: Size, head: _Head, before: tuple[str, ...]) -> float | None:
         """Return the logarithm of how much likelier a size makes it that a thing is called so; None if unknown."""
         is_lone = len(run) == 1
         if head.place and is_lone and max(size) < _SMALLEST_PLACE:
             return _LOG_WRONG
         # Of a compound only its own size counts: a spice rack is no rack of usual size.
         value = surprise(size, "".join(run))
+        if is_lone:
+            # The door in `upper_cabinet_shaker_door` may have the size of a cabinet's.
+            special = (surprise(size, word + run[0]) for word in before)
+            value = max((found for found in (value, *special) if found is not None), default=None)
         if value is None and is_lone:
             values = (surprise(size, kind) for kind in head.kinds)
             value = next((value for value in values if value is not None), None)

@@ -13,7 +13,7 @@ from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.shortening import consonants_of, usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
-from usd2kg.languages import translate
+from usd2kg.languages import language_of, translate
 from usd2kg.words import is_telling, split_identifier
 
 __all__ = ["NamePhrase", "NameReader"]
@@ -31,6 +31,7 @@ _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
 """Where things hang and stand, and are called after: `clock_wall`."""
+_AREAS = frozenset(["area", "zone", "section", "region"])
 _BUILT, _FASTENED = frozenset(["wall", "ceiling"]), frozenset(["hung", "mounted", "recessed"])
 """What things are fastened to, and how: the last words of `toilet_wall_hung`, which say nothing of its kind."""
 _MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
@@ -69,6 +70,8 @@ class NamePhrase:
     """(as written, as read) of the words that were corrected or split."""
     glued: tuple[bool, ...] = field(default=(), compare=False)
     """For each word whether it is written on to the one before, as in `RoomWindow`; empty if that is unknown."""
+    is_head_last: bool = field(default=False, compare=False)
+    """Whether the last word is the head for certain: grammar told it, in a language that puts heads first."""
 
     def is_glued(self, at: int) -> bool:
         """Return whether word number `at` is written on to the one before."""
@@ -135,7 +138,8 @@ class NameReader:
         if translated is not None:
             written = " ".join(token.text for token in tokens)
             context = tuple(token.text for token in references)
-            return NamePhrase(translated, context, corrections=((written, " ".join(translated)),))
+            is_romance = language_of(tuple(token.text for token in tokens)) != "de"
+            return NamePhrase(translated, context, ((written, " ".join(translated)),), is_head_last=is_romance)
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
         # Among other unknown words an abbreviation is better read with them, by what the stage speaks of.
         is_spelled = any(map(self.is_known, others)) if others else len(tokens) > 1
@@ -243,7 +247,7 @@ class NameReader:
     def _is_place(self, word: str) -> bool:
         """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
         sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
-        return sense is not None and self._is_kind_of_place(sense.synset)
+        return word in _AREAS or (sense is not None and self._is_kind_of_place(sense.synset))
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
@@ -280,7 +284,13 @@ class NameReader:
             return (singular,)
         # A long word with one letter amiss is misspelt sooner than made of two words.
         slip = self._respell(word, 1) if len(word) >= _LONG else None
-        return slip or self._with_vowels(word) or self._split(word) or self._respell(word, 1 if len(word) < 8 else 2) or (word,)
+        return (
+            slip
+            or self._with_vowels(word)
+            or self._split(word)
+            or self._respell(word, 1 if len(word) < 8 else 2)
+            or (word,)
+        )
 
     def _split(self, word: str) -> tuple[str, ...] | None:
         """Split a compound into known words, the longest last word first; pipeline tokens at the end fall off."""
@@ -317,7 +327,7 @@ class NameReader:
     def _respell(self, word: str, budget: int) -> tuple[str, ...] | None:
         if len(word) < _SHORTEST_UNKNOWN or not word.isalpha():
             return None
-        ranked: list[tuple[int, bool, float, str]] = []
+        ranked: list[tuple[int, bool, bool, float, str]] = []
         for length in range(len(word) - budget, len(word) + budget + 1):
             alike = self._by_first_letter_and_length.get((word[0], length), [])
             near = process.extract(word, alike, scorer=OSA.distance, score_cutoff=budget, limit=8)
@@ -327,8 +337,10 @@ class NameReader:
                 is_short = is_foreign and len(word) < _SHORTEST_RESPELLED
                 if not is_short and _may_be_slip(word, candidate):
                     is_doubling = _undoubled(candidate) == _undoubled(word)
-                    ranked.append((int(distance), not is_doubling, -thing_prior(candidate) + 2 * is_foreign, candidate))
-        return (min(ranked)[3],) if ranked else None
+                    is_disorder = sorted(candidate) == sorted(word)
+                    loss = -thing_prior(candidate) + 2 * is_foreign
+                    ranked.append((int(distance), not is_doubling, not is_disorder, loss, candidate))
+        return (min(ranked)[-1],) if ranked else None
 
 
 def _may_be_slip(word: str, candidate: str) -> bool:
