@@ -74,7 +74,7 @@ class AbbreviationReader:
         self._rate, self._gather = self._rating, self._gathering
         """One function for all scenes: each remembers what it was told by it."""
         self._seconds = lru_cache(maxsize=4096)(self._second_words)
-        self._known = lru_cache(maxsize=8192)(self._known_piece)
+        self._known = lru_cache(maxsize=4096)(self._known_piece)
 
     def read(
         self, tokens: Sequence[str], company: Company | None = None, spelled: Container[str] = ()

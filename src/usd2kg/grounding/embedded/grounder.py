@@ -155,7 +155,7 @@ class _Run:
         self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
-        self._match = lru_cache(maxsize=32768)(self._match_text)
+        self._match = lru_cache(maxsize=8192)(self._match_text)
         # Copies of one model look the same and stand alike.
         self._looks = lru_cache(maxsize=8192)(self._believe_look)
         self._vote, self._place = self._voting, self._placing

@@ -131,7 +131,7 @@ def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
     return logits
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=2048)
 def _kinds(role: str, word: str) -> Mapping[str, float]:
     """Return the synsets above the likeliest meanings of a word, as features."""
     taxonomy = load_taxonomy()

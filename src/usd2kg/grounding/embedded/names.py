@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 from rapidfuzz import process
@@ -54,6 +54,8 @@ _LONG = 7
 _SHORTEST_PARTICIPLE = 5
 _LEAST_CONSONANTS = 4
 """Letters of a word without its vowels that are enough to know it by, where it has some vowels left."""
+_MOST_DROPPED = 4
+"""Vowels that may be missing from such a word."""
 _SHORTEST_UNKNOWN = 5
 """Shorter words that are unknown are abbreviations sooner than misspelt."""
 
@@ -116,15 +118,6 @@ class NameReader:
         thing_words = {word for word in self._taxonomy.words(_THING_DOMAINS) if len(word) > 3}
         for word in sorted(thing_words | self._lexicon.vocabulary.keys()):
             found.setdefault((word[0], len(word)), []).append(word)
-        return found
-
-    @cached_property
-    def _by_consonants(self) -> dict[str, list[str]]:
-        """Letters without the vowels behind the first → the words that are written so."""
-        found: dict[str, list[str]] = {}
-        for words in self._by_first_letter_and_length.values():
-            for word in words:
-                found.setdefault(consonants_of(word), []).append(word)
         return found
 
     def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
@@ -321,7 +314,9 @@ class NameReader:
         consonants = consonants_of(word)
         if not _LEAST_CONSONANTS <= len(consonants) < len(word):
             return None
-        alike = [found for found in self._by_consonants.get(consonants, ()) if _is_within(word, found)]
+        longer = range(len(word) + 1, len(word) + _MOST_DROPPED + 1)
+        near = chain.from_iterable(self._by_first_letter_and_length.get((word[0], length), ()) for length in longer)
+        alike = [found for found in near if _is_within(word, found) and consonants_of(found) == consonants]
         return (max(alike, key=thing_prior),) if alike else None
 
     def _respell(self, word: str, budget: int) -> tuple[str, ...] | None:

@@ -127,7 +127,8 @@ class FormIndex:
         self._words = sorted(priors)
         skeletons = sorted(found for word in self._words for found in _skeletons(word))
         self._letters = [letters for letters, _, _ in skeletons]
-        self._behind = [(word, code) for _, word, code in skeletons]
+        self._behind = [word for _, word, _ in skeletons]
+        self._styles = bytes(code for _, _, code in skeletons)
         self._all = _Places(0, len(self._words), 0, len(self._letters))
         self._near = lru_cache(maxsize=8192)(self._find_near)
 
@@ -153,9 +154,9 @@ class FormIndex:
         if form in codes:
             codes[form] = _code(_NONE, _NONE, _WHOLE)
         for at in range(places.start, places.end):
-            word, code = self._behind[at]
+            word = self._behind[at]
             fit = _WHOLE if len(self._letters[at]) == len(form) else _BEGINNING
-            codes[word] = codes.get(word, 0) + fit * code
+            codes[word] = codes.get(word, 0) + fit * self._styles[at]
         return codes
 
     def _find(self, form: str) -> "_Places | None":
