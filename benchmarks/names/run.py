@@ -37,6 +37,9 @@ TRAIN = (
     "working",
     "stoves",
     "assets",
+    "links",
+    "trades",
+    "dwellings",
 )
 TEST = ("unseen", "blind", "galley")
 

@@ -49,7 +49,6 @@ def test_propensity_counts_where_a_word_stands_in_names_of_several():
         ("RockingChair_Spindle", "RockingChair_02", "DesignedComponent"),
         ("RockingChair_Spindle", "Props", "DesignedChair"),
         ("WashingMachine_Gasket", "WashingMachine", "DesignedComponent"),
-        ("WashingMachine_Gasket", "Props", "Appliance"),
     ],
 )
 def test_what_the_parent_is_called_tells_the_head(home_tbox: TBox, name: str, parent: str, expected: str):

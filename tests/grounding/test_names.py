@@ -147,6 +147,25 @@ class TestHeadsOfHierarchies:
         assert local(ground_view(view, home_tbox)) == expected
 
     @pytest.mark.parametrize(
+        ("parent", "name", "expected"),
+        [
+            ("sofa", "seat", "DesignedComponent"),
+            ("living_room_couch", "living_room_couch_seat_left", "DesignedComponent"),
+            ("pallet_jack", "fork_left", "DesignedComponent"),
+            ("fridge_main", "fridge_interior_lamp", "Appliance"),
+            ("Table", "cup", "Cup"),
+            # The parent's word and its own make no word of their own.
+            ("cup", "board", "DesignedArtifact"),
+        ],
+    )
+    def test_a_part_is_named_with_what_it_is_part_of(self, home_tbox: TBox, parent: str, name: str, expected: str):
+        assert local(ground_view(ObjectView(name=name, parents=("World", parent)), home_tbox)) == expected
+
+    def test_a_foreign_name_that_begins_as_its_parents_is_told_by_the_rest(self, reader: NameReader):
+        phrase = reader.read("armario_puerta_corredera", ("armario_dormitorio",))
+        assert (phrase.words, phrase.context) == (("sliding", "door"), ("armario",))
+
+    @pytest.mark.parametrize(
         ("name", "expected"),
         [("Silla_Comedor_Roble", "DesignedChair"), ("seau_glacons_inox", "DesignedContainer")],
     )

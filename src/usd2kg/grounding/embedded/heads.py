@@ -38,7 +38,7 @@ class Features(NamedTuple):
     behind: float = 0.0
     """Whether words stand behind it."""
     glued: float = 0.0
-    """Whether a word is written on to the head, as in `RoomWindow`."""
+    """Number of words that are written on to the head, as in `RoomWindow`."""
     propensity: float = 0.0
     """`propensity` of the head, for a single word."""
     propensity_behind: float = 0.0
@@ -49,8 +49,8 @@ class Features(NamedTuple):
     """Whether the word that tells its kind stands behind the head, as in `plate_dinner`."""
     place: float = 0.0
     """Whether it is a place, after which things are called."""
-    whole: float = 0.0
-    """Whether the parent's name says its class, and things follow: below `RockingChair` a `RockingChair_Spindle`."""
+    shared: float = 0.0
+    """Whether the name begins with the parent's words up to the head: below `fridge_main` a `fridge_interior_lamp`."""
     repeated: float = 0.0
     """Whether the parent's name holds the head, and words stand before it: below `sinkUnit` a `doorSink` is a door."""
 

@@ -19,8 +19,6 @@ __all__ = ["Matcher", "Named"]
 
 _RESPELLED = 0.9
 _LEAST = 0.05
-_SELDOM = 0.2
-"""A word that does no more than describe less often than this is a thing; `NameReader.trailing` gives things less."""
 _LEAST_SHARE = 0.4
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
 _WRONG_SIZE, _RIGHT_SIZE = 0.05, 10.0
@@ -56,8 +54,6 @@ class _Head(NamedTuple):
     telling_within: float
     """The same before the last word."""
     propensity: float
-    is_thing: bool
-    """Whether it seldom does no more than describe."""
     kinds: tuple[str, ...]
     """What it is a kind of, itself first, without spaces: things whose usual size may be taken for its own."""
 
@@ -65,13 +61,15 @@ class _Head(NamedTuple):
 class _Above(NamedTuple):
     """What the name of the parent says."""
 
-    class_iri: ClassIRI | None
-    """What it may be, by its last words; None if it says nothing."""
-    words: frozenset[str]
-    """As they are written, if there are several: `mugs` is no `mug`."""
+    written: frozenset[str]
+    """Its words as they are written, if there are several: `mugs` is no `mug`."""
+    words: tuple[str, ...]
+    """Its words as they were understood."""
+    understood: frozenset[str]
+    """The same as a set."""
 
 
-_NO_PARENT = _Above(None, frozenset())
+_NO_PARENT = _Above(frozenset(), (), frozenset())
 
 
 class Named(NamedTuple):
@@ -165,7 +163,8 @@ class Matcher:
             bool(phrase.corrections),
         )
         above = self._above(parents[-1]) if parents else _NO_PARENT
-        heads = [self._named(words[:end], places, is_respelled) for end in range(1, len(words) + 1)]
+        whole = phrase.context or above.words
+        heads = [self._named_of(whole, words[:end], places, is_respelled) for end in range(1, len(words) + 1)]
         found = [
             (end, self._features(phrase, end, named, size, above, is_linked=_is_within(end, heads)), named)
             for end, named in enumerate(heads, start=1)
@@ -183,17 +182,32 @@ class Matcher:
                 turned.append((at + 1, self._features(phrase, at + 1, named, size, above, is_turned=True), named))
         return [*found, *turned]
 
+    def _named_of(
+        self, whole: tuple[str, ...], words: tuple[str, ...], places: tuple[str, ...], is_respelled: bool
+    ) -> Named:
+        """Return what words name by themselves, or as a part of something: the `seat_left` of a couch is a couch seat.
+
+        Args:
+            whole: the words of the name above, or of the part of the name that repeats it.
+            words: the name up to an end.
+            places: see `Namer.places`.
+            is_respelled: whether a word was corrected.
+        """
+        named = self._named(words, places, is_respelled)
+        of = self._namer.whole_of(words, whole)
+        if not of:
+            return named
+        part = self._named((*of, *words), places, is_respelled)
+        # That a cabinet in the kitchen is a kitchen cabinet is known from the places.
+        return named if part.class_iri == named.class_iri or self._is_below(part, named) else part
+
     def _is_below(self, special: Named, general: Named) -> bool:
         one, other = special.class_iri, general.class_iri
         return one is not None and other is not None and one != other and self._tbox.is_subclass(one, other)
 
     def _reading_above(self, parent: str) -> _Above:
-        words = self._reader.read(parent).words
-        written = words_of(parent)
-        return _Above(
-            class_iri=self._named(words, (), False).class_iri if words else None,
-            words=frozenset(written) if len(written) > 1 else frozenset(),
-        )
+        words, written = self._reader.read(parent).words, words_of(parent)
+        return _Above(frozenset(written) if len(written) > 1 else frozenset(), words, frozenset(words))
 
     def _naming(self, words: tuple[str, ...], places: tuple[str, ...], is_respelled: bool) -> Named:
         return _named(*self._namer.name(words, places), is_respelled)
@@ -216,8 +230,7 @@ class Matcher:
         run, behind = named.run, phrase.words[end:]
         head, is_lone = self._head(run[-1]), len(run) == 1
         fit = None if size is None else self._fit(run, size, head, phrase.words[: max(0, end - 1)])
-        is_of_parents_class = above.class_iri is not None and named.class_iri == above.class_iri
-        is_whole = is_of_parents_class and any(self._head(word).is_thing for word in behind)
+        is_shared = above.understood.issuperset(phrase.words[:end]) and not above.understood.issuperset(behind)
         # By position: this is asked for each end of each reading of a name.
         return Features(
             named.log_score,
@@ -228,14 +241,14 @@ class Matcher:
             1.0 if size is not None and fit is None else 0.0,
             1.0 if any(read == run[-1] for _, read in phrase.corrections) else 0.0,
             1.0 if behind else 0.0,
-            1.0 if phrase.is_glued(end) else 0.0,
+            float(phrase.glued_on(end)),
             head.propensity if is_lone else 0.0,
             sum([self._head(word).propensity for word in behind]) / len(behind) if behind else 0.0,
             1.0 if is_linked else 0.0,
             1.0 if is_turned else 0.0,
             head.place,
-            1.0 if is_whole else 0.0,
-            1.0 if is_lone and end > 1 and run[-1] in above.words else 0.0,
+            1.0 if is_shared else 0.0,
+            1.0 if is_lone and end > 1 and run[-1] in above.written else 0.0,
         )
 
     def _fit(self, run: tuple[str, ...], size: Size, head: _Head, before: tuple[str, ...]) -> float | None:
@@ -261,7 +274,6 @@ class Matcher:
             telling=log(max(telling, _LEAST)),
             telling_within=log(max(within, _LEAST)),
             propensity=propensity(word),
-            is_thing=self._reader.trailing(word) < _SELDOM,
             kinds=self._near_kinds(word),
         )
 

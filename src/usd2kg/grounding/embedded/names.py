@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from itertools import chain, pairwise
+from itertools import chain, pairwise, takewhile
 from typing import NamedTuple
 
 from rapidfuzz import process
@@ -79,6 +79,10 @@ class NamePhrase:
         """Return whether word number `at` is written on to the one before."""
         return at < len(self.glued) and self.glued[at]
 
+    def glued_on(self, at: int) -> int:
+        """Return how many words from number `at` on are written on to those before."""
+        return sum(1 for _ in takewhile(bool, self.glued[at:]))
+
 
 class _Token(NamedTuple):
     text: str
@@ -129,6 +133,10 @@ class NameReader:
         corrections: list[tuple[str, str]] = []
         translated = self._translated(tokens)
         if translated is not None:
+            at = _shared_beginning(tokens, parents)
+            if (of_the_rest := self._translated(tokens[at:])) is not None:
+                # Below `armario_dormitorio` an `armario_puerta` is its door.
+                translated, tokens, references = of_the_rest, tokens[at:], [*references, *tokens[:at]]
             written = " ".join(token.text for token in tokens)
             context = tuple(token.text for token in references)
             is_romance = language_of(tuple(token.text for token in tokens)) != "de"
@@ -372,6 +380,13 @@ def _tokens(name: str) -> list[_Token]:
         # A number that stands apart may begin a measure: _6kg, _4tier; but Room1Door is a door.
         is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
     return tokens
+
+
+def _shared_beginning(tokens: list[_Token], parents: tuple[str, ...]) -> int:
+    """Return with how many tokens of its parent's name a name begins."""
+    above = _tokens(parents[-1]) if parents else []
+    pairs = enumerate(zip(tokens, above, strict=False))
+    return next((at for at, (own, other) in pairs if own.text != other.text), min(len(tokens), len(above)))
 
 
 @lru_cache(maxsize=4096)

@@ -64,6 +64,17 @@ class Namer:
             return self._places_above(parents) if parents else ()
         return (*filter(self._begins_term, context), *self._places_above(parents))
 
+    def whole_of(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the last words of what a thing is part of that make a term of several with its own; mostly none."""
+        *before, last = words
+        key = "".join(before) + self._taxonomy.singular(last)
+        for start in range(len(whole)):
+            of = "".join((*whole[start:-1], self._taxonomy.singular(whole[-1])))
+            term = self._lexicon.terms.get(of + key)
+            if term is not None and " " in term.text:
+                return whole[start:]
+        return ()
+
     def name(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[Match, ...]]:
         """Return the longest known run of words at the end, and what the words name, heeding what is called alike."""
         run, found = self._at_head(words, places)
