@@ -14,9 +14,10 @@ from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
-__all__ = ["Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
+__all__ = ["LENT", "Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
 
-_LABEL, _SYNONYM, _LENT, _HEAD = 1.0, 0.92, 0.9, 0.6
+_LABEL, _SYNONYM, LENT, _HEAD = 1.0, 0.92, 0.9, 0.6
+"""Weights of terms; a lent one is a home class's name for another ontology's class that is labelled alike."""
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
@@ -106,7 +107,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
     for class_iri, text in list(_lent_names(tbox, terms, taxonomy, synonyms)):
         for said in _variants(text, frozenset(), taxonomy):
-            _keep_best(terms, class_iri, said, _LENT)
+            _keep_best(terms, class_iri, said, LENT)
     _add_heads(terms)
     return Lexicon(
         terms=terms,

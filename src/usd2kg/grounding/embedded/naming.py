@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import Anchor, Lexicon, Term, sense_weight
+from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, sense_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
@@ -71,7 +71,8 @@ class Namer:
         for start in range(len(whole)):
             of = "".join((*whole[start:-1], self._taxonomy.singular(whole[-1])))
             term = self._lexicon.terms.get(of + key)
-            if term is not None and " " in term.text:
+            # A name that is only lent to a class does not stand against the class's own.
+            if term is not None and " " in term.text and term.weight > LENT:
                 return whole[start:]
         return ()
 
