@@ -161,6 +161,12 @@ class TestHeadsOfHierarchies:
     def test_a_part_is_named_with_what_it_is_part_of(self, home_tbox: TBox, parent: str, name: str, expected: str):
         assert local(ground_view(ObjectView(name=name, parents=("World", parent)), home_tbox)) == expected
 
+    def test_a_class_of_the_ontology_goes_before_a_name_that_was_lent(self):
+        # The home vocabulary has an oven knob among the handles; this ontology has knobs of its own.
+        tbox = make_tbox(make_class("Thing"), make_class("Handle", "Thing"), make_class("Knob", "Thing"))
+        view = ObjectView(name="knob_1", parents=("World", "oven"))
+        assert local(ground_view(view, tbox)) == "Knob"
+
     def test_a_foreign_name_that_begins_as_its_parents_is_told_by_the_rest(self, reader: NameReader):
         phrase = reader.read("armario_puerta_corredera", ("armario_dormitorio",))
         assert (phrase.words, phrase.context) == (("sliding", "door"), ("armario",))
