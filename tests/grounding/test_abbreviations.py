@@ -349,3 +349,12 @@ def test_brands_and_foreign_words_are_not_taken_apart(home_tbox: TBox, name: str
 
 def test_an_object_whose_display_name_tells_is_asked_for_no_rest(home_tbox: TBox):
     assert local(ground_view(ObjectView(name="x", display_name="coffee mug"), home_tbox)) == "Cup"
+
+
+@given(
+    st.lists(st.sampled_from(["cup", "fan", "bld", "Xq", "ice", "ZZTOP", "wrkbnchs", "Tür", "_", "7"]), max_size=7),
+    st.sampled_from(["_", ""]),
+)
+def test_any_mixture_of_words_and_letters_is_grounded(parts: list[str], joint: str):
+    prediction = ground_view(ObjectView(name=joint.join(parts)), load_home_tbox())
+    assert 0 <= prediction.confidence <= 1

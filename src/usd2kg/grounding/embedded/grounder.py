@@ -246,10 +246,13 @@ class _Run:
         """Return what the name says if it is an abbreviation."""
         tokens = [part.lower() for part in split_identifier(view.name) if part.isalpha()]
         tokens = [token for token in tokens if is_telling(token)][:_MOST_TOKENS]
-        is_spelled_out = all(self._reader.is_known(token) for token in tokens) or translate(tuple(tokens)) is not None
-        if not tokens or (is_spelled_out and not view.is_masked):
+        if not tokens or (not view.is_masked and self._is_spelled_out(tokens)):
             return []
         return self._of_readings(view, self._abbreviations.read(tokens, view.company))
+
+    def _is_spelled_out(self, tokens: Sequence[str]) -> bool:
+        """Return whether the words of a name are all known, or are a name in another language."""
+        return all(map(self._reader.is_known, tokens)) or translate(tuple(tokens)) is not None
 
     def _completed(self, view: ObjectView, said: list[Finding]) -> list[Finding]:
         """Return what the name says where words of it are unknown and likely abbreviations: the blade of a `fan_bld`.
@@ -264,7 +267,7 @@ class _Run:
         if spelled.issuperset(words):
             return said
         readings = self._abbreviations.read(words, view.company, spelled)
-        if readings[0].probability < _BELIEVED or spelled.issuperset(readings[0].words):
+        if not readings or readings[0].probability < _BELIEVED or spelled.issuperset(readings[0].words):
             return said
         rest = 1 - readings[0].probability
         findings = [
