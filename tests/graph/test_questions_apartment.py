@@ -133,6 +133,6 @@ class TestKinds:
         assert len(ask(apartment, "alike", thing="handle_cab5_b")) == 23
 
     def test_the_panels_called_kitchen_parts_are_unsure(self, apartment: GraphStore):
-        found = ask(apartment, "unsure", confidence="0.6")
+        found = ask(apartment, "unsure", confidence="0.7")
         assert {"side_A_left", "side_A_rb"} <= set(found)
         assert not {"sofa", "cooktop", "coffee_table"} & set(found)
