@@ -26,7 +26,7 @@ def kitchen(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def talk_to(arguments: list[str], conversation: Callable[[Client], Awaitable[Any]]) -> Any:
     """Run `usd2kg mcp` in a process of its own and return what a conversation with it gives."""
     command = StdioServerParameters(
-        command=sys.executable, args=["-m", "usd2kg.cli.app", "mcp", *arguments], env=dict(os.environ)
+        command=sys.executable, args=["-m", "usd2kg", "mcp", *arguments], env=dict(os.environ)
     )
 
     async def run() -> Any:

@@ -24,7 +24,7 @@ finally:
 
 
 def process(*arguments: object, code: str | None = None, **options: object) -> subprocess.CompletedProcess[str]:
-    start = ["-c", code] if code is not None else ["-m", "usd2kg.cli.app"]
+    start = ["-c", code] if code is not None else ["-m", "usd2kg"]
     return subprocess.run(
         [sys.executable, *start, *map(str, arguments)],
         capture_output=True,
@@ -101,7 +101,7 @@ def test_a_reader_that_has_enough_is_no_error(room: Path):
     os.close(reader)
     with os.fdopen(writer, "wb") as closed:
         done = subprocess.run(
-            [sys.executable, "-m", "usd2kg.cli.app", "ground", str(room)],
+            [sys.executable, "-m", "usd2kg", "ground", str(room)],
             stdout=closed,
             stderr=subprocess.PIPE,
             text=True,
@@ -119,7 +119,7 @@ def test_output_is_utf_8_whatever_the_locale(room: Path, tmp_path: Path):
     environment = {key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG", "PYTHON"))}
     environment["LC_ALL"] = "C"
     done = subprocess.run(
-        [sys.executable, "-m", "usd2kg.cli.app", "ground", str(scene)],
+        [sys.executable, "-m", "usd2kg", "ground", str(scene)],
         capture_output=True,
         check=False,
         timeout=60,

@@ -103,7 +103,3 @@ def main() -> None:
             traceback.print_exc()
         talk(f"usd2kg: {' '.join(str(error).split())}")
         sys.exit(2)
-
-
-if __name__ == "__main__":
-    main()

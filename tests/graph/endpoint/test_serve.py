@@ -48,7 +48,7 @@ def port(home_tbox: TBox, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
     hostile = ox.Literal(HOSTILE)
     store.update(f"INSERT {{ GRAPH ?g {{ ?c rdfs:label {hostile} }} }} WHERE {{ GRAPH ?g {{ ?c rdfs:label 'cup' }} }}")
     options = ["--port", "0", "--time-limit", "2", "--max-rows", "50", "--max-body", "2000", "--memory-limit", "200"]
-    command = [sys.executable, "-m", "usd2kg.cli.app", "serve", str(folder), *options, "--allow-host", "graphs.lab"]
+    command = [sys.executable, "-m", "usd2kg", "serve", str(folder), *options, "--allow-host", "graphs.lab"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None
         line = process.stderr.readline()
@@ -266,7 +266,7 @@ def test_it_ends_quietly_and_leaves_nothing(tmp_path: Path, sent: signal.Signals
     graph, temporary = tmp_path / "a.nt", tmp_path / "temporary"
     graph.write_text("<urn:a> <urn:b> <urn:c> .\n")
     temporary.mkdir()
-    command = [sys.executable, "-m", "usd2kg.cli.app", "serve", str(graph), "--port", "0", "--workers", "1"]
+    command = [sys.executable, "-m", "usd2kg", "serve", str(graph), "--port", "0", "--workers", "1"]
     settings = {**os.environ, "TMPDIR": str(temporary)}
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=settings) as process:
         assert process.stderr is not None

@@ -173,7 +173,7 @@ def test_a_killed_upload_leaves_the_old_graph_whole(
     way.fault = fault
     file = tmp_path / "k.nt"
     ox.serialize(large.triples, str(file), format=ox.RdfFormat.N_TRIPLES)
-    command = [sys.executable, "-m", "usd2kg.cli.app", "store", "load", str(file), "--store", way.address]
+    command = [sys.executable, "-m", "usd2kg", "store", "load", str(file), "--store", way.address]
     with subprocess.Popen(command) as process:
         assert arrived.wait(120)
         os.kill(process.pid, signal.SIGKILL)
