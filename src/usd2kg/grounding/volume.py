@@ -106,7 +106,7 @@ class VolumeGrounder:
         candidates = tuple(sorted(scored, key=lambda c: (-c.score, c.class_iri))[:_CANDIDATES])
         best = candidates[0]
         text = (
-            f"its box holds {_in_words(volume)}, nearest is {tbox.by_iri[best.class_iri].local_name} "
+            f"its box holds {_in_words(volume)}, nearest is {tbox.by_iri[best.class_iri].readable_name} "
             f"with {_in_words(priors[best.class_iri])}"
         )
         return Prediction(path, best.class_iri, best.score, Status.GROUNDED, self.name, text, ("geometry",), candidates)

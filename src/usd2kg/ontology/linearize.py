@@ -8,15 +8,23 @@ __all__ = ["linearize_flat", "linearize_tree"]
 
 
 def linearize_flat(tbox: TBox) -> str:
-    """Return one class a line, alphabetical: `Bowl (subClassOf: Crockery) -- A dish for…`."""
-    lines = [_flat_line(cls, tbox) for cls in sorted(tbox.classes, key=lambda cls: (cls.local_name, cls.iri))]
+    """Return one class a line, alphabetical: `Bowl (subClassOf: Crockery) -- A dish for…`.
+
+    A class whose IRI ends in a number is called by its label, with the number: `coffee cup [OBO_0001234]`.
+    """
+    lines = [_flat_line(cls, tbox) for cls in sorted(tbox.classes, key=lambda cls: (cls.readable_name, cls.iri))]
     return "\n".join(lines) + "\n"
 
 
 def _flat_line(cls: OntologyClass, tbox: TBox) -> str:
-    parents = ", ".join(sorted(tbox.by_iri[parent].local_name for parent in cls.parents))
-    line = f"{cls.local_name} (subClassOf: {parents})" if parents else cls.local_name
+    parents = ", ".join(sorted(tbox.by_iri[parent].readable_name for parent in cls.parents))
+    line = f"{_title(cls)} (subClassOf: {parents})" if parents else _title(cls)
     return f"{line} -- {cls.comment}" if cls.comment else line
+
+
+def _title(cls: OntologyClass) -> str:
+    name = cls.readable_name
+    return name if name == cls.local_name else f"{name} [{cls.local_name}]"
 
 
 def linearize_tree(tbox: TBox, *, with_comments: bool = False) -> str:
@@ -27,7 +35,7 @@ def linearize_tree(tbox: TBox, *, with_comments: bool = False) -> str:
     """
 
     def by_name(iris: Iterable[str]) -> list[tuple[str, str]]:
-        return sorted((tbox.by_iri[iri].local_name, iri) for iri in iris)
+        return sorted((tbox.by_iri[iri].readable_name, iri) for iri in iris)
 
     lines: list[str] = []
     written: set[str] = set()
@@ -37,7 +45,7 @@ def linearize_tree(tbox: TBox, *, with_comments: bool = False) -> str:
         cls = tbox.by_iri[iri]
         is_repeated = iri in written and bool(tbox.children[iri])
         comment = f" -- {cls.comment}" if with_comments and cls.comment and iri not in written else ""
-        lines.append("  " * depth + cls.local_name + comment + (" (see above)" if is_repeated else ""))
+        lines.append("  " * depth + _title(cls) + comment + (" (see above)" if is_repeated else ""))
         if not is_repeated:
             written.add(iri)
             pending.extend((child, depth + 1) for _, child in reversed(by_name(tbox.children[iri])))

@@ -1,5 +1,6 @@
 """The TBox: the classes that objects can be grounded to, and the hierarchy between them."""
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,6 +12,9 @@ __all__ = ["ClassIRI", "OntologyClass", "OntologyNote", "TBox", "local_name"]
 
 ClassIRI = str
 """An absolute IRI that names a class."""
+
+_NUMBERED = re.compile(r"[A-Za-z]{1,8}[_:-]?\d{3,}")
+"""A local name that says nothing: `OBI_0000968`, `ont00000995`."""
 
 
 def local_name(iri: str) -> str:
@@ -44,8 +48,13 @@ class OntologyClass:
 
     @property
     def local_name(self) -> str:
-        """The part of the IRI that people read."""
+        """The last part of the IRI."""
         return local_name(self.iri)
+
+    @property
+    def readable_name(self) -> str:
+        """The local name, or the label where that is but a number."""
+        return self.label if _NUMBERED.fullmatch(self.local_name) else self.local_name
 
 
 @dataclass(frozen=True, slots=True)

@@ -115,8 +115,8 @@ def _run_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -
     wrong = [
         (
             score.id,
-            tbox.by_iri[score.answer].local_name if score.answer else score.status.value,
-            tbox.by_iri[score.target].local_name,
+            tbox.by_iri[score.answer].readable_name if score.answer else score.status.value,
+            tbox.by_iri[score.target].readable_name,
             score.explanation,
         )
         for score in result.scores

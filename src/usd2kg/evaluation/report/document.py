@@ -118,4 +118,4 @@ def plain_number(value: float, digits: int = 2) -> str:
 
 def class_text(iri: ClassIRI | None, tbox: TBox) -> str:
     """Return a class's local name; `no answer` for None."""
-    return tbox.by_iri[iri].local_name if iri is not None else "no answer"
+    return tbox.by_iri[iri].readable_name if iri is not None else "no answer"

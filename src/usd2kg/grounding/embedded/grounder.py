@@ -135,8 +135,8 @@ def _abstaining(prediction: Prediction, tbox: TBox) -> Prediction:
     iri = safest_class({candidate.class_iri: candidate.score for candidate in prediction.candidates}, tbox)
     if iri == prediction.class_iri:
         return prediction
-    names = ", ".join(tbox.by_iri[candidate.class_iri].local_name for candidate in prediction.candidates[:3])
-    explanation = f"{prediction.explanation}; {tbox.by_iri[iri].local_name} is safer than any of {names}"
+    names = ", ".join(tbox.by_iri[candidate.class_iri].readable_name for candidate in prediction.candidates[:3])
+    explanation = f"{prediction.explanation}; {tbox.by_iri[iri].readable_name} is safer than any of {names}"
     return replace(prediction, class_iri=iri, status=Status.SUPERCLASS, explanation=explanation)
 
 
@@ -240,7 +240,7 @@ class _Run:
         elevation = view.look.elevation if view.look is not None else None
         where = "" if elevation is None else f", {elevation:.1f} m above the ground"
         among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
-        return f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].local_name}"
+        return f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].readable_name}"
 
     def _by_abbreviation(self, view: ObjectView) -> list[Finding]:
         """Return what the name says if it is an abbreviation."""
@@ -359,7 +359,7 @@ class _Run:
         alike = companion.distance is not None and companion.distance < _SAME_SIZE
         is_told = companion.nearness in {Nearness.TWIN, Nearness.ALIKE}
         size = ", of the same size," if alike and not is_told else ""
-        return f"“{companion.name}” {where}{size} is {self._tbox.by_iri[iri].local_name}"
+        return f"“{companion.name}” {where}{size} is {self._tbox.by_iri[iri].readable_name}"
 
     def _default(self, prim_path: str, reason: str) -> Prediction:
         return Prediction(
@@ -368,7 +368,7 @@ class _Run:
             confidence=_DEFAULT,
             status=Status.SUPERCLASS,
             grounder=EmbeddedGrounder.name,
-            explanation=f"{reason}; {self._tbox.by_iri[self._lexicon.default].local_name} is true of most things",
+            explanation=f"{reason}; {self._tbox.by_iri[self._lexicon.default].readable_name} is true of most things",
             candidates=(Candidate(self._lexicon.default, _DEFAULT),),
         )
 

@@ -22,6 +22,13 @@ _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communicatio
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
+_ABOVE_ALL = frozenset(
+    "artifact|whole|object|physical entity|entity|abstraction|matter|substance|instrumentality|thing|unit|part|"
+    "device|equipment|system|medium|series|arrangement|group".split("|")
+)
+"""What is said to be above a meaning and does not set it apart."""
+_MADE = "artifact"
+"""The lemma of all that is made."""
 _HAPPENINGS = frozenset("activity event action process state situation task".split())
 """Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
 _SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.\S*$")
@@ -104,6 +111,8 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     for key, term in terms.items():
         if key in taxonomy:
             _anchor(key, term, tbox, terms, taxonomy, anchors)
+    default = _default_class(tbox, taxonomy)
+    _anchor_default(default, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
     for class_iri, text in list(_lent_names(tbox, terms, taxonomy, synonyms)):
         for said in _variants(text, frozenset(), taxonomy):
@@ -113,7 +122,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         terms=terms,
         anchors=anchors,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
-        default=_default_class(tbox, taxonomy),
+        default=default,
         listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
     )
 
@@ -203,22 +212,43 @@ def _add_heads(terms: dict[str, Term]) -> None:
             terms[head] = Term(named[0].class_iri, head, _HEAD)
 
 
+def _anchor_default(default: ClassIRI, taxonomy: Taxonomy, anchors: dict[int, Anchor]) -> None:
+    """Let what is made be of the default class where no class is above all that is made.
+
+    So a wall is understood in an ontology without walls, and is not taken for what a lesser meaning of the word, or its
+    size, would make it.
+    """
+    made = taxonomy.senses(_MADE)[0].synset
+    if anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
+        anchors[made] = Anchor(default, 1.0)
+
+
 def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
     """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
 
-    An ontology's largest root may be of activities or spaces, and no thing is one of those.
+    An ontology's largest root may be of activities or states, and no thing is one of those: only what is called after
+    something made counts.
     """
-    below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
 
-    def rank(root: ClassIRI) -> tuple[int, int, str]:
+    def is_made(label: str) -> bool:
+        senses = taxonomy.senses(taxonomy.singular(_head(label)))
+        return bool(senses) and senses[0].domain == "artifact"
+
+    below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
+
+    def rank(root: ClassIRI) -> tuple[bool, int, str]:
         words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or [""]
         head = taxonomy.singular(words[-1])
-        senses = taxonomy.senses(head)
-        is_made = bool(senses) and senses[0].domain == "artifact"
-        kind = 0 if head in _GENERAL else 1 if is_made else 2
-        return (kind, -below[root], root)
+        return (head not in _GENERAL, -below[root], root)
 
     return min(tbox.roots, key=rank)
+
+
+def _said_of(cls: OntologyClass, tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
+    """Return the words, in the singular, of a class's text and of its superclasses' labels."""
+    texts = [cls.comment, *(tbox.by_iri[iri].label for iri in tbox.closure(cls.iri) if iri != cls.iri)]
+    words = {word for text in texts for word in _words(text)}
+    return frozenset(words | {taxonomy.singular(word) for word in words})
 
 
 def _anchor(
@@ -232,8 +262,15 @@ def _anchor(
         named = (terms[lemma].class_iri for lemma in lemmas if lemma in terms)
         return any(iri in above and iri != term.class_iri for iri in named)
 
-    # A sense below a word that names a superclass is the one the ontologist meant.
-    agreeing = [sense for sense in senses if agrees(sense)] if len(senses) > 1 else ()
+    def is_described(sense: Sense) -> bool:
+        names = [taxonomy.name(up) for up, hops in taxonomy.walk_up(sense.synset) if hops]
+        return any(said.issuperset(name.split()) for name in names if name not in _ABOVE_ALL)
+
+    # A sense below a word that names a superclass is the one the ontologist meant, or else one that the text speaks of.
+    agreeing = [sense for sense in senses if agrees(sense)] if len(senses) > 1 else []
+    if len(senses) > 1 and not agreeing and term.weight == _LABEL:
+        said = _said_of(tbox.by_iri[term.class_iri], tbox, taxonomy)
+        agreeing = [sense for sense in senses if is_described(sense)]
     fits = {sense.synset: sense_weight(sense) for sense in agreeing or senses}
     best = max(fits.values())
     for synset, value in fits.items():

@@ -125,18 +125,18 @@ class Matcher:
             (likelihood(features), named.answers, end) for end, features, named in self.ends(phrase, parents, size)
         ]
         total = sum([weight for weight, _, _ in readings])
-        best: dict[ClassIRI, tuple[float, Match, int]] = {}
+        best: dict[ClassIRI, tuple[float, float, Match, int]] = {}
         shares: dict[ClassIRI, float] = {}
         for weight, answers, end in readings:
             for match, score, share in answers:
                 iri = match.class_iri
                 # Readings that agree on a class add up: a door handle and a lever are handles both.
                 shares[iri] = shares.get(iri, 0.0) + weight / total * share
-                if iri not in best or best[iri][0] * shares[iri] < score * weight / total:
-                    best[iri] = score, match, end
+                if iri not in best or best[iri][0] < score * weight:
+                    best[iri] = score * weight, score, match, end
         matches = [
             Match(iri, score * (_LEAST_SHARE + (1 - _LEAST_SHARE) * shares[iri]), match.reason, phrase, end)
-            for iri, (score, match, end) in best.items()
+            for iri, (_, score, match, end) in best.items()
         ]
         return sorted(matches, key=lambda match: (-match.score, match.class_iri)), total
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, sense_weight
+from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, home_names, sense_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
@@ -16,8 +16,12 @@ __all__ = ["Match", "Namer"]
 
 _TERM, _COMPOUND_KIND, _KIND = 0.97, 0.88, 0.82
 _HOP_DECAY = 0.965
-_ROOT_SHARE = 0.75
+_ROOT_SHARE, _FROM_ROOT = 0.75, 3
+"""Of a root the share is less, and the decay the other way round: what is far below one is a thing of its own, which the
+TBox lacks, as a wall may be; what is near, a device or a structure, says little of what a thing is."""
 _PLACED = 0.95
+_SHORTEST_NOUN = 3
+"""Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""
 _LIKENESS = 0.5
 """How far the class of names that are alike is heard, where a name is in no list and its head or kind is."""
 
@@ -147,13 +151,18 @@ class Namer:
 
     def _by_kind(self, key: str, is_compound: bool) -> Iterator[Match]:
         """Yield for each sense of a noun the nearest class above it in the taxonomy."""
+        if len(key) < _SHORTEST_NOUN and key not in _short_names():
+            # The EL of an asset's path is no elevated railway.
+            return
         for sense in self._taxonomy.senses(key):
             found = self._nearest_above(sense.synset)
             if found is not None:
                 synset, hops, anchor = found
-                score = (_COMPOUND_KIND if is_compound else _KIND) * sense_weight(sense) * _HOP_DECAY**hops
+                score = (_COMPOUND_KIND if is_compound else _KIND) * sense_weight(sense)
                 if anchor.class_iri in self._roots:
-                    score *= _ROOT_SHARE
+                    score *= _ROOT_SHARE * _HOP_DECAY ** max(0, _FROM_ROOT - hops)
+                else:
+                    score *= _HOP_DECAY**hops
                 reason = partial(self._kinds_text, sense.synset, synset, anchor.class_iri)
                 yield Match(anchor.class_iri, score * anchor.weight, reason)
 
@@ -195,7 +204,7 @@ class Namer:
         return f"{kinds}, which is {self._label(class_iri)}"
 
     def _label(self, class_iri: ClassIRI) -> str:
-        return self._tbox.by_iri[class_iri].local_name
+        return self._tbox.by_iri[class_iri].readable_name
 
     def _telling_words_above(self, parents: tuple[str, ...]) -> tuple[str, ...]:
         words = (word.lower() for parent in reversed(parents) for word in split_identifier(parent))
@@ -208,3 +217,8 @@ class Namer:
     @cached_property
     def _term_keys(self) -> list[str]:
         return sorted(self._lexicon.terms)
+
+
+@lru_cache(maxsize=1)
+def _short_names() -> frozenset[str]:
+    return frozenset(name.lower() for names in home_names().values() for name in names if len(name) < _SHORTEST_NOUN)

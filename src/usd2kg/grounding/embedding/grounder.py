@@ -49,7 +49,7 @@ class EmbeddingGrounder:
         return [self._predict(path, view, tbox, ranked) for path, view in views]
 
     def _encode_classes(self, tbox: TBox) -> Vectors:
-        texts = tuple(self._text(cls.local_name) for cls in tbox.classes)
+        texts = tuple(self._text(cls.readable_name) for cls in tbox.classes)
         if self._class_vectors[0] != texts:
             self._class_vectors = (texts, self._encoder.encode(texts))
         return self._class_vectors[1]
@@ -83,5 +83,5 @@ class EmbeddingGrounder:
         )
 
     def _explain(self, text: str, candidates: Sequence[Candidate], tbox: TBox) -> str:
-        said = [f"“{self._text(tbox.by_iri[c.class_iri].local_name)}” (cosine {c.score:.2f})" for c in candidates[:2]]
+        said = [f"“{self._text(tbox.by_iri[c.class_iri].readable_name)}” (cosine {c.score:.2f})" for c in candidates[:2]]
         return f"of all class names, “{text}” is nearest to {', then '.join(said)}"
