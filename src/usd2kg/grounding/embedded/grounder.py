@@ -177,12 +177,13 @@ class _Run:
         findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
         if findings and findings[0].score >= _CLEAR and findings[0].group == "name":
             findings = self._completed(view, findings)
+        spelled_out = findings[0].score if findings else 0.0
         if not findings or findings[0].score < _CLEAR:
             # A tulip that is no class of the TBox is none of the things beside it either.
             is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
             short = [] if is_made_up or is_understood else self._by_abbreviation(view)
             findings = [] if is_understood else self._weigh(view, [*findings, *short])
-        if not findings or findings[0].score < _UNKNOWN:
+        if not findings or max(findings[0].score, spelled_out) < _UNKNOWN:
             return self._default(prim_path, "what is known about it does not say what it is"), look
         best = findings[0]
         scores = {finding.class_iri: finding.score for finding in reversed(findings)}

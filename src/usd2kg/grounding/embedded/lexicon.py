@@ -4,7 +4,7 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -16,23 +16,27 @@ from usd2kg.words import split_identifier
 
 __all__ = ["LENT", "Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
 
-_LABEL, _SYNONYM, LENT, _HEAD = 1.0, 0.92, 0.9, 0.6
+_LABEL, _SYNONYM, LENT, _BORROWED, _HEAD = 1.0, 0.92, 0.9, 0.7, 0.6
 """Weights of terms; a lent one is a home class's name for another ontology's class that is labelled alike."""
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
 _OTHER_DOMAIN = 0.45
 _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
-_ABOVE_ALL = frozenset(
-    "artifact|whole|object|physical entity|entity|abstraction|matter|substance|instrumentality|thing|unit|part|"
-    "device|equipment|system|medium|series|arrangement|group".split("|")
-)
-"""What is said to be above a meaning and does not set it apart."""
+_TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
+"""What is above so many meanings that it sets none apart."""
+_ABOVE_MANY = _TOP | {
+    *("substance", "instrumentality", "part", "device", "equipment", "system", "medium", "series", "arrangement"),
+    "group",
+}
+"""What is above a meaning, and is said in texts about any other too."""
 _MADE = "artifact"
 """The lemma of all that is made."""
 _HAPPENINGS = frozenset("activity event action process state situation task".split())
 """Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
-_SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.\S*$")
-"""A class called after a sense of WordNet: `chair.n.01`, `chair.n.wn.artifact..seat`."""
+_SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.(?:\S*?\.\.(\S*)|\S*)$")
+"""A class called after a sense of WordNet, maybe with what is above it: `chair.n.01`, `chair.n.wn.artifact..seat`."""
+_UNTOLD = 0.8
+"""The weight of senses of a kind with the one that is meant: two senses of a lamp are both lamps."""
 _PLAUSIBLE = 0.85
 """A sense that fits this share as well as the best one may be meant too."""
 
@@ -66,6 +70,11 @@ class Lexicon:
     """Single word → the number of terms that hold it."""
     default: ClassIRI
     """The class that is true of most things: the root with the most classes below it."""
+    borrowed: Mapping[str, Term]
+    """Term without spaces → the class labelled as what the home vocabulary says is above the thing that is called so.
+
+    For ontologies with other classes, where nothing else is known: that a charger is some appliance.
+    """
     listed: frozenset[ClassIRI]
     """The classes whose further terms are known: those of the home vocabulary, if it is used."""
 
@@ -123,6 +132,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         anchors=anchors,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default=default,
+        borrowed=_borrowed(tbox, terms, default, taxonomy, synonyms),
         listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
     )
 
@@ -140,6 +150,28 @@ def _lent_names(
             own = terms.get(term_key(label, taxonomy))
             if own is not None and own.weight == _LABEL:
                 yield from ((own.class_iri, name) for name in names)
+
+
+def _borrowed(
+    tbox: TBox,
+    terms: Mapping[str, Term],
+    default: ClassIRI,
+    taxonomy: Taxonomy,
+    synonyms: Mapping[ClassIRI, tuple[str, ...]],
+) -> dict[str, Term]:
+    home = load_home_tbox()
+    found: dict[str, Term] = {}
+    for iri, names in synonyms.items():
+        if iri in tbox.by_iri or iri not in home.by_iri:
+            continue
+        above = sorted(home.closure(iri), key=lambda up: (-home.depths[up], up))
+        labelled = (terms.get(term_key(home.by_iri[up].label, taxonomy)) for up in above)
+        own = next((term for term in labelled if term is not None and term.weight == _LABEL), None)
+        if own is not None and own.class_iri != default:
+            for name in names:
+                for said in _variants(name, frozenset(), taxonomy):
+                    _keep_best(found, own.class_iri, said, _BORROWED)
+    return found
 
 
 def things_of(tbox: TBox) -> Sequence[OntologyClass]:
@@ -216,10 +248,10 @@ def _anchor_default(default: ClassIRI, taxonomy: Taxonomy, anchors: dict[int, An
     """Let what is made be of the default class where no class is above all that is made.
 
     So a wall is understood in an ontology without walls, and is not taken for what a lesser meaning of the word, or its
-    size, would make it.
+    size, would make it. Where no class is any kind of thing there is nothing to be understood.
     """
     made = taxonomy.senses(_MADE)[0].synset
-    if anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
+    if anchors and anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
         anchors[made] = Anchor(default, 1.0)
 
 
@@ -234,14 +266,45 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
         senses = taxonomy.senses(taxonomy.singular(_head(label)))
         return bool(senses) and senses[0].domain == "artifact"
 
-    below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
+    below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
+    made_below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
 
-    def rank(root: ClassIRI) -> tuple[bool, int, str]:
+    def rank(root: ClassIRI) -> tuple[bool, int, int, str]:
         words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or [""]
         head = taxonomy.singular(words[-1])
-        return (head not in _GENERAL, -below[root], root)
+        return (head not in _GENERAL, -made_below[root], -below[root], root)
 
     return min(tbox.roots, key=rank)
+
+
+def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:
+    """Return the senses of a term that the ontologist meant, if any can be told.
+
+    Those below what the class's IRI names after the sense; else those below the label of a superclass; else those
+    below something that the class's text speaks of; else those below any name of a superclass.
+    """
+    cls, above = tbox.by_iri[term.class_iri], tbox.closure(term.class_iri)
+    names = {
+        sense: [taxonomy.name(up) for up, _ in taxonomy.walk_up(sense.synset)] for sense in taxonomy.senses(key)
+    }
+
+    def below(*groups: Callable[[str], bool]) -> list[Sense]:
+        found = ([sense for sense, up in names.items() if any(map(is_told, up))] for is_told in groups)
+        return next(filter(None, found), [])
+
+    def is_named(name: str) -> bool:
+        named = terms.get(name.replace(" ", ""))
+        return named is not None and named.class_iri in above and named.class_iri != cls.iri
+
+    hint = _SENSE_KEY.match(cls.local_name)
+    told = hint and hint[2] and hint[2].replace("_", " ")
+    said = _said_of(cls, tbox, taxonomy) if term.weight == _LABEL else frozenset()
+    return below(
+        lambda name: name == told,
+        lambda name: name not in _TOP and is_named(name) and terms[name.replace(" ", "")].weight == _LABEL,
+        lambda name: name not in _ABOVE_MANY and name.replace(" ", "") != key and said.issuperset(name.split()),
+        is_named,
+    )
 
 
 def _said_of(cls: OntologyClass, tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
@@ -255,27 +318,16 @@ def _anchor(
     key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy, anchors: dict[int, Anchor]
 ) -> None:
     """Align a term with its senses; those that fit much worse than the best are not meant."""
-    senses, above = taxonomy.senses(key), tbox.closure(term.class_iri)
-
-    def agrees(sense: Sense) -> bool:
-        lemmas = (taxonomy.name(up).replace(" ", "") for up, hops in taxonomy.walk_up(sense.synset) if hops)
-        named = (terms[lemma].class_iri for lemma in lemmas if lemma in terms)
-        return any(iri in above and iri != term.class_iri for iri in named)
-
-    def is_described(sense: Sense) -> bool:
-        names = [taxonomy.name(up) for up, hops in taxonomy.walk_up(sense.synset) if hops]
-        return any(said.issuperset(name.split()) for name in names if name not in _ABOVE_ALL)
-
-    # A sense below a word that names a superclass is the one the ontologist meant, or else one that the text speaks of.
-    agreeing = [sense for sense in senses if agrees(sense)] if len(senses) > 1 else []
-    if len(senses) > 1 and not agreeing and term.weight == _LABEL:
-        said = _said_of(tbox.by_iri[term.class_iri], tbox, taxonomy)
-        agreeing = [sense for sense in senses if is_described(sense)]
-    fits = {sense.synset: sense_weight(sense) for sense in agreeing or senses}
-    best = max(fits.values())
-    for synset, value in fits.items():
-        share = value / best
-        known = anchors.get(synset)
-        weight = term.weight * share
-        if share >= _PLAUSIBLE and (known is None or known.weight < weight):
-            anchors[synset] = Anchor(term.class_iri, weight)
+    senses = taxonomy.senses(key)
+    agreeing = _meant(key, term, tbox, terms, taxonomy) if len(senses) > 1 else []
+    meant = agreeing or senses
+    domains = {sense.domain for sense in meant}
+    others = [sense for sense in senses if sense not in meant and sense.domain in domains]
+    for group, trust in ((meant, 1.0), (others, _UNTOLD)):
+        best = max((sense_weight(sense) for sense in group), default=1.0)
+        for sense in group:
+            share = sense_weight(sense) / best
+            known = anchors.get(sense.synset)
+            weight = term.weight * share * trust
+            if share >= _PLAUSIBLE and (known is None or known.weight < weight):
+                anchors[sense.synset] = Anchor(term.class_iri, weight)

@@ -186,7 +186,9 @@ class NameReader:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
         words = tuple(token.text for token in tokens)
         is_english = all(word in self._taxonomy or word in self._taxonomy.adjectives for word in words)
-        if is_english or "".join(words) in self._lexicon.terms:
+        # A `chaise longue` and a `hors d'oeuvre` are English as compounds.
+        is_borrowed = any("".join(pair) in self._taxonomy for pair in pairwise(words))
+        if is_english or is_borrowed or "".join(words) in self._lexicon.terms:
             return None
         return translate(words)
 

@@ -1,7 +1,7 @@
 """What a run of words names by itself: the TBox's terms first, then what the head noun is a kind of."""
 
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, home_
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
-from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
 __all__ = ["Match", "Namer"]
@@ -105,13 +105,34 @@ class Namer:
         """Return the longest run of words that ends with the last one and is known, and its matches."""
         *before, last = words
         singular = self._taxonomy.singular(last)
-        for start in range(len(before) if self._reader.is_modifier(last) else len(words)):
-            key = "".join(before[start:]) + singular
-            if key in self._lexicon.terms or key in self._taxonomy:
-                found = self._known(key, last, start < len(before), places)
-                if found:
-                    return words[start:], found
-        return (), ()
+        starts = range(len(before) if self._reader.is_modifier(last) else len(words))
+        keys = {start: "".join(before[start:]) + singular for start in starts}
+        run, found = self._known_run(words, keys, places)
+        if self._lexicon.borrowed and all(match.class_iri == self._lexicon.default for match in found):
+            # That it is some appliance says more than the class of all things.
+            borrowed = {start: self._lexicon.borrowed.get(key) for start, key in keys.items()}
+            start = next((start for start, term in borrowed.items() if term is not None), None)
+            if start is not None:
+                return words[start:], (*self._named_by(borrowed[start]), *found)
+        return run, found
+
+    def _known_run(
+        self, words: tuple[str, ...], keys: Mapping[int, str], places: tuple[str, ...]
+    ) -> tuple[tuple[str, ...], tuple[Match, ...]]:
+        """Return the longest of the runs that is known, and its matches; `keys` are by the word they start at."""
+        longest: tuple[tuple[str, ...], tuple[Match, ...]] = ((), ())
+        for start, key in keys.items():
+            if key not in self._lexicon.terms and key not in self._taxonomy:
+                continue
+            found = self._known(key, words[-1], start < len(words) - 1, places)
+            if longest[1] and found and self._suits_better(_best(found), _best(longest[1])):
+                # A sofa cushion is an artifact at home; where there are cushions, it is a cushion.
+                return words[start:], found
+            if not longest[1]:
+                longest = words[start:], found
+            if longest[1] and not self._is_general(_best(longest[1])):
+                break
+        return longest if longest[1] else ((), ())
 
     def _naming(self, key: str, head: str, is_compound: bool, places: tuple[str, ...]) -> tuple[Match, ...]:
         kinds = tuple(self._by_kind(key, is_compound))
@@ -119,16 +140,33 @@ class Namer:
         return (*self._in_place(key, head, found, places), *found) if found else ()
 
     def _unless_special(self, terms: tuple[Match, ...], kinds: tuple[Match, ...]) -> tuple[Match, ...]:
-        """Return the classes that a term names, but by a label, if no class of the TBox's own below them suits."""
+        """Return the classes that a term names, unless it is no label and a class of the TBox's own suits better.
+
+        That is one below them, and any but those above them where the term is one of a general class: the home
+        vocabulary calls an artifact what it has no class for, as another ontology may have.
+        """
         return tuple(
             match
             for match in terms
-            if match.score == _TERM or not any(self._is_own_below(kind.class_iri, match.class_iri) for kind in kinds)
+            if match.score == _TERM or not any(self._suits_better(kind.class_iri, match.class_iri) for kind in kinds)
         )
+
+    def _suits_better(self, own: ClassIRI, listed: ClassIRI) -> bool:
+        if listed not in self._lexicon.listed or own in self._lexicon.listed:
+            return False
+        return self._tbox.is_subclass(own, listed) or (
+            self._is_general(listed) and own not in self._tbox.closure(listed)
+        )
+
+    def _is_general(self, iri: ClassIRI) -> bool:
+        """Return whether the TBox has classes of its own and this is one of the home TBox with others below."""
+        return self._has_own and iri in self._lexicon.listed and bool(load_home_tbox().children[iri])
 
     def by_term(self, key: str) -> tuple[Match, ...]:
         """Return the class that a term without spaces names, if any."""
-        term = self._lexicon.terms.get(key)
+        return self._named_by(self._lexicon.terms.get(key))
+
+    def _named_by(self, term: Term | None) -> tuple[Match, ...]:
         return () if term is None else (Match(term.class_iri, _TERM * term.weight, partial(self._term_text, term)),)
 
     def _in_place(self, key: str, head: str, found: list[Match], places: tuple[str, ...]) -> Iterator[Match]:
@@ -222,3 +260,7 @@ class Namer:
 @lru_cache(maxsize=1)
 def _short_names() -> frozenset[str]:
     return frozenset(name.lower() for names in home_names().values() for name in names if len(name) < _SHORTEST_NOUN)
+
+
+def _best(matches: tuple[Match, ...]) -> ClassIRI:
+    return max(matches, key=lambda match: match.score).class_iri
