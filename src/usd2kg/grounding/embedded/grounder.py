@@ -80,7 +80,7 @@ _NEARNESS_TEXTS = {
     Nearness.TWIN: "of the same size",
     Nearness.ALIKE: "of about the same size",
 }
-_BELIEVED, _UNLIKELY = 0.7, 0.02
+_BELIEVED, _UNLIKELY = 0.6, 0.02
 """Of the readings of a name with unknown words: one that is heeded, and one that is not asked what it names."""
 _UNREAD = 0.2
 """The weight of a reading of an abbreviation that names no class: it may be right all the same."""

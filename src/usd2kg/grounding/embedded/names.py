@@ -31,8 +31,8 @@ _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
 """Where things hang and stand, and are called after: `clock_wall`."""
-_AREAS = frozenset(["area", "zone", "section", "region"])
-"""Places within a room: the drawer in the `sink_area_drawer`."""
+_AREAS = frozenset(["area", "zone", "section", "region", "exit"])
+"""Places within a room: the drawer in the `sink_area_drawer`, the sign of an `exit_sign`."""
 _BUILT, _FASTENED = frozenset(["wall", "ceiling"]), frozenset(["hung", "mounted", "recessed"])
 """What things are fastened to, and how: the last words of `toilet_wall_hung`, which say nothing of its kind."""
 _MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])

@@ -13,6 +13,8 @@ _WORDS_FLOOR, _SEEN_FLOOR, _BELIEF_FLOOR = 0.02, 0.01, 0.04
 """What each kind of evidence gives a class that it does not speak for: it rules nothing out."""
 _BELIEF_POWER = 0.5
 """How far the beliefs are heard of what the company speaks for, whose votes heed the size already."""
+_TOLD = 0.3
+"""A score that says something, if not enough."""
 _SUITED = 8
 """The classes that are considered for the beliefs alone."""
 _MOST = 8
@@ -72,7 +74,8 @@ def weigh(
     found = []
     for weight, iri, shared, own in weighed[:_MOST]:
         said = by_words[iri].score if iri in by_words else 0.0
-        if said >= max(shared, own) and iri in by_words:
+        # What the name says it has said, though the size may say so more clearly.
+        if iri in by_words and (said >= max(shared, own) or (own >= shared and said >= _TOLD)):
             expert = by_words[iri]
         elif shared >= own and iri in by_company:
             expert = by_company[iri]
