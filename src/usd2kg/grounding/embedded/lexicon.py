@@ -113,10 +113,19 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     terms: dict[str, Term] = {}
     anchors: dict[int, Anchor] = {}
     depths = tbox.depths
-    for cls in sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
+    classes = sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri))
+    bare: dict[str, set[ClassIRI]] = {}
+    for cls in classes:
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
-            for said in _variants(text, affixes, taxonomy):
-                _keep_best(terms, cls.iri, said, weight)
+            said = _variants(text, affixes, taxonomy)
+            for whole in said[:1]:
+                _keep_best(terms, cls.iri, whole, weight)
+            for rest in said[1:]:
+                bare.setdefault(rest, set()).add(cls.iri)
+    for rest, claimants in bare.items():
+        if len(claimants) == 1 and rest not in _ABOVE_MANY | _GENERAL:
+            # The components of five vendors are no component as such, and a shading device is not what any device is.
+            _keep_best(terms, *claimants, rest, _LABEL)
     for key, term in terms.items():
         if key in taxonomy:
             _anchor(key, term, tbox, terms, taxonomy, anchors)
@@ -182,7 +191,7 @@ def things_of(tbox: TBox) -> Sequence[OntologyClass]:
 
 def term_key(text: str, taxonomy: Taxonomy) -> str:
     """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
-    return next(_variants(text, frozenset(), taxonomy), "").replace(" ", "")
+    return "".join(_variants(text, frozenset(), taxonomy)).replace(" ", "")
 
 
 def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
@@ -214,14 +223,13 @@ def _affixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
     return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy)
 
 
-def _variants(text: str, affixes: frozenset[str], taxonomy: Taxonomy) -> Iterator[str]:
-    """Yield the words of a text in the singular, and the same without the ontology's jargon."""
+def _variants(text: str, affixes: frozenset[str], taxonomy: Taxonomy) -> list[str]:
+    """Return the words of a text in the singular, then the same without the ontology's jargon; none if it has none."""
     words = _words(text)
-    if words:
-        words[-1] = taxonomy.singular(words[-1])
-        yield " ".join(words)
-        if len(words) > 1 and words[0] in affixes:
-            yield " ".join(words[1:])
+    if not words:
+        return []
+    words[-1] = taxonomy.singular(words[-1])
+    return [" ".join(words), *([" ".join(words[1:])] if len(words) > 1 and words[0] in affixes else [])]
 
 
 def _keep_best(terms: dict[str, Term], class_iri: ClassIRI, text: str, weight: float) -> None:
@@ -240,7 +248,8 @@ def _add_heads(terms: dict[str, Term]) -> None:
             by_head.setdefault(term.text.split()[-1], []).append(term)
     for head, named in by_head.items():
         is_unique = len({term.class_iri for term in named}) == 1
-        if is_unique and head not in terms and len(named[0].text.split()) == 2:
+        is_special = head not in terms and head not in _ABOVE_MANY | _GENERAL
+        if is_unique and is_special and len(named[0].text.split()) == 2:
             terms[head] = Term(named[0].class_iri, head, _HEAD)
 
 

@@ -192,17 +192,26 @@ class Namer:
         if len(key) < _SHORTEST_NOUN and key not in _short_names():
             # The EL of an asset's path is no elevated railway.
             return
-        for sense in self._taxonomy.senses(key):
+        senses = self._taxonomy.senses(key)
+        usual = max(senses, key=sense_weight, default=None)
+        is_lacking = usual is not None and self._is_default(self._nearest_above(usual.synset))
+        for sense in senses:
             found = self._nearest_above(sense.synset)
             if found is not None:
                 synset, hops, anchor = found
                 score = (_COMPOUND_KIND if is_compound else _KIND) * sense_weight(sense)
+                if is_lacking and sense is not usual:
+                    # Where there are no boxes, a box is not for that the compartment that it may be too.
+                    score *= _ROOT_SHARE
                 if anchor.class_iri in self._roots:
                     score *= _ROOT_SHARE * _HOP_DECAY ** max(0, _FROM_ROOT - hops)
                 else:
                     score *= _HOP_DECAY**hops
                 reason = partial(self._kinds_text, sense.synset, synset, anchor.class_iri)
                 yield Match(anchor.class_iri, score * anchor.weight, reason)
+
+    def _is_default(self, found: tuple[int, int, Anchor] | None) -> bool:
+        return found is not None and found[2].class_iri == self._lexicon.default
 
     def _nearest_above(self, synset: int) -> tuple[int, int, Anchor] | None:
         """Return the nearest synset above that has a class, its hops and the class; special classes go first.
