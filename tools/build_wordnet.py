@@ -131,7 +131,9 @@ class Kinds:
         assert found
         senses = sorted(self._senses[_key(found[1])])
         if found[2]:
-            return next(at for rank, at in senses if rank == int(found[2]))
+            senses = [(rank, at) for rank, at in senses if rank == int(found[2])]
+        if not senses:
+            raise ValueError(f"{KINDS.name}: {text!r} is no noun for a physical thing in WordNet; name one that is")
         return min(senses, key=lambda sense: (self._synsets[sense[1]].domain != "artifact", sense))[1]
 
     def _add_first(self, name: str, above: list[int]) -> None:

@@ -11,8 +11,8 @@ Where labellers who did not know of each other agreed on a convention, the home 
 two agree is what any grounder can be expected to.
 Without an ontology the built-in home TBox is used.
 
-`other_labels.csv` has what things of these lists are in two ontologies that usd2kg was not made for, labelled blind too,
-half of them to learn from and half a test (from the lists that are tests). The figures for them are printed where
+`other_labels.csv` has what things of these lists are in two ontologies that usd2kg was not made for, labelled blind
+too, half of them to learn from and half a test (from the lists that are tests). The figures for them are printed where
 `../shared/ontologies` is: of all, and of those that the ontology has a class for other than its roots.
 """
 

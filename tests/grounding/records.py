@@ -58,13 +58,13 @@ def scene_of(*paths: str) -> Scene:
 
 
 def make_class(
-    name: str, *parents: str, label: str = "", synonyms: Iterable[str] = (), base: str = LAB
+    name: str, *parents: str, label: str = "", synonyms: Iterable[str] = (), comment: str = "", base: str = LAB
 ) -> OntologyClass:
     return OntologyClass(
         iri=base + name,
         label=label or name,
         alt_labels=tuple(sorted(synonyms)),
-        comment="",
+        comment=comment,
         parents=tuple(sorted(base + parent for parent in parents)),
     )
 

@@ -49,7 +49,7 @@ class TestExplanations:
             "Cuboard": ["Cupboard", "“cuboard” read as “cupboard”"],
             "WindowLamp": ["lamp", "Appliance"],
             # No label and no synonym: the taxonomy says what it is a kind of.
-            "samovar": ["“samovar” is a kind of “urn”", "which is DesignedContainer"],
+            "hogshead": ["“hogshead” is a kind of “barrel”", "which is DesignedContainer"],
         }
         for prediction, parts in zip(ground_names([*expected], home_tbox), expected.values(), strict=True):
             assert [part for part in parts if part not in prediction.explanation] == []
@@ -381,6 +381,26 @@ class TestAnotherDomain:
             "qwrtzx": "Asset",
         }
         assert dict(zip(expected, map(local, ground_names([*expected], harbour)), strict=True)) == expected
+
+    def test_what_it_has_no_class_for_is_of_its_root(self, harbour: TBox):
+        # Each is known to be something else than the classes that a lesser meaning, the size or the company suggest.
+        views = [
+            ObjectView(name=name, size=(6.0, 2.4, 2.6), siblings=("Crane_01", "Container_02"))
+            for name in ("Wall_North", "RoofBeam", "warehouse_pillar", "fire_door")
+        ]
+        predictions = EmbeddedGrounder().ground_views([(f"/x{at}", view) for at, view in enumerate(views)], harbour)
+        assert [local(prediction) for prediction in predictions] == ["Asset"] * 4
+        assert predictions[0].explanation.startswith("“wall” is a kind of “partition”")
+
+    def test_a_code_of_two_letters_is_no_noun(self, harbour: TBox):
+        # An el is an elevated railway.
+        railway = make_tbox(*harbour.classes, make_class("Railway", base="https://harbour.example/onto#"))
+        assert [local(p) for p in ground_names(["el_02", "elevated_railway"], railway)] == ["Asset", "Railway"]
+
+    def test_classes_that_are_numbered_are_called_by_their_labels(self):
+        tbox = make_tbox(make_class("OBI_0000968", label="device"), make_class("OBI_0400082", label="photodetector"))
+        (prediction,) = ground_names(["photodetector"], tbox)
+        assert prediction.explanation == "“photodetector” is the label of photodetector"
 
     def test_home_synonyms_do_not_leak_in(self, harbour: TBox):
         with_home = EmbeddedGrounder(use_home_synonyms=True)

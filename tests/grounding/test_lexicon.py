@@ -145,6 +145,67 @@ def test_a_label_is_aligned_with_the_meaning_below_its_superclass():
     assert 4 not in anchored(lexicon_of(bird), "crane")
 
 
+def test_a_label_is_aligned_with_the_meaning_that_its_text_speaks_of():
+    # WordNet's posts: among others an upright (1) and a military installation (3).
+    upright, camp = load_taxonomy().senses("post")[:2]
+    carrier = lexicon_of(make_tbox(make_class("Post", comment="An upright that carries a beam."))).anchors
+    assert carrier[upright.synset].weight == 1.0
+    base = lexicon_of(make_tbox(make_class("Post", comment="A military installation."))).anchors
+    assert base[camp.synset].weight == 1.0 > base[upright.synset].weight
+
+
+def test_an_iri_may_tell_the_meaning():
+    # WordNet's flutes: the woodwind (1), the wineglass (2), the groove (3).
+    glass = make_class("flute.n.wn.artifact..wineglass", label="flute.n.wn.artifact..wineglass")
+    lexicon = lexicon_of(make_tbox(glass))
+    weights = {sense.rank: lexicon.anchors[sense.synset].weight for sense in load_taxonomy().senses("flute")[:2]}
+    assert weights[2] == 1.0 > weights[1]
+
+
+def test_other_meanings_of_a_kind_are_meant_less():
+    # A lamp is a source of illumination (1) and a piece of furniture (2).
+    tbox = make_tbox(make_class("Furniture"), make_class("Lamp", "Furniture"))
+    lexicon = lexicon_of(tbox)
+    light, furniture = (lexicon.anchors[sense.synset] for sense in load_taxonomy().senses("lamp"))
+    assert {light.class_iri, furniture.class_iri} == {LAB + "Lamp"}
+    assert furniture.weight == 1.0 > light.weight
+
+
+def test_all_that_is_made_is_of_the_default_class_where_no_class_is_above_it():
+    made = load_taxonomy().senses("artifact")[0].synset
+    assert lexicon_of(LABORATORY).anchors[made].class_iri == LAB + "Equipment"
+    artifacts = make_tbox(make_class("Artifact"), make_class("Agent"), make_class("Cook", "Agent"))
+    assert lexicon_of(artifacts).anchors[made].class_iri == LAB + "Artifact"
+    # Here no class is any kind of thing.
+    assert lexicon_of(make_tbox(make_class("Qualia"))).anchors == {}
+
+
+def test_a_thing_takes_the_class_of_what_it_is_a_kind_of_at_home(home_tbox: TBox):
+    other = make_tbox(make_class("Thing"), make_class("Appliances", "Thing"), make_class("Furniture", "Thing"))
+    lexicon = lexicon_of(other, dict(home_names()))
+    assert named(lexicon, "carcharger") is None
+    assert lexicon.borrowed["carcharger"].class_iri == LAB + "Appliances"
+    assert lexicon.borrowed["toolcabinet"].class_iri == LAB + "Furniture"
+    # What is but an artifact at home may be anything here.
+    assert "poster" not in lexicon.borrowed
+    assert lexicon_of(home_tbox, dict(home_names())).borrowed == {}
+
+
+def test_what_several_classes_are_called_after_their_vendor_is_none_of_them():
+    vendors = ("Zigbex", "Lonwrk", "Enoqan")
+    names = [f"{vendor}{kind}" for vendor in vendors for kind in ("Gateway", "Module", "Relay")]
+    lexicon = lexicon_of(make_tbox(*map(make_class, names), make_class("ZigbexLock")))
+    assert named(lexicon, "gateway") is None
+    assert named(lexicon, "lock") == "ZigbexLock"
+
+
+@pytest.mark.parametrize("label", ["shading device", "Zqshading device"])
+def test_one_device_is_not_what_any_device_is(label: str):
+    others = [make_class(f"Zqshading{kind}", "Asset") for kind in ("Louvre", "Awning", "Blind")]
+    lexicon = lexicon_of(make_tbox(make_class("Asset"), make_class("Shading", "Asset", label=label), *others))
+    assert named(lexicon, "device") is None
+
+
 def test_things_made_come_before_other_meanings():
     made, animal = Sense(0, 1, "artifact"), Sense(1, 1, "animal")
     assert sense_weight(made) > sense_weight(animal)
@@ -156,6 +217,10 @@ def test_the_default_is_the_root_with_the_most_classes_below_it(home_tbox: TBox)
     two = make_tbox(make_class("Alone"), make_class("Wide"), make_class("A", "Wide"), make_class("B", "Wide"))
     assert lexicon_of(two).default == LAB + "Wide"
     assert lexicon_of(home_tbox).default.endswith("#DesignedArtifact")
+    # Commands are many, and no thing is one.
+    commands = [make_class(f"{verb}Command", "Command") for verb in ("Open", "Close", "Stop")]
+    domotic = make_tbox(make_class("Command"), make_class("Managed"), make_class("Fridge", "Managed"), *commands)
+    assert lexicon_of(domotic).default == LAB + "Managed"
 
 
 def test_the_vocabulary_holds_the_words_of_all_terms():

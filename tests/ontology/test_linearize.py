@@ -55,6 +55,14 @@ def test_tree_with_comments(load):
     assert tree == TREE.replace("Chair\n", "Chair -- To sit on.\n")
 
 
+def test_classes_whose_iri_is_a_number_are_called_by_their_labels(load):
+    device = ':OBI_0000968 rdfs:label "device"@en .'
+    detector = ':OBI_0400082 rdfs:subClassOf :OBI_0000968 ; rdfs:label "photodetector"@en .'
+    tbox = load(f"{device} {detector}")
+    assert linearize_flat(tbox) == "device [OBI_0000968]\nphotodetector [OBI_0400082] (subClassOf: device)\n"
+    assert linearize_tree(tbox) == "device [OBI_0000968]\n  photodetector [OBI_0400082]\n"
+
+
 def test_a_leaf_under_two_parents_stands_under_both(load):
     text = ':SofaBed rdfs:subClassOf :Bed, :Seat ; rdfs:comment "C" .'
     tree = linearize_tree(load(text), with_comments=True)

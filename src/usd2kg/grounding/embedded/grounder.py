@@ -241,7 +241,9 @@ class _Run:
         elevation = view.look.elevation if view.look is not None else None
         where = "" if elevation is None else f", {elevation:.1f} m above the ground"
         among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
-        return f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].readable_name}"
+        return (
+            f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].readable_name}"
+        )
 
     def _by_abbreviation(self, view: ObjectView) -> list[Finding]:
         """Return what the name says if it is an abbreviation."""

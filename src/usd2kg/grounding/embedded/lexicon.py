@@ -24,6 +24,8 @@ _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
 _TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
 """What is above so many meanings that it sets none apart."""
+_HELD, _HOLDER = "Building", "DesignedContainer"
+"""Buildings are below the containers in SOMA, and nowhere else; cupboards are too, which others call furniture."""
 _ABOVE_MANY = _TOP | {
     *("substance", "instrumentality", "part", "device", "equipment", "system", "medium", "series", "arrangement"),
     "group",
@@ -171,9 +173,9 @@ def _borrowed(
     home = load_home_tbox()
     found: dict[str, Term] = {}
     for iri, names in synonyms.items():
-        if iri in tbox.by_iri or iri not in home.by_iri:
+        if iri in tbox.by_iri or iri not in home.by_iri or home.by_iri[iri].local_name == _HELD:
             continue
-        above = sorted(home.closure(iri), key=lambda up: (-home.depths[up], up))
+        above = sorted(home.closure(iri), key=lambda up: (-home.depths[up], home.by_iri[up].local_name == _HOLDER, up))
         labelled = (terms.get(term_key(home.by_iri[up].label, taxonomy)) for up in above)
         own = next((term for term in labelled if term is not None and term.weight == _LABEL), None)
         if own is not None and own.class_iri != default:
@@ -293,9 +295,7 @@ def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy
     below something that the class's text speaks of; else those below any name of a superclass.
     """
     cls, above = tbox.by_iri[term.class_iri], tbox.closure(term.class_iri)
-    names = {
-        sense: [taxonomy.name(up) for up, _ in taxonomy.walk_up(sense.synset)] for sense in taxonomy.senses(key)
-    }
+    names = {sense: [taxonomy.name(up) for up, _ in taxonomy.walk_up(sense.synset)] for sense in taxonomy.senses(key)}
 
     def below(*groups: Callable[[str], bool]) -> list[Sense]:
         found = ([sense for sense, up in names.items() if any(map(is_told, up))] for is_told in groups)

@@ -16,9 +16,9 @@ __all__ = ["Match", "Namer"]
 
 _TERM, _COMPOUND_KIND, _KIND = 0.97, 0.88, 0.82
 _HOP_DECAY = 0.965
-_ROOT_SHARE, _FROM_ROOT = 0.75, 3
-"""Of a root the share is less, and the decay the other way round: what is far below one is a thing of its own, which the
-TBox lacks, as a wall may be; what is near, a device or a structure, says little of what a thing is."""
+_ROOT_SHARE, _FROM_ROOT = 0.75, 2
+"""Of a root the share is less, and the decay the other way round: what is far below one is a thing of its own, which
+the TBox lacks, as a wall may be; what is near, a structure or a surface, says little of what a thing is."""
 _PLACED = 0.95
 _SHORTEST_NOUN = 3
 """Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""

@@ -83,5 +83,7 @@ class EmbeddingGrounder:
         )
 
     def _explain(self, text: str, candidates: Sequence[Candidate], tbox: TBox) -> str:
-        said = [f"“{self._text(tbox.by_iri[c.class_iri].readable_name)}” (cosine {c.score:.2f})" for c in candidates[:2]]
+        said = [
+            f"“{self._text(tbox.by_iri[c.class_iri].readable_name)}” (cosine {c.score:.2f})" for c in candidates[:2]
+        ]
         return f"of all class names, “{text}” is nearest to {', then '.join(said)}"

@@ -1,0 +1,77 @@
+"""What is added to WordNet: new meanings, further kinds, and another order of meanings."""
+
+import csv
+
+import pytest
+
+from tools.build_wordnet import KINDS, Kinds, Synset, format_taxonomy
+from usd2kg.grounding.embedded.taxonomy import Taxonomy, load_taxonomy
+
+
+def taxonomy_of(rows: dict[str, str]) -> Taxonomy:
+    """Return a small taxonomy with what the rows add."""
+    synsets = [
+        Synset("artifact", [], [("artifact", 1)]),
+        Synset("artifact", [0], [("lamp", 1), ("bulb", 2)]),
+        Synset("artifact", [0], [("furniture", 1)]),
+        Synset("plant", [], [("bulb", 1)]),
+        Synset("artifact", [2], [("rack", 1), ("stand", 1)]),
+    ]
+    kinds = Kinds(synsets)
+    for name, kind in rows.items():
+        kinds.add(name, kind.split("|"))
+    return Taxonomy(format_taxonomy([], synsets))
+
+
+def chains(taxonomy: Taxonomy, lemma: str) -> list[list[str]]:
+    """Return for each meaning, the usual one first, the names of all that is above it."""
+    return [[taxonomy.name(up) for up, _ in taxonomy.walk_up(sense.synset)] for sense in taxonomy.senses(lemma)]
+
+
+def test_a_name_gets_a_meaning_of_its_kinds():
+    taxonomy = taxonomy_of({"torchiere": "lamp|furniture"})
+    assert chains(taxonomy, "torchiere") == [["torchiere", "lamp", "furniture", "artifact"]]
+    assert taxonomy.senses("torchiere")[0].domain == "artifact"
+
+
+def test_a_new_meaning_comes_before_those_of_wordnet():
+    taxonomy = taxonomy_of({"rack": "lamp"})
+    assert chains(taxonomy, "rack") == [["rack", "lamp", "artifact"], ["rack", "furniture", "artifact"]]
+
+
+def test_what_a_thing_is_too_is_added_once():
+    taxonomy = taxonomy_of({"rack": "+lamp|+furniture"})
+    assert chains(taxonomy, "rack") == [["rack", "furniture", "lamp", "artifact"]]
+    # Nothing is above itself.
+    assert chains(taxonomy_of({"artifact": "+rack"}), "artifact") == [["artifact"]]
+
+
+def test_another_meaning_may_be_the_usual_one():
+    assert [sense.domain for sense in taxonomy_of({}).senses("bulb")] == ["plant", "artifact"]
+    assert [sense.domain for sense in taxonomy_of({"bulb": "=2"}).senses("bulb")] == ["artifact", "plant"]
+
+
+def test_a_kind_is_meant_as_an_artifact_unless_its_number_is_given():
+    assert chains(taxonomy_of({"edison": "bulb"}), "edison") == [["edison", "lamp", "artifact"]]
+    assert chains(taxonomy_of({"tulip": "bulb.1"}), "tulip") == [["tulip", "bulb"]]
+
+
+def test_an_unknown_kind_is_an_error():
+    with pytest.raises(ValueError, match="'qwrtz' is no noun"):
+        taxonomy_of({"rack": "qwrtz"})
+
+
+@pytest.mark.parametrize(
+    ("lemma", "kind"), [("rangehood", "kitchen appliance"), ("stovetop", "stove"), ("chandelier", "lamp")]
+)
+def test_the_shipped_taxonomy_has_them(lemma: str, kind: str):
+    assert kind in chains(load_taxonomy(), lemma)[0]
+
+
+def test_every_row_is_in_the_shipped_taxonomy():
+    with KINDS.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    names = [row["name"] for row in rows]
+    assert names == sorted(set(names))
+    taxonomy = load_taxonomy()
+    assert [name for name in names if name.replace(" ", "").replace("-", "") not in taxonomy] == []
