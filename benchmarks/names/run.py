@@ -89,8 +89,8 @@ def main() -> None:
             things = labelled_otherwise(ontology, split, tbox)
             below = [thing for thing in things if thing.target not in tbox.roots]
             told = [measure(group, tbox, NamingRegime.SEMANTIC) for group in (things, below)]
-            figures = [f"{exact:.1f} ({also:.1f})" for exact, also in told]
-            print(f"{ontology:<9} {split:<6} {len(things)}  {figures[0]}   {len(below)}, {figures[1]}")
+            for_all, for_below = (f"{exact:.1f} ({also:.1f})" for exact, also in told)
+            print(f"{ontology:<9} {split:<6} {len(things)}  {for_all}   {len(below)}, {for_below}")
 
 
 def labelled_otherwise(ontology: str, split: str, tbox: TBox) -> list[Thing]:

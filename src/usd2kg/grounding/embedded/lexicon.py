@@ -119,15 +119,15 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     bare: dict[str, set[ClassIRI]] = {}
     for cls in classes:
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
-            said = _variants(text, affixes, taxonomy)
-            for whole in said[:1]:
-                _keep_best(terms, cls.iri, whole, weight)
-            for rest in said[1:]:
+            said = _said(text, taxonomy)
+            _keep_best(terms, cls.iri, said, weight)
+            first, _, rest = said.partition(" ")
+            if rest and first in affixes:
                 bare.setdefault(rest, set()).add(cls.iri)
     for rest, claimants in bare.items():
         if len(claimants) == 1 and rest not in _ABOVE_MANY | _GENERAL:
             # The components of five vendors are no component as such, and a shading device is not what any device is.
-            _keep_best(terms, *claimants, rest, _LABEL)
+            _keep_best(terms, next(iter(claimants)), rest, _LABEL)
     for key, term in terms.items():
         if key in taxonomy:
             _anchor(key, term, tbox, terms, taxonomy, anchors)
@@ -135,8 +135,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     _anchor_default(default, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
     for class_iri, text in list(_lent_names(tbox, terms, taxonomy, synonyms)):
-        for said in _variants(text, frozenset(), taxonomy):
-            _keep_best(terms, class_iri, said, LENT)
+        _keep_best(terms, class_iri, _said(text, taxonomy), LENT)
     _add_heads(terms)
     return Lexicon(
         terms=terms,
@@ -180,8 +179,7 @@ def _borrowed(
         own = next((term for term in labelled if term is not None and term.weight == _LABEL), None)
         if own is not None and own.class_iri != default:
             for name in names:
-                for said in _variants(name, frozenset(), taxonomy):
-                    _keep_best(found, own.class_iri, said, _BORROWED)
+                _keep_best(found, own.class_iri, _said(name, taxonomy), _BORROWED)
     return found
 
 
@@ -193,7 +191,7 @@ def things_of(tbox: TBox) -> Sequence[OntologyClass]:
 
 def term_key(text: str, taxonomy: Taxonomy) -> str:
     """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
-    return "".join(_variants(text, frozenset(), taxonomy)).replace(" ", "")
+    return _said(text, taxonomy).replace(" ", "")
 
 
 def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
@@ -225,17 +223,16 @@ def _affixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
     return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy)
 
 
-def _variants(text: str, affixes: frozenset[str], taxonomy: Taxonomy) -> list[str]:
-    """Return the words of a text in the singular, then the same without the ontology's jargon; none if it has none."""
-    words = _words(text)
-    if not words:
-        return []
-    words[-1] = taxonomy.singular(words[-1])
-    return [" ".join(words), *([" ".join(words[1:])] if len(words) > 1 and words[0] in affixes else [])]
+def _said(text: str, taxonomy: Taxonomy) -> str:
+    """Return the words of a text, the last one in the singular."""
+    *words, last = _words(text) or [""]
+    return " ".join([*words, taxonomy.singular(last)])
 
 
 def _keep_best(terms: dict[str, Term], class_iri: ClassIRI, text: str, weight: float) -> None:
     key = text.replace(" ", "")
+    if not key:
+        return
     known = terms.get(key)
     # Classes come from general to special, so that of two claims to a word the general class's stays.
     if known is None or known.weight < weight:
@@ -328,15 +325,21 @@ def _anchor(
 ) -> None:
     """Align a term with its senses; those that fit much worse than the best are not meant."""
     senses = taxonomy.senses(key)
-    agreeing = _meant(key, term, tbox, terms, taxonomy) if len(senses) > 1 else []
-    meant = agreeing or senses
+    if len(senses) == 1:
+        _keep_anchor(anchors, senses[0], Anchor(term.class_iri, term.weight))
+        return
+    meant = _meant(key, term, tbox, terms, taxonomy) or list(senses)
     domains = {sense.domain for sense in meant}
     others = [sense for sense in senses if sense not in meant and sense.domain in domains]
     for group, trust in ((meant, 1.0), (others, _UNTOLD)):
         best = max((sense_weight(sense) for sense in group), default=1.0)
         for sense in group:
             share = sense_weight(sense) / best
-            known = anchors.get(sense.synset)
-            weight = term.weight * share * trust
-            if share >= _PLAUSIBLE and (known is None or known.weight < weight):
-                anchors[sense.synset] = Anchor(term.class_iri, weight)
+            if share >= _PLAUSIBLE:
+                _keep_anchor(anchors, sense, Anchor(term.class_iri, term.weight * share * trust))
+
+
+def _keep_anchor(anchors: dict[int, Anchor], sense: Sense, anchor: Anchor) -> None:
+    known = anchors.get(sense.synset)
+    if known is None or known.weight < anchor.weight:
+        anchors[sense.synset] = anchor
