@@ -11,6 +11,7 @@ things in scenes are kinds of. Its second column holds, parted by `|`:
 
 - `kind`: a meaning of the name that comes before those of WordNet, and what it is a kind of;
 - `+kind`: what else the name's usual meaning is a kind of;
+- `-kind`: what it is no kind of, though WordNet says so;
 - `=2`: that the second meaning in WordNet's order is the usual one.
 
 A kind is a lemma, by its first meaning as an artifact or else its first; `file.4` is the fourth in WordNet's order.
@@ -116,7 +117,7 @@ class Kinds:
 
     def add(self, name: str, kinds: list[str]) -> None:
         """Add one row of the file."""
-        own = [kind for kind in kinds if kind[0] not in "+="]
+        own = [kind for kind in kinds if kind[0] not in "+-="]
         if own:
             self._add_first(name, [self._meant(kind) for kind in own])
         for kind in kinds:
@@ -124,6 +125,8 @@ class Kinds:
                 self._put_first(name, self._synsets[self._meant(f"{name}.{kind[1:]}")])
             elif kind[0] == "+":
                 self._add_above(self._meant(name), self._meant(kind[1:]))
+            elif kind[0] == "-":
+                self._synsets[self._meant(name)].above.remove(self._meant(kind[1:]))
 
     def _meant(self, text: str) -> int:
         """Return the synset that a kind is called by, in WordNet's own order of meanings."""

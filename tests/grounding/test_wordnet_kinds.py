@@ -46,6 +46,12 @@ def test_what_a_thing_is_too_is_added_once():
     assert chains(taxonomy_of({"artifact": "+rack"}), "artifact") == [["artifact"]]
 
 
+def test_what_a_thing_is_not_is_taken_away():
+    assert chains(taxonomy_of({"rack": "-furniture"}), "rack") == [["rack"]]
+    # WordNet has wheeled vehicles below the containers.
+    assert "container" not in chains(load_taxonomy(), "forklift")[0]
+
+
 def test_another_meaning_may_be_the_usual_one():
     assert [sense.domain for sense in taxonomy_of({}).senses("bulb")] == ["plant", "artifact"]
     assert [sense.domain for sense in taxonomy_of({"bulb": "=2"}).senses("bulb")] == ["artifact", "plant"]

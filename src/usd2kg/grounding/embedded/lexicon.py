@@ -24,8 +24,8 @@ _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
 _TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
 """What is above so many meanings that it sets none apart."""
-_HELD, _HOLDER = "Building", "DesignedContainer"
-"""Buildings are below the containers in SOMA, and nowhere else; cupboards are too, which others call furniture."""
+_HOLDER, _HELD, _HELD_TOO = "DesignedContainer", "Building", frozenset(["Appliance", "DesignedFurniture"])
+"""Buildings are below the containers in SOMA, and so are ovens and cupboards: those are appliances and furniture."""
 _ABOVE_MANY = _TOP | {
     *("substance", "instrumentality", "part", "device", "equipment", "system", "medium", "series", "arrangement"),
     "group",
@@ -174,8 +174,11 @@ def _borrowed(
     for iri, names in synonyms.items():
         if iri in tbox.by_iri or iri not in home.by_iri or home.by_iri[iri].local_name == _HELD:
             continue
-        above = sorted(home.closure(iri), key=lambda up: (-home.depths[up], home.by_iri[up].local_name == _HOLDER, up))
-        labelled = (terms.get(term_key(home.by_iri[up].label, taxonomy)) for up in above)
+        above = {home.by_iri[up].local_name: up for up in home.closure(iri)}
+        if not _HELD_TOO.isdisjoint(above):
+            above.pop(_HOLDER, None)
+        nearest = sorted(above.values(), key=lambda up: (-home.depths[up], up))
+        labelled = (terms.get(term_key(home.by_iri[up].label, taxonomy)) for up in nearest)
         own = next((term for term in labelled if term is not None and term.weight == _LABEL), None)
         if own is not None and own.class_iri != default:
             for name in names:
