@@ -227,8 +227,8 @@ def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, w
     scene = write_stage(xform("Kitchen", *things))
     with serve(openai_reply(json.dumps({"1": {"class": "Bowl"}}))) as server:
         model = f"llm-B:openai:test@{server.url}/v1"
-        plan = run("ground", scene, "--grounder", model, "--cascade", "0.7", "--dry-run")
-        done = run("ground", scene, "--grounder", model, "--cascade", "0.7")
+        plan = run("ground", scene, "--grounder", model, "--cascade", "0.8", "--dry-run")
+        done = run("ground", scene, "--grounder", model, "--cascade", "0.8")
         assert len(server.received) == 1
     assert "1 prompts for 1 objects" in plan.err
     assert classes(done.out) == {"/Kitchen/Cup": "Cup", "/Kitchen/xqzv": "Bowl"}
@@ -364,7 +364,7 @@ def test_a_cascade_is_scored_by_tier_and_a_model_calibrated(run: Run, write_stag
         model = ("--grounder", f"llm-A:openai:test@{server.url}/v1", "--each-object")
         alone = run("eval", "run", scene, "--gold", gold, *model, "-o", "alone.json")
         assert "tier" not in alone.out
-        tiers = run("eval", "run", scene, "--gold", gold, *model, "--cascade", "0.7", "--replay")
+        tiers = run("eval", "run", scene, "--gold", gold, *model, "--cascade", "0.8", "--replay")
     assert [line.split() for line in tiers.out.splitlines()[-2:]] == [
         ["embedded", "12", "100.0", "100.0"],
         ["llm", "12", "0.0", "0.0"],

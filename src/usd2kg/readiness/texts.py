@@ -43,7 +43,7 @@ def find_text_faults(tbox: TBox, texts: Texts) -> Iterator[Finding]:
                 "no-definition",
                 "no definition or comment",
                 "a sentence that says what the class holds",
-                "Add a skos:definition or an rdfs:comment: language models read it, and so do people who review.",
+                "Add a skos:definition or an rdfs:comment: it tells grounders which sense of a word is meant.",
             )
     yield from _shared(tbox)
 
