@@ -392,6 +392,12 @@ class TestAnotherDomain:
         assert [local(prediction) for prediction in predictions] == ["Asset"] * 4
         assert predictions[0].explanation.startswith("“wall” is a kind of “partition”")
 
+    def test_things_of_which_nothing_is_known_do_not_vouch_for_each_other(self, harbour: TBox):
+        scene = make_scene(*(sized(f"/Quay/{name}", (0.4, 0.3, 0.2)) for name in ("qwrtzx_1", "Bollard", "Bollard_02")))
+        predictions = ground(scene, harbour, EmbeddedGrounder()).by_path
+        assert predictions["/Quay/qwrtzx_1"].status is Status.SUPERCLASS
+        assert predictions["/Quay/qwrtzx_1"].confidence < predictions["/Quay/Bollard"].confidence
+
     def test_a_code_of_two_letters_is_no_noun(self, harbour: TBox):
         # An el is an elevated railway.
         railway = make_tbox(*harbour.classes, make_class("Railway", base="https://harbour.example/onto#"))

@@ -210,6 +210,23 @@ def test_one_device_is_not_what_any_device_is(label: str):
     assert named(lexicon, "device") is None
 
 
+def test_a_label_of_something_else_than_its_word_means_first_weighs_less():
+    foods = make_class("Food"), make_class("Screwdriver", "Food"), make_class("Orange", "Food")
+    lexicon = lexicon_of(make_tbox(*foods))
+    # To WordNet a screwdriver is a tool before it is a drink, and an orange is food first.
+    assert lexicon.terms["screwdriver"].weight < lexicon.terms["orange"].weight == 1.0
+
+
+def test_a_name_in_odd_capitals_is_no_common_noun():
+    sequencer = make_tbox(make_class("OBI_0000696", label="SOLiD 4 System", synonyms=("SOLiD",)), make_class("Device"))
+    assert "OBI_0000696" not in anchored(lexicon_of(sequencer), "solid").values()
+
+
+def test_a_general_synonym_makes_no_class_that_of_all_things():
+    tbox = make_tbox(make_class("Object"), make_class("Exhibit", "Object", synonyms=("artefact",)))
+    assert "Exhibit" not in anchored(lexicon_of(tbox), "artefact").values()
+
+
 def test_things_made_come_before_other_meanings():
     made, animal = Sense(0, 1, "artifact"), Sense(1, 1, "animal")
     assert sense_weight(made) > sense_weight(animal)

@@ -347,7 +347,7 @@ class TestNumbersAndCodes:
         assert reader.is_modifier(word)
         assert reader.trailing(word) > 0.9
 
-    @pytest.mark.parametrize("word", ["squeezed", "unzipped", "scrunched"])
+    @pytest.mark.parametrize("word", ["squeezed", "unzipped", "scrunched", "docking", "stacking"])
     def test_a_participle_is_not_respelled_as_the_noun_of_its_verb(self, reader: NameReader, word: str):
         assert reader.correct(word) == (word,)
 

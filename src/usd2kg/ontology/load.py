@@ -96,7 +96,7 @@ def _scope(
     if not scope:
         raise OntologyError(
             f"{name}: no class in scope ({len(closure.classes)} classes found, none placed in a hierarchy); "
-            "expected an OWL ontology with classes, name roots with --root if it has them"
+            "expected an OWL ontology with classes below its roots; `usd2kg ontology show FILE --root IRI` tries others"
         )
     return scope
 

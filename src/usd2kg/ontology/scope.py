@@ -63,7 +63,8 @@ def rooted_scope(roots: Iterable[str], closure: ClassAxioms) -> set[str]:
     unknown = sorted(wanted - closure.classes)
     if unknown:
         raise OntologyError(
-            f"scope: <{unknown[0]}> is no class of the ontology; expected the IRI of one of its classes"
+            f"scope: <{unknown[0]}> is no class of the ontology; expected the IRI or CURIE of one of its "
+            "classes, as `usd2kg ontology scope FILE` lists them"
         )
     below = reachable(_turned(closure.superclasses()), wanted) & closure.classes
     return wanted | {iri for iri in below if not closure.annotations[iri].is_deprecated}

@@ -80,6 +80,8 @@ _NEARNESS_TEXTS = {
     Nearness.TWIN: "of the same size",
     Nearness.ALIKE: "of about the same size",
 }
+_OF_OTHERS = frozenset(["company", "geometry"])
+"""The evidence that is not about the object itself, or about its size alone."""
 _BELIEVED, _UNLIKELY = 0.6, 0.02
 """Of the readings of a name with unknown words: one that is heeded, and one that is not asked what it names."""
 _UNREAD = 0.2
@@ -186,6 +188,9 @@ class _Run:
         if not findings or max(findings[0].score, spelled_out) < _UNKNOWN:
             return self._default(prim_path, "what is known about it does not say what it is"), look
         best = findings[0]
+        if best.group in _OF_OTHERS and self._matcher.is_fallback(best.class_iri):
+            # Two things of which nothing is known do not vouch for each other.
+            return self._default(prim_path, best.explain()), look
         scores = {finding.class_iri: finding.score for finding in reversed(findings)}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
         prediction = Prediction(

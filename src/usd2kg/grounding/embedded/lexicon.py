@@ -16,7 +16,7 @@ from usd2kg.words import split_identifier
 
 __all__ = ["LENT", "Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
 
-_LABEL, _SYNONYM, LENT, _BORROWED, _HEAD = 1.0, 0.92, 0.9, 0.7, 0.6
+_LABEL, _SYNONYM, LENT, _BORROWED, _LESSER, _HEAD = 1.0, 0.92, 0.9, 0.7, 0.7, 0.6
 """Weights of terms; a lent one is a home class's name for another ontology's class that is labelled alike."""
 _DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
 _OTHER_DOMAIN = 0.45
@@ -33,6 +33,8 @@ _ABOVE_MANY = _TOP | {
 """What is above a meaning, and is said in texts about any other too."""
 _MADE = "artifact"
 """The lemma of all that is made."""
+_SHORTEST_CODE = 2
+"""A word of so many letters is a code, in a term of several."""
 _HAPPENINGS = frozenset("activity event action process state situation task".split())
 """Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
 _SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.(?:\S*?\.\.(\S*)|\S*)$")
@@ -129,8 +131,10 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
             # The components of five vendors are no component as such, and a shading device is not what any device is.
             _keep_best(terms, next(iter(claimants)), rest, _LABEL)
     for key, term in terms.items():
-        if key in taxonomy:
+        if key in taxonomy and _is_noun(term):
             _anchor(key, term, tbox, terms, taxonomy, anchors)
+    for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
+        terms[key] = terms[key]._replace(weight=_LESSER)
     default = _default_class(tbox, taxonomy)
     _anchor_default(default, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
@@ -145,6 +149,26 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         borrowed=_borrowed(tbox, terms, default, taxonomy, synonyms),
         listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
     )
+
+
+def _is_noun(term: Term) -> bool:
+    """Return whether a term is a common noun: the SOLiD of a system's name is no solid.
+
+    What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
+    """
+    words = term.text.split()
+    is_general = term.weight < _LABEL and term.text in _GENERAL
+    return not is_general and (len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE)
+
+
+def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mapping[int, Anchor]) -> bool:
+    """Return whether a label is meant as nothing that is made, though its word means that first: screwdriver, a drink."""
+    senses = taxonomy.senses(key)
+    usual = max(senses, key=sense_weight, default=None)
+    if term.weight != _LABEL or usual is None or usual.domain != "artifact":
+        return False
+    own = [sense for sense in senses if sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri]
+    return bool(own) and all(sense.domain != "artifact" for sense in own)
 
 
 def _lent_names(

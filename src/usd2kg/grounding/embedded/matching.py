@@ -97,6 +97,7 @@ class Matcher:
         self._taxonomy = taxonomy
         self._reader = reader
         self._namer = Namer(tbox, lexicon, taxonomy, reader)
+        self.is_fallback = self._namer.is_fallback
         # What a word is depends on nothing else, and the readings of a name say the same words over and over.
         self._head = lru_cache(maxsize=16384)(self._knowing)
         self._named = lru_cache(maxsize=4096)(self._naming)

@@ -53,6 +53,8 @@ _LONGEST_TERM = 5
 _LONG = 7
 """Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
 _SHORTEST_PARTICIPLE = 5
+_ENDINGS = frozenset(["tor"])
+"""Nouns that many words end with by chance: an operator is no opera's hill, nor its gate, which German calls so."""
 _LEAST_CONSONANTS = 4
 """Letters of a word without its vowels that are enough to know it by, where it has some vowels left."""
 _MOST_DROPPED = 4
@@ -204,11 +206,12 @@ class NameReader:
         )
 
     def _is_participle(self, word: str) -> bool:
-        """Return whether a word is no noun and looks like a participle of one that is known: `lidded`, `braced`."""
-        if not word.endswith("ed") or len(word) < _SHORTEST_PARTICIPLE or word in self._taxonomy:
+        """Return whether a word is no noun and looks like a participle of one that is known: `lidded`, `docking`."""
+        ending = next((ending for ending in ("ed", "ing") if word.endswith(ending)), "")
+        if not ending or len(word) < _SHORTEST_PARTICIPLE or word in self._taxonomy:
             return False
-        stem = word[:-2]
-        stems = {stem, word[:-1], stem[:-1] if stem[-1] == stem[-2] else stem, stem[:-1] + "y"}
+        stem = word.removesuffix(ending)
+        stems = {stem, stem + "e", stem[:-1] if stem[-1] == stem[-2] else stem, stem[:-1] + "y"}
         return any(found in self._taxonomy for found in stems)
 
     def _is_modifier(self, word: str) -> bool:
@@ -302,7 +305,8 @@ class NameReader:
             left, right = word[:at], self._taxonomy.singular(word[at:])
             if not is_telling(right):
                 return self._known_words(left)
-            if right not in _PLACEMENTS and self._is_noun(right) and (before := self._known_words(left)):
+            is_head = right not in _PLACEMENTS and right not in _ENDINGS and self._is_noun(right)
+            if is_head and (before := self._known_words(left)):
                 return (*before, right)
         return None
 

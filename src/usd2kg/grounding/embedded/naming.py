@@ -62,6 +62,10 @@ class Namer:
         self._known = lru_cache(maxsize=4096)(self._naming)
         self._places_above = lru_cache(maxsize=4096)(self._telling_words_above)
 
+    def is_fallback(self, iri: ClassIRI | None) -> bool:
+        """Return whether a class is the one of all that another ontology than the home TBox has no class for."""
+        return self._has_own and iri == self._lexicon.default
+
     def places(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
         """Return the words of a name and of the names above that may be a place of something, nearest first."""
         if not context:
