@@ -162,7 +162,7 @@ def _is_noun(term: Term) -> bool:
 
 
 def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mapping[int, Anchor]) -> bool:
-    """Return whether a label is meant as nothing that is made, though its word means that first: screwdriver, a drink."""
+    """Return whether a label is meant as nothing made, though its word means that first: a screwdriver, the drink."""
     senses = taxonomy.senses(key)
     usual = max(senses, key=sense_weight, default=None)
     if term.weight != _LABEL or usual is None or usual.domain != "artifact":
