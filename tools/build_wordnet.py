@@ -126,7 +126,7 @@ class Kinds:
             elif kind[0] == "+":
                 self._add_above(self._meant(name), self._meant(kind[1:]))
             elif kind[0] == "-":
-                self._synsets[self._meant(name)].above.remove(self._meant(kind[1:]))
+                self._take_away(self._meant(name), self._meant(kind[1:]), f"{name},{kind}")
 
     def _meant(self, text: str) -> int:
         """Return the synset that a kind is called by, in WordNet's own order of meanings."""
@@ -155,6 +155,11 @@ class Kinds:
     def _add_above(self, own: int, kind: int) -> None:
         if kind not in self._all_above(own) and own not in self._all_above(kind):
             self._synsets[own].above.append(kind)
+
+    def _take_away(self, own: int, kind: int, row: str) -> None:
+        if kind not in self._synsets[own].above:
+            raise ValueError(f"{KINDS.name}: {row!r}: WordNet does not have the one directly above the other")
+        self._synsets[own].above.remove(kind)
 
     def _all_above(self, synset: int) -> set[int]:
         found = {synset}

@@ -48,6 +48,8 @@ def test_what_a_thing_is_too_is_added_once():
 
 def test_what_a_thing_is_not_is_taken_away():
     assert chains(taxonomy_of({"rack": "-furniture"}), "rack") == [["rack"]]
+    with pytest.raises(ValueError, match="'rack,-lamp': WordNet does not have"):
+        taxonomy_of({"rack": "-lamp"})
     # WordNet has wheeled vehicles below the containers.
     assert "container" not in chains(load_taxonomy(), "forklift")[0]
 

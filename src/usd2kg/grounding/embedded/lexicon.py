@@ -131,7 +131,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
             # The components of five vendors are no component as such, and a shading device is not what any device is.
             _keep_best(terms, next(iter(claimants)), rest, _LABEL)
     for key, term in terms.items():
-        if key in taxonomy and _is_noun(term):
+        if key in taxonomy and _is_common_noun(term):
             _anchor(key, term, tbox, terms, taxonomy, anchors)
     for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
         terms[key] = terms[key]._replace(weight=_LESSER)
@@ -151,7 +151,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     )
 
 
-def _is_noun(term: Term) -> bool:
+def _is_common_noun(term: Term) -> bool:
     """Return whether a term is a common noun: the SOLiD of a system's name is no solid.
 
     What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
