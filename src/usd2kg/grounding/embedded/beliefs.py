@@ -83,8 +83,8 @@ class ThingBeliefs:
         """
         if not self.classes:
             return NO_BELIEFS
-        logs = (logs + np.log(thing_shares(places)))[self._rows]
-        joint = np.bincount(self._columns, np.exp(logs - logs.max()), minlength=len(self.classes))
+        likely = np.exp(logs - logs.max()) * thing_shares(places)
+        joint = np.bincount(self._columns, likely[self._rows], minlength=len(self.classes))
         likeliest = int(places.argmax())
         place = PLACES[likeliest] if places[likeliest] > _PLACE_IS_CLEAR else None
         return Beliefs(self.classes, joint / joint.sum(), place)

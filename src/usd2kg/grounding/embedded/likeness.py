@@ -131,11 +131,18 @@ def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
     return logits
 
 
-@lru_cache(maxsize=2048)
 def _kinds(role: str, word: str) -> Mapping[str, float]:
     """Return the synsets above the likeliest meanings of a word, as features."""
     taxonomy = load_taxonomy()
-    senses = sorted(taxonomy.senses(taxonomy.singular(word)), key=sense_weight, reverse=True)
+    noun = taxonomy.singular(word)
+    # Most pairs of words are no noun, and few come again.
+    return _kinds_of(role, noun) if noun in taxonomy else {}
+
+
+@lru_cache(maxsize=4096)
+def _kinds_of(role: str, noun: str) -> Mapping[str, float]:
+    taxonomy = load_taxonomy()
+    senses = sorted(taxonomy.senses(noun), key=sense_weight, reverse=True)
     features: dict[str, float] = {}
     for sense, value in zip(senses, _SENSES, strict=False):
         for synset, _ in taxonomy.walk_up(sense.synset):

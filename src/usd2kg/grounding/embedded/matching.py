@@ -166,8 +166,9 @@ class Matcher:
         above = self._above(parents[-1]) if parents else _NO_PARENT
         whole = phrase.context or above.words
         heads = [self._named_of(whole, words[:end], places, is_respelled) for end in range(1, len(words) + 1)]
+        linked = _are_within(heads)
         found = [
-            (end, self._features(phrase, end, named, size, above, is_linked=_is_within(end, heads)), named)
+            (end, self._features(phrase, end, named, size, above, is_linked=linked[end - 1]), named)
             for end, named in enumerate(heads, start=1)
             if named.run
         ]
@@ -299,6 +300,10 @@ def _named(run: tuple[str, ...], matches: tuple[Match, ...], is_respelled: bool)
     return Named(run, matches, log(max([match.score for match in matches])), tuple(answers), scores[-1][1].class_iri)
 
 
-def _is_within(end: int, heads: Sequence[Named]) -> bool:
-    """Return whether a term that ends later begins at the head or before it: the swab of a `cotton_swab_jar`."""
-    return any(end > later - len(heads[later - 1].run) for later in range(end + 1, len(heads) + 1))
+def _are_within(heads: Sequence[Named]) -> list[bool]:
+    """Return for each head whether a term that ends later begins at it or before: the swab of a `cotton_swab_jar`."""
+    within, first = [False] * len(heads), len(heads)
+    for end in range(len(heads), 0, -1):
+        within[end - 1] = first < end
+        first = min(first, end - len(heads[end - 1].run))
+    return within

@@ -110,7 +110,8 @@ class NameReader:
     def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
-        # What a word is depends on nothing else, and stages say the same words over and over.
+        # What a name or a word says depends on nothing else, and both are asked for over and over.
+        self.read = lru_cache(maxsize=4096)(self._read)
         self.correct = lru_cache(maxsize=65536)(self._correct)
         self.is_modifier = lru_cache(maxsize=16384)(self._is_modifier)
         self.is_place = lru_cache(maxsize=16384)(self._is_place)
@@ -127,7 +128,7 @@ class NameReader:
             found.setdefault((word[0], len(word)), []).append(word)
         return found
 
-    def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
+    def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
         tokens = self._telling(_tokens(name))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
@@ -331,7 +332,7 @@ class NameReader:
             return None
         longer = range(len(word) + 1, len(word) + _MOST_DROPPED + 1)
         near = chain.from_iterable(self._by_first_letter_and_length.get((word[0], length), ()) for length in longer)
-        alike = [found for found in near if _is_within(word, found) and consonants_of(found) == consonants]
+        alike = [found for found in near if consonants_of(found) == consonants and _is_within(word, found)]
         return (max(alike, key=thing_prior),) if alike else None
 
     def _respell(self, word: str, budget: int) -> tuple[str, ...] | None:

@@ -110,12 +110,13 @@ def surprise(size: Size, noun: str) -> float | None:
     row = _rows().get(noun)
     if row is None:
         return None
-    return float(likelihoods_of(size)[row]) - _usual(size)
+    logs, usual = _kept(size)
+    return float(logs[row]) - usual
 
 
 def likelihoods_of(size: Size) -> _Floats:
     """Return `log_likelihoods` of one size, kept for when it is asked for again; not to be written to."""
-    return _kept_likelihoods(rounded(size))
+    return _kept(size)[0]
 
 
 def rounded(size: Size) -> Size:
@@ -125,17 +126,12 @@ def rounded(size: Size) -> Size:
 
 
 @lru_cache(maxsize=512)
-def _kept_likelihoods(size: Size) -> _Floats:
-    logs = log_likelihoods(size)
+def _kept(size: Size) -> tuple[_Floats, float]:
+    """Return `log_likelihoods` of the rounded size, and log mean over things of p(size | thing)."""
+    logs = log_likelihoods(rounded(size))
     logs.flags.writeable = False
-    return logs
-
-
-@lru_cache(maxsize=16384)
-def _usual(size: Size) -> float:
-    """Return log mean over things of p(size | thing)."""
-    logs = likelihoods_of(size)
-    return float(np.logaddexp.reduce(logs)) - math.log(len(logs))
+    # No density is too small or too large for this.
+    return logs, math.log(np.exp(logs).sum() / len(logs))
 
 
 def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
