@@ -49,8 +49,11 @@ TRAIN = (
     "pantries",
     "joints",
     "places",
+    "sets",
+    "props",
+    "rarities",
 )
-TEST = ("unseen", "blind", "galley")
+TEST = ("unseen", "blind", "galley", "rare")
 ONTOLOGIES = HERE.parents[2] / "shared/ontologies/other"
 OTHERS = {"SOMA+DFL": "multiverse_soma_dfl/SOMA_DFL_module.owl", "DogOnt": "dogont/dogont.owl"}
 

@@ -430,6 +430,20 @@ class TestHomeSynonyms:
         assert local(with_home) == "BedsideTable"
         assert local(without) == "DesignedFurniture"
 
+    def test_of_classes_about_as_near_the_one_that_tells_more_is_taken(self):
+        # WordNet has a range hood below the hoods, which are coverings.
+        tbox = make_tbox(
+            make_class("Thing"),
+            make_class("Covering", "Thing"),
+            make_class("Device", "Thing"),
+            make_class("Appliance", "Device"),
+            make_class("KitchenAppliance", "Appliance"),
+        )
+        assert [local(found) for found in ground_names(["range_hood", "bedspread"], tbox)] == [
+            "KitchenAppliance",
+            "Covering",
+        ]
+
     def test_a_class_of_ones_own_is_meant_where_the_home_vocabulary_knows_a_general_one_only(self):
         # To the home vocabulary a teddy is an artifact; an ontology with toys below the artifacts means those.
         toys = make_tbox(

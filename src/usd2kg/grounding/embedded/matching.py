@@ -170,7 +170,7 @@ class Matcher:
         found = [
             (end, self._features(phrase, end, named, size, above, is_linked=linked[end - 1]), named)
             for end, named in enumerate(heads, start=1)
-            if named.run
+            if named.run and not (self._is_too_small(named.run, size) and self._is_beside_unknown(end, words))
         ]
         if phrase.is_head_last:
             return [reading for reading in found if reading[0] == len(words)]
@@ -180,7 +180,7 @@ class Matcher:
             named = self._named_turned(words[at - 1], words[at], is_respelled)
             if named.run and not phrase.is_glued(at):
                 # A dinner plate is a plate: what speaks for the plate must not speak against the dinner plate.
-                found = [reading for reading in found if reading[0] != at or not self._is_below(named, reading[2])]
+                found = [reading for reading in found if reading[0] != at or not self._is_more_telling(named, reading[2])]
                 turned.append((at + 1, self._features(phrase, at + 1, named, size, above, is_turned=True), named))
         return [*found, *turned]
 
@@ -201,7 +201,12 @@ class Matcher:
             return named
         part = self._named((*of, *words), places, is_respelled)
         # That a cabinet in the kitchen is a kitchen cabinet is known from the places.
-        return named if part.class_iri == named.class_iri or self._is_below(part, named) else part
+        is_placed = self._reader.is_place(of[-1]) and self._is_below(part, named)
+        return named if part.class_iri == named.class_iri or is_placed else part
+
+    def _is_more_telling(self, turned: Named, plain: Named) -> bool:
+        """Return whether a turned term is of a kind of what the head is alone: a `cabinet_wall`, no first-aid one."""
+        return len(plain.run) == 1 and self._is_below(turned, plain)
 
     def _is_below(self, special: Named, general: Named) -> bool:
         one, other = special.class_iri, general.class_iri
@@ -256,7 +261,7 @@ class Matcher:
     def _fit(self, run: tuple[str, ...], size: Size, head: _Head, before: tuple[str, ...]) -> float | None:
         """Return the logarithm of how much likelier a size makes it that a thing is called so; None if unknown."""
         is_lone = len(run) == 1
-        if head.place and is_lone and max(size) < _SMALLEST_PLACE:
+        if self._is_too_small(run, size):
             return _LOG_WRONG
         # Of a compound only its own size counts: a spice rack is no rack of usual size.
         value = surprise(size, "".join(run))
@@ -268,6 +273,15 @@ class Matcher:
             values = (surprise(size, kind) for kind in head.kinds)
             value = next((value for value in values if value is not None), None)
         return None if value is None else max(_LOG_WRONG, min(_LOG_RIGHT, _SIZE_POWER * value + _SIZE_OFFSET))
+
+    def _is_too_small(self, run: tuple[str, ...], size: Size | None) -> bool:
+        """Return whether a word is a place for which a thing is too small: a `kitchen_scails` is no kitchen."""
+        return size is not None and len(run) == 1 and max(size) < _SMALLEST_PLACE and self._head(run[0]).place > 0
+
+    def _is_beside_unknown(self, end: int, words: tuple[str, ...]) -> bool:
+        """Return whether a name has other words than the one at an end, and none of them is known."""
+        others = (*words[: end - 1], *words[end:])
+        return bool(others) and not any(map(self._reader.is_known, others))
 
     def _knowing(self, word: str) -> _Head:
         telling, within = (1 - self._reader.trailing(word, is_last=is_last) for is_last in (True, False))

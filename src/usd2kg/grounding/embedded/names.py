@@ -27,6 +27,8 @@ _PLACEMENTS = frozenset(
     """.split()
 )
 _PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility", "establishment"])
+_ENCLOSURES = frozenset(["compartment"])
+"""No places, though WordNet has them among the rooms: a locker is a thing, and so is a butter compartment."""
 _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
@@ -59,8 +61,10 @@ _LEAST_CONSONANTS = 4
 """Letters of a word without its vowels that are enough to know it by, where it has some vowels left."""
 _MOST_DROPPED = 4
 """Vowels that may be missing from such a word."""
-_SHORTEST_UNKNOWN = 5
-"""Shorter words that are unknown are abbreviations sooner than misspelt."""
+_SHORTEST_UNKNOWN, _SHORTEST_DOUBLED = 5, 4
+"""Shorter words that are unknown are abbreviations sooner than misspelt, and where but a letter is not doubled."""
+_WITH = frozenset(["with", "without", "w", "wo"])
+"""What stands before what a thing has besides: the lid of a `toy_bin_w_lid`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +122,7 @@ class NameReader:
         self._describes = lru_cache(maxsize=16384)(self._describing)
         self._is_material = taxonomy.below(_MATERIALS)
         self._is_kind_of_place = taxonomy.below(_PLACES)
+        self._is_kind_of_enclosure = taxonomy.below(_ENCLOSURES)
 
     @cached_property
     def _by_first_letter_and_length(self) -> dict[tuple[str, int], list[str]]:
@@ -130,7 +135,7 @@ class NameReader:
 
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
-        tokens = self._telling(_tokens(name))[:_MOST_WORDS]
+        tokens = self._telling(self._without_additions(_tokens(name)))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         glued: list[bool] = []
@@ -154,11 +159,17 @@ class NameReader:
             glued.extend([token.is_glued, *[True] * (len(read) - 1)])
             if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
                 corrections.append((token.text, " ".join(read)))
-        context = tuple(token.text for token in references)
+        context = tuple(word for token in references for word in self._spelled_out(token.text))
         if len(words) > 2 and words[-1] in _FASTENED and words[-2] in _BUILT:
             # A `toilet_wall_hung` is no wall.
             del words[-2:], glued[-2:]
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
+
+    def _without_additions(self, tokens: list[_Token]) -> list[_Token]:
+        """Return the tokens before the one that says what a thing has besides, if they name a thing."""
+        at = next((at for at, token in enumerate(tokens) if token.text in _WITH), len(tokens))
+        named = any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
+        return tokens[:at] if named and any(is_telling(token.text) for token in tokens[at + 1 :]) else tokens
 
     def _telling(self, tokens: list[_Token]) -> list[_Token]:
         """Return the tokens that say something: those of a pipeline (`low`, `test`) only in a term: `TestTube`."""
@@ -183,7 +194,7 @@ class NameReader:
     def _spelled_out(self, word: str) -> tuple[str, ...]:
         """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""
         usual = usual_abbreviations().get(word)
-        return (usual,) if usual is not None and word not in self._lexicon.terms else self.correct(word)
+        return tuple(usual.split()) if usual is not None and word not in self._lexicon.terms else self.correct(word)
 
     def _translated(self, tokens: list[_Token]) -> tuple[str, ...] | None:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
@@ -255,7 +266,9 @@ class NameReader:
     def _is_place(self, word: str) -> bool:
         """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
         sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
-        return word in _AREAS or (sense is not None and self._is_kind_of_place(sense.synset))
+        if sense is None or self._is_kind_of_enclosure(sense.synset):
+            return word in _AREAS
+        return word in _AREAS or self._is_kind_of_place(sense.synset)
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
@@ -286,7 +299,7 @@ class NameReader:
     def _correct(self, word: str) -> tuple[str, ...]:
         """Return a word as known words: itself, its singular, a compound split, or the nearest spelling."""
         if self.is_known(word):
-            return (word,)
+            return self._parts_of_term(word)
         singular = self._taxonomy.singular(word)
         if singular != word:
             return (singular,)
@@ -299,6 +312,12 @@ class NameReader:
             or self._respell(word, 1 if len(word) < 8 else 2)
             or (word,)
         )
+
+    def _parts_of_term(self, word: str) -> tuple[str, ...]:
+        """Return the words of a term that is written as one (`slidecabinet`), if the language does not do so too."""
+        term = self._lexicon.terms.get(word)
+        parts = tuple(term.text.lower().split()) if term is not None and word not in self._taxonomy else ()
+        return parts if "".join(parts) == word else (word,)
 
     def _split(self, word: str) -> tuple[str, ...] | None:
         """Split a compound into known words, the longest last word first; pipeline tokens at the end fall off."""
@@ -336,8 +355,9 @@ class NameReader:
         return (max(alike, key=thing_prior),) if alike else None
 
     def _respell(self, word: str, budget: int) -> tuple[str, ...] | None:
-        if len(word) < _SHORTEST_UNKNOWN or not word.isalpha():
+        if len(word) < _SHORTEST_DOUBLED or not word.isalpha():
             return None
+        is_doubled_only = len(word) < _SHORTEST_UNKNOWN
         ranked: list[tuple[int, bool, bool, float, str]] = []
         for length in range(len(word) - budget, len(word) + budget + 1):
             alike = self._by_first_letter_and_length.get((word[0], length), [])
@@ -346,8 +366,8 @@ class NameReader:
                 # The TBox's own words first: they are what the scene is likely to be about.
                 is_foreign = candidate not in self._lexicon.vocabulary
                 is_short = is_foreign and len(word) < _SHORTEST_RESPELLED
-                if not is_short and _may_be_slip(word, candidate):
-                    is_doubling = _undoubled(candidate) == _undoubled(word)
+                is_doubling = _undoubled(candidate) == _undoubled(word)
+                if not is_short and (is_doubling or not is_doubled_only) and _may_be_slip(word, candidate):
                     is_disorder = sorted(candidate) == sorted(word)
                     loss = -thing_prior(candidate) + 2 * is_foreign
                     ranked.append((int(distance), not is_doubling, not is_disorder, loss, candidate))

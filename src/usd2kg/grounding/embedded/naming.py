@@ -19,6 +19,8 @@ _HOP_DECAY = 0.965
 _ROOT_SHARE, _FROM_ROOT = 0.75, 2
 """Of a root the share is less, and the decay the other way round: what is far below one is a thing of its own, which
 the TBox lacks, as a wall may be; what is near, a structure or a surface, says little of what a thing is."""
+_ABOUT_AS_NEAR = 1
+"""Steps in the taxonomy by which a class may be farther off that tells more."""
 _PLACED = 0.95
 _SHORTEST_NOUN = 3
 """Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""
@@ -220,16 +222,25 @@ class Namer:
     def _nearest_above(self, synset: int) -> tuple[int, int, Anchor] | None:
         """Return the nearest synset above that has a class, its hops and the class; special classes go first.
 
-        The home vocabulary has a teddy among the artifacts; an ontology with toys below the artifacts means those.
+        The home vocabulary has a teddy among the artifacts; an ontology with toys below the artifacts means those. Of
+        classes that are about as near, the one with most above it says most: a range hood is a kitchen appliance
+        rather than a covering.
         """
         nearest: tuple[int, int, Anchor] | None = None
         for up, hops in self._taxonomy.walk_up(synset):
             anchor = self._lexicon.anchors.get(up)
-            if anchor is not None and (nearest is None or self._is_own_below(anchor.class_iri, nearest[2].class_iri)):
+            if anchor is None:
+                continue
+            if nearest is None or self._is_own_below(anchor.class_iri, nearest[2].class_iri):
                 nearest = up, hops, anchor
                 if not self._has_own:
                     break
+            elif hops <= nearest[1] + _ABOUT_AS_NEAR and self._depth(anchor) > self._depth(nearest[2]):
+                nearest = up, hops, anchor
         return nearest
+
+    def _depth(self, anchor: Anchor) -> int:
+        return len(self._tbox.closure(anchor.class_iri))
 
     def _is_own_below(self, special: ClassIRI, general: ClassIRI) -> bool:
         """Return whether a class is one that the home vocabulary does not know, below one that it does."""
