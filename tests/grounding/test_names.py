@@ -517,7 +517,7 @@ class TestHeads:
 
     EXPECTED = (
         ("DiningChair_Velvet_Green", "DesignedChair"),
-        ("TeaPot_Japanese_Iron", "Tableware"),
+        ("TeaPot_Japanese_Iron", "Crockery"),
         ("table_oak", "Table"),
         ("oak_table", "Table"),
         ("cake_chocolate", "BakedGood"),
