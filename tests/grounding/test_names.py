@@ -552,7 +552,7 @@ class TestHeads:
         assert classes_of(expected, home_tbox) == expected
 
     def test_a_part_is_what_parts_of_such_things_are(self, home_tbox: TBox):
-        # A locker is no place here: it is the lock that is a component, as other parts are, and no artifact of any kind.
+        # What groups of rooms hold is furniture; a board of a fridge or a cabinet (`cab`) is a part.
         views = [("shelf_left", "fridge"), ("shelf_left", "wall_cab_400"), ("shelf_left", "LivingRoom")]
         found = [ground_view(ObjectView(name=name, parents=(above,)), home_tbox) for name, above in views]
         assert [local(part) for part in found] == ["DesignedComponent", "DesignedComponent", "DesignedFurniture"]

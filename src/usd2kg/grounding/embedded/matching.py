@@ -180,7 +180,7 @@ class Matcher:
             named = self._named_turned(words[at - 1], words[at], is_respelled)
             if named.run and not phrase.is_glued(at):
                 # A dinner plate is a plate: what speaks for the plate must not speak against the dinner plate.
-                found = [reading for reading in found if reading[0] != at or not self._is_more_telling(named, reading[2])]
+                found = [read for read in found if read[0] != at or not self._is_more_telling(named, read[2])]
                 turned.append((at + 1, self._features(phrase, at + 1, named, size, above, is_turned=True), named))
         return [*found, *turned]
 
