@@ -551,11 +551,28 @@ class TestHeads:
         expected = {"first_aid_cabinet_wall": "Cupboard", "cabinet_wall": "KitchenCabinet"}
         assert classes_of(expected, home_tbox) == expected
 
+    @pytest.mark.parametrize(
+        ("name", "expected"),
+        [
+            ("PlateDinnerA", "DinnerPlate"),
+            ("BowlSalad", "SaladBowl"),
+            ("forkDessert", "DessertFork"),
+            ("glassWine_red", "WineGlass"),
+            # A term as it stands.
+            ("WallPaper", "Wall"),
+        ],
+    )
+    def test_a_head_may_be_written_before_its_kind(self, home_tbox: TBox, name: str, expected: str):
+        assert local(ground_view(ObjectView(name=name), home_tbox)) == expected
+
     def test_a_part_is_what_parts_of_such_things_are(self, home_tbox: TBox):
         # What groups of rooms hold is furniture; a board of a fridge or a cabinet (`cab`) is a part.
-        views = [("shelf_left", "fridge"), ("shelf_left", "wall_cab_400"), ("shelf_left", "LivingRoom")]
-        found = [ground_view(ObjectView(name=name, parents=(above,)), home_tbox) for name, above in views]
-        assert [local(part) for part in found] == ["DesignedComponent", "DesignedComponent", "DesignedFurniture"]
+        above = ("fridge", "fridge_xqz400", "wall_cab_400", "LivingRoom")
+        found = [ground_view(ObjectView(name="shelf_left", parents=(parent,)), home_tbox) for parent in above]
+        assert [local(part) for part in found] == [*["DesignedComponent"] * 3, "DesignedFurniture"]
+        placed = (("fork_1", "diningArea"), ("stack_cartons", "PalletStorage"))
+        found = [ground_view(ObjectView(name=name, parents=(parent,)), home_tbox) for name, parent in placed]
+        assert [local(thing) for thing in found] == ["TableFork", "Box"]
 
     def test_a_parent_s_word_is_the_name_s_own_if_the_parent_is_not_repeated_whole(self, reader: NameReader):
         assert reader.read("bread_knife_b", ("knifeBlock",)).words == ("bread", "knife")

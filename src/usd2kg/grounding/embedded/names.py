@@ -16,7 +16,7 @@ from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.languages import language_of, translate
 from usd2kg.words import is_telling, split_identifier
 
-__all__ = ["NamePhrase", "NameReader"]
+__all__ = ["AREAS", "NamePhrase", "NameReader"]
 
 _PLACEMENTS = frozenset(
     """
@@ -33,7 +33,7 @@ _MOUNTS = frozenset(
     "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
 )
 """Where things hang and stand, and are called after: `clock_wall`."""
-_AREAS = frozenset(["area", "zone", "section", "region", "exit"])
+AREAS = frozenset(["area", "zone", "section", "region", "exit"])
 """Places within a room: the drawer in the `sink_area_drawer`, the sign of an `exit_sign`."""
 _BUILT, _FASTENED = frozenset(["wall", "ceiling"]), frozenset(["hung", "mounted", "recessed"])
 """What things are fastened to, and how: the last words of `toilet_wall_hung`, which say nothing of its kind."""
@@ -267,8 +267,8 @@ class NameReader:
         """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
         sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
         if sense is None or self._is_kind_of_enclosure(sense.synset):
-            return word in _AREAS
-        return word in _AREAS or self._is_kind_of_place(sense.synset)
+            return word in AREAS
+        return word in AREAS or self._is_kind_of_place(sense.synset)
 
     def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""

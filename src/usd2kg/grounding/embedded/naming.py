@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, home_names, sense_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
-from usd2kg.grounding.embedded.names import NamePhrase, NameReader
+from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
@@ -75,15 +75,22 @@ class Namer:
         return (*filter(self._begins_term, context), *self._places_above(parents))
 
     def whole_of(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the last words of what a thing is part of that make a term of several with its own; mostly none."""
+        """Return the words of what a thing is part of that make a term of several with its own; mostly none.
+
+        They are the last ones, but for a word that names nothing: the fork in the `diningArea` is a dining fork.
+        """
+        if not whole:
+            return ()
         *before, last = words
         key = "".join(before) + self._taxonomy.singular(last)
-        for start in range(len(whole)):
-            of = "".join((*whole[start:-1], self._taxonomy.singular(whole[-1])))
-            term = self._lexicon.terms.get(of + key)
-            # A name that is only lent to a class does not stand against the class's own.
-            if term is not None and " " in term.text and term.weight > LENT:
-                return whole[start:]
+        is_code = len(whole) > 1 and (whole[-1] in AREAS or not self._reader.is_known(whole[-1]))
+        for end in range(len(whole), len(whole) - 1 - is_code, -1):
+            head = self._taxonomy.singular(whole[end - 1])
+            for start in range(end):
+                term = self._lexicon.terms.get("".join((*whole[start : end - 1], head)) + key)
+                # A name that is only lent to a class does not stand against the class's own.
+                if term is not None and " " in term.text and term.weight > LENT:
+                    return whole[start:end]
         return ()
 
     def name(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[Match, ...]]:
