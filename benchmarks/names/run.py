@@ -4,9 +4,9 @@ Usage: python -m benchmarks.names.run [ONTOLOGY]
 
 Each list holds different things, written and labelled by the authors of this project before any answer was seen, by the
 conventions for SOMA-HOME. The grounder was improved on the errors in all but four, of which only the score was looked
-at: `unseen`, whose rows were drawn by lot from those of `dwelling` and `work` before anybody saw them, `blind`, `galley`,
-of kitchens, and `rare`. That one was drawn by lot with `rarities`, of things that their authors were asked to think of
-because few people would: parts, fittings, utensils and tools of trades.
+at: `unseen`, whose rows were drawn by lot from those of `dwelling` and `work` before anybody saw them, `blind`,
+`galley`, of kitchens, and `rare`. That one was drawn by lot with `rarities`, of things that their authors were asked to
+think of because few people would: parts, fittings, utensils and tools of trades.
 Where labellers who did not know of each other agreed on a convention, the home vocabulary follows them.
 `second_labels.csv` has what another labeller, who saw no label, calls 400 things of `unseen` and `blind`: how often the
 two agree is what any grounder can be expected to.
