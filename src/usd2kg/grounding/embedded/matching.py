@@ -178,7 +178,7 @@ class Matcher:
         for at in range(1, len(words)):
             # The head may stand before the word that tells its kind, as in `plate_dinner`.
             named = self._named_turned(words[at - 1], words[at], is_respelled)
-            # Written as one that is rare but at the beginning, as in `BowlSalad`, and where both are no term as they are.
+            # Written as one it does so at the beginning, as in `BowlSalad`, where the two are no term as they stand.
             may_be_turned = not phrase.is_glued(at) or (at == 1 and len(heads[at].run) == 1)
             if named.run and may_be_turned:
                 # A dinner plate is a plate: what speaks for the plate must not speak against the dinner plate.
