@@ -62,7 +62,8 @@ _LEAST_CONSONANTS = 4
 _MOST_DROPPED = 4
 """Vowels that may be missing from such a word."""
 _SHORTEST_UNKNOWN, _SHORTEST_DOUBLED = 5, 4
-"""Shorter words that are unknown are abbreviations sooner than misspelt, and where but a letter is not doubled."""
+"""Shorter words that are unknown are abbreviations sooner than misspelt. Those with the least letters may lack but the
+second of a double one."""
 _WITH = frozenset(["with", "without", "w", "wo"])
 """What stands before what a thing has besides: the lid of a `toy_bin_w_lid`."""
 
@@ -167,9 +168,11 @@ class NameReader:
 
     def _without_additions(self, tokens: list[_Token]) -> list[_Token]:
         """Return the tokens before the one that says what a thing has besides, if they name a thing."""
-        at = next((at for at, token in enumerate(tokens) if token.text in _WITH), len(tokens))
-        named = any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
-        return tokens[:at] if named and any(is_telling(token.text) for token in tokens[at + 1 :]) else tokens
+        at = next((at for at, token in enumerate(tokens) if token.text in _WITH), None)
+        if at is None or not any(is_telling(token.text) for token in tokens[at + 1 :]):
+            return tokens
+        is_named = any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
+        return tokens[:at] if is_named else tokens
 
     def _telling(self, tokens: list[_Token]) -> list[_Token]:
         """Return the tokens that say something: those of a pipeline (`low`, `test`) only in a term: `TestTube`."""
