@@ -77,14 +77,15 @@ class Namer:
     def whole_of(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
         """Return the words of what a thing is part of that make a term of several with its own; mostly none.
 
-        They are the last ones, but for a word that names nothing: the fork in the `diningArea` is a dining fork.
+        They are the last ones, or those before a last one that is unknown or an area: a fork in the `diningArea` is a
+        dining fork.
         """
         if not whole:
             return ()
         *before, last = words
         key = "".join(before) + self._taxonomy.singular(last)
-        is_code = len(whole) > 1 and (whole[-1] in AREAS or not self._reader.is_known(whole[-1]))
-        for end in range(len(whole), len(whole) - 1 - is_code, -1):
+        may_drop_last = len(whole) > 1 and (whole[-1] in AREAS or not self._reader.is_known(whole[-1]))
+        for end in range(len(whole), len(whole) - 1 - may_drop_last, -1):
             head = self._taxonomy.singular(whole[end - 1])
             for start in range(end):
                 term = self._lexicon.terms.get("".join((*whole[start : end - 1], head)) + key)
