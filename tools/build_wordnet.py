@@ -12,9 +12,11 @@ things in scenes are kinds of. Its second column holds, parted by `|`:
 - `kind`: a meaning of the name that comes before those of WordNet, and what it is a kind of;
 - `+kind`: what else the name's usual meaning is a kind of;
 - `-kind`: what it is no kind of, though WordNet says so;
-- `=2`: that the second meaning in WordNet's order is the usual one.
+- `=2`: that the second meaning in WordNet's order is the usual one;
+- `==other`: that it is another word for this first of all.
 
 A kind is a lemma, by its first meaning as an artifact or else its first; `file.4` is the fourth in WordNet's order.
+What WordNet lacks may be a kind too if it has a row.
 """
 
 import csv
@@ -22,6 +24,7 @@ import gzip
 import re
 import sys
 from collections import defaultdict
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -44,6 +47,10 @@ KEPT_FILES = {
     27: "substance",
 }
 
+
+_PERSON = "person"
+"""Of WordNet's people, many of whom are called like tools, there are but those of `wordnet_kinds.csv`."""
+DOMAINS = (*KEPT_FILES.values(), _PERSON)
 
 _SLANG = "controlled substance"
 """The slang names of these are those of things: rope, soap, pot, glass, window pane. On a stage none means the drug."""
@@ -115,8 +122,31 @@ class Kinds:
                 self._senses[_key(lemma)].append((rank, at))
                 self._named[_key(lemma)].append(synset)
 
-    def add(self, name: str, kinds: list[str]) -> None:
+    def add_all(self, rows: Sequence[tuple[str, list[str]]]) -> None:
+        """Add the rows of the file, each after those that it speaks of."""
+        own = {_key(name) for name, _ in rows}
+        waiting = list(rows)
+        while waiting:
+            ready = [row for row in waiting if not any(map(self._is_unknown, row[1]))]
+            if not ready:
+                name, kinds = waiting[0]
+                missing = next(filter(self._is_unknown, kinds))
+                reason = (
+                    "speaks of itself in the end" if _key(_bare(missing)) in own else "is no noun for a physical thing"
+                )
+                raise ValueError(f"{KINDS.name}: {name!r}: {missing!r} {reason}; name a kind that WordNet or a row has")
+            for name, kinds in ready:
+                self._add(name, kinds)
+            waiting = [row for row in waiting if row not in ready]
+
+    def _is_unknown(self, kind: str) -> bool:
+        return re.fullmatch(r"=\d+", kind) is None and _key(_bare(kind)) not in self._senses
+
+    def _add(self, name: str, kinds: list[str]) -> None:
         """Add one row of the file."""
+        if kinds[0].startswith("=="):
+            self._add_word(name, self._meant(kinds[0][2:]))
+            return
         own = [kind for kind in kinds if kind[0] not in "+-="]
         if own:
             self._add_first(name, [self._meant(kind) for kind in own])
@@ -142,8 +172,19 @@ class Kinds:
     def _add_first(self, name: str, above: list[int]) -> None:
         new = Synset(self._synsets[above[0]].domain, above, [(name, 1)])
         self._synsets.append(new)
+        if _key(name) not in self._senses:
+            self._senses[_key(name)].append((1, len(self._synsets) - 1))
         self._named[_key(name)].append(new)
         self._put_first(name, new)
+
+    def _add_word(self, name: str, meant: int) -> None:
+        synset = self._synsets[meant]
+        if _key(name) not in {_key(lemma) for lemma, _ in synset.lemmas}:
+            synset.lemmas.append((name, 1))
+        if _key(name) not in self._senses:
+            self._senses[_key(name)].append((1, meant))
+        self._named[_key(name)].append(synset)
+        self._put_first(name, synset)
 
     def _put_first(self, name: str, first: Synset) -> None:
         """Let one meaning come first; the others keep their order."""
@@ -171,13 +212,18 @@ class Kinds:
         return found
 
 
+def _bare(kind: str) -> str:
+    """Return the lemma of a kind, without its sign and the number of its meaning."""
+    return re.sub(r"\.\d+$", "", kind.lstrip("+-="))
+
+
 def _key(lemma: str) -> str:
     return lemma.replace(" ", "").replace("-", "")
 
 
 def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
     """Return the lines that `Taxonomy` reads, and one more: for each lemma, 1 where it is written without space too."""
-    letters = {domain: chr(ord("a") + at) for at, domain in enumerate(KEPT_FILES.values())}
+    letters = {domain: chr(ord("a") + at) for at, domain in enumerate(DOMAINS)}
     senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for at, synset in enumerate(synsets):
         for lemma, rank in synset.lemmas:
@@ -214,7 +260,7 @@ def main() -> None:
     )
     numbered = [
         Synset(
-            KEPT_FILES[file],
+            _PERSON if lemmas[0] == _PERSON and KEPT_FILES[file] == "top" else KEPT_FILES[file],
             [number[up] for up in hypernyms if up in number],
             [(lemma, index[lemma].index(offset) + 1) for lemma in lemmas],
         )
@@ -223,8 +269,7 @@ def main() -> None:
     of_wordnet = len(numbered)
     kinds = Kinds(numbered)
     with KINDS.open(encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            kinds.add(row["name"], row["kind"].split("|"))
+        kinds.add_all([(row["name"], row["kind"].split("|")) for row in csv.DictReader(file)])
     text = format_taxonomy(adjectives, numbered)
     # No time in the gzip header: the same input gives the same bytes.
     OUTPUT.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))

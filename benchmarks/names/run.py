@@ -11,10 +11,6 @@ Where labellers who did not know of each other agreed on a convention, the home 
 `second_labels.csv` has what another labeller, who saw no label, calls 400 things of `unseen` and `blind`: how often the
 two agree is what any grounder can be expected to.
 Without an ontology the built-in home TBox is used.
-
-`other_labels.csv` has what things of these lists are in two ontologies that usd2kg was not made for, labelled blind
-too, half of them to learn from and half a test (from the lists that are tests). The figures for them are printed where
-`../shared/ontologies` is: of all, and of those that the ontology has a class for other than its roots.
 """
 
 import csv
@@ -56,8 +52,6 @@ TRAIN = (
     "lived",
 )
 TEST = ("unseen", "blind", "galley", "rare")
-ONTOLOGIES = HERE.parents[2] / "shared/ontologies/other"
-OTHERS = {"SOMA+DFL": "multiverse_soma_dfl/SOMA_DFL_module.owl", "DogOnt": "dogont/dogont.owl"}
 
 
 class Thing(NamedTuple):
@@ -84,32 +78,6 @@ def main() -> None:
     told = [measure(things, tbox, NamingRegime.SEMANTIC) for things in (firsts, seconds)]
     against = [f"{exact:.1f} ({also:.1f})" for exact, also in told]
     print(f"the grounder against the first {against[0]}, against the second {against[1]}")
-    if not ONTOLOGIES.is_dir():
-        print(f"\nother ontologies: not measured, {ONTOLOGIES} is missing")
-        return
-    print("\nontology  split  n    exact (also)  below a root: n, exact (also)")
-    for ontology, path in OTHERS.items():
-        tbox = open_tbox(ONTOLOGIES / path)
-        for split in ("train", "test"):
-            things = labelled_otherwise(ontology, split, tbox)
-            below = [thing for thing in things if thing.target not in tbox.roots]
-            told = [measure(group, tbox, NamingRegime.SEMANTIC) for group in (things, below)]
-            for_all, for_below = (f"{exact:.1f} ({also:.1f})" for exact, also in told)
-            print(f"{ontology:<9} {split:<6} {len(things)}  {for_all}   {len(below)}, {for_below}")
-
-
-def labelled_otherwise(ontology: str, split: str, tbox: TBox) -> list[Thing]:
-    """Return the things that are labelled with another ontology."""
-    home = open_tbox(None)
-    lists = {name: load(HERE / f"{name}.csv", home) for name in (*TRAIN, *TEST)}
-    objects = {
-        (name, found.obj.name, found.obj.prim_path.split("/")[-2]): found.obj
-        for name, things in lists.items()
-        for found in things
-    }
-    with (HERE / "other_labels.csv").open(encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if (row["ontology"], row["split"]) == (ontology, split)]
-    return [Thing(objects[row["list"], row["name"], row["parent"]], *labels_of(row, tbox)) for row in rows]
 
 
 def twice_labelled(tbox: TBox) -> list[tuple[Thing, Thing]]:

@@ -390,7 +390,7 @@ class TestAnotherDomain:
         ]
         predictions = EmbeddedGrounder().ground_views([(f"/x{at}", view) for at, view in enumerate(views)], harbour)
         assert [local(prediction) for prediction in predictions] == ["Asset"] * 4
-        assert predictions[0].explanation.startswith("“wall” is a kind of “partition”")
+        assert predictions[0].explanation.startswith("“wall” is a kind of “building element”")
 
     def test_things_of_which_nothing_is_known_do_not_vouch_for_each_other(self, harbour: TBox):
         scene = make_scene(*(sized(f"/Quay/{name}", (0.4, 0.3, 0.2)) for name in ("qwrtzx_1", "Bollard", "Bollard_02")))
@@ -424,7 +424,7 @@ class TestHomeSynonyms:
         bare = make_tbox(
             make_class("DesignedFurniture", base=SOMA), make_class("BedsideTable", "DesignedFurniture", base=SOMA)
         )
-        views = [("/x", ObjectView(name="Nachttisch"))]
+        views = [("/x", ObjectView(name="Nachtkonsole"))]
         (with_home,) = EmbeddedGrounder().ground_views(views, bare)
         (without,) = EmbeddedGrounder(use_home_synonyms=False).ground_views(views, bare)
         assert local(with_home) == "BedsideTable"

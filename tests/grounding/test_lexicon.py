@@ -258,3 +258,22 @@ def test_the_home_tbox_names_every_class_by_its_own_local_name(home_tbox: TBox):
     assert wrong == []
     assert named(lexicon, "cup") == "Cup"
     assert lexicon.terms["cup"].class_iri == SOMA + "Cup"
+
+
+TOWN = make_tbox(
+    make_class("Vehicle"),
+    make_class("Cycle", "Vehicle"),
+    make_class("Bicycle", "Cycle"),
+    make_class("JanitorialUnit", "Vehicle", label="janitorial unit"),
+    make_class("Scooter", "Vehicle"),
+)
+
+
+def test_of_two_classes_for_one_meaning_that_of_its_first_name_is_meant():
+    # WordNet has the cycle and the bicycle as two words for one thing; the bicycle comes first.
+    assert anchored(lexicon_of(TOWN), "bicycle")[1] == "Bicycle"
+
+
+def test_any_equipment_is_called_by_another_word_where_the_label_is_no_noun():
+    assert "janitorialunit" not in load_taxonomy()
+    assert anchored(lexicon_of(TOWN), "janitorialequipment") == {1: "JanitorialUnit"}

@@ -259,7 +259,7 @@ class TestCompounds:
         ("name", "words"),
         [
             ("hingeleftdoor", ("hinge", "left", "door")),
-            ("lamptable", ("lamp", "table")),
+            ("lampchair", ("lamp", "chair")),
             # `root` at the end is the exporter's.
             ("hoodroot", ("hood",)),
         ],
@@ -545,6 +545,23 @@ class TestHeads:
         ],
     )
     def test_what_a_thing_has_besides_is_not_the_thing(self, reader: NameReader, name: str, words: tuple[str, ...]):
+        assert reader.read(name).words == words
+
+    @pytest.mark.parametrize(
+        ("name", "words"),
+        [
+            ("towel_on_rack_2", ("towel",)),
+            ("TerrierOnLeash", ("terrier",)),
+            ("drawer_under_oven", ("drawer",)),
+            ("box_of_nails", ("box",)),
+            # A compound, a verb before it, an adjective, or nothing.
+            ("man_of_war", ("man", "of", "war")),
+            ("clip_on_lamp", ("clip", "on", "lamp")),
+            ("flat_in_drawer", ("flat", "in", "drawer")),
+            ("on_table", ("on", "table")),
+        ],
+    )
+    def test_where_a_thing_is_is_not_the_thing(self, reader: NameReader, name: str, words: tuple[str, ...]):
         assert reader.read(name).words == words
 
     def test_a_term_of_several_words_stands_against_a_turned_one(self, home_tbox: TBox):

@@ -30,7 +30,7 @@ def test_the_file_as_the_reader_describes_it():
     *lines, is_single, end = format_taxonomy(["red", "wooden"], SYNSETS).split("\n")
     assert [line.split("\t") for line in lines] == [
         ["red wooden"],
-        ["top animal artifact body communication food group object phenomenon plant shape substance"],
+        ["top animal artifact body communication food group object phenomenon plant shape substance person"],
         ["accfcfc"],
         ["", "0", "1", "0", "2", "3", "4 1"],
         ["entity", "artifact", "tool", "food", "cutter", "bun", "knife"],

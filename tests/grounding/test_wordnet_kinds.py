@@ -16,10 +16,9 @@ def taxonomy_of(rows: dict[str, str]) -> Taxonomy:
         Synset("artifact", [0], [("furniture", 1)]),
         Synset("plant", [], [("bulb", 1)]),
         Synset("artifact", [2], [("rack", 1), ("stand", 1)]),
+        Synset("person", [], [("person", 1)]),
     ]
-    kinds = Kinds(synsets)
-    for name, kind in rows.items():
-        kinds.add(name, kind.split("|"))
+    Kinds(synsets).add_all([(name, kind.split("|")) for name, kind in rows.items()])
     return Taxonomy(format_taxonomy([], synsets))
 
 
@@ -64,9 +63,26 @@ def test_a_kind_is_meant_as_an_artifact_unless_its_number_is_given():
     assert chains(taxonomy_of({"tulip": "bulb.1"}), "tulip") == [["tulip", "bulb"]]
 
 
+def test_a_row_may_speak_of_another_whichever_comes_first():
+    taxonomy = taxonomy_of({"arc lamp": "floor lamp", "floor lamp": "lamp", "standing lamp": "==floor lamp"})
+    assert chains(taxonomy, "arclamp") == [["arc lamp", "floor lamp", "lamp", "artifact"]]
+    assert chains(taxonomy, "standinglamp") == [["floor lamp", "lamp", "artifact"]]
+
+
+def test_a_name_with_meanings_may_be_another_word_first_of_all():
+    assert chains(taxonomy_of({"rack": "==lamp"}), "rack") == [["lamp", "artifact"], ["rack", "furniture", "artifact"]]
+
+
+def test_people_are_a_domain_of_their_own():
+    assert [sense.domain for sense in taxonomy_of({"jogger": "person"}).senses("jogger")] == ["person"]
+    assert chains(load_taxonomy(), "pedestrian")[0][:2] == ["pedestrian", "person"]
+
+
 def test_an_unknown_kind_is_an_error():
-    with pytest.raises(ValueError, match="'qwrtz' is no noun"):
+    with pytest.raises(ValueError, match="'rack': 'qwrtz' is no noun"):
         taxonomy_of({"rack": "qwrtz"})
+    with pytest.raises(ValueError, match="speaks of itself in the end"):
+        taxonomy_of({"arc lamp": "floor lamp", "floor lamp": "arc lamp"})
 
 
 @pytest.mark.parametrize(

@@ -14,12 +14,33 @@ from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
-__all__ = ["LENT", "Anchor", "Lexicon", "Term", "build_lexicon", "home_names", "sense_weight", "term_key", "things_of"]
+__all__ = [
+    "LENT",
+    "Anchor",
+    "Lexicon",
+    "Term",
+    "build_lexicon",
+    "home_names",
+    "sense_weight",
+    "term_key",
+    "things_of",
+    "unmade_weight",
+]
 
 _LABEL, _SYNONYM, LENT, _BORROWED, _LESSER, _HEAD = 1.0, 0.92, 0.9, 0.7, 0.7, 0.6
 """Weights of terms; a lent one is a home class's name for another ontology's class that is labelled alike."""
-_DOMAIN_WEIGHTS = {"artifact": 1.0, "food": 0.9, "substance": 0.6, "communication": 0.4, "group": 0.4, "top": 0.3}
+_DOMAIN_WEIGHTS = {
+    "artifact": 1.0,
+    "food": 0.9,
+    "person": 0.8,
+    "substance": 0.6,
+    "communication": 0.4,
+    "group": 0.4,
+    "top": 0.3,
+}
 _OTHER_DOMAIN = 0.45
+_UNMADE = frozenset(["animal", "object", "person", "plant"])
+"""Domains of what nobody made, whose things stand in scenes out of doors."""
 _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
 _TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
@@ -31,6 +52,15 @@ _ABOVE_MANY = _TOP | {
     "group",
 }
 """What is above a meaning, and is said in texts about any other too."""
+_EQUIPMENT = ("equipment", "device", "unit")
+_ANY_EQUIPMENT = (
+    *(*_EQUIPMENT, "instrument", "apparatus", "machine", "appliance", "system", "tool"),
+    *("supply", "product", "item", "article", "accessory"),
+)
+"""Words that ontologists use one for another at the end of a label, the commonest first: mostly, or where need be."""
+_JOINING = frozenset(["and", "of", "or"])
+_MEASURES = frozenset(["article", "item", "piece", "portion"])
+"""Words before an "of" that only make one thing of what stands behind it."""
 _MADE = "artifact"
 """The lemma of all that is made."""
 _SHORTEST_CODE = 2
@@ -81,6 +111,8 @@ class Lexicon:
     """
     listed: frozenset[ClassIRI]
     """The classes whose further terms are known: those of the home vocabulary, if it is used."""
+    kingdoms: frozenset[str]
+    """The domains of what nobody made in which the TBox has classes that the home vocabulary does not know."""
 
 
 @lru_cache(maxsize=1)
@@ -103,6 +135,11 @@ def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
 def sense_weight(sense: Sense) -> float:
     """Return how likely a sense is meant by the name of an object on a stage: artifacts first."""
     return _DOMAIN_WEIGHTS.get(sense.domain, _OTHER_DOMAIN) * _RANK_DECAY ** (sense.rank - 1)
+
+
+def unmade_weight(sense: Sense) -> float:
+    """Return the same for a thing that nobody made, where no made thing is meant."""
+    return _RANK_DECAY ** (sense.rank - 1)
 
 
 def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> Lexicon:
@@ -133,8 +170,13 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     for key, term in terms.items():
         if key in taxonomy and _is_common_noun(term):
             _anchor(key, term, tbox, terms, taxonomy, anchors)
+    for key, term in terms.items():
+        if term.weight == _LABEL and _is_common_noun(term):
+            for noun in _said_otherwise(term.text, taxonomy, is_noun=key in taxonomy):
+                _anchor(noun, term._replace(weight=_SYNONYM), tbox, terms, taxonomy, anchors)
     for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
         terms[key] = terms[key]._replace(weight=_LESSER)
+    listed = frozenset(synonyms.keys() & tbox.by_iri.keys())
     default = _default_class(tbox, taxonomy)
     _anchor_default(default, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
@@ -147,7 +189,8 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default=default,
         borrowed=_borrowed(tbox, terms, default, taxonomy, synonyms),
-        listed=frozenset(synonyms.keys() & tbox.by_iri.keys()),
+        listed=listed,
+        kingdoms=_kingdoms(terms, anchors, taxonomy, listed),
     )
 
 
@@ -156,9 +199,59 @@ def _is_common_noun(term: Term) -> bool:
 
     What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
     """
-    words = term.text.split()
+    words = [word for word in term.text.split() if word not in _JOINING]
     is_general = term.weight < _LABEL and term.text in _GENERAL
     return not is_general and (len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE)
+
+
+def _kingdoms(
+    terms: Mapping[str, Term], anchors: Mapping[int, Anchor], taxonomy: Taxonomy, listed: frozenset[ClassIRI]
+) -> frozenset[str]:
+    return frozenset(
+        sense.domain
+        for key, term in terms.items()
+        if term.weight == _LABEL and term.class_iri not in listed
+        for sense in taxonomy.senses(key)[:1]
+        if sense.domain in _UNMADE and sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri
+    )
+
+
+def _said_otherwise(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[str]:
+    """Return the nouns of the taxonomy that say what a label says: a dental unit is a device, a portion of bread bread.
+
+    Args:
+        label: the label, in the singular.
+        taxonomy: the nouns.
+        is_noun: whether the label itself is one; then it is what it says but for equipment of all kinds.
+    """
+    if len(alternatives := _alternatives(label.split())) > 1:
+        said = [_said(words, taxonomy).replace(" ", "") for words in alternatives]
+        return [noun for noun in said if noun in taxonomy]
+    *before, last = label.split()
+    if "of" in before and _MEASURES.issuperset(before[: before.index("of")]):
+        return [noun for noun in ["".join((*before[before.index("of") + 1 :], last))] if noun in taxonomy]
+    heads = _EQUIPMENT if is_noun else _ANY_EQUIPMENT
+    if not before or last not in heads:
+        return []
+    found = [noun for head in heads if head != last and (noun := "".join((*before, head))) in taxonomy]
+    return found if is_noun else found[:1]
+
+
+def _alternatives(words: list[str]) -> list[str]:
+    """Return what the class of a label with an "or" is made of: cleaning equipment and waste equipment, and waste.
+
+    >>> _alternatives(["cleaning", "and", "waste", "equipment"])
+    ['cleaning equipment', 'waste equipment', 'cleaning']
+    >>> _alternatives(["newspaper", "or", "magazine"])
+    ['newspaper', 'magazine']
+    """
+    at = next((at for at, word in enumerate(words) if word in {"and", "or"} and 0 < at < len(words) - 1), None)
+    if at is None:
+        return [" ".join(words)]
+    before, behind = words[:at], words[at + 1 :]
+    if len(behind) == 1:
+        return [" ".join(before), *_alternatives(behind)]
+    return [" ".join((*before, behind[-1])), *_alternatives(behind), " ".join(before)]
 
 
 def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mapping[int, Anchor]) -> bool:
@@ -352,8 +445,21 @@ def _anchor(
 ) -> None:
     """Align a term with its senses; those that fit much worse than the best are not meant."""
     senses = taxonomy.senses(key)
+
+    def keep(sense: Sense, weight: float) -> None:
+        known = anchors.get(sense.synset)
+        # A bicycle is what people call a cycle by its first name: where both are classes, the one below is meant.
+        is_closer = (
+            known is not None
+            and known.weight == weight
+            and taxonomy.name(sense.synset).replace(" ", "") == key
+            and tbox.is_subclass(term.class_iri, known.class_iri)
+        )
+        if known is None or known.weight < weight or is_closer:
+            anchors[sense.synset] = Anchor(term.class_iri, weight)
+
     if len(senses) == 1:
-        _keep_anchor(anchors, senses[0], Anchor(term.class_iri, term.weight))
+        keep(senses[0], term.weight)
         return
     meant = _meant(key, term, tbox, terms, taxonomy) or list(senses)
     domains = {sense.domain for sense in meant}
@@ -363,10 +469,4 @@ def _anchor(
         for sense in group:
             share = sense_weight(sense) / best
             if share >= _PLAUSIBLE:
-                _keep_anchor(anchors, sense, Anchor(term.class_iri, term.weight * share * trust))
-
-
-def _keep_anchor(anchors: dict[int, Anchor], sense: Sense, anchor: Anchor) -> None:
-    known = anchors.get(sense.synset)
-    if known is None or known.weight < anchor.weight:
-        anchors[sense.synset] = anchor
+                keep(sense, term.weight * share * trust)

@@ -146,7 +146,7 @@ def _kinds_of(role: str, noun: str) -> Mapping[str, float]:
     features: dict[str, float] = {}
     for sense, value in zip(senses, _SENSES, strict=False):
         for synset, _ in taxonomy.walk_up(sense.synset):
-            features.setdefault(f"{role} {synset}", value)
+            features.setdefault(f"{role} {taxonomy.name(synset)}", value)
     return features
 
 

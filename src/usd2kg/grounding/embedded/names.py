@@ -42,7 +42,7 @@ _DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
 _MOUNT, _PLACE = 0.3, 0.4
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
-_SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "substance", "object", "shape"})
+_SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "person", "substance", "object", "shape"})
 _THING_DOMAINS = frozenset({"artifact", "food"})
 _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
@@ -66,6 +66,13 @@ _SHORTEST_UNKNOWN, _SHORTEST_DOUBLED = 5, 4
 second of a double one."""
 _WITH = frozenset(["with", "without", "w", "wo"])
 """What stands before what a thing has besides: the lid of a `toy_bin_w_lid`."""
+_WHERE = frozenset(["on", "in", "under", "over", "behind", "beside", "for", "of", "from", "at"])
+"""What stands before where a thing is, or what it is for: the rack of a `towel_on_rack`."""
+_PARTICLED = frozenset(
+    "add bolt build carry check clip cut drop fit hang lean lock log lift plug pop pull push roll screw sign slide "
+    "slip snap stand stick strap take tie walk".split()
+)
+"""Verbs that may look like nouns before one of these: a `clip_on_lamp` is a lamp."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,12 +174,23 @@ class NameReader:
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
     def _without_additions(self, tokens: list[_Token]) -> list[_Token]:
-        """Return the tokens before the one that says what a thing has besides, if they name a thing."""
-        at = next((at for at, token in enumerate(tokens) if token.text in _WITH), None)
-        if at is None or not any(is_telling(token.text) for token in tokens[at + 1 :]):
-            return tokens
-        is_named = any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
-        return tokens[:at] if is_named else tokens
+        """Return the tokens before the one that says what a thing has besides, or where it is, if they name a thing."""
+        for at in range(1, len(tokens)):
+            is_told = self._begins_addition(tokens, at) or self._begins_place(tokens, at)
+            if is_told and any(is_telling(token.text) for token in tokens[at + 1 :]):
+                return tokens[:at]
+        return tokens
+
+    def _begins_addition(self, tokens: list[_Token], at: int) -> bool:
+        is_with = tokens[at].text in _WITH
+        return is_with and any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
+
+    def _begins_place(self, tokens: list[_Token], at: int) -> bool:
+        before = tokens[at - 1].text
+        if tokens[at].text not in _WHERE or before in _PARTICLED or before in self._taxonomy.adjectives:
+            return False
+        is_compound = "".join(token.text for token in tokens[at - 1 : at + 2]) in self._taxonomy
+        return self.is_noun(self._taxonomy.singular(before)) and not is_compound and not self._term_around(tokens, at)
 
     def _telling(self, tokens: list[_Token]) -> list[_Token]:
         """Return the tokens that say something: those of a pipeline (`low`, `test`) only in a term: `TestTube`."""
@@ -319,7 +337,7 @@ class NameReader:
     def _parts_of_term(self, word: str) -> tuple[str, ...]:
         """Return the words of a term that is written as one (`slidecabinet`), if the language does not do so too."""
         term = self._lexicon.terms.get(word)
-        parts = tuple(term.text.lower().split()) if term is not None and word not in self._taxonomy else ()
+        parts = tuple(term.text.lower().split()) if term is not None and not self._taxonomy.is_one_word(word) else ()
         return parts if "".join(parts) == word else (word,)
 
     def _split(self, word: str) -> tuple[str, ...] | None:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, home_names, sense_weight
+from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, home_names, sense_weight, unmade_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
@@ -135,6 +135,7 @@ class Namer:
     ) -> tuple[tuple[str, ...], tuple[Match, ...]]:
         """Return the longest of the runs that is known, and its matches; `keys` are by the word they start at."""
         longest: tuple[tuple[str, ...], tuple[Match, ...]] = ((), ())
+        longest_key = ""
         for start, key in keys.items():
             if key not in self._lexicon.terms and key not in self._taxonomy:
                 continue
@@ -142,11 +143,24 @@ class Namer:
             if longest[1] and found and self._suits_better(_best(found), _best(longest[1])):
                 # A sofa cushion is an artifact at home; where there are cushions, it is a cushion.
                 return words[start:], found
+            if longest[1] and found and self._tells_more(key, found, longest_key, longest[1]):
+                return words[start:], found
             if not longest[1]:
-                longest = words[start:], found
-            if longest[1] and not self._is_general(_best(longest[1])):
+                longest, longest_key = (words[start:], found), key
+            is_listed = longest_key in self._lexicon.terms
+            if longest[1] and is_listed and not self._is_general(_best(longest[1])):
                 break
         return longest if longest[1] else ((), ())
+
+    def _tells_more(self, key: str, found: tuple[Match, ...], longer: str, general: tuple[Match, ...]) -> bool:
+        """Return whether a term says more than a longer noun that is of its kind: a flip cap is a cap, so a lid."""
+        if key not in self._lexicon.terms or longer in self._lexicon.terms:
+            return False
+        special, above = _best(found), _best(general)
+        if special == above or not self._tbox.is_subclass(special, above):
+            return False
+        kinds = {up for sense in self._taxonomy.senses(longer) for up, _ in self._taxonomy.walk_up(sense.synset)}
+        return any(sense.synset in kinds for sense in self._taxonomy.senses(key))
 
     def _naming(self, key: str, head: str, is_compound: bool, places: tuple[str, ...]) -> tuple[Match, ...]:
         kinds = tuple(self._by_kind(key, is_compound))
@@ -213,10 +227,15 @@ class Namer:
             found = self._nearest_above(sense.synset)
             if found is not None:
                 synset, hops, anchor = found
-                score = (_COMPOUND_KIND if is_compound else _KIND) * sense_weight(sense)
-                if is_lacking and sense is not usual:
+                score = _COMPOUND_KIND if is_compound else _KIND
+                if not is_lacking or sense is usual:
+                    score *= sense_weight(sense)
+                elif sense.domain in self._lexicon.kingdoms:
+                    # An ontology with trees means one by its oaks and birches, rather than a rod.
+                    score *= unmade_weight(sense)
+                else:
                     # Where there are no boxes, a box is not for that the compartment that it may be too.
-                    score *= _ROOT_SHARE
+                    score *= _ROOT_SHARE * sense_weight(sense)
                 if anchor.class_iri in self._roots:
                     score *= _ROOT_SHARE * _HOP_DECAY ** max(0, _FROM_ROOT - hops)
                 else:

@@ -110,13 +110,13 @@ def surprise(size: Size, noun: str) -> float | None:
     row = _rows().get(noun)
     if row is None:
         return None
-    logs, usual = _kept(size)
+    logs, usual = _kept(rounded(size))
     return float(logs[row]) - usual
 
 
 def likelihoods_of(size: Size) -> _Floats:
     """Return `log_likelihoods` of one size, kept for when it is asked for again; not to be written to."""
-    return _kept(size)[0]
+    return _kept(rounded(size))[0]
 
 
 def rounded(size: Size) -> Size:
@@ -127,8 +127,8 @@ def rounded(size: Size) -> Size:
 
 @lru_cache(maxsize=512)
 def _kept(size: Size) -> tuple[_Floats, float]:
-    """Return `log_likelihoods` of the rounded size, and log mean over things of p(size | thing)."""
-    logs = log_likelihoods(rounded(size))
+    """Return `log_likelihoods`, and log mean over things of p(size | thing)."""
+    logs = log_likelihoods(size)
     logs.flags.writeable = False
     # No density is too small or too large for this.
     return logs, math.log(np.exp(logs).sum() / len(logs))
