@@ -33,7 +33,8 @@ OUTPUT = ROOT / "src/usd2kg/grounding/data/calibration.json"
 sys.path.insert(0, str(ROOT))
 
 from benchmarks.bare import bare_scene  # noqa: E402  (scripts are no packages of the product)
-from benchmarks.names.run import TRAIN, load  # noqa: E402
+from benchmarks.names.run import TRAIN, Thing, load  # noqa: E402
+from benchmarks.ontologies import run as ontologies  # noqa: E402
 
 LISTED = 0.5
 """What a list of names counts against a scene: nobody has built with them."""
@@ -62,7 +63,9 @@ def main() -> None:
         path = (MATRIX.parent / scene["path"]).resolve()
         if path.exists() and "test" not in re.findall(r"\w+", scene["name"]):
             scenes[scene["name"]] = sample(scene)
-    lists = [sample_of_list(listed) for listed in TRAIN]
+    home = open_tbox(None)
+    lists = [sample_of_list(load(ROOT / f"benchmarks/names/{listed}.csv", home), home) for listed in TRAIN]
+    lists += [sample_of_list(things, tbox) for things, tbox in ontologies.to_learn_from()]
     report = {left_out: check(left_out, scenes, lists) for left_out in scenes}
     weights = fit([*scenes.values(), *lists])
     text = {
@@ -89,11 +92,12 @@ def sample(scene: dict[str, Any]) -> Sample:
     return joined(samples)
 
 
-def sample_of_list(listed: str) -> Sample:
+def sample_of_list(things: list[Thing], tbox: TBox) -> Sample:
     """Return the answers of a list of names, spelled out and abbreviated."""
-    tbox = open_tbox(None)
-    things = load(ROOT / f"benchmarks/names/{listed}.csv", tbox)
-    scene, paths = bare_scene(listed, [thing.obj for thing in things]), [thing.obj.prim_path for thing in things]
+    scene, paths = (
+        bare_scene("a list of names", [thing.obj for thing in things]),
+        [thing.obj.prim_path for thing in things],
+    )
     samples = []
     for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED):
         answers = decide(scene, paths, regime, tbox)

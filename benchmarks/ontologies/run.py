@@ -16,6 +16,7 @@ The last columns leave out the things for which an ontology has nothing better t
 """
 
 import csv
+from collections.abc import Iterator
 from operator import itemgetter
 from pathlib import Path
 
@@ -63,6 +64,17 @@ def report(ontology: str, split: str, things: list[Thing], tbox: TBox) -> None:
     told = [measure(group, tbox, NamingRegime.SEMANTIC) for group in (things, below)]
     for_all, for_below = (f"{exact:.1f} ({also:.1f})" for exact, also in told)
     print(f"{ontology:<9} {split:<6} {len(things)}  {for_all}   {len(below)}, {for_below}")
+
+
+def to_learn_from() -> Iterator[tuple[list[Thing], TBox]]:
+    """Yield the lists that are no tests, with the ontologies that are there."""
+    for name, split in OWN.items():
+        if split == "train":
+            tbox = open_tbox(HERE / f"{name}.ttl")
+            yield load(HERE / f"{name}.csv", tbox), tbox
+    for name, path in PUBLIC.items() if ONTOLOGIES.is_dir() else ():
+        tbox = open_tbox(ONTOLOGIES / path)
+        yield labelled(name, "train", tbox), tbox
 
 
 def labelled(ontology: str, split: str, tbox: TBox, file_name: str = "labels.csv") -> list[Thing]:

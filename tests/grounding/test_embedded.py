@@ -424,7 +424,7 @@ class TestHomeSynonyms:
         bare = make_tbox(
             make_class("DesignedFurniture", base=SOMA), make_class("BedsideTable", "DesignedFurniture", base=SOMA)
         )
-        views = [("/x", ObjectView(name="Nachtkonsole"))]
+        views = [("/x", ObjectView(name="bedside_cabinet"))]
         (with_home,) = EmbeddedGrounder().ground_views(views, bare)
         (without,) = EmbeddedGrounder(use_home_synonyms=False).ground_views(views, bare)
         assert local(with_home) == "BedsideTable"

@@ -553,7 +553,7 @@ class TestHeads:
             ("towel_on_rack_2", ("towel",)),
             ("TerrierOnLeash", ("terrier",)),
             ("drawer_under_oven", ("drawer",)),
-            ("box_of_nails", ("box",)),
+            ("box_of_pebbles", ("box",)),
             # A compound, a verb before it, an adjective, or nothing.
             ("man_of_war", ("man", "of", "war")),
             ("clip_on_lamp", ("clip", "on", "lamp")),

@@ -25,6 +25,8 @@ FEATURES = (
     "has_subclasses",
     "is_company",
     "is_foreign",
+    "foreign_general",
+    "foreign_subclasses",
     "company_score",
     "belief",
 )
@@ -45,6 +47,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
     - `has_subclasses`: whether classes are below it, of which a person may have chosen one: a table fork for a fork;
     - `is_company`: whether other objects or the size decided and not the words;
     - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
+    - `foreign_general` and `foreign_subclasses`: what the two say where it is so;
     - `company_score`: the score, where they did;
     - `belief`: how probable the class is by what the object looks like, the logarithm against a tenth; 0 where its size
       is not known, where the words did not decide, and for classes of other ontologies.
@@ -56,16 +59,22 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
+    iri = prediction.class_iri
+    is_general = iri is not None and not tbox.by_iri[iri].parents
+    has_subclasses = iri is not None and bool(tbox.children[iri])
+    is_foreign = iri is not None and iri not in home_names()
     is_by_look = not _BY_LOOK.isdisjoint(prediction.evidence)
     return {
         "intercept": 1.0,
         "score": first,
         "margin": first - second,
         "is_label": float(first > _LABEL),
-        "is_general": float(prediction.class_iri is not None and not tbox.by_iri[prediction.class_iri].parents),
-        "has_subclasses": float(prediction.class_iri is not None and bool(tbox.children[prediction.class_iri])),
+        "is_general": float(is_general),
+        "has_subclasses": float(has_subclasses),
         "is_company": float(is_by_look),
-        "is_foreign": float(prediction.class_iri is not None and prediction.class_iri not in home_names()),
+        "is_foreign": float(is_foreign),
+        "foreign_general": float(is_foreign and is_general),
+        "foreign_subclasses": float(is_foreign and has_subclasses),
         "company_score": first if is_by_look else 0.0,
         "belief": _belief(prediction, look),
     }

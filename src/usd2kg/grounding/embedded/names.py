@@ -337,7 +337,7 @@ class NameReader:
     def _parts_of_term(self, word: str) -> tuple[str, ...]:
         """Return the words of a term that is written as one (`slidecabinet`), if the language does not do so too."""
         term = self._lexicon.terms.get(word)
-        parts = tuple(term.text.lower().split()) if term is not None and not self._taxonomy.is_one_word(word) else ()
+        parts = tuple(term.text.lower().split()) if term is not None and word not in self._taxonomy else ()
         return parts if "".join(parts) == word else (word,)
 
     def _split(self, word: str) -> tuple[str, ...] | None:

@@ -41,9 +41,9 @@ class Taxonomy:
         7. for each lemma the domain and rank of its meanings, those used most first: `c1 f2`; tabs;
         8. for each lemma the synsets of its meanings, in that order; tabs.
 
-        9. for each lemma 1 if it is written as one word too, else 0.
+        Further lines are no concern of this reader.
         """
-        adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word = text.split("\n")[:9]
+        adjectives, domains, _, above, names, lemmas, kinds, senses = text.split("\n")[:8]
         self.adjectives = frozenset(adjectives.split())
         self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
         self._above_texts = above.split("\t")
@@ -81,10 +81,6 @@ class Taxonomy:
     def lemmas(self) -> Collection[str]:
         """All lemmas."""
         return self._places.keys()
-
-    def is_one_word(self, lemma: str) -> bool:
-        """Return whether a lemma is written as one word, maybe beside other ways: a flowerpot, no coffeetable."""
-        return lemma in self._places and self._is_one_word[self._places[lemma]] == "1"
 
     def __contains__(self, lemma: str) -> bool:
         return lemma in self._places
