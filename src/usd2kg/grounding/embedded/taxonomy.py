@@ -40,10 +40,9 @@ class Taxonomy:
         6. lemmas; tabs;
         7. for each lemma the domain and rank of its meanings, those used most first: `c1 f2`; tabs;
         8. for each lemma the synsets of its meanings, in that order; tabs.
-
-        Further lines are no concern of this reader.
+        9. for each lemma 1 if people write it as one word, 0 if only as several; no tabs.
         """
-        adjectives, domains, _, above, names, lemmas, kinds, senses = text.split("\n")[:8]
+        adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word = text.split("\n")[:9]
         self.adjectives = frozenset(adjectives.split())
         self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
         self._above_texts = above.split("\t")
@@ -151,8 +150,8 @@ class Taxonomy:
         return sorted(
             [
                 lemma
-                for lemma, kinds in zip(self._places, self._kinds, strict=True)
-                if lemma.isalpha() and not others(kinds)
+                for lemma, kinds, is_one_word in zip(self._places, self._kinds, self._is_one_word, strict=True)
+                if is_one_word == "1" and lemma.isalpha() and not others(kinds)
             ]
         )
 
