@@ -2,7 +2,6 @@
 
 import csv
 import io
-import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,9 +9,9 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
 
+from usd2kg.grounding.embedded.labels import SENSE_KEY, affixes_of, head_of, phrase_of, said_otherwise, words_of_label
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
-from usd2kg.words import split_identifier
 
 __all__ = [
     "LENT",
@@ -52,23 +51,13 @@ _ABOVE_MANY = _TOP | {
     "group",
 }
 """What is above a meaning, and is said in texts about any other too."""
-_EQUIPMENT = ("equipment", "device", "unit")
-_ANY_EQUIPMENT = (
-    *(*_EQUIPMENT, "instrument", "apparatus", "machine", "appliance", "system", "tool"),
-    *("supply", "product", "item", "article", "accessory"),
-)
-"""Words that ontologists use one for another at the end of a label, the commonest first: mostly, or where need be."""
 _JOINING = frozenset(["and", "of", "or"])
-_MEASURES = frozenset(["article", "item", "piece", "portion"])
-"""Words before an "of" that only make one thing of what stands behind it."""
 _MADE = "artifact"
 """The lemma of all that is made."""
 _SHORTEST_CODE = 2
 """A word of so many letters is a code, in a term of several."""
 _HAPPENINGS = frozenset("activity event action process state situation task".split())
 """Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
-_SENSE_KEY = re.compile(r"^([^.\s]+)\.[nvasr]\.(?:\S*?\.\.(\S*)|\S*)$")
-"""A class called after a sense of WordNet, maybe with what is above it: `chair.n.01`, `chair.n.wn.artifact..seat`."""
 _UNTOLD = 0.8
 """The weight of senses of a kind with the one that is meant: two senses of a lamp are both lamps."""
 _PLAUSIBLE = 0.85
@@ -150,7 +139,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         taxonomy: what their terms are aligned with.
         synonyms: further terms by class IRI, beside the TBox's own labels.
     """
-    affixes = _affixes(tbox, taxonomy)
+    affixes = affixes_of(tbox, taxonomy)
     terms: dict[str, Term] = {}
     anchors: dict[int, Anchor] = {}
     depths = tbox.depths
@@ -158,7 +147,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     bare: dict[str, set[ClassIRI]] = {}
     for cls in classes:
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
-            said = _said(text, taxonomy)
+            said = phrase_of(text, taxonomy)
             _keep_best(terms, cls.iri, said, weight)
             first, _, rest = said.partition(" ")
             if rest and first in affixes:
@@ -172,7 +161,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
             _anchor(key, term, tbox, terms, taxonomy, anchors)
     for key, term in terms.items():
         if term.weight == _LABEL and _is_common_noun(term):
-            for noun in _said_otherwise(term.text, taxonomy, is_noun=key in taxonomy):
+            for noun in said_otherwise(term.text, taxonomy, is_noun=key in taxonomy):
                 _anchor(noun, term._replace(weight=_SYNONYM), tbox, terms, taxonomy, anchors)
     for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
         terms[key] = terms[key]._replace(weight=_LESSER)
@@ -181,7 +170,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     _anchor_default(default, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
     for class_iri, text in list(_lent_names(tbox, terms, taxonomy, synonyms)):
-        _keep_best(terms, class_iri, _said(text, taxonomy), LENT)
+        _keep_best(terms, class_iri, phrase_of(text, taxonomy), LENT)
     _add_heads(terms)
     return Lexicon(
         terms=terms,
@@ -214,44 +203,6 @@ def _kingdoms(
         for sense in taxonomy.senses(key)[:1]
         if sense.domain in _UNMADE and sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri
     )
-
-
-def _said_otherwise(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[str]:
-    """Return the nouns of the taxonomy that say what a label says: a dental unit is a device, a portion of bread bread.
-
-    Args:
-        label: the label, in the singular.
-        taxonomy: the nouns.
-        is_noun: whether the label itself is one; then it is what it says but for equipment of all kinds.
-    """
-    if len(alternatives := _alternatives(label.split())) > 1:
-        said = [_said(words, taxonomy).replace(" ", "") for words in alternatives]
-        return [noun for noun in said if noun in taxonomy]
-    *before, last = label.split()
-    if "of" in before and _MEASURES.issuperset(before[: before.index("of")]):
-        return [noun for noun in ["".join((*before[before.index("of") + 1 :], last))] if noun in taxonomy]
-    heads = _EQUIPMENT if is_noun else _ANY_EQUIPMENT
-    if not before or last not in heads:
-        return []
-    found = [noun for head in heads if head != last and (noun := "".join((*before, head))) in taxonomy]
-    return found if is_noun else found[:1]
-
-
-def _alternatives(words: list[str]) -> list[str]:
-    """Return what the class of a label with an "or" is made of: cleaning equipment and waste equipment, and waste.
-
-    >>> _alternatives(["cleaning", "and", "waste", "equipment"])
-    ['cleaning equipment', 'waste equipment', 'cleaning']
-    >>> _alternatives(["newspaper", "or", "magazine"])
-    ['newspaper', 'magazine']
-    """
-    at = next((at for at, word in enumerate(words) if word in {"and", "or"} and 0 < at < len(words) - 1), None)
-    if at is None:
-        return [" ".join(words)]
-    before, behind = words[:at], words[at + 1 :]
-    if len(behind) == 1:
-        return [" ".join(before), *_alternatives(behind)]
-    return [" ".join((*before, behind[-1])), *_alternatives(behind), " ".join(before)]
 
 
 def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mapping[int, Anchor]) -> bool:
@@ -299,19 +250,19 @@ def _borrowed(
         own = next((term for term in labelled if term is not None and term.weight == _LABEL), None)
         if own is not None and own.class_iri != default:
             for name in names:
-                _keep_best(found, own.class_iri, _said(name, taxonomy), _BORROWED)
+                _keep_best(found, own.class_iri, phrase_of(name, taxonomy), _BORROWED)
     return found
 
 
 def things_of(tbox: TBox) -> Sequence[OntologyClass]:
     """Return the classes that things belong to: those of activities, events and the like are left out."""
-    happenings = {cls.iri for cls in tbox.classes if _head(cls.label) in _HAPPENINGS}
+    happenings = {cls.iri for cls in tbox.classes if head_of(cls.label) in _HAPPENINGS}
     return [cls for cls in tbox.classes if happenings.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
 
 
 def term_key(text: str, taxonomy: Taxonomy) -> str:
     """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
-    return _said(text, taxonomy).replace(" ", "")
+    return phrase_of(text, taxonomy).replace(" ", "")
 
 
 def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
@@ -319,34 +270,6 @@ def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str,
     yield cls.local_name, _LABEL
     for text in (*cls.alt_labels, *synonyms):
         yield text, _SYNONYM
-
-
-def _words(text: str) -> list[str]:
-    # Most terms are lower-case words already: there is nothing to take apart.
-    if text.islower() and text.isascii() and text.replace(" ", "").isalpha():
-        return text.split()
-    plain = re.sub(r"\(.*?\)|\[.*?\]", " ", _SENSE_KEY.sub(r"\1", text))
-    return [word.lower() for word in split_identifier(plain) if not word.isdigit()]
-
-
-def _head(label: str) -> str:
-    """Return the word that says what kind it is: a chair of state is a chair."""
-    words = _words(label)
-    if "of" in words[1:]:
-        words = words[: words.index("of", 1)]
-    return words[-1] if words else ""
-
-
-def _affixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
-    """Return first words that are the ontology's own jargon: shared by many classes, and no thing's name."""
-    firsts = Counter(words[0] for cls in tbox.classes if len(words := _words(cls.local_name)) > 1)
-    return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy)
-
-
-def _said(text: str, taxonomy: Taxonomy) -> str:
-    """Return the words of a text, the last one in the singular."""
-    *words, last = _words(text) or [""]
-    return " ".join([*words, taxonomy.singular(last)])
 
 
 def _keep_best(terms: dict[str, Term], class_iri: ClassIRI, text: str, weight: float) -> None:
@@ -391,14 +314,14 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
     """
 
     def is_made(label: str) -> bool:
-        senses = taxonomy.senses(taxonomy.singular(_head(label)))
+        senses = taxonomy.senses(taxonomy.singular(head_of(label)))
         return bool(senses) and senses[0].domain == "artifact"
 
     below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
     made_below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
 
     def rank(root: ClassIRI) -> tuple[bool, int, int, str]:
-        words = _words(tbox.by_iri[root].label) or _words(tbox.by_iri[root].local_name) or [""]
+        words = words_of_label(tbox.by_iri[root].label) or words_of_label(tbox.by_iri[root].local_name) or [""]
         head = taxonomy.singular(words[-1])
         return (head not in _GENERAL, -made_below[root], -below[root], root)
 
@@ -422,7 +345,7 @@ def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy
         named = terms.get(name.replace(" ", ""))
         return named is not None and named.class_iri in above and named.class_iri != cls.iri
 
-    hint = _SENSE_KEY.match(cls.local_name)
+    hint = SENSE_KEY.match(cls.local_name)
     told = hint and hint[2] and hint[2].replace("_", " ")
     said = _said_of(cls, tbox, taxonomy) if term.weight == _LABEL else frozenset()
     return below(
@@ -436,7 +359,7 @@ def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy
 def _said_of(cls: OntologyClass, tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
     """Return the words, in the singular, of a class's text and of its superclasses' labels."""
     texts = [cls.comment, *(tbox.by_iri[iri].label for iri in tbox.closure(cls.iri) if iri != cls.iri)]
-    words = {word for text in texts for word in _words(text)}
+    words = {word for text in texts for word in words_of_label(text)}
     return frozenset(words | {taxonomy.singular(word) for word in words})
 
 

@@ -1,10 +1,8 @@
 """Reading an object's name as a noun phrase: which of its words says what it is."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import chain, pairwise, takewhile
-from typing import NamedTuple
 
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
@@ -13,8 +11,9 @@ from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.shortening import consonants_of, usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
+from usd2kg.grounding.embedded.tokens import Token, is_half, is_reference, read_parent, shared_beginning, tokens_of
 from usd2kg.languages import language_of, translate
-from usd2kg.words import is_telling, split_identifier
+from usd2kg.words import is_telling
 
 __all__ = ["AREAS", "NamePhrase", "NameReader"]
 
@@ -53,7 +52,7 @@ _SHORTEST_PART = 3
 _LONGEST_TERM = 5
 """Words of a term that is looked for around a word that alone says nothing."""
 _LONG = 7
-"""Letters of a word that is long enough to be told by its spelling, and too long to be a measure."""
+"""Letters of a word that is long enough to be told by its spelling."""
 _SHORTEST_PARTICIPLE = 5
 _ENDINGS = frozenset(["tor"])
 """Nouns that many words end with by chance: an operator is no opera's hill, nor its gate, which German calls so."""
@@ -99,23 +98,6 @@ class NamePhrase:
         return sum(1 for _ in takewhile(bool, self.glued[at:]))
 
 
-class _Token(NamedTuple):
-    text: str
-    number: str
-    """Digits written on to the word, without a separator; empty if none."""
-    is_glued: bool = False
-    """Whether it is written on to the word before."""
-
-
-class _Parent(NamedTuple):
-    """A name above, as a name may refer to it."""
-
-    telling: frozenset[str]
-    """The words that a name has to repeat, all of them, to refer to it by words alone."""
-    words: frozenset[tuple[str, str]]
-    """(word, digits written on to it), empty if it has none."""
-
-
 class NameReader:
     """Reads names with the words of one lexicon and the taxonomy."""
 
@@ -143,14 +125,14 @@ class NameReader:
 
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
-        tokens = self._telling(self._without_additions(_tokens(name)))[:_MOST_WORDS]
+        tokens = self._telling(self._without_additions(tokens_of(name)))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         glued: list[bool] = []
         corrections: list[tuple[str, str]] = []
         translated = self._translated(tokens)
         if translated is not None:
-            at = _shared_beginning(tokens, parents)
+            at = shared_beginning(tokens, parents)
             if (of_the_rest := self._translated(tokens[at:])) is not None:
                 # Below `armario_dormitorio` an `armario_puerta` is its door.
                 translated, tokens, references = of_the_rest, tokens[at:], [*references, *tokens[:at]]
@@ -173,7 +155,7 @@ class NameReader:
             del words[-2:], glued[-2:]
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
-    def _without_additions(self, tokens: list[_Token]) -> list[_Token]:
+    def _without_additions(self, tokens: list[Token]) -> list[Token]:
         """Return the tokens before the one that says what a thing has besides, or where it is, if they name a thing."""
         for at in range(1, len(tokens)):
             is_told = self._begins_addition(tokens, at) or self._begins_place(tokens, at)
@@ -181,18 +163,18 @@ class NameReader:
                 return tokens[:at]
         return tokens
 
-    def _begins_addition(self, tokens: list[_Token], at: int) -> bool:
+    def _begins_addition(self, tokens: list[Token], at: int) -> bool:
         is_with = tokens[at].text in _WITH
         return is_with and any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
 
-    def _begins_place(self, tokens: list[_Token], at: int) -> bool:
+    def _begins_place(self, tokens: list[Token], at: int) -> bool:
         before = tokens[at - 1].text
         if tokens[at].text not in _WHERE or before in _PARTICLED or before in self._taxonomy.adjectives:
             return False
         is_compound = "".join(token.text for token in tokens[at - 1 : at + 2]) in self._taxonomy
         return self.is_noun(self._taxonomy.singular(before)) and not is_compound and not self._term_around(tokens, at)
 
-    def _telling(self, tokens: list[_Token]) -> list[_Token]:
+    def _telling(self, tokens: list[Token]) -> list[Token]:
         """Return the tokens that say something: those of a pipeline (`low`, `test`) only in a term: `TestTube`."""
         kept = {at for at, token in enumerate(tokens) if is_telling(token.text)}
         for at in range(min(len(tokens), _MOST_WORDS)):
@@ -200,7 +182,7 @@ class NameReader:
                 kept.update(self._term_around(tokens, at))
         return [tokens[at] for at in sorted(kept)]
 
-    def _term_around(self, tokens: list[_Token], at: int) -> range:
+    def _term_around(self, tokens: list[Token], at: int) -> range:
         """Return where the longest term with more words than token `at` stands around it; nowhere if there is none."""
         runs = [
             range(start, end)
@@ -217,7 +199,7 @@ class NameReader:
         usual = usual_abbreviations().get(word)
         return tuple(usual.split()) if usual is not None and word not in self._lexicon.terms else self.correct(word)
 
-    def _translated(self, tokens: list[_Token]) -> tuple[str, ...] | None:
+    def _translated(self, tokens: list[Token]) -> tuple[str, ...] | None:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
         words = tuple(token.text for token in tokens)
         is_english = all(word in self._taxonomy or word in self._taxonomy.adjectives for word in words)
@@ -291,30 +273,28 @@ class NameReader:
             return word in AREAS
         return word in AREAS or self._is_kind_of_place(sense.synset)
 
-    def _part_references(self, tokens: list[_Token], parents: tuple[str, ...]) -> tuple[list[_Token], list[_Token]]:
+    def _part_references(self, tokens: list[Token], parents: tuple[str, ...]) -> tuple[list[Token], list[Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
         written = {token.text for token in tokens}
         above: set[tuple[str, str]] = set()
-        for parent in map(_read_parent, parents):
+        for parent in map(read_parent, parents):
             # All of its words must be repeated: below `knifeBlock` a `breadKnife` is a knife. A number tells by itself.
             is_whole = parent.telling <= written
             above.update(parent.words if is_whole else (word for word in parent.words if word[1]))
-        references = [token for token in tokens if above and _is_reference(token, above)]
+        references = [token for token in tokens if above and is_reference(token, above)]
         if not references:
             return tokens, []
         # Below `Mug` a `coffee_mug` is a mug of its own; below `Toilet` a `toilet_seat` is no seat of any kind.
         pairs = [pair for pair in pairwise(tokens) if self._is_term(pair)]
         references = [
-            token
-            for token in references
-            if token.number or not any(_is_half(token, pair, references) for pair in pairs)
+            token for token in references if token.number or not any(is_half(token, pair, references) for pair in pairs)
         ]
         own = [token for token in tokens if token not in references]
         if any(not self.is_modifier(word) for token in own for word in self.correct(token.text)):
             return own, references
         return tokens, []
 
-    def _is_term(self, pair: tuple[_Token, _Token]) -> bool:
+    def _is_term(self, pair: tuple[Token, Token]) -> bool:
         return pair[0].text + self._taxonomy.singular(pair[1].text) in self._lexicon.terms
 
     def _correct(self, word: str) -> tuple[str, ...]:
@@ -412,46 +392,3 @@ def _is_within(letters: str, word: str) -> bool:
 
 def _undoubled(word: str) -> str:
     return "".join(letter for letter, before in zip(word, " " + word, strict=False) if letter != before)
-
-
-def _tokens(name: str) -> list[_Token]:
-    tokens: list[_Token] = []
-    at = 0
-    is_amount = False
-    for part in split_identifier(name):
-        start = name.find(part, at)
-        is_glued = start == at and start > 0
-        at = start + len(part)
-        if part.isdigit() and tokens and is_glued and name[start - 1].isalpha():
-            tokens[-1] = _Token(tokens[-1].text, part, tokens[-1].is_glued)
-        elif not (is_amount and is_glued and len(part) < _LONG):
-            tokens.append(_Token(part.lower(), "", is_glued))
-        # A number that stands apart may begin a measure: _6kg, _4tier; but Room1Door is a door.
-        is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
-    return tokens
-
-
-def _shared_beginning(tokens: list[_Token], parents: tuple[str, ...]) -> int:
-    """Return with how many tokens of its parent's name a name begins."""
-    above = _tokens(parents[-1]) if parents else []
-    pairs = enumerate(zip(tokens, above, strict=False))
-    return next((at for at, (own, other) in pairs if own.text != other.text), min(len(tokens), len(above)))
-
-
-@lru_cache(maxsize=4096)
-def _read_parent(name: str) -> _Parent:
-    tokens = _tokens(name)
-    telling = frozenset(token.text for token in tokens if is_telling(token.text))
-    return _Parent(telling, frozenset((token.text, token.number) for token in tokens))
-
-
-def _is_reference(token: _Token, above: set[tuple[str, str]]) -> bool:
-    if (token.text, token.number) in above:
-        return True
-    # `cab10` below `cabinet10`: the same number on a word that begins alike.
-    return bool(token.number) and any(token.number == number and word.startswith(token.text) for word, number in above)
-
-
-def _is_half(token: _Token, pair: tuple[_Token, _Token], references: Sequence[_Token]) -> bool:
-    """Return whether a reference is one of two words of which the other is none."""
-    return token in pair and any(other not in references for other in pair)
