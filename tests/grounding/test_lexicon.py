@@ -277,3 +277,24 @@ def test_of_two_classes_for_one_meaning_that_of_its_first_name_is_meant():
 def test_any_equipment_is_called_by_another_word_where_the_label_is_no_noun():
     assert "janitorialunit" not in load_taxonomy()
     assert anchored(lexicon_of(TOWN), "janitorialequipment") == {1: "JanitorialUnit"}
+
+
+def test_labels_that_measure_or_join_say_what_they_measure_and_join():
+    lexicon = lexicon_of(
+        make_tbox(
+            make_class("Artifact"),
+            make_class("BreadPortion", "Artifact", label="portion of bread"),
+            make_class("Press", "Artifact", label="newspaper or magazine"),
+            make_class("Cleaning", "Artifact", label="cleaning and waste equipment"),
+        )
+    )
+    assert "BreadPortion" in anchored(lexicon, "bread").values()
+    assert "Press" in anchored(lexicon, "newspaper").values()
+    assert "Press" in anchored(lexicon, "magazine").values()
+    assert "Cleaning" in anchored(lexicon, "cleaningequipment").values()
+
+
+def test_an_ontology_with_trees_speaks_of_what_nobody_made():
+    classes = [make_class("Artifact"), make_class("Tree")]
+    assert lexicon_of(make_tbox(*classes)).kingdoms == {"plant"}
+    assert lexicon_of(make_tbox(classes[0], make_class("Table", "Artifact"))).kingdoms == frozenset()
