@@ -1,6 +1,7 @@
 """Fixtures that several tests share."""
 
 import os
+import signal
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +11,9 @@ from usd2kg.ontology import TBox, load_home_tbox
 
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+"""A shell has what it runs in the background ignore interruptions, and so would all that the tests start."""
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from enum import StrEnum
 from functools import cached_property
+from heapq import nsmallest
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from usd2kg.scene.model import Scene, SceneObject, Vector
@@ -20,6 +21,8 @@ _MOST_ALIKE = 24
 _THINNEST = 0.002
 """Metres: sheets and decals differ in thickness by nothing that matters."""
 _TWIN = 0.01
+_MOST_RANKED = 24
+"""So many words are kept for a form, where no more are asked for."""
 
 
 R = TypeVar("R", bound=tuple[Any, ...])
@@ -151,24 +154,27 @@ class _Written(Generic[R, G]):
         if form not in self._written:
             return None
         if form not in self._best:
-            self._best[form] = self._gather(form, [worth for worth, _, _ in self._rank(form)[: self._most]])
+            self._best[form] = self._gather(form, [worth for worth, _, _ in self._rank(form, self._most)])
         return self._best[form]
 
     def best_without(self, own: frozenset[str], form: str) -> G | None:
         """Return the same for an object that bears the words `own`, which are not to be told of it."""
         # Without its bearer a word of its own may fall behind or out; the others keep their order.
-        near = self._rank(form)[: self._most + len(own)]
+        near = self._rank(form, self._most + len(own))
         if not any(word in own for _, word, _ in near):
             return self.best(form)
         left = [(worth, word, score) for worth, word, score in near if word not in own or self._words[word] > 1]
         found = sorted(self._worth(word, score, 1) if word in own else worth for worth, word, score in left)
         return self._gather(form, found[: self._most]) if found else None
 
-    def _rank(self, form: str) -> list[tuple[R, str, float]]:
-        if form not in self._ranked:
-            words = self._written.get(form, ())
-            self._ranked[form] = sorted((self._worth(word, score), word, score) for word, score in words)
-        return self._ranked[form]
+    def _rank(self, form: str, count: int) -> list[tuple[R, str, float]]:
+        """Return the best words for a form; of a letter half the stage's words are some."""
+        words = self._written.get(form, ())
+        ranked = self._ranked.get(form)
+        if ranked is None or len(ranked) < min(count, len(words)):
+            worths = ((self._worth(word, score), word, score) for word, score in words)
+            ranked = self._ranked[form] = nsmallest(max(count, _MOST_RANKED), worths)
+        return ranked[:count]
 
     def _worth(self, word: str, score: float, left_out: int = 0) -> R:
         return self._rate(word, (self._words[word] - left_out) / self._count, score)

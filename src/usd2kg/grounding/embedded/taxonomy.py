@@ -1,10 +1,13 @@
 """WordNet's nouns for physical things: lemmas, senses in order of use, and what is a kind of what."""
 
 import gzip
+from array import array
 from collections.abc import Callable, Collection, Iterator
 from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
+
+import numpy as np
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
 
@@ -21,6 +24,21 @@ class Sense(NamedTuple):
     """1 for the meaning used most."""
     domain: str
     """WordNet's lexicographer file: artifact, food, plant…"""
+
+
+class _Cells:
+    """The cells of a line, parted by tabs: a hundred thousand strings by themselves would take ten times its memory."""
+
+    def __init__(self, line: str) -> None:
+        self._line = line.encode()
+        tabs = np.flatnonzero(np.frombuffer(self._line, np.uint8) == ord("\t")) + 1
+        self._starts = array("l", [0, *tabs.tolist(), len(self._line) + 1])
+
+    def __getitem__(self, at: int) -> str:
+        return self._line[self._starts[at] : self._starts[at + 1] - 1].decode()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._line.decode().split("\t"))
 
 
 class Taxonomy:
@@ -45,11 +63,11 @@ class Taxonomy:
         adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word = text.split("\n")[:9]
         self.adjectives = frozenset(adjectives.split())
         self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
-        self._above_texts = above.split("\t")
-        self._names = names.split("\t")
+        self._above_texts = _Cells(above)
+        self._names = _Cells(names)
         self._places = {lemma: at for at, lemma in enumerate(lemmas.split("\t"))}
-        self._kinds = kinds.split("\t")
-        self._synsets = senses.split("\t")
+        self._kinds = _Cells(kinds)
+        self._synsets = _Cells(senses)
         self._senses: dict[str, tuple[Sense, ...]] = {}
         self._above: dict[int, tuple[int, ...]] = {}
         self._singular = lru_cache(maxsize=16384)(self._find_singular)
