@@ -15,8 +15,8 @@ things in scenes are kinds of. Its second column holds, parted by `|`:
 - `=2`: that the second meaning in WordNet's order is the usual one;
 - `==other`: that it is another word for this first of all.
 
-A kind is a lemma, by its first meaning as an artifact or else its first; `file.4` is the fourth in WordNet's order.
-What WordNet lacks may be a kind too if it has a row.
+A kind is a lemma, by its first meaning as an artifact or else its first, those that rows add among them; `file.4` is
+the fourth in WordNet's order. What WordNet lacks may be a kind too if it has a row.
 """
 
 import csv
@@ -24,7 +24,7 @@ import gzip
 import re
 import sys
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -117,6 +117,7 @@ class Kinds:
         self._synsets = synsets
         self._senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
         self._named: dict[str, list[Synset]] = defaultdict(list)
+        self._numbers = {id(synset): at for at, synset in enumerate(synsets)}
         for at, synset in enumerate(synsets):
             for lemma, rank in synset.lemmas:
                 self._senses[_key(lemma)].append((rank, at))
@@ -127,7 +128,10 @@ class Kinds:
         own = {_key(name) for name, _ in rows}
         waiting = list(rows)
         while waiting:
+            # What a kind means is settled when its own row is added, but for rows that speak of each other.
+            unsettled = {_key(name) for name, kinds in waiting if _is_meaning(kinds[0])}
             ready = [row for row in waiting if not any(map(self._is_unknown, row[1]))]
+            ready = [row for row in ready if unsettled.isdisjoint(_keys(row[1]) - {_key(row[0])})] or ready
             if not ready:
                 name, kinds = waiting[0]
                 missing = next(filter(self._is_unknown, kinds))
@@ -137,7 +141,8 @@ class Kinds:
                 raise ValueError(f"{KINDS.name}: {name!r}: {missing!r} {reason}; name a kind that WordNet or a row has")
             for name, kinds in ready:
                 self._add(name, kinds)
-            waiting = [row for row in waiting if row not in ready]
+            done = {name for name, _ in ready}
+            waiting = [row for row in waiting if row[0] not in done]
 
     def _is_unknown(self, kind: str) -> bool:
         return re.fullmatch(r"=\d+", kind) is None and _key(_bare(kind)) not in self._senses
@@ -159,18 +164,27 @@ class Kinds:
                 self._take_away(self._meant(name), self._meant(kind[1:]), f"{name},{kind}")
 
     def _meant(self, text: str) -> int:
-        """Return the synset that a kind is called by, in WordNet's own order of meanings."""
+        """Return the synset that a kind is called by."""
         found = re.fullmatch(r"(.*?)(?:\.(\d+))?", text)
         assert found
-        senses = sorted(self._senses[_key(found[1])])
-        if found[2]:
-            senses = [(rank, at) for rank, at in senses if rank == int(found[2])]
+        key = _key(found[1])
+        senses = [(rank, at) for rank, at in self._senses[key] if rank == int(found[2])] if found[2] else self._now(key)
         if not senses:
             raise ValueError(f"{KINDS.name}: {text!r} is no noun for a physical thing in WordNet; name one that is")
         return min(senses, key=lambda sense: (self._synsets[sense[1]].domain != "artifact", sense))[1]
 
+    def _now(self, key: str) -> list[tuple[int, int]]:
+        """Return (rank, number) of the meanings of a name: with those that were added, in the order they have now."""
+        return [
+            (rank, self._numbers[id(synset)])
+            for synset in self._named[key]
+            for lemma, rank in synset.lemmas
+            if _key(lemma) == key
+        ]
+
     def _add_first(self, name: str, above: list[int]) -> None:
         new = Synset(self._synsets[above[0]].domain, above, [(name, 1)])
+        self._numbers[id(new)] = len(self._synsets)
         self._synsets.append(new)
         if _key(name) not in self._senses:
             self._senses[_key(name)].append((1, len(self._synsets) - 1))
@@ -217,12 +231,47 @@ def _bare(kind: str) -> str:
     return re.sub(r"\.\d+$", "", kind.lstrip("+-="))
 
 
+def _keys(kinds: Iterable[str]) -> set[str]:
+    return {_key(_bare(kind)) for kind in kinds}
+
+
+def _is_meaning(kind: str) -> bool:
+    """Return whether a row that begins so gives its name a meaning, or another order of meanings."""
+    return kind[0] not in "+-"
+
+
 def _key(lemma: str) -> str:
     return lemma.replace(" ", "").replace("-", "")
 
 
+def sizes_of(synsets: list[Synset]) -> list[int]:
+    """Return for each synset how many there are below it, itself included."""
+    below: list[list[int]] = [[] for _ in synsets]
+    for at, synset in enumerate(synsets):
+        for up in synset.above:
+            below[up].append(at)
+    return [count_below([at], below) for at in range(len(synsets))]
+
+
+def count_below(chosen: Iterable[int], below: Sequence[Sequence[int]]) -> int:
+    """Return the number of synsets that are among the chosen or below one of them.
+
+    Args:
+        chosen: numbers of synsets.
+        below: for each synset those directly below it.
+    """
+    found: set[int] = set()
+    pending = list(chosen)
+    while pending:
+        synset = pending.pop()
+        if synset not in found:
+            found.add(synset)
+            pending += below[synset]
+    return len(found)
+
+
 def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
-    """Return the lines that `Taxonomy` reads, and one more: for each lemma, 1 where it is written without space too."""
+    """Return the lines that `Taxonomy` reads."""
     letters = {domain: chr(ord("a") + at) for at, domain in enumerate(DOMAINS)}
     senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for at, synset in enumerate(synsets):
@@ -240,6 +289,7 @@ def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
         "\t".join(" ".join(f"{letters[synsets[at].domain]}{rank}" for rank, at in found) for found in ordered.values()),
         "\t".join(" ".join(str(at) for _, at in found) for found in ordered.values()),
         "".join("1" if lemma in single else "0" for lemma in ordered),
+        "\t".join(map(str, sizes_of(synsets))),
     ]
     return "\n".join(lines) + "\n"
 

@@ -128,6 +128,8 @@ def test_jargon_that_many_names_begin_with_is_dropped(home_tbox: TBox):
         (["DesignedTool", "DesignedBox"], "tool"),
         # "Kitchen" is a thing's name: a kitchen knife is not just any knife.
         (["KitchenTool", "KitchenBox", "KitchenRack"], "box"),
+        # Cooking utensils are known by that name.
+        (["CookingUtensil", "CookingDish", "CookingRack"], "rack"),
     ],
 )
 def test_other_first_words_are_kept(names: list[str], term: str):

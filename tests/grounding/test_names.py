@@ -15,6 +15,7 @@ from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.embedded.lexicon import build_lexicon
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.embedded.tokens import is_common_word
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import ObjectView
 
@@ -204,6 +205,15 @@ class TestSpelling:
     @pytest.mark.parametrize("word", ["cup", "oven", "lamp", "table", "mat", "cage"])
     def test_a_word_that_is_known_stays(self, reader: NameReader, word: str):
         assert reader.read(word) == NamePhrase((word,))
+
+    @pytest.mark.parametrize("word", ["splash", "teaching", "removal"])
+    def test_a_common_word_that_is_no_noun_for_a_thing_is_not_misspelt(self, reader: NameReader, word: str):
+        # A splash is no splashback.
+        assert not reader.is_known(word)
+        assert reader.correct(word) == (word,)
+        # The shorter may be what is left of a longer one.
+        assert is_common_word(word)
+        assert not is_common_word("blend")
 
     @pytest.mark.parametrize(
         "word",

@@ -27,7 +27,7 @@ TINY = Taxonomy(format_taxonomy(["red", "wooden"], SYNSETS))
 
 
 def test_the_file_as_the_reader_describes_it():
-    *lines, is_single, end = format_taxonomy(["red", "wooden"], SYNSETS).split("\n")
+    *lines, is_single, sizes, end = format_taxonomy(["red", "wooden"], SYNSETS).split("\n")
     assert [line.split("\t") for line in lines] == [
         ["red wooden"],
         ["top animal artifact body communication food group object phenomenon plant shape substance person"],
@@ -38,11 +38,15 @@ def test_the_file_as_the_reader_describes_it():
         ["a1", "c1", "c1", "f1", "c1", "c1 f2", "f2", "c1", "c1", "c3"],
         ["0", "1", "2", "3", "4", "6 5", "5", "6", "6", "6"],
     ]
-    assert (is_single, end) == ("1111111100", "")
+    assert (is_single, sizes, end) == ("1111111100", "7\t4\t3\t2\t2\t1\t1", "")
 
 
 def test_the_meaning_used_most_comes_first_whatever_the_order_of_the_file():
     assert TINY.senses("bun") == (Sense(6, 1, "artifact"), Sense(5, 2, "food"))
+
+
+def test_the_size_of_a_synset_is_what_is_below_it_with_itself():
+    assert [TINY.size(synset) for synset in range(TINY.synset_count)] == [7, 4, 3, 2, 2, 1, 1]
 
 
 def test_an_unknown_lemma_has_no_senses():

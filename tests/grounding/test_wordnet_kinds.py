@@ -63,6 +63,23 @@ def test_a_kind_is_meant_as_an_artifact_unless_its_number_is_given():
     assert chains(taxonomy_of({"tulip": "bulb.1"}), "tulip") == [["tulip", "bulb"]]
 
 
+def test_a_kind_is_meant_as_the_rows_have_it():
+    # A rack is a lamp here, first of all; so is the wall rack, whichever row comes first.
+    expected = ["rack", "lamp", "artifact"]
+    assert chains(taxonomy_of({"rack": "lamp", "wall rack": "rack"}), "wallrack") == [["wall rack", *expected]]
+    assert chains(taxonomy_of({"wall rack": "rack", "rack": "lamp"}), "wallrack") == [["wall rack", *expected]]
+    assert chains(taxonomy_of({"wall rack": "rack.1", "rack": "lamp"}), "wallrack") == [
+        ["wall rack", "rack", "furniture", "artifact"]
+    ]
+    # Workers are people, and not the ants that WordNet has beside them.
+    assert chains(load_taxonomy(), "flightattendant")[0][1] != "insect"
+
+
+def test_rows_that_speak_of_each_other_mean_what_wordnet_has():
+    taxonomy = taxonomy_of({"rack": "stand", "stand": "rack"})
+    assert {up for chain in chains(taxonomy, "rack") for up in chain} >= {"rack", "furniture"}
+
+
 def test_a_row_may_speak_of_another_whichever_comes_first():
     taxonomy = taxonomy_of({"arc lamp": "floor lamp", "floor lamp": "lamp", "standing lamp": "==floor lamp"})
     assert chains(taxonomy, "arclamp") == [["arc lamp", "floor lamp", "lamp", "artifact"]]

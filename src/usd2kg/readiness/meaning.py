@@ -5,8 +5,9 @@ from functools import cached_property
 
 from usd2kg.graph.validation import Finding, Severity
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.grounding.embedded.lexicon import Term, build_lexicon, home_names, term_key, things_of
+from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names, things_of
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.embedded.terms import HEAD, Term, term_key
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
 from usd2kg.readiness.texts import about
 from usd2kg.scene import ObjectView
@@ -23,6 +24,12 @@ class Meaning:
         self._taxonomy = load_taxonomy()
         self._lexicon = build_lexicon(tbox, self._taxonomy, home_names())
         self._anchored = {anchor.class_iri for anchor in self._lexicon.anchors.values()}
+        self._counted = {
+            counted.anchor.class_iri
+            for among in self._lexicon.counted.values()
+            for counted in among
+            if counted.anchor.weight > HEAD
+        }
 
     @property
     def default(self) -> ClassIRI:
@@ -30,8 +37,8 @@ class Meaning:
         return self._lexicon.default
 
     def is_known(self, iri: ClassIRI) -> bool:
-        """Return whether a class is aligned with a sense of a noun, or a list of its names is known."""
-        return iri in self._anchored or iri in self._lexicon.listed
+        """Return whether a class is aligned with a sense of a noun, or what it is of is known by its name."""
+        return iri in self._anchored or iri in self._counted or iri in self._lexicon.listed
 
     @cached_property
     def names(self) -> Mapping[ClassIRI, str]:

@@ -30,6 +30,7 @@ from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.shortening import may_be_short
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, rounded
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.embedded.tokens import is_common_word
 from usd2kg.grounding.embedded.weighing import Finding, weigh
 from usd2kg.grounding.embedded.whereabouts import (
     PLACE_TEXTS,
@@ -260,7 +261,10 @@ class _Run:
 
     def _is_spelled_out(self, tokens: Sequence[str]) -> bool:
         """Return whether the words of a name are all known, or are a name in another language."""
-        return all(map(self._reader.is_known, tokens)) or translate(tuple(tokens)) is not None
+        return all(map(self._is_word, tokens)) or translate(tuple(tokens)) is not None
+
+    def _is_word(self, word: str) -> bool:
+        return self._reader.is_known(word) or is_common_word(word)
 
     def _completed(self, view: ObjectView, said: list[Finding]) -> list[Finding]:
         """Return what the name says where words of it are unknown and likely abbreviations: the blade of a `fan_bld`.
@@ -271,7 +275,7 @@ class _Run:
         """
         matches = self._match(view.name, view.parents, view.own_size)
         words = matches[0].phrase.words[-_MOST_TOKENS:] if matches else ()
-        spelled = {word for word in words if self._reader.is_known(word) or not may_be_short(word)}
+        spelled = {word for word in words if self._is_word(word) or not may_be_short(word)}
         if spelled.issuperset(words):
             return said
         readings = self._abbreviations.read(words, view.company, spelled)

@@ -45,9 +45,14 @@ def head_of(label: str) -> str:
 
 
 def affixes_of(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
-    """Return first words that are the ontology's own jargon: shared by many classes, and no thing's name."""
-    firsts = Counter(words[0] for cls in tbox.classes if len(words := words_of_label(cls.local_name)) > 1)
-    return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy)
+    """Return first words that are the ontology's own jargon: shared by many classes, and no thing's name.
+
+    Nor do they make known nouns with what follows: `designed` is jargon, the `cooking` of a cooking appliance is not.
+    """
+    labels = [words for cls in tbox.classes if len(words := words_of_label(cls.local_name)) > 1]
+    firsts = Counter(words[0] for words in labels)
+    told = {words[0] for words in labels if "".join(words) in taxonomy}
+    return frozenset(word for word, count in firsts.items() if count >= 3 and word not in taxonomy and word not in told)
 
 
 def said_otherwise(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[str]:

@@ -9,25 +9,23 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
 
+from usd2kg.grounding.embedded.categories import members_of
 from usd2kg.grounding.embedded.labels import SENSE_KEY, affixes_of, head_of, phrase_of, said_otherwise, words_of_label
+from usd2kg.grounding.embedded.lending import borrowed_names, lent_names
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
+from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, LESSER, SYNONYM, Anchor, Term, keep_best
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 
 __all__ = [
-    "LENT",
-    "Anchor",
+    "Counted",
     "Lexicon",
-    "Term",
     "build_lexicon",
     "home_names",
     "sense_weight",
-    "term_key",
     "things_of",
     "unmade_weight",
 ]
 
-_LABEL, _SYNONYM, LENT, _BORROWED, _LESSER, _HEAD = 1.0, 0.92, 0.9, 0.7, 0.7, 0.6
-"""Weights of terms; a lent one is a home class's name for another ontology's class that is labelled alike."""
 _DOMAIN_WEIGHTS = {
     "artifact": 1.0,
     "food": 0.9,
@@ -44,8 +42,6 @@ _RANK_DECAY = 0.93
 _GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
 _TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
 """What is above so many meanings that it sets none apart."""
-_HOLDER, _HELD, _HELD_TOO = "DesignedContainer", "Building", frozenset(["Appliance", "DesignedFurniture"])
-"""Buildings are below the containers in SOMA, and so are ovens and cupboards: those are appliances and furniture."""
 _ABOVE_MANY = _TOP | {
     *("substance", "instrumentality", "part", "device", "equipment", "system", "medium", "series", "arrangement"),
     "group",
@@ -60,25 +56,18 @@ _HAPPENINGS = frozenset("activity event action process state situation task".spl
 """Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
 _UNTOLD = 0.8
 """The weight of senses of a kind with the one that is meant: two senses of a lamp are both lamps."""
+_SOME_THINGS = 3000
+"""What is supposed of a class that is known by its head alone."""
 _PLAUSIBLE = 0.85
 """A sense that fits this share as well as the best one may be meant too."""
 
 
-class Term(NamedTuple):
-    """A term that names a class."""
+class Counted(NamedTuple):
+    """A class that people count things among."""
 
-    class_iri: ClassIRI
-    text: str
-    weight: float
-    """1 for the class's own label, less for a synonym, least for the last word of a longer label."""
-
-
-@dataclass(frozen=True, slots=True)
-class Anchor:
-    """A class's place in the taxonomy."""
-
-    class_iri: ClassIRI
-    weight: float
+    anchor: Anchor
+    things: int
+    """The number of meanings that they count so, of all nouns."""
 
 
 @dataclass(frozen=True)
@@ -100,6 +89,8 @@ class Lexicon:
     """
     listed: frozenset[ClassIRI]
     """The classes whose further terms are known: those of the home vocabulary, if it is used."""
+    counted: Mapping[int, Sequence[Counted]]
+    """Synset → the classes that people count it among, though the taxonomy does not."""
     kingdoms: frozenset[str]
     """The domains of what nobody made in which the TBox has classes that the home vocabulary does not know."""
 
@@ -148,37 +139,38 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     for cls in classes:
         for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
             said = phrase_of(text, taxonomy)
-            _keep_best(terms, cls.iri, said, weight)
+            keep_best(terms, cls.iri, said, weight)
             first, _, rest = said.partition(" ")
             if rest and first in affixes:
                 bare.setdefault(rest, set()).add(cls.iri)
     for rest, claimants in bare.items():
         if len(claimants) == 1 and rest not in _ABOVE_MANY | _GENERAL:
             # The components of five vendors are no component as such, and a shading device is not what any device is.
-            _keep_best(terms, next(iter(claimants)), rest, _LABEL)
+            keep_best(terms, next(iter(claimants)), rest, LABEL)
     for key, term in terms.items():
         if key in taxonomy and _is_common_noun(term):
             _anchor(key, term, tbox, terms, taxonomy, anchors)
     for key, term in terms.items():
-        if term.weight == _LABEL and _is_common_noun(term):
+        if term.weight == LABEL and _is_common_noun(term):
             for noun in said_otherwise(term.text, taxonomy, is_noun=key in taxonomy):
-                _anchor(noun, term._replace(weight=_SYNONYM), tbox, terms, taxonomy, anchors)
+                _anchor(noun, term._replace(weight=SYNONYM), tbox, terms, taxonomy, anchors)
     for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
-        terms[key] = terms[key]._replace(weight=_LESSER)
+        terms[key] = terms[key]._replace(weight=LESSER)
     listed = frozenset(synonyms.keys() & tbox.by_iri.keys())
     default = _default_class(tbox, taxonomy)
     _anchor_default(default, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
-    for class_iri, text in list(_lent_names(tbox, terms, taxonomy, synonyms)):
-        _keep_best(terms, class_iri, phrase_of(text, taxonomy), LENT)
+    for class_iri, text in list(lent_names(tbox, terms, anchors, taxonomy, synonyms)):
+        keep_best(terms, class_iri, phrase_of(text, taxonomy), LENT)
     _add_heads(terms)
     return Lexicon(
         terms=terms,
         anchors=anchors,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default=default,
-        borrowed=_borrowed(tbox, terms, default, taxonomy, synonyms),
+        borrowed=borrowed_names(tbox, terms, default, taxonomy, synonyms),
         listed=listed,
+        counted={} if listed.issuperset(tbox.by_iri) else _counted(tbox, terms, anchors, default, taxonomy),
         kingdoms=_kingdoms(terms, anchors, taxonomy, listed),
     )
 
@@ -189,7 +181,7 @@ def _is_common_noun(term: Term) -> bool:
     What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
     """
     words = [word for word in term.text.split() if word not in _JOINING]
-    is_general = term.weight < _LABEL and term.text in _GENERAL
+    is_general = term.weight < LABEL and term.text in _GENERAL
     return not is_general and (len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE)
 
 
@@ -199,7 +191,7 @@ def _kingdoms(
     return frozenset(
         sense.domain
         for key, term in terms.items()
-        if term.weight == _LABEL and term.class_iri not in listed
+        if term.weight == LABEL and term.class_iri not in listed
         for sense in taxonomy.senses(key)[:1]
         if sense.domain in _UNMADE and sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri
     )
@@ -209,48 +201,28 @@ def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mappin
     """Return whether a label is meant as nothing made, though its word means that first: a screwdriver, the drink."""
     senses = taxonomy.senses(key)
     usual = max(senses, key=sense_weight, default=None)
-    if term.weight != _LABEL or usual is None or usual.domain != "artifact":
+    if term.weight != LABEL or usual is None or usual.domain != "artifact":
         return False
     own = [sense for sense in senses if sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri]
     return bool(own) and all(sense.domain != "artifact" for sense in own)
 
 
-def _lent_names(
-    tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]
-) -> Iterator[tuple[ClassIRI, str]]:
-    """Yield names of things for classes of other ontologies that have the label of a class of the home TBox.
-
-    Only for those without classes below: what counts as furniture or a tool differs from ontology to ontology.
-    """
-    home = load_home_tbox()
-    for iri, (label, *names) in synonyms.items():
-        if iri not in tbox.by_iri and home.children.get(iri) == ():
-            own = terms.get(term_key(label, taxonomy))
-            if own is not None and own.weight == _LABEL:
-                yield from ((own.class_iri, name) for name in names)
-
-
-def _borrowed(
-    tbox: TBox,
-    terms: Mapping[str, Term],
-    default: ClassIRI,
-    taxonomy: Taxonomy,
-    synonyms: Mapping[ClassIRI, tuple[str, ...]],
-) -> dict[str, Term]:
-    home = load_home_tbox()
-    found: dict[str, Term] = {}
-    for iri, names in synonyms.items():
-        if iri in tbox.by_iri or iri not in home.by_iri or home.by_iri[iri].local_name == _HELD:
+def _counted(
+    tbox: TBox, terms: Mapping[str, Term], anchors: Mapping[int, Anchor], default: ClassIRI, taxonomy: Taxonomy
+) -> dict[int, list[Counted]]:
+    found: dict[int, list[Counted]] = {}
+    placed = {anchor.class_iri for anchor in anchors.values()}
+    for key, term in terms.items():
+        if term.class_iri == default or SENSE_KEY.match(tbox.by_iri[term.class_iri].local_name):
+            # What is a kind of a sense of WordNet is for WordNet to say.
             continue
-        above = {home.by_iri[up].local_name: up for up in home.closure(iri)}
-        if not _HELD_TOO.isdisjoint(above):
-            above.pop(_HOLDER, None)
-        nearest = sorted(above.values(), key=lambda up: (-home.depths[up], up))
-        labelled = (terms.get(term_key(home.by_iri[up].label, taxonomy)) for up in nearest)
-        own = next((term for term in labelled if term is not None and term.weight == _LABEL), None)
-        if own is not None and own.class_iri != default:
-            for name in names:
-                _keep_best(found, own.class_iri, phrase_of(name, taxonomy), _BORROWED)
+        if term.weight >= SYNONYM:
+            for synset, things in members_of(key, taxonomy):
+                found.setdefault(synset, []).append(Counted(Anchor(term.class_iri, term.weight), things))
+        elif term.weight == HEAD and term.class_iri not in placed:
+            # Of a built structure nothing is known but that it is a structure.
+            for sense in sorted(taxonomy.senses(key), key=sense_weight)[-1:]:
+                found.setdefault(sense.synset, []).append(Counted(Anchor(term.class_iri, HEAD), _SOME_THINGS))
     return found
 
 
@@ -260,39 +232,24 @@ def things_of(tbox: TBox) -> Sequence[OntologyClass]:
     return [cls for cls in tbox.classes if happenings.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
 
 
-def term_key(text: str, taxonomy: Taxonomy) -> str:
-    """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
-    return phrase_of(text, taxonomy).replace(" ", "")
-
-
 def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
-    yield cls.label, _LABEL
-    yield cls.local_name, _LABEL
+    yield cls.label, LABEL
+    yield cls.local_name, LABEL
     for text in (*cls.alt_labels, *synonyms):
-        yield text, _SYNONYM
-
-
-def _keep_best(terms: dict[str, Term], class_iri: ClassIRI, text: str, weight: float) -> None:
-    key = text.replace(" ", "")
-    if not key:
-        return
-    known = terms.get(key)
-    # Classes come from general to special, so that of two claims to a word the general class's stays.
-    if known is None or known.weight < weight:
-        terms[key] = Term(class_iri, text, weight)
+        yield text, SYNONYM
 
 
 def _add_heads(terms: dict[str, Term]) -> None:
     """Let the last word of a two-word label stand for the class, where no other label ends with it."""
     by_head: dict[str, list[Term]] = {}
     for term in terms.values():
-        if term.weight == _LABEL and " " in term.text:
+        if term.weight == LABEL and " " in term.text:
             by_head.setdefault(term.text.split()[-1], []).append(term)
     for head, named in by_head.items():
         is_unique = len({term.class_iri for term in named}) == 1
         is_special = head not in terms and head not in _ABOVE_MANY | _GENERAL
         if is_unique and is_special and len(named[0].text.split()) == 2:
-            terms[head] = Term(named[0].class_iri, head, _HEAD)
+            terms[head] = Term(named[0].class_iri, head, HEAD)
 
 
 def _anchor_default(default: ClassIRI, taxonomy: Taxonomy, anchors: dict[int, Anchor]) -> None:
@@ -347,10 +304,10 @@ def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy
 
     hint = SENSE_KEY.match(cls.local_name)
     told = hint and hint[2] and hint[2].replace("_", " ")
-    said = _said_of(cls, tbox, taxonomy) if term.weight == _LABEL else frozenset()
+    said = _said_of(cls, tbox, taxonomy) if term.weight == LABEL else frozenset()
     return below(
         lambda name: name == told,
-        lambda name: name not in _TOP and is_named(name) and terms[name.replace(" ", "")].weight == _LABEL,
+        lambda name: name not in _TOP and is_named(name) and terms[name.replace(" ", "")].weight == LABEL,
         lambda name: name not in _ABOVE_MANY and name.replace(" ", "") != key and said.issuperset(name.split()),
         is_named,
     )

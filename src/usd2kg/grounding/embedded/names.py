@@ -11,7 +11,15 @@ from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.shortening import consonants_of, usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
-from usd2kg.grounding.embedded.tokens import Token, is_half, is_reference, read_parent, shared_beginning, tokens_of
+from usd2kg.grounding.embedded.tokens import (
+    Token,
+    is_common_word,
+    is_half,
+    is_reference,
+    read_parent,
+    shared_beginning,
+    tokens_of,
+)
 from usd2kg.languages import language_of, translate
 from usd2kg.words import is_telling
 
@@ -304,6 +312,8 @@ class NameReader:
         singular = self._taxonomy.singular(word)
         if singular != word:
             return (singular,)
+        if is_common_word(word):
+            return (word,)
         # A long word with one letter amiss is misspelt sooner than made of two words.
         slip = self._respell(word, 1) if len(word) >= _LONG else None
         return (

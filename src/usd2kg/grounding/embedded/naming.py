@@ -3,12 +3,15 @@
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property, lru_cache, partial
+from math import log
+from operator import itemgetter
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import LENT, Anchor, Lexicon, Term, home_names, sense_weight, unmade_weight
+from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names, sense_weight, unmade_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
+from usd2kg.grounding.embedded.terms import LENT, Anchor, Term
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
@@ -21,6 +24,8 @@ _ROOT_SHARE, _FROM_ROOT = 0.75, 2
 the TBox lacks, as a wall may be; what is near, a structure or a surface, says little of what a thing is."""
 _ABOUT_AS_NEAR = 1
 """Steps in the taxonomy by which a class may be farther off that tells more."""
+_MUCH_SMALLER = 2.5
+"""How much smaller a kind has to be, as a logarithm, that people count a thing among against the taxonomy."""
 _PLACED = 0.95
 _SHORTEST_NOUN = 3
 """Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""
@@ -144,7 +149,7 @@ class Namer:
                 # A sofa cushion is an artifact at home; where there are cushions, it is a cushion.
                 return words[start:], found
             if longest[1] and found and self._tells_more(key, found, longest_key, longest[1]):
-                return words[start:], found
+                return longest[0], found
             if not longest[1]:
                 longest, longest_key = (words[start:], found), key
             is_listed = longest_key in self._lexicon.terms
@@ -153,14 +158,17 @@ class Namer:
         return longest if longest[1] else ((), ())
 
     def _tells_more(self, key: str, found: tuple[Match, ...], longer: str, general: tuple[Match, ...]) -> bool:
-        """Return whether a term says more than a longer noun that is of its kind: a flip cap is a cap, so a lid."""
-        if key not in self._lexicon.terms or longer in self._lexicon.terms:
-            return False
+        """Return whether a noun says more than a longer one that ends with it: a side plate is a plate.
+
+        The home vocabulary lists so many names that there the longer one has to be of the kind by the taxonomy too.
+        """
         special, above = _best(found), _best(general)
-        if special == above or not self._tbox.is_subclass(special, above):
+        if longer in self._lexicon.terms or not self._is_below(special, above):
             return False
+        if self._has_own:
+            return above not in self._roots
         kinds = {up for sense in self._taxonomy.senses(longer) for up, _ in self._taxonomy.walk_up(sense.synset)}
-        return any(sense.synset in kinds for sense in self._taxonomy.senses(key))
+        return key in self._lexicon.terms and any(sense.synset in kinds for sense in self._taxonomy.senses(key))
 
     def _naming(self, key: str, head: str, is_compound: bool, places: tuple[str, ...]) -> tuple[Match, ...]:
         kinds = tuple(self._by_kind(key, is_compound))
@@ -240,7 +248,7 @@ class Namer:
                     score *= _ROOT_SHARE * _HOP_DECAY ** max(0, _FROM_ROOT - hops)
                 else:
                     score *= _HOP_DECAY**hops
-                reason = partial(self._kinds_text, sense.synset, synset, anchor.class_iri)
+                reason = partial(self._kinds_text, sense.synset, synset, anchor)
                 yield Match(anchor.class_iri, score * anchor.weight, reason)
 
     def _is_default(self, found: tuple[int, int, Anchor] | None) -> bool:
@@ -264,10 +272,36 @@ class Namer:
                     break
             elif hops <= nearest[1] + _ABOUT_AS_NEAR and self._depth(anchor) > self._depth(nearest[2]):
                 nearest = up, hops, anchor
-        return nearest
+        return self._counted_among(synset, nearest) or nearest if self._has_own else nearest
+
+    def _counted_among(self, synset: int, nearest: tuple[int, int, Anchor] | None) -> tuple[int, int, Anchor] | None:
+        """Return the same for a class that people count a thing among, where that says more; mostly None."""
+        general = None if nearest is None or nearest[2].class_iri in self._roots else nearest
+
+        def tells_more(counted: Counted, size: float) -> bool:
+            if general is None:
+                return True
+            iri, (target, hops, anchor) = counted.anchor.class_iri, general
+            # A lamp is furniture to WordNet: where there are lights, it is sooner one of them.
+            is_smaller = hops > 0 and size < log(self._taxonomy.size(target)) + hops - _MUCH_SMALLER
+            return self._is_below(iri, anchor.class_iri) or (
+                is_smaller and not self._tbox.is_subclass(anchor.class_iri, iri)
+            )
+
+        found = [
+            (size, up, hops + 1, counted.anchor)
+            for up, hops in self._taxonomy.walk_up(synset)
+            for counted in self._lexicon.counted.get(up, ())
+            if tells_more(counted, size := log(counted.things) + hops)
+        ]
+        # The smaller a kind, and the nearer, the more it tells.
+        return min(found, key=itemgetter(0))[1:] if found else None
 
     def _depth(self, anchor: Anchor) -> int:
         return len(self._tbox.closure(anchor.class_iri))
+
+    def _is_below(self, special: ClassIRI, general: ClassIRI | None) -> bool:
+        return general is not None and special != general and self._tbox.is_subclass(special, general)
 
     def _is_own_below(self, special: ClassIRI, general: ClassIRI) -> bool:
         """Return whether a class is one that the home vocabulary does not know, below one that it does."""
@@ -286,11 +320,13 @@ class Namer:
     def _place_text(self, key: str, place: str, special: Term) -> str:
         return f"a “{key}” in “{place}” is a {special.text}, which is {self._label(special.class_iri)}"
 
-    def _kinds_text(self, synset: int, target: int, class_iri: ClassIRI) -> str:
+    def _kinds_text(self, synset: int, target: int, anchor: Anchor) -> str:
         names = [self._taxonomy.name(step) for step in self._taxonomy.path_up(synset, target)]
         chain = names if len(names) <= 4 else [*names[:2], "…", names[-1]]
         kinds = " is a kind of ".join(f"“{name}”" if name != "…" else name for name in chain)
-        return f"{kinds}, which is {self._label(class_iri)}"
+        is_of_it = self._lexicon.anchors.get(target) == anchor
+        link = ", which is" if is_of_it else " counts as" if len(chain) == 1 else ", which counts as"
+        return f"{kinds}{link} {self._label(anchor.class_iri)}"
 
     def _label(self, class_iri: ClassIRI) -> str:
         return self._tbox.by_iri[class_iri].readable_name

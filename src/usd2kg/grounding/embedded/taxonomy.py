@@ -37,6 +37,9 @@ class _Cells:
     def __getitem__(self, at: int) -> str:
         return self._line[self._starts[at] : self._starts[at + 1] - 1].decode()
 
+    def __len__(self) -> int:
+        return len(self._starts) - 1
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._line.decode().split("\t"))
 
@@ -58,13 +61,15 @@ class Taxonomy:
         6. lemmas; tabs;
         7. for each lemma the domain and rank of its meanings, those used most first: `c1 f2`; tabs;
         8. for each lemma the synsets of its meanings, in that order; tabs.
-        9. for each lemma 1 if people write it as one word, 0 if only as several; no tabs.
+        9. for each lemma 1 if people write it as one word, 0 if only as several; no tabs;
+        10. for each synset the number of those below it, itself included; tabs.
         """
-        adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word = text.split("\n")[:9]
+        adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word, sizes = text.split("\n")[:10]
         self.adjectives = frozenset(adjectives.split())
         self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
         self._above_texts = _Cells(above)
         self._names = _Cells(names)
+        self._sizes = _Cells(sizes)
         self._places = {lemma: at for at, lemma in enumerate(lemmas.split("\t"))}
         self._kinds = _Cells(kinds)
         self._synsets = _Cells(senses)
@@ -105,6 +110,15 @@ class Taxonomy:
     def name(self, synset: int) -> str:
         """Return the lemma that WordNet lists first for a synset, with its spaces."""
         return self._names[synset]
+
+    def size(self, synset: int) -> int:
+        """Return the number of synsets that are a kind of one, itself included."""
+        return int(self._sizes[synset])
+
+    @property
+    def synset_count(self) -> int:
+        """The number of synsets."""
+        return len(self._names)
 
     def above(self, synset: int) -> tuple[int, ...]:
         """Return the synsets that a synset is directly a kind of."""

@@ -1,0 +1,130 @@
+"""What people count among general kinds, though the taxonomy has it elsewhere."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from tests.grounding.records import ground_names, local, make_class, make_tbox
+from tests.grounding.test_taxonomy import TINY
+from tools import build_categories
+from usd2kg.grounding.embedded.categories import members_of, synset_of
+from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.ontology import TBox
+
+OFFICE = make_tbox(
+    make_class("Asset"),
+    make_class("Stationery", "Asset"),
+    make_class("Seating", "Asset"),
+    make_class("LightFitting", "Asset", label="light fitting"),
+    make_class("Furniture", "Asset"),
+    make_class("StorageFurniture", "Furniture", label="storage furniture"),
+    make_class("BuiltStructure", "Asset", label="built structure"),
+)
+
+
+def answers(names: list[str], tbox: TBox) -> dict[str, str]:
+    return dict(zip(names, map(local, ground_names(names, tbox)), strict=True))
+
+
+class TestMembers:
+    def test_a_name_means_its_first_meaning_or_the_one_that_is_told(self):
+        assert synset_of("bun", TINY) == 6
+        assert synset_of("bun#2", TINY) == 5
+        assert synset_of("flower pot", TINY) == synset_of("flower-pot", TINY) == 6
+        assert synset_of("bun#3", TINY) is None
+        assert synset_of("ghost", TINY) is None
+
+    def test_a_stapler_is_stationery(self):
+        taxonomy = load_taxonomy()
+        members = dict(members_of("stationery", taxonomy))
+        above_stapler = {up for up, _ in taxonomy.walk_up(taxonomy.senses("stapler")[0].synset)}
+        assert above_stapler & members.keys()
+        # All members tell of how many things the kind is.
+        assert len(set(members.values())) == 1
+
+    def test_a_kind_that_is_not_listed_has_no_members(self):
+        assert list(members_of("flurbl", load_taxonomy())) == []
+
+
+class TestFile:
+    """`tools/build_categories.py`, over the tiny taxonomy of `test_taxonomy`."""
+
+    def test_members_below_the_kind_or_below_another_member_say_nothing(self):
+        # A knife is a cutter, so a tool; a bun is food.
+        assert build_categories.telling_members(["tool"], ["cutter", "bun#2"], TINY) == ["bun#2"]
+        assert build_categories.telling_members(["kit"], ["knife", "tool", "roll"], TINY) == ["tool", "roll"]
+        assert build_categories.telling_members(["kit"], ["roll", "bun#2"], TINY) == ["roll"]
+
+    def test_a_member_that_the_taxonomy_lacks_is_an_error(self):
+        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is no noun of the taxonomy"):
+            build_categories.telling_members(["kit", "set"], ["tool", "ghost"], TINY)
+
+    def test_things_are_counted_once(self):
+        below = [[1, 3], [2, 6], [4], [5], [6], [], []]
+        assert build_categories.count_below([1], below) == 4
+        assert build_categories.count_below([2, 4, 5], below) == 4
+
+    def test_what_ships_is_what_the_tool_writes(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        shipped = build_categories.OUTPUT.read_bytes()
+        monkeypatch.setattr(build_categories, "OUTPUT", tmp_path / "categories.csv")
+        build_categories.main()
+        assert (tmp_path / "categories.csv").read_bytes() == shipped
+
+    def test_no_kind_has_two_rows(self):
+        with build_categories.OUTPUT.open(encoding="utf-8", newline="") as file:
+            kinds = [kind.replace("-", " ") for row in csv.DictReader(file) for kind in row["kinds"].split("|")]
+        joined = [kind.replace(" ", "") for kind in kinds]
+        assert len(joined) == len(set(joined))
+        assert len(joined) > 2000
+
+
+class TestGrounding:
+    def test_things_are_of_the_class_that_people_count_them_among(self):
+        expected = {
+            "Stapler_02": "Stationery",
+            "sofa_grey": "Seating",
+            "DeskLamp": "LightFitting",
+            "wardrobe": "StorageFurniture",
+            # Nothing is known of built structures but that they are structures.
+            "Footbridge": "BuiltStructure",
+        }
+        assert answers([*expected], OFFICE) == expected
+
+    def test_a_small_kind_stands_against_a_large_one_of_the_taxonomy(self):
+        # To WordNet a sofa is a seat, which is furniture; where there is seating of its own, it is that.
+        no_seating = make_tbox(*(cls for cls in OFFICE.classes if cls.local_name != "Seating"))
+        assert answers(["sofa"], no_seating) == {"sofa": "Furniture"}
+        assert answers(["sofa"], OFFICE) == {"sofa": "Seating"}
+
+    def test_a_large_kind_does_not(self):
+        # Cranes lift, and so do forklifts, which are vehicles first of all.
+        port = make_tbox(make_class("Asset"), make_class("Vehicle", "Asset"), make_class("LiftingDevice", "Asset"))
+        assert answers(["Forklift", "hoist"], port) == {"Forklift": "Vehicle", "hoist": "LiftingDevice"}
+
+    def test_the_explanation_says_how(self):
+        (prediction,) = ground_names(["stapler"], OFFICE)
+        assert prediction.explanation == "“stapler” is a kind of “stationery item”, which counts as Stationery"
+        equipment = make_tbox(make_class("Asset"), make_class("OfficeEquipment", "Asset", label="office equipment"))
+        (prediction,) = ground_names(["stapler"], equipment)
+        assert prediction.explanation == "“stapler” counts as OfficeEquipment"
+
+    def test_in_the_home_ontology_its_own_vocabulary_decides(self, home_tbox: TBox):
+        assert build_lexicon(home_tbox, load_taxonomy(), home_names()).counted == {}
+        assert build_lexicon(OFFICE, load_taxonomy(), home_names()).counted
+
+
+class TestNamesOfOtherClasses:
+    def test_a_longer_noun_is_of_the_class_of_its_last_word_where_that_says_more(self):
+        tbox = make_tbox(make_class("Thing"), make_class("Tableware", "Thing"), make_class("Plate", "Tableware"))
+        assert answers(["side_plate", "soup_spoon"], tbox) == {"side_plate": "Plate", "soup_spoon": "Tableware"}
+
+    def test_what_the_home_vocabulary_has_no_class_for_goes_to_one_that_another_ontology_has(self):
+        cold = make_tbox(make_class("Thing"), make_class("Refrigerator", "Thing"))
+        assert answers(["chest_freezer"], cold) == {"chest_freezer": "Refrigerator"}
+        frozen = make_tbox(*cold.classes, make_class("Freezer", "Thing"))
+        assert answers(["chest_freezer", "minibar_fridge"], frozen) == {
+            "chest_freezer": "Freezer",
+            "minibar_fridge": "Refrigerator",
+        }

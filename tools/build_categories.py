@@ -1,0 +1,70 @@
+"""Write the data file of general kinds and what people count among them.
+
+Usage: python -m tools.build_categories
+
+`categories.csv` beside this file, which the authors of this project wrote, has a row for each general kind that
+ontologies have classes for: its names, parted by `|`, and what belongs to it though the taxonomy has it elsewhere, each
+member as high up as all that is below it belongs too. `#2` behind a name is its second meaning in the taxonomy.
+
+Left out are members that the kind or another member has above it, and kinds of so many things that they tell nothing.
+Run it again after `build_wordnet.py`.
+"""
+
+import csv
+from pathlib import Path
+
+from tools.build_wordnet import count_below
+from usd2kg.grounding.embedded.categories import synset_of
+from usd2kg.grounding.embedded.taxonomy import Taxonomy, load_taxonomy
+
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/categories.csv"
+CATEGORIES = Path(__file__).parent / "categories.csv"
+MOST_THINGS = 3000
+
+
+def telling_members(kinds: list[str], members: list[str], taxonomy: Taxonomy) -> list[str]:
+    """Return the members that the taxonomy does not have below the kind, nor below another member.
+
+    Raises:
+        ValueError: a member is no noun of the taxonomy.
+    """
+    synsets: dict[int, str] = {}
+    for member in members:
+        synset = synset_of(member, taxonomy)
+        if synset is None:
+            raise ValueError(
+                f"{CATEGORIES.name}: {'|'.join(kinds)}: {member!r} is no noun of the taxonomy, or has fewer meanings"
+            )
+        synsets.setdefault(synset, member)
+    known = {synset for kind in kinds if (synset := synset_of(kind, taxonomy)) is not None}
+    return [
+        member
+        for synset, member in synsets.items()
+        if synset not in known
+        and not any(up in known or up in synsets for up, hops in taxonomy.walk_up(synset) if hops)
+    ]
+
+
+def main() -> None:
+    """Write the data file."""
+    taxonomy = load_taxonomy()
+    below: list[list[int]] = [[] for _ in range(taxonomy.synset_count)]
+    for synset in range(taxonomy.synset_count):
+        for up in taxonomy.above(synset):
+            below[up].append(synset)
+    rows = []
+    with CATEGORIES.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            kinds, members = row["kinds"].split("|"), row["members"].split("|")
+            telling = telling_members(kinds, members, taxonomy)
+            named = (synset_of(name, taxonomy) for name in (*kinds, *members))
+            things = count_below([synset for synset in named if synset is not None], below)
+            if telling and things <= MOST_THINGS:
+                rows.append((row["kinds"], things, "|".join(telling)))
+    with OUTPUT.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([("kinds", "things", "members"), *rows])
+    print(f"{OUTPUT}: {len(rows)} kinds, {OUTPUT.stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    main()
