@@ -21,7 +21,7 @@ __all__ = [
 
 _NO_MEASURE = 7
 """Letters of a word that is too long to be a measure."""
-_SHORTEST_COMMON = 6
+_SHORTEST_COMMON = 5
 
 
 class Token(NamedTuple):
@@ -93,7 +93,7 @@ def is_half(token: Token, pair: tuple[Token, Token], references: Sequence[Token]
 def is_common_word(word: str) -> bool:
     """Return whether a word, in lower case, is one that is often written, of whatever sort: `exercise`, `splash`.
 
-    Of fewer letters than six none is: what looks like one may be short for another. The words are those that BERT has
+    Of fewer letters than five none is: what looks like one may be short for another. The words are those that BERT has
     whole.
     """
     return len(word) >= _SHORTEST_COMMON and word in _common_words()
