@@ -21,7 +21,7 @@ _MOST_ALIKE = 24
 _THINNEST = 0.002
 """Metres: sheets and decals differ in thickness by nothing that matters."""
 _TWIN = 0.01
-_MOST_RANKED = 24
+_MOST_RANKED = 14
 """So many words are kept for a form, where no more are asked for."""
 
 

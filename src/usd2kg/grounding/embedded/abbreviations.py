@@ -59,8 +59,10 @@ class _Written(NamedTuple):
     """A word of the stage that a form may stand for; the best sorts first."""
 
     loss: float
+    """Minus the score of a `Choice`."""
     word: str
-    choice: Choice
+    noun: str
+    """The word in the singular."""
 
 
 class AbbreviationReader:
@@ -140,7 +142,7 @@ class AbbreviationReader:
         """Return what a form may be, with the words of the stage that may be written so."""
         known = self._known(form)
         reasons = {word: [*scores] for word, scores in known.reasons.items()} if known is not None else {}
-        return _piece_of(reasons, [found.choice for found in written])
+        return _piece_of(reasons, [Choice(-found.loss, found.noun) for found in written])
 
     @cached_property
     def _index(self) -> FormIndex:
@@ -168,7 +170,7 @@ class AbbreviationReader:
 
     def _rating(self, word: str, share: float, score: float) -> _Written:
         score = math.log(_STAGE_SHARE * min(1.0, share)) + score
-        return _Written(-score, word, Choice(score, self._taxonomy.singular(word)))
+        return _Written(-score, word, self._taxonomy.singular(word))
 
 
 @lru_cache(maxsize=1)

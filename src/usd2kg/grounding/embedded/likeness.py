@@ -139,7 +139,7 @@ def _kinds(role: str, word: str) -> Mapping[str, float]:
     return _kinds_of(role, noun) if noun in taxonomy else {}
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=512)
 def _kinds_of(role: str, noun: str) -> Mapping[str, float]:
     taxonomy = load_taxonomy()
     senses = sorted(taxonomy.senses(noun), key=sense_weight, reverse=True)

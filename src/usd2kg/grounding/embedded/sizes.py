@@ -125,7 +125,7 @@ def rounded(size: Size) -> Size:
     return round(x, 4), round(y, 4), round(z, 4)
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=256)
 def _kept(size: Size) -> tuple[_Floats, float]:
     """Return `log_likelihoods`, and log mean over things of p(size | thing)."""
     logs = log_likelihoods(size)
