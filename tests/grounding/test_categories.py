@@ -9,6 +9,7 @@ from tests.grounding.records import ground_names, local, make_class, make_tbox
 from tests.grounding.test_taxonomy import TINY
 from tools import build_categories
 from usd2kg.grounding.embedded.categories import members_of, synset_of
+from usd2kg.grounding.embedded.labels import wordings
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox
@@ -102,6 +103,15 @@ class TestGrounding:
         # Cranes lift, and so do forklifts, which are vehicles first of all.
         port = make_tbox(make_class("Asset"), make_class("Vehicle", "Asset"), make_class("LiftingDevice", "Asset"))
         assert answers(["Forklift", "hoist"], port) == {"Forklift": "Vehicle", "hoist": "LiftingDevice"}
+
+    def test_any_equipment_may_be_called_by_another_word(self):
+        assert wordings("printing machine", load_taxonomy())[0] == "printingmachine"
+        assert "printingdevice" in wordings("printing machine", load_taxonomy())
+        assert wordings("chair", load_taxonomy()) == ["chair"]
+        assert wordings("machine", load_taxonomy()) == ["machine"]
+        assert wordings("lamps and luminaires", load_taxonomy()) == ["lampsandluminaires", "lamp", "luminaire"]
+        printers = make_tbox(make_class("Asset"), make_class("PrintingMachine", "Asset", label="printing machine"))
+        assert answers(["photocopier"], printers) == {"photocopier": "PrintingMachine"}
 
     def test_the_explanation_says_how(self):
         (prediction,) = ground_names(["stapler"], OFFICE)

@@ -7,7 +7,7 @@ from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier
 
-__all__ = ["SENSE_KEY", "affixes_of", "head_of", "phrase_of", "said_otherwise", "words_of_label"]
+__all__ = ["SENSE_KEY", "affixes_of", "head_of", "phrase_of", "said_otherwise", "wordings", "words_of_label"]
 
 _EQUIPMENT = ("equipment", "device", "unit")
 _ANY_EQUIPMENT = (
@@ -74,6 +74,22 @@ def said_otherwise(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[str
         return []
     found = [noun for head in heads if head != last and (noun := "".join((*before, head))) in taxonomy]
     return found if is_noun else found[:1]
+
+
+def wordings(label: str, taxonomy: Taxonomy) -> list[str]:
+    """Return the ways to say what a label says, without spaces, itself first: a printing machine is a printing device.
+
+    Args:
+        label: the label, in the singular.
+        taxonomy: the nouns.
+    """
+    *before, last = label.split()
+    heads = _ANY_EQUIPMENT if before and last in _ANY_EQUIPMENT else ()
+    joined = _alternatives(label.split())
+    said = [phrase_of(words, taxonomy) for words in joined] if len(joined) > 1 else []
+    return list(
+        dict.fromkeys(text.replace(" ", "") for text in (label, *said, *("".join((*before, head)) for head in heads)))
+    )
 
 
 def _alternatives(words: list[str]) -> list[str]:

@@ -10,7 +10,15 @@ from importlib.resources import files
 from typing import NamedTuple
 
 from usd2kg.grounding.embedded.categories import members_of
-from usd2kg.grounding.embedded.labels import SENSE_KEY, affixes_of, head_of, phrase_of, said_otherwise, words_of_label
+from usd2kg.grounding.embedded.labels import (
+    SENSE_KEY,
+    affixes_of,
+    head_of,
+    phrase_of,
+    said_otherwise,
+    wordings,
+    words_of_label,
+)
 from usd2kg.grounding.embedded.lending import borrowed_names, lent_names
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, LESSER, SYNONYM, Anchor, Term, keep_best
@@ -217,7 +225,8 @@ def _counted(
             # What is a kind of a sense of WordNet is for WordNet to say.
             continue
         if term.weight >= SYNONYM:
-            for synset, things in members_of(key, taxonomy):
+            told = next(filter(None, (list(members_of(said, taxonomy)) for said in wordings(term.text, taxonomy))), [])
+            for synset, things in told:
                 found.setdefault(synset, []).append(Counted(Anchor(term.class_iri, term.weight), things))
         elif term.weight == HEAD and term.class_iri not in placed:
             # Of a built structure nothing is known but that it is a structure.
