@@ -1,6 +1,7 @@
 """What people count among general kinds, though the taxonomy has it elsewhere."""
 
 import csv
+import re
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,7 @@ class TestFile:
         with build_categories.OUTPUT.open(encoding="utf-8", newline="") as file:
             kinds = [kind.replace("-", " ") for row in csv.DictReader(file) for kind in row["kinds"].split("|")]
         joined = [kind.replace(" ", "") for kind in kinds]
+        assert [kind for kind in kinds if not re.fullmatch(r"[a-z0-9][a-z0-9 '/&.()]*", kind)] == []
         assert len(joined) == len(set(joined))
         assert len(joined) > 2000
 
