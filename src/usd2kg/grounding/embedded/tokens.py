@@ -1,11 +1,10 @@
 """The runs of letters that a name is written with, and how they refer to the names above."""
 
-import gzip
 from collections.abc import Sequence
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
 
+from usd2kg.grounding.vocabulary import load_pieces
 from usd2kg.words import is_telling, split_identifier
 
 __all__ = [
@@ -101,6 +100,6 @@ def is_common_word(word: str) -> bool:
 
 @lru_cache(maxsize=1)
 def _common_words() -> frozenset[str]:
-    packed = (files("usd2kg.grounding") / "data" / "bert_vocab.txt.gz").read_bytes()
-    words = gzip.decompress(packed).decode().split("\n")
-    return frozenset(word for word in words if len(word) >= _SHORTEST_COMMON and word.isascii() and word.isalpha())
+    return frozenset(
+        word for word in load_pieces() if len(word) >= _SHORTEST_COMMON and word.isascii() and word.isalpha()
+    )

@@ -5,11 +5,11 @@ clean, lower-case, strip accents, split at blanks, punctuation and CJK character
 the longest pieces that the vocabulary has.
 """
 
-import gzip
 import unicodedata
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from importlib.resources import files
+
+from usd2kg.grounding.vocabulary import load_pieces
 
 __all__ = ["WordPieceTokenizer", "load_tokenizer", "split_words"]
 
@@ -70,8 +70,7 @@ class WordPieceTokenizer:
 @lru_cache(maxsize=1)
 def load_tokenizer() -> WordPieceTokenizer:
     """Return the tokenizer over the vocabulary of `bert-base-uncased`, which all-MiniLM-L6-v2 shares."""
-    packed = (files("usd2kg.grounding") / "data" / "bert_vocab.txt.gz").read_bytes()
-    return WordPieceTokenizer(gzip.decompress(packed).decode().split("\n")[:-1])
+    return WordPieceTokenizer(load_pieces())
 
 
 def split_words(text: str) -> list[str]:
