@@ -218,6 +218,7 @@ def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mappin
 def _counted(
     tbox: TBox, terms: Mapping[str, Term], anchors: Mapping[int, Anchor], default: ClassIRI, taxonomy: Taxonomy
 ) -> dict[int, list[Counted]]:
+    """Return synset → the classes whose names say that people count it among them, but for the default."""
     found: dict[int, list[Counted]] = {}
     placed = {anchor.class_iri for anchor in anchors.values()}
     for key, term in terms.items():
