@@ -15,7 +15,6 @@ from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.embedded.lexicon import build_lexicon
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
-from usd2kg.grounding.embedded.tokens import is_common_word
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import ObjectView
 
@@ -211,9 +210,6 @@ class TestSpelling:
         # A splash is no splashback.
         assert not reader.is_known(word)
         assert reader.correct(word) == (word,)
-        # The shorter may be what is left of a longer one.
-        assert is_common_word(word)
-        assert not is_common_word("over")
 
     @pytest.mark.parametrize(
         "word",

@@ -23,6 +23,7 @@ from usd2kg.grounding.embedded.beliefs import (
 from usd2kg.grounding.embedded.calibration import features_of, probability
 from usd2kg.grounding.embedded.context import Vote, ask_company, siblings_as_company, vote_of
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
+from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Matcher
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
@@ -30,7 +31,6 @@ from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.shortening import may_be_short
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, rounded
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
-from usd2kg.grounding.embedded.tokens import is_common_word
 from usd2kg.grounding.embedded.weighing import Finding, weigh
 from usd2kg.grounding.embedded.whereabouts import (
     PLACE_TEXTS,
@@ -257,14 +257,15 @@ class _Run:
         tokens = [token for token in tokens if is_telling(token)][:_MOST_TOKENS]
         if not tokens or (not view.is_masked and self._is_spelled_out(tokens)):
             return []
-        return self._of_readings(view, self._abbreviations.read(tokens, view.company))
+        spelled = {token for token in tokens if len(token) >= SHORTEST_WORD and self._is_word(token)}
+        return self._of_readings(view, self._abbreviations.read(tokens, view.company, spelled))
 
     def _is_spelled_out(self, tokens: Sequence[str]) -> bool:
         """Return whether the words of a name are all known, or are a name in another language."""
         return all(map(self._is_word, tokens)) or translate(tuple(tokens)) is not None
 
     def _is_word(self, word: str) -> bool:
-        return self._reader.is_known(word) or is_common_word(word)
+        return self._reader.is_known(word) or is_english_word(word)
 
     def _completed(self, view: ObjectView, said: list[Finding]) -> list[Finding]:
         """Return what the name says where words of it are unknown and likely abbreviations: the blade of a `fan_bld`.

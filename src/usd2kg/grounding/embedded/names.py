@@ -7,13 +7,13 @@ from itertools import chain, pairwise, takewhile
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
+from usd2kg.grounding.embedded.english import is_common_word, is_english_word
 from usd2kg.grounding.embedded.frequencies import thing_prior
 from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
 from usd2kg.grounding.embedded.shortening import consonants_of, usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.grounding.embedded.tokens import (
     Token,
-    is_common_word,
     is_half,
     is_reference,
     read_parent,
@@ -314,15 +314,11 @@ class NameReader:
             return (singular,)
         if is_common_word(word):
             return (word,)
+        is_english = is_english_word(word)
         # A long word with one letter amiss is misspelt sooner than made of two words.
-        slip = self._respell(word, 1) if len(word) >= _LONG else None
-        return (
-            slip
-            or self._with_vowels(word)
-            or self._split(word)
-            or self._respell(word, 1 if len(word) < 8 else 2)
-            or (word,)
-        )
+        slip = self._respell(word, 1) if len(word) >= _LONG and not is_english else None
+        parts = slip or self._with_vowels(word) or self._split(word)
+        return parts or (None if is_english else self._respell(word, 1 if len(word) < 8 else 2)) or (word,)
 
     def _parts_of_term(self, word: str) -> tuple[str, ...]:
         """Return the words of a term that is written as one (`slidecabinet`), if the language does not do so too."""

@@ -4,13 +4,11 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from usd2kg.grounding.vocabulary import load_pieces
 from usd2kg.words import is_telling, split_identifier
 
 __all__ = [
     "Parent",
     "Token",
-    "is_common_word",
     "is_half",
     "is_reference",
     "read_parent",
@@ -20,7 +18,6 @@ __all__ = [
 
 _NO_MEASURE = 7
 """Letters of a word that is too long to be a measure."""
-_SHORTEST_COMMON = 5
 
 
 class Token(NamedTuple):
@@ -87,19 +84,3 @@ def is_reference(token: Token, above: set[tuple[str, str]]) -> bool:
 def is_half(token: Token, pair: tuple[Token, Token], references: Sequence[Token]) -> bool:
     """Return whether a reference is one of two words of which the other is none."""
     return token in pair and any(other not in references for other in pair)
-
-
-def is_common_word(word: str) -> bool:
-    """Return whether a word, in lower case, is one that is often written, of whatever sort: `exercise`, `splash`.
-
-    Of fewer letters than five none is: what looks like one may be short for another. The words are those that BERT has
-    whole.
-    """
-    return len(word) >= _SHORTEST_COMMON and word in _common_words()
-
-
-@lru_cache(maxsize=1)
-def _common_words() -> frozenset[str]:
-    return frozenset(
-        word for word in load_pieces() if len(word) >= _SHORTEST_COMMON and word.isascii() and word.isalpha()
-    )

@@ -1,0 +1,60 @@
+"""Which runs of letters are English words."""
+
+import gzip
+from pathlib import Path
+
+import pytest
+
+import usd2kg.grounding
+from tests.grounding.records import ground_names, ground_view, local
+from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_common_word, is_english_word
+from usd2kg.ontology import TBox
+from usd2kg.scene import ObjectView
+
+DATA = Path(usd2kg.grounding.__file__).parent / "data"
+
+
+@pytest.mark.parametrize("word", ["splash", "teaching", "exercise"])
+def test_what_is_often_written_is_common(word: str):
+    assert is_common_word(word)
+    assert is_english_word(word)
+
+
+@pytest.mark.parametrize("word", ["mossy", "telescopic", "disinfection", "schoolgirl", "tidied", "gherkins"])
+def test_a_dictionary_has_rarer_and_inflected_words(word: str):
+    assert is_english_word(word)
+    assert not is_common_word(word)
+
+
+@pytest.mark.parametrize("word", ["cuboard", "vinager", "drwrs", "tblspn", "", "a\nb", "mossy\n", "Mossy", "ossy"])
+def test_no_misspelling_abbreviation_or_part_of_a_word_is_one(word: str):
+    assert not is_english_word(word)
+
+
+@pytest.mark.parametrize("word", ["over", "mile", "cab"])
+def test_a_short_word_may_be_what_is_left_of_a_longer_one(word: str):
+    assert len(word) < SHORTEST_WORD
+    assert not is_english_word(word)
+
+
+def test_the_dictionary_has_each_word_once_and_none_that_is_common():
+    words = gzip.decompress((DATA / "english_words.txt.gz").read_bytes()).decode("ascii").split("\n")
+    assert words.pop() == ""
+    assert words == sorted(set(words))
+    assert all(word.isalpha() and word.islower() and len(word) >= SHORTEST_WORD for word in words)
+    assert not any(map(is_common_word, words))
+
+
+def test_the_notice_names_the_dictionary():
+    assert "english_words.txt.gz" in (DATA / "FREQUENCIES-LICENSE.txt").read_text("ascii")
+
+
+@pytest.mark.parametrize("name", ["mossy_boulder_zrw", "telescopicBleachers_zrw"])
+def test_words_stay_whole_in_a_name_with_letters_that_are_none(home_tbox: TBox, name: str):
+    # Nobody calls a boulder short for a boulevard with a derby.
+    explanation = ground_view(ObjectView(name), home_tbox).explanation
+    assert not any(wrong in explanation for wrong in ("boulevard", "derby", "telescope "))
+
+
+def test_a_word_that_is_none_is_still_read_as_the_nearest(home_tbox: TBox):
+    assert list(map(local, ground_names(["Cuboard", "Galss", "bottel"], home_tbox))) == ["Cupboard", "Glass", "Bottle"]

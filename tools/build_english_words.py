@@ -1,0 +1,39 @@
+"""Pack the English words that BERT's vocabulary does not have whole into the data file that the grounder reads.
+
+Usage: python tools/build_english_words.py SCOWL
+
+SCOWL is the folder `usr/share/dict/scowl` of Debian's package `scowl`, as for `build_word_frequencies.py`. BERT's
+vocabulary is read from the package.
+"""
+
+import gzip
+import sys
+from pathlib import Path
+
+from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_common_word
+
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/english_words.txt.gz"
+# Class 70 has what few people know, and among it what looks like a misspelling.
+CLASSES = (10, 20, 35, 40, 50, 55, 60)
+
+
+def main() -> None:
+    """Write the data file."""
+    folder = Path(sys.argv[1])
+    paths = [path for level in CLASSES for path in sorted(folder.glob(f"*-words.{level}"))]
+    words = {word for path in paths for word in path.read_text("latin-1").split()}
+    if "mossy" not in words:
+        raise SystemExit(f"{folder}: found {len(paths)} lists of words; expected those of Debian's scowl")
+    kept = sorted(word for word in words if is_dictionary_entry(word) and not is_common_word(word))
+    # No time in the gzip header: the same input gives the same bytes.
+    OUTPUT.write_bytes(gzip.compress("".join(f"{word}\n" for word in kept).encode("ascii"), compresslevel=9, mtime=0))
+    print(f"{OUTPUT}: {len(kept)} words, {OUTPUT.stat().st_size} bytes")
+
+
+def is_dictionary_entry(word: str) -> bool:
+    """Return whether a word is long enough, and neither a name nor written with marks."""
+    return len(word) >= SHORTEST_WORD and word.isascii() and word.isalpha() and word.islower()
+
+
+if __name__ == "__main__":
+    main()
