@@ -244,6 +244,9 @@ def test_the_default_is_the_root_with_the_most_classes_below_it(home_tbox: TBox)
     commands = [make_class(f"{verb}Command", "Command") for verb in ("Open", "Close", "Stop")]
     domotic = make_tbox(make_class("Command"), make_class("Managed"), make_class("Fridge", "Managed"), *commands)
     assert lexicon_of(domotic).default == LAB + "Managed"
+    # What is not known to be managed is unmanaged.
+    both = make_tbox(*domotic.classes, make_class("UnManaged"), make_class("Wall", "UnManaged"))
+    assert lexicon_of(both).default == LAB + "UnManaged"
 
 
 def test_the_vocabulary_holds_the_words_of_all_terms():

@@ -55,6 +55,7 @@ _ABOVE_MANY = _TOP | {
     "group",
 }
 """What is above a meaning, and is said in texts about any other too."""
+_NEGATIONS = ("un", "non", "not")
 _JOINING = frozenset(["and", "of", "or"])
 _MADE = "artifact"
 """The lemma of all that is made."""
@@ -277,7 +278,8 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
     """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
 
     An ontology's largest root may be of activities or states, and no thing is one of those: only what is called after
-    something made counts.
+    something made counts. Where a root is called the opposite of the best one, as `UnControllable` is, it has all that
+    is not known to be of the other.
     """
 
     def is_made(label: str) -> bool:
@@ -292,7 +294,10 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
         head = taxonomy.singular(words[-1])
         return (head not in _GENERAL, -made_below[root], -below[root], root)
 
-    return min(tbox.roots, key=rank)
+    best = min(tbox.roots, key=rank)
+    called = "".join(words_of_label(tbox.by_iri[best].label))
+    opposites = {negation + called for negation in _NEGATIONS if called}
+    return next((root for root in tbox.roots if "".join(words_of_label(tbox.by_iri[root].label)) in opposites), best)
 
 
 def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:
