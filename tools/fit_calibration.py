@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from usd2kg.evaluation.gold import read_gold
 from usd2kg.grounding.embedded.beliefs import Beliefs
-from usd2kg.grounding.embedded.calibration import FEATURES, features_of
+from usd2kg.grounding.embedded.calibration import FEATURES, features_of, general_odds
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import TBox
@@ -119,7 +119,8 @@ def sample_of_answers(
 ) -> Sample:
     """Return the answers of one regime; each distinct name weighs the same, all together 1."""
     counts = Counter(names)
-    features = [features_of(answer, beliefs, tbox) for answer, beliefs in answers]
+    odds = general_odds((answer for answer, _ in answers), tbox)
+    features = [features_of(answer, beliefs, tbox, odds) for answer, beliefs in answers]
     return Sample(
         features=np.array([[found[name] for name in FEATURES] for found in features]),
         is_right=np.array(is_right, dtype=float),

@@ -63,6 +63,19 @@ class Thing(NamedTuple):
     """The target and what a careful person would defend too."""
 
 
+class Figures(NamedTuple):
+    """What a list was grounded to, in %."""
+
+    exact: float
+    also: float
+    """Answers that are accepted."""
+    confidence: float
+    """What the grounder says, on average, of being exactly right."""
+
+    def __str__(self) -> str:
+        return f"{self.exact:.1f} ({self.also:.1f})"
+
+
 def main() -> None:
     """Measure and print."""
     tbox = open_tbox(Path(sys.argv[1]) if len(sys.argv) > 1 else None)
@@ -70,14 +83,13 @@ def main() -> None:
     for name in (*TRAIN, *TEST):
         things = load(HERE / f"{name}.csv", tbox)
         figures = [measure(things, tbox, regime) for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED)]
-        print(f"{name:<9} {len(things)}  " + "     ".join(f"{exact:.1f} ({also:.1f})" for exact, also in figures))
+        print(f"{name:<9} {len(things)}  " + "     ".join(map(str, figures)))
     pairs = twice_labelled(tbox)
     firsts, seconds = ([pair[which] for pair in pairs] for which in (0, 1))
     exact, also = agreement(firsts, seconds)
     print(f"\n{len(pairs)} of unseen and blind: a second labeller against the first {exact:.1f} ({also:.1f});")
     told = [measure(things, tbox, NamingRegime.SEMANTIC) for things in (firsts, seconds)]
-    against = [f"{exact:.1f} ({also:.1f})" for exact, also in told]
-    print(f"the grounder against the first {against[0]}, against the second {against[1]}")
+    print(f"the grounder against the first {told[0]}, against the second {told[1]}")
 
 
 def twice_labelled(tbox: TBox) -> list[tuple[Thing, Thing]]:
@@ -122,13 +134,16 @@ def labels_of(row: dict[str, str], tbox: TBox) -> tuple[ClassIRI, frozenset[Clas
     return target, frozenset([target, *others])
 
 
-def measure(things: list[Thing], tbox: TBox, regime: NamingRegime) -> tuple[float, float]:
-    """Return the share in % that is exactly right, and that is accepted."""
+def measure(things: list[Thing], tbox: TBox, regime: NamingRegime) -> Figures:
+    """Ground a list and return how well that was done."""
     scene = bare_scene("a list of names", [found.obj for found in things])
     answers = ground(scene, tbox, regime=regime).by_path
-    right = [answers[found.obj.prim_path].class_iri == found.target for found in things]
-    accepted = [answers[found.obj.prim_path].class_iri in found.accepted for found in things]
-    return 100 * sum(right) / len(things), 100 * sum(accepted) / len(things)
+    told = [(found, answers[found.obj.prim_path]) for found in things]
+    return Figures(
+        exact=100 * sum(answer.class_iri == found.target for found, answer in told) / len(told),
+        also=100 * sum(answer.class_iri in found.accepted for found, answer in told) / len(told),
+        confidence=100 * sum(answer.confidence or 0.0 for _, answer in told) / len(told),
+    )
 
 
 if __name__ == "__main__":

@@ -142,3 +142,25 @@ class TestNamesOfOtherClasses:
             "chest_freezer": "Freezer",
             "minibar_fridge": "Refrigerator",
         }
+
+
+class TestLastWordsOfLabels:
+    """Where one label alone ends with a word, what is called so may be of that class."""
+
+    TBOX = make_tbox(
+        make_class("Equipment"),
+        make_class("Vehicle", "Equipment"),
+        make_class("KickScooter", "Vehicle"),
+        make_class("Device", "Equipment"),
+        make_class("AnaesthesiaMachine", "Device"),
+    )
+
+    def test_a_word_for_few_things_means_the_class(self):
+        assert answers(["rental_scooter"], self.TBOX) == {"rental_scooter": "KickScooter"}
+
+    def test_a_word_for_many_does_not(self):
+        assert answers(["vending_machine", "truck"], self.TBOX) == {"vending_machine": "Device", "truck": "Vehicle"}
+
+    def test_nor_does_one_that_two_labels_end_with(self):
+        both = make_tbox(*self.TBOX.classes, make_class("MobilityScooter", "Vehicle"))
+        assert answers(["rental_scooter"], both) == {"rental_scooter": "Vehicle"}

@@ -29,7 +29,8 @@ class Grounder(Protocol):
         """Return one prediction for each (prim path, view), in order.
 
         The path is the key to answer under and no evidence: under a naming regime it would give the name
-        away. What is learnt from one view must not be used for another.
+        away. What is learnt from one view must not tell what another is; how the answers to all look may be heard in
+        their confidence.
         """
         ...
 

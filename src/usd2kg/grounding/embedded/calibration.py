@@ -5,7 +5,7 @@ The parameters are in `data/calibration.json`, written by `tools/fit_calibration
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from importlib.resources import files
 
@@ -14,7 +14,7 @@ from usd2kg.grounding.embedded.lexicon import home_names
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import TBox
 
-__all__ = ["FEATURES", "features_of", "probability"]
+__all__ = ["FEATURES", "features_of", "general_odds", "probability"]
 
 FEATURES = (
     "intercept",
@@ -27,6 +27,7 @@ FEATURES = (
     "is_foreign",
     "foreign_general",
     "foreign_subclasses",
+    "foreign_general_odds",
     "company_score",
     "belief",
 )
@@ -35,9 +36,26 @@ _BY_LOOK = frozenset({"company", "geometry"})
 _LEAST, _USUAL = 0.01, 0.1
 _LABEL = 0.95
 """A score that only the class's own label reaches."""
+_SUPPOSED_GENERAL, _SUPPOSED = 2, 10
+"""Of so many answers that are supposed to come before a stage's so many are a root."""
 
 
-def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, float]:
+def general_odds(predictions: Iterable[Prediction], tbox: TBox) -> float:
+    """Return the logarithm of the odds that a thing whose name was understood is said to be a root and no more.
+
+    Of an ontology that has classes for what is on a stage a root is seldom the answer, and then mostly a class was
+    missed; of one that was made for other things it is often, and right.
+    """
+    told = [not tbox.by_iri[iri].parents for one in predictions if _is_by_words(one) and (iri := one.class_iri)]
+    share = (sum(told) + _SUPPOSED_GENERAL) / (len(told) + _SUPPOSED)
+    return math.log(share / (1 - share))
+
+
+def _is_by_words(prediction: Prediction) -> bool:
+    return bool(prediction.evidence) and _BY_LOOK.isdisjoint(prediction.evidence)
+
+
+def features_of(prediction: Prediction, look: Beliefs, tbox: TBox, odds: float) -> dict[str, float]:
     """Return the features of an answer.
 
     - `score`: of the likeliest class, 0 to 1;
@@ -48,6 +66,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
     - `is_company`: whether other objects or the size decided and not the words;
     - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
     - `foreign_general` and `foreign_subclasses`: what the two say where it is so;
+    - `foreign_general_odds`: how often the stage's things are said to be a root, where this one is so by its words;
     - `company_score`: the score, where they did;
     - `belief`: how probable the class is by what the object looks like, the logarithm against a tenth; 0 where its size
       is not known, where the words did not decide, and for classes of other ontologies.
@@ -56,6 +75,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
         prediction: the answer, with the scores of its candidates.
         look: what the object is believed to be by its size, how it stands, and where the names above say.
         tbox: the classes.
+        odds: see `general_odds`, of the answers of the stage.
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
@@ -75,6 +95,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox) -> dict[str, 
         "is_foreign": float(is_foreign),
         "foreign_general": float(is_foreign and is_general),
         "foreign_subclasses": float(is_foreign and has_subclasses),
+        "foreign_general_odds": odds if is_foreign and is_general and _is_by_words(prediction) else 0.0,
         "company_score": first if is_by_look else 0.0,
         "belief": _belief(prediction, look),
     }

@@ -20,7 +20,7 @@ from usd2kg.grounding.embedded.beliefs import (
     log_likelihoods_of_look,
     neighbour_weights,
 )
-from usd2kg.grounding.embedded.calibration import features_of, probability
+from usd2kg.grounding.embedded.calibration import features_of, general_odds, probability
 from usd2kg.grounding.embedded.context import Vote, ask_company, siblings_as_company, vote_of
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_english_word
@@ -120,9 +120,11 @@ class EmbeddedGrounder:
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view)."""
         with paused_collection():
+            answers = self.decide(views, tbox)
+            odds = general_odds((answer for answer, _ in answers), tbox)
             decided = [
-                replace(answer, confidence=probability(features_of(answer, beliefs, tbox)))
-                for answer, beliefs in self.decide(views, tbox)
+                replace(answer, confidence=probability(features_of(answer, look, tbox, odds)))
+                for answer, look in answers
             ]
             return agree_by_asset([view for _, view in views], decided, tbox)
 

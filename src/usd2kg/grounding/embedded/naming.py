@@ -11,7 +11,7 @@ from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names, sens
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
-from usd2kg.grounding.embedded.terms import LENT, Anchor, Term
+from usd2kg.grounding.embedded.terms import HEAD, LENT, Anchor, Term
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
@@ -26,6 +26,7 @@ _ABOUT_AS_NEAR = 1
 """Steps in the taxonomy by which a class may be farther off that tells more."""
 _MUCH_SMALLER = 2.5
 """How much smaller a kind has to be, as a logarithm, that people count a thing among against the taxonomy."""
+_FEW_THINGS = 100
 _PLACED = 0.95
 _SHORTEST_NOUN = 3
 """Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""
@@ -172,8 +173,27 @@ class Namer:
 
     def _naming(self, key: str, head: str, is_compound: bool, places: tuple[str, ...]) -> tuple[Match, ...]:
         kinds = tuple(self._by_kind(key, is_compound))
-        found = [*self._unless_special(self.by_term(key), kinds), *kinds]
+        found = [*self._special_head(key, kinds), *self._unless_special(self.by_term(key), kinds), *kinds]
         return (*self._in_place(key, head, found, places), *found) if found else ()
+
+    def _special_head(self, key: str, kinds: tuple[Match, ...]) -> tuple[Match, ...]:
+        """Return the class of the only label that ends with a word which means few things, below what these are.
+
+        Where there are kick scooters among the vehicles, a scooter is one of them; a machine may be any.
+        """
+        term = self._lexicon.terms.get(key)
+        if not self._has_own or term is None or term.weight != HEAD or not 0 < self._things_called(key) <= _FEW_THINGS:
+            return ()
+        if not any(
+            self._is_below(term.class_iri, kind.class_iri) and kind.class_iri not in self._roots for kind in kinds
+        ):
+            return ()
+        return (Match(term.class_iri, _TERM * LENT, partial(self._term_text, term)),)
+
+    def _things_called(self, key: str) -> int:
+        """Return how many things a noun means at most, as something made."""
+        made = (sense.synset for sense in self._taxonomy.senses(key) if sense.domain == "artifact")
+        return max(map(self._taxonomy.size, made), default=0)
 
     def _unless_special(self, terms: tuple[Match, ...], kinds: tuple[Match, ...]) -> tuple[Match, ...]:
         """Return the classes that a term names, unless it is no label and a class of the TBox's own suits better.

@@ -1,0 +1,57 @@
+"""How sure the embedded grounder says it is, by the answers to the whole stage."""
+
+import math
+
+import pytest
+
+from tests.grounding.records import LAB, make_class, make_tbox
+from usd2kg.grounding.embedded.calibration import general_odds
+from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding.model import Prediction, Status
+from usd2kg.ontology import TBox, load_home_tbox
+from usd2kg.scene import ObjectView
+
+LABORATORY = make_tbox(
+    make_class("Equipment"),
+    *(make_class(name, "Equipment") for name in ("Microscope", "Centrifuge", "Pipette", "Beaker", "Flask", "Balance")),
+)
+KNOWN = ["microscope", "centrifuge", "pipette", "beaker", "flask"]
+UNKNOWN = ["sofa", "guitar", "bicycle", "wardrobe", "toaster", "hammer"]
+
+
+def answer(name: str | None, *evidence: str) -> Prediction:
+    return Prediction("/x", LAB + name if name else None, 0.5, Status.GROUNDED, "embedded", "why", evidence)
+
+
+def confidence_of(name: str, beside: list[str], tbox: TBox) -> float:
+    views = [(f"/{other}", ObjectView(name=other)) for other in [name, *beside]]
+    return EmbeddedGrounder().ground_views(views, tbox)[0].confidence or 0.0
+
+
+@pytest.mark.parametrize(
+    ("answers", "odds"),
+    [
+        ([], math.log(2 / 8)),
+        ([answer("Beaker", "name")] * 10, math.log(2 / 18)),
+        # Of 10 + 4 things 2 + 2 are a root.
+        ([answer("Equipment", "name")] * 2 + [answer("Flask", "asset")] * 2, math.log(4 / 10)),
+        # What it is was not understood, or nobody knows.
+        ([answer("Equipment"), answer("Equipment", "company"), answer("Equipment", "geometry")], math.log(2 / 8)),
+        ([answer(None, "name")], math.log(2 / 8)),
+    ],
+)
+def test_the_odds_of_a_root_worked_by_hand(answers: list[Prediction], odds: float):
+    assert general_odds(answers, LABORATORY) == pytest.approx(odds)
+
+
+def test_a_root_is_believed_where_the_ontology_was_made_for_other_things():
+    assert confidence_of("sofa", KNOWN * 4, LABORATORY) + 0.2 < confidence_of("sofa", UNKNOWN * 4, LABORATORY)
+
+
+def test_other_answers_do_not_tell_how_sure_a_special_class_is():
+    assert confidence_of("beaker", KNOWN, LABORATORY) == confidence_of("beaker", UNKNOWN, LABORATORY)
+
+
+def test_nor_how_sure_a_root_of_the_home_tbox_is():
+    home = load_home_tbox()
+    assert confidence_of("sculpture", ["mug", "sofa"], home) == confidence_of("sculpture", ["statue"] * 9, home)
