@@ -91,6 +91,22 @@ def test_a_flat_list_lacks_general_classes(tmp_path: Path):
     )
     report = check_ontology(load_tbox(path))
     assert {f.rule for f in report.findings if f.severity is not Severity.NOTE} == {"flat"}
+    assert report.default is None
+
+
+def test_it_is_said_where_things_get_no_class_at_all(tmp_path: Path):
+    path = tmp_path / "kinds.ttl"
+    pairs = [("Table", "Desk"), ("Chair", "Armchair")]
+    classes = "".join(
+        f":{general} a owl:Class .\n:{special} a owl:Class ; rdfs:subClassOf :{general} .\n"
+        for general, special in pairs
+    )
+    path.write_text(HEAD.split(":Artifact a", maxsplit=1)[0] + classes, "utf-8")
+    report = check_ontology(load_tbox(path))
+    (finding,) = [finding for finding in report.findings if finding.rule == "no-general-class"]
+    expected = "a thing that fits nowhere gets no class: none of the 2 roots is true of things of all kinds"
+    assert finding.found == expected
+    assert report.default is None
 
 
 def test_where_nothing_general_is_above_most_it_is_said(tmp_path: Path):

@@ -171,7 +171,10 @@ def _readiness_text(report: "OntologyReport") -> str:
     ]
     table = [(name, f"{count} of {report.classes}", f"{count / report.classes:.0%}") for name, count in rows]
     table += [("roots", str(report.roots), ""), ("deepest class below its root", str(report.depth), "")]
-    table += [("deprecated classes", str(report.deprecated), ""), ("a thing that fits nowhere is", report.default, "")]
+    table += [
+        ("deprecated classes", str(report.deprecated), ""),
+        ("a thing that fits nowhere is", report.default or "of no class", ""),
+    ]
     return format_table(("", "found", "share"), table) + "\n"
 
 

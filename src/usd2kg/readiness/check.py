@@ -38,8 +38,8 @@ class OntologyReport:
     """Classes with more than one superclass."""
     deprecated: int
     """Deprecated classes of all documents; they are no candidates."""
-    default: str
-    """IRI of the class that a thing gets of which nothing is known."""
+    default: str | None
+    """IRI of the class that a thing gets of which nothing is known, if it gets one."""
     findings: tuple[Finding, ...]
     """Most serious first, those of one rule together."""
 

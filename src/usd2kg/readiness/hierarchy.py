@@ -13,13 +13,13 @@ _FEW = 8
 _NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
 
 
-def find_hierarchy_faults(tbox: TBox, axioms: Axioms, default: ClassIRI) -> Iterator[Finding]:
+def find_hierarchy_faults(tbox: TBox, axioms: Axioms, default: ClassIRI | None) -> Iterator[Finding]:
     """Yield what is wrong with the hierarchy.
 
     Args:
         tbox: the classes.
         axioms: what the documents state.
-        default: the class that a thing gets of which nothing is known.
+        default: the class that a thing gets of which nothing is known, if any.
     """
     for note in tbox.notes:
         yield _told(note.code, note.message)
@@ -59,16 +59,20 @@ def _whole(tbox: TBox, rule: str, found: str, expected: str, advice: str) -> Fin
     return Finding(Severity.WARNING, rule, tbox.source, "", tbox.ontology_iri, found, expected, advice)
 
 
-def _narrow_default(tbox: TBox, default: ClassIRI) -> Finding | None:
-    """Return a finding where a thing of which nothing is known gets a class that most others are not below."""
-    below = sum(tbox.is_subclass(cls.iri, default) for cls in tbox.classes)
-    if 2 * below >= len(tbox.classes):
-        return None
-    name = f"“{tbox.by_iri[default].label}” ({compact_iri(default)})"
+def _narrow_default(tbox: TBox, default: ClassIRI | None) -> Finding | None:
+    """Return a finding where a thing of which nothing is known gets no class, or one that most are not below."""
+    if default is None:
+        gets = f"no class: none of the {len(tbox.roots)} roots is true of things of all kinds"
+    else:
+        below = sum(tbox.is_subclass(cls.iri, default) for cls in tbox.classes)
+        if 2 * below >= len(tbox.classes):
+            return None
+        name = f"“{tbox.by_iri[default].label}” ({compact_iri(default)})"
+        gets = f"{name}, which is above {below} of {len(tbox.classes)} classes"
     return _whole(
         tbox,
         "no-general-class",
-        f"a thing that fits nowhere gets {name}, which is above {below} of {len(tbox.classes)} classes",
+        f"a thing that fits nowhere gets {gets}",
         "a general class, such as Artifact, above most others",
         "Add one, or name the branches that objects belong to with --root.",
     )

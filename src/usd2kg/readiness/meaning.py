@@ -32,7 +32,7 @@ class Meaning:
         }
 
     @property
-    def default(self) -> ClassIRI:
+    def default(self) -> ClassIRI | None:
         """The class that a thing gets of which nothing is known."""
         return self._lexicon.default
 

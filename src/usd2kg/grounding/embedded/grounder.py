@@ -46,7 +46,7 @@ from usd2kg.grounding.embedded.whereabouts import (
 )
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.languages import translate
-from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
 from usd2kg.words import is_telling, split_identifier, words_of
 
@@ -90,6 +90,9 @@ _UNREAD = 0.2
 _UNKNOWN = 0.12
 _DEFAULT = 0.1
 _CANDIDATES = 8
+_NO_CLASS = "no class of the ontology"
+_ALL_ELSE = f"urn:usd2kg:{_NO_CLASS}"
+"""IRI of the class that stands for having none; it is never an answer."""
 
 
 class EmbeddedGrounder:
@@ -121,9 +124,12 @@ class EmbeddedGrounder:
         """Return one prediction for each (prim path, view)."""
         with paused_collection():
             answers = self.decide(views, tbox)
-            odds = general_odds((answer for answer, _ in answers), tbox)
+            whole = _run_for(tbox, self._use_home_synonyms).tbox
+            odds = general_odds((answer for answer, _ in answers), whole)
             decided = [
-                replace(answer, confidence=probability(features_of(answer, look, tbox, odds)))
+                replace(answer, confidence=probability(features_of(answer, look, whole, odds)))
+                if answer.class_iri is not None
+                else answer
                 for answer, look in answers
             ]
             return agree_by_asset([view for _, view in views], decided, tbox)
@@ -137,6 +143,8 @@ class EmbeddedGrounder:
 
 def _abstaining(prediction: Prediction, tbox: TBox) -> Prediction:
     """Return the prediction with the class above its candidates, where that is the safer answer."""
+    if prediction.class_iri is None:
+        return prediction
     iri = safest_class({candidate.class_iri: candidate.score for candidate in prediction.candidates}, tbox)
     if iri == prediction.class_iri:
         return prediction
@@ -151,13 +159,27 @@ def _run_for(tbox: TBox, use_home_synonyms: bool) -> "_Run":
     return _Run(tbox, home_names() if use_home_synonyms else {})
 
 
+def _with_all_else(tbox: TBox) -> TBox:
+    """Return the TBox with one root above all classes, which stands for what it has no class for."""
+    root = OntologyClass(_ALL_ELSE, label=_NO_CLASS, alt_labels=(), comment="", parents=())
+    classes = [cls if cls.parents else replace(cls, parents=(_ALL_ELSE,)) for cls in tbox.classes]
+    return replace(tbox, classes=tuple(sorted([*classes, root], key=lambda cls: cls.iri)))
+
+
 class _Run:
     """One TBox's lexicon and matcher; remembers what names mean, which depends on nothing else."""
 
     def __init__(self, tbox: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> None:
         taxonomy = load_taxonomy()
-        self._tbox = tbox
         self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
+        if self._lexicon.default is None:
+            is_home = self._lexicon.listed.issuperset(tbox.by_iri)
+            tbox = _with_all_else(tbox)
+            # Among classes of the home TBox alone it is no other ontology's.
+            synonyms = {**synonyms, _ALL_ELSE: (_NO_CLASS,)} if is_home else synonyms
+            self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
+        self.tbox = tbox
+        """With a root of all else, where none of its own is true of most things."""
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
         self._match = lru_cache(maxsize=8192)(self._match_text)
@@ -191,10 +213,12 @@ class _Run:
         if not findings or max(findings[0].score, spelled_out) < _UNKNOWN:
             return self._default(prim_path, "what is known about it does not say what it is"), look
         best = findings[0]
+        if best.class_iri == _ALL_ELSE:
+            return _refusal(prim_path, best.explain()), look
         if best.group in _OF_OTHERS and self._matcher.is_fallback(best.class_iri):
             # Two things of which nothing is known do not vouch for each other.
             return self._default(prim_path, best.explain()), look
-        scores = {finding.class_iri: finding.score for finding in reversed(findings)}
+        scores = {found.class_iri: found.score for found in reversed(findings) if found.class_iri != _ALL_ELSE}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
         prediction = Prediction(
             prim_path=prim_path,
@@ -250,7 +274,7 @@ class _Run:
         where = "" if elevation is None else f", {elevation:.1f} m above the ground"
         among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
         return (
-            f"its name does not say; of its size{where}{among}, it is likeliest {self._tbox.by_iri[iri].readable_name}"
+            f"its name does not say; of its size{where}{among}, it is likeliest {self.tbox.by_iri[iri].readable_name}"
         )
 
     def _by_abbreviation(self, view: ObjectView) -> list[Finding]:
@@ -374,18 +398,25 @@ class _Run:
         alike = companion.distance is not None and companion.distance < _SAME_SIZE
         is_told = companion.nearness in {Nearness.TWIN, Nearness.ALIKE}
         size = ", of the same size," if alike and not is_told else ""
-        return f"“{companion.name}” {where}{size} is {self._tbox.by_iri[iri].readable_name}"
+        return f"“{companion.name}” {where}{size} is {self.tbox.by_iri[iri].readable_name}"
 
     def _default(self, prim_path: str, reason: str) -> Prediction:
+        iri = self._lexicon.default
+        if iri is None or iri == _ALL_ELSE:
+            return _refusal(prim_path, f"{reason}; {_NO_CLASS} is true of most things")
         return Prediction(
             prim_path=prim_path,
-            class_iri=self._lexicon.default,
+            class_iri=iri,
             confidence=_DEFAULT,
             status=Status.SUPERCLASS,
             grounder=EmbeddedGrounder.name,
-            explanation=f"{reason}; {self._tbox.by_iri[self._lexicon.default].readable_name} is true of most things",
-            candidates=(Candidate(self._lexicon.default, _DEFAULT),),
+            explanation=f"{reason}; {self.tbox.by_iri[iri].readable_name} is true of most things",
+            candidates=(Candidate(iri, _DEFAULT),),
         )
+
+
+def _refusal(prim_path: str, explanation: str) -> Prediction:
+    return Prediction(prim_path, None, None, Status.REFUSED, EmbeddedGrounder.name, explanation)
 
 
 def _is_made_up(name: str) -> bool:

@@ -52,7 +52,7 @@ def _ends_with(phrase: str, endings: Container[str]) -> bool:
 def borrowed_names(
     tbox: TBox,
     terms: Mapping[str, Term],
-    default: ClassIRI,
+    default: ClassIRI | None,
     taxonomy: Taxonomy,
     synonyms: Mapping[ClassIRI, tuple[str, ...]],
 ) -> dict[str, Term]:

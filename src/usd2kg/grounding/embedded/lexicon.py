@@ -89,8 +89,8 @@ class Lexicon:
     """Synset → the class aligned with it."""
     vocabulary: Mapping[str, int]
     """Single word → the number of terms that hold it."""
-    default: ClassIRI
-    """The class that is true of most things: the root with the most classes below it."""
+    default: ClassIRI | None
+    """The class that is true of most things: the root with the most classes below it; None if that is of one kind."""
     borrowed: Mapping[str, Term]
     """Term without spaces → the class labelled as what the home vocabulary says is above the thing that is called so.
 
@@ -179,7 +179,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         default=default,
         borrowed=borrowed_names(tbox, terms, default, taxonomy, synonyms),
         listed=listed,
-        counted={} if listed.issuperset(tbox.by_iri) else _counted(tbox, terms, anchors, default, taxonomy),
+        counted={} if listed.issuperset(tbox.by_iri) else _counted(tbox, terms, anchors, default, taxonomy, listed),
         kingdoms=_kingdoms(terms, anchors, taxonomy, listed),
     )
 
@@ -217,7 +217,12 @@ def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mappin
 
 
 def _counted(
-    tbox: TBox, terms: Mapping[str, Term], anchors: Mapping[int, Anchor], default: ClassIRI, taxonomy: Taxonomy
+    tbox: TBox,
+    terms: Mapping[str, Term],
+    anchors: Mapping[int, Anchor],
+    default: ClassIRI | None,
+    taxonomy: Taxonomy,
+    listed: frozenset[ClassIRI],
 ) -> dict[int, list[Counted]]:
     """Return synset → the classes whose names say that people count it among them, but for the default."""
     found: dict[int, list[Counted]] = {}
@@ -226,7 +231,8 @@ def _counted(
         if term.class_iri == default or SENSE_KEY.match(tbox.by_iri[term.class_iri].local_name):
             # What is a kind of a sense of WordNet is for WordNet to say.
             continue
-        if term.weight >= SYNONYM:
+        if term.weight == LABEL or (term.weight >= SYNONYM and term.class_iri not in listed):
+            # Of the many names of things of the home vocabulary none is a kind that people count things among.
             told = next(filter(None, (list(members_of(said, taxonomy)) for said in wordings(term.text, taxonomy))), [])
             for synset, things in told:
                 found.setdefault(synset, []).append(Counted(Anchor(term.class_iri, term.weight), things))
@@ -263,23 +269,23 @@ def _add_heads(terms: dict[str, Term]) -> None:
             terms[head] = Term(named[0].class_iri, head, HEAD)
 
 
-def _anchor_default(default: ClassIRI, taxonomy: Taxonomy, anchors: dict[int, Anchor]) -> None:
+def _anchor_default(default: ClassIRI | None, taxonomy: Taxonomy, anchors: dict[int, Anchor]) -> None:
     """Let what is made be of the default class where no class is above all that is made.
 
     So a wall is understood in an ontology without walls, and is not taken for what a lesser meaning of the word, or its
     size, would make it. Where no class is any kind of thing there is nothing to be understood.
     """
     made = taxonomy.senses(_MADE)[0].synset
-    if anchors and anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
+    if default is not None and anchors and anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
         anchors[made] = Anchor(default, 1.0)
 
 
-def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
+def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
     """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
 
     An ontology's largest root may be of activities or states, and no thing is one of those: only what is called after
     something made counts. Where a root is called the opposite of the best one, as `UnControllable` is, it has all that
-    is not known to be of the other.
+    is not known to be of the other. Of a list of chairs, tables and doors none is true of anything else.
     """
 
     def is_made(label: str) -> bool:
@@ -289,15 +295,23 @@ def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI:
     below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
     made_below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
 
-    def rank(root: ClassIRI) -> tuple[bool, int, int, str]:
+    def head(root: ClassIRI) -> str:
         words = words_of_label(tbox.by_iri[root].label) or words_of_label(tbox.by_iri[root].local_name) or [""]
-        head = taxonomy.singular(words[-1])
-        return (head not in _GENERAL, -made_below[root], -below[root], root)
+        return taxonomy.singular(words[-1])
 
-    best = min(tbox.roots, key=rank)
+    best = min(tbox.roots, key=lambda root: (head(root) not in _GENERAL, -made_below[root], -below[root], root))
+    if len(tbox.roots) > 1 and head(best) not in _GENERAL and _is_one_kind(head(best), taxonomy):
+        return None
     called = "".join(words_of_label(tbox.by_iri[best].label))
     opposites = {negation + called for negation in _NEGATIONS if called}
     return next((root for root in tbox.roots if "".join(words_of_label(tbox.by_iri[root].label)) in opposites), best)
+
+
+def _is_one_kind(noun: str, taxonomy: Taxonomy) -> bool:
+    """Return whether a noun means one kind of thing among others, and not all that is made or more."""
+    usual = max(taxonomy.senses(noun), key=sense_weight, default=None)
+    made = taxonomy.senses(_MADE)[0].synset
+    return usual is not None and usual.synset not in {up for up, _ in taxonomy.walk_up(made)}
 
 
 def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:
