@@ -4,7 +4,6 @@ A name is read as a noun phrase; the TBox's terms, then the taxonomy of nouns, s
 name says nothing, other evidence speaks: asset, documentation, parts, and at last the company the object keeps.
 """
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
@@ -31,6 +30,7 @@ from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.shortening import may_be_short
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, rounded
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.embedded.texts import is_made_up, texts_of
 from usd2kg.grounding.embedded.weighing import Finding, weigh
 from usd2kg.grounding.embedded.whereabouts import (
     PLACE_TEXTS,
@@ -48,7 +48,7 @@ from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.languages import translate
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.scene import Companion, Company, Nearness, Neighbour, ObjectView
-from usd2kg.words import is_telling, split_identifier, words_of
+from usd2kg.words import is_telling, split_identifier
 
 __all__ = ["EmbeddedGrounder"]
 
@@ -63,11 +63,6 @@ _SOURCES = {
 }
 _CLEAR = 0.6
 """A name that scores this is believed before other evidence is asked."""
-_PRIMITIVES = frozenset(
-    ["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull", "poly", "surface"]
-)
-"""Parts named after a geometric primitive say how a thing was modelled, not what it is."""
-_NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
 _MOST_TOKENS = 5
 _SHORTEST_NOUN = 3
 """The SS of `tblspn_ss` is no noun, though a dictionary may have it."""
@@ -200,15 +195,15 @@ class _Run:
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, Beliefs]:
         """Return the class of a view, with a score for confidence, and what it looks like whatever it is called."""
         look = self._look(view)
-        is_made_up = _is_made_up(view.name)
-        findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_made_up else view)
+        is_nameless = is_made_up(view.name)
+        findings = [] if view.is_masked else self._by_words(replace(view, name="") if is_nameless else view)
         if findings and findings[0].score >= _CLEAR and findings[0].group == "name":
             findings = self._completed(view, findings)
         spelled_out = findings[0].score if findings else 0.0
         if not findings or findings[0].score < _CLEAR:
             # A tulip that is no class of the TBox is none of the things beside it either.
-            is_understood = not (findings or view.is_masked or is_made_up) and self._says_what_it_is(view.name)
-            short = [] if is_made_up or is_understood else self._by_abbreviation(view)
+            is_understood = not (findings or view.is_masked or is_nameless) and self._says_what_it_is(view.name)
+            short = [] if is_nameless or is_understood else self._by_abbreviation(view)
             findings = [] if is_understood else self._weigh(view, [*findings, *short])
         if not findings or max(findings[0].score, spelled_out) < _UNKNOWN:
             return self._default(prim_path, "what is known about it does not say what it is"), look
@@ -336,7 +331,7 @@ class _Run:
     def _by_words(self, view: ObjectView) -> list[Finding]:
         """Return what the words say, best first; other sources are asked only if the name is not clear."""
         findings: list[Finding] = []
-        for group, text in _texts(view):
+        for group, text in texts_of(view):
             if group in {"hierarchy", "parts"} and self._says_what_it_is(view.name):
                 # A tulip is no class of the TBox; that it has a stem does not make it a tube.
                 break
@@ -361,7 +356,7 @@ class _Run:
         return tuple(self._matcher.match(self._reader.read(text, parents), parents, size))
 
     def _voting(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
-        return None if _is_made_up(name) else vote_of(self._match(name, parents, size))
+        return None if is_made_up(name) else vote_of(self._match(name, parents, size))
 
     def _placing(self, neighbour: Neighbour) -> Floats:
         """Return the logarithm of how likely a thing is in each kind of place, by its name or else by its look."""
@@ -369,7 +364,7 @@ class _Run:
         return by_name if by_name.any() else place_of_look(log_likelihoods_of_look(neighbour.look))
 
     def _thing_place(self, name: str, parents: tuple[str, ...]) -> Floats:
-        row = None if _is_made_up(name) else self._matcher.thing(self._reader.read(name, parents))
+        row = None if is_made_up(name) else self._matcher.thing(self._reader.read(name, parents))
         return np.zeros(len(PLACES)) if row is None else place_of_thing(row)
 
     def _by_company(self, view: ObjectView) -> list[Finding]:
@@ -419,51 +414,9 @@ def _refusal(prim_path: str, explanation: str) -> Prediction:
     return Prediction(prim_path, None, None, Status.REFUSED, EmbeddedGrounder.name, explanation)
 
 
-def _is_made_up(name: str) -> bool:
-    """Return whether a modelling program made the name up from a primitive: `pCube3`, `polySurface12`.
-
-    A `Box_3` may be a box; programs write `Box003`.
-    """
-    words = words_of(name)
-    return _PRIMITIVES.issuperset(words) and bool(
-        _NUMBERED_BOX.search(name) if words == ("box",) else name[-1:].isdigit()
-    )
-
-
 def _match_text(match: Match, group: str) -> str:
     return match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
 
 
 def _short_text(name: str, reading: Reading, match: Match) -> str:
     return f"“{name}” may be short for “{' '.join(reading.words)}”: {match.explanation}"
-
-
-def _texts(view: ObjectView) -> list[tuple[str, str]]:
-    """Return (evidence group, text) in the order in which they are asked."""
-    texts = [("name", view.name), ("name", view.display_name)]
-    texts += [("asset", asset) for asset in view.asset]
-    texts += [("labels", label) for label in view.labels]
-    texts.append(("documentation", _first_phrase(view.documentation)))
-    texts += [("hierarchy", group) for group in reversed(view.groups) if _is_plural(group)]
-    texts += [("parts", part) for part in view.parts[:20] if not _PRIMITIVES.issuperset(words_of(part))]
-    return [(group, text) for group, text in dict.fromkeys(texts) if text]
-
-
-def _first_phrase(documentation: str) -> str:
-    """Return the beginning of a description up to the first mark or relation: `A stool for the bar.` → stool."""
-    words: list[str] = []
-    for word in documentation.replace("\n", " ").split():
-        bare = word.strip(".,;:!?()\"'").lower()
-        if words and bare in {"for", "of", "with", "in", "on", "to", "from", "that", "which", "by", "is", "at"}:
-            break
-        if bare not in {"a", "an", "the", "this", "is", "one", "some"}:
-            words.append(bare)
-        if word[-1:] in ".,;:!?":
-            break
-    return " ".join(words[:6])
-
-
-def _is_plural(name: str) -> bool:
-    """Return whether a group is named after what it holds (`mugs`, `wallUnits`) and not after a place."""
-    words = words_of(name)
-    return bool(words) and load_taxonomy().singular(words[-1]) != words[-1]
