@@ -6,10 +6,9 @@ from pathlib import Path
 import pytest
 
 import usd2kg.grounding
-from tests.grounding.records import ground_names, ground_view, local
+from tests.grounding.records import ground_names, local, make_class, make_tbox
 from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_common_word, is_english_word
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
 DATA = Path(usd2kg.grounding.__file__).parent / "data"
 
@@ -49,11 +48,13 @@ def test_the_notice_names_the_dictionary():
     assert "english_words.txt.gz" in (DATA / "FREQUENCIES-LICENSE.txt").read_text("ascii")
 
 
-@pytest.mark.parametrize("name", ["mossy_boulder_zrw", "telescopicBleachers_zrw"])
-def test_words_stay_whole_in_a_name_with_letters_that_are_none(home_tbox: TBox, name: str):
-    # Nobody calls a boulder short for a boulevard with a derby.
-    explanation = ground_view(ObjectView(name), home_tbox).explanation
-    assert not any(wrong in explanation for wrong in ("boulevard", "derby", "telescope "))
+def test_words_of_the_dictionary_are_neither_misspelt_nor_short_for_others():
+    # A telescopic stand is no telescope, and a rover no rock with an overall.
+    park = make_tbox(make_class("Entity"), *(make_class(name, "Entity") for name in ("Telescope", "Rock", "Seating")))
+    names = ["telescopicBleachers", "disinfection_rover", "mossy_boulder_zrw"]
+    bleachers, rover, boulder = ground_names(names, park)
+    assert list(map(local, (bleachers, rover))) == ["Seating", "Entity"]
+    assert boulder.explanation.startswith("“mossy boulder” is a kind of “rock”")
 
 
 def test_a_word_that_is_none_is_still_read_as_the_nearest(home_tbox: TBox):

@@ -27,6 +27,7 @@ _ABOUT_AS_NEAR = 1
 _MUCH_SMALLER = 2.5
 """How much smaller a kind has to be, as a logarithm, that people count a thing among against the taxonomy."""
 _FEW_THINGS = 100
+"""Kinds below a noun, up to which the class of the only label that ends with it is meant."""
 _PLACED = 0.95
 _SHORTEST_NOUN = 3
 """Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""
