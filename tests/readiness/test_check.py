@@ -94,6 +94,23 @@ def test_a_flat_list_lacks_general_classes(tmp_path: Path):
     assert report.default is None
 
 
+def test_classes_that_stand_alone_are_named(tmp_path: Path):
+    alone = "".join(f":Alone{i:02} a owl:Class .\n" for i in range(22))
+    report = check(tmp_path, f"{alone} :Old a owl:Class ; owl:deprecated true . owl:Thing a owl:Class .")
+    (finding,) = [finding for finding in report.findings if finding.rule == "stands-alone"]
+    assert finding.severity is Severity.NOTE
+    assert finding.found.startswith("22 classes, neither below nor above another: Alone00, Alone01, ")
+    assert finding.found.endswith("Alone19 and 2 more")
+    assert not any(rule == "stands-alone" for rule, _ in found(check(tmp_path, "")))
+
+
+def test_where_the_scope_is_named_nothing_stands_alone_in_it(tmp_path: Path):
+    path = tmp_path / "lab.ttl"
+    path.write_text(HEAD + ":Alone a owl:Class .", encoding="utf-8")
+    assert load_tbox(path).standing_alone == ("https://lab.example/onto#Alone",)
+    assert load_tbox(path, roots=["https://lab.example/onto#Artifact"]).standing_alone == ()
+
+
 def test_it_is_said_where_things_get_no_class_at_all(tmp_path: Path):
     path = tmp_path / "kinds.ttl"
     pairs = [("Table", "Desk"), ("Chair", "Armchair")]

@@ -195,5 +195,6 @@ def _as_json(tbox: "TBox") -> dict[str, Any]:
             }
             for cls in tbox.classes
         ],
+        "standing_alone": list(tbox.standing_alone),
         "notes": [{"code": note.code, "message": note.message} for note in tbox.notes],
     }

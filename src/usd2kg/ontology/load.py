@@ -14,7 +14,7 @@ from usd2kg.ontology.equivalence import all_equivalents, keep_one_of_each
 from usd2kg.ontology.levels import Levels, level, reachable
 from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
-from usd2kg.ontology.scope import default_scope, nearest_parents, rooted_scope
+from usd2kg.ontology.scope import default_scope, nearest_parents, rooted_scope, standing_alone
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 
 __all__ = ["HOME", "load_home_tbox", "load_tbox"]
@@ -74,6 +74,7 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
         classes=tuple(_class(iri, parents[iri], dispositions[levels.group_of[iri]], closure) for iri in sorted(scope)),
         imports=tuple(doc.iri for doc in documents[1:]),
         notes=(*notes, *_cycle_notes(scope, levels, closure)),
+        standing_alone=tuple(sorted(standing_alone(own, closure))) if roots is None and classes is None else (),
     )
 
 

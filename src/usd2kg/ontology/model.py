@@ -81,6 +81,8 @@ class TBox:
     imports: tuple[str, ...] = ()
     """IRIs of the other documents of the closure, sorted."""
     notes: tuple[OntologyNote, ...] = ()
+    standing_alone: tuple[ClassIRI, ...] = ()
+    """Classes of the file that the default scope leaves out, being neither below nor above another, sorted."""
 
     def __hash__(self) -> int:
         # What is made for a TBox is kept by it, and asked for often; hashing every class would take a millisecond.

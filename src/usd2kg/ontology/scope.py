@@ -9,10 +9,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology.axioms import ClassAxioms
+from usd2kg.ontology.axioms import TOP_CLASSES, ClassAxioms
 from usd2kg.ontology.levels import level, reachable
 
-__all__ = ["ancestors", "default_scope", "nearest_parents", "rooted_scope"]
+__all__ = ["ancestors", "default_scope", "nearest_parents", "rooted_scope", "standing_alone"]
 
 PHYSICAL_ROOTS = (
     "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#PhysicalObject",
@@ -42,6 +42,18 @@ def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
         # What is the same as an upper-level class is as general as that, and no more a candidate.
         physical |= reachable(subclasses, [root]) - {root, *ancestors(superclasses, root)}
     return placed & physical or placed
+
+
+def standing_alone(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
+    """Return the classes that `default_scope` leaves out because no document of the closure says where they belong.
+
+    Those that are said to be dispositions belong to the things that have them.
+    """
+    if not own.linked():
+        return set()
+    placed = own.linked().union(own.equivalents, closure.superclasses(), *closure.dispositions.values())
+    unplaced = own.classes - placed - TOP_CLASSES
+    return {iri for iri in unplaced if not closure.annotations[iri].is_deprecated}
 
 
 def _turned(superclasses: Mapping[str, set[str]]) -> dict[str, set[str]]:

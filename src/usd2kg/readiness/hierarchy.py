@@ -3,13 +3,15 @@
 from collections.abc import Iterator
 
 from usd2kg.graph.validation import Axioms, Finding, Severity
-from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
+from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri, local_name
 from usd2kg.readiness.texts import about
 
 __all__ = ["find_hierarchy_faults"]
 
 _FEW = 8
 """Classes of which a list may be flat."""
+_NAMED = 20
+"""Classes that are named where many are meant."""
 _NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
 
 
@@ -33,6 +35,8 @@ def find_hierarchy_faults(tbox: TBox, axioms: Axioms, default: ClassIRI | None) 
         )
     elif default_fault := _narrow_default(tbox, default):
         yield default_fault
+    if tbox.standing_alone:
+        yield _left_out(tbox)
     for cls in tbox.classes:
         yield from _unsatisfiable(cls, axioms)
         if cls.iri in axioms.deprecated:
@@ -55,8 +59,24 @@ def _told(code: str, message: str) -> Finding:
     return Finding(severity, code, "", "", "", message, "an ontology that is whole and acyclic", advice)
 
 
-def _whole(tbox: TBox, rule: str, found: str, expected: str, advice: str) -> Finding:
-    return Finding(Severity.WARNING, rule, tbox.source, "", tbox.ontology_iri, found, expected, advice)
+def _left_out(tbox: TBox) -> Finding:
+    named = [local_name(iri) for iri in tbox.standing_alone]
+    more = f" and {len(named) - _NAMED} more" if len(named) > _NAMED else ""
+    which = f"class{'es' if len(named) > 1 else ''}, neither below nor above another"
+    return _whole(
+        tbox,
+        "stands-alone",
+        f"{len(named)} {which}: {', '.join(named[:_NAMED])}{more}",
+        "a place in the hierarchy for each class that objects may get",
+        "Add rdfs:subClassOf to those that are kinds of things: no object gets one that stands alone.",
+        Severity.NOTE,
+    )
+
+
+def _whole(
+    tbox: TBox, rule: str, found: str, expected: str, advice: str, severity: Severity = Severity.WARNING
+) -> Finding:
+    return Finding(severity, rule, tbox.source, "", tbox.ontology_iri, found, expected, advice)
 
 
 def _narrow_default(tbox: TBox, default: ClassIRI | None) -> Finding | None:
