@@ -63,6 +63,14 @@ class TestFile:
         with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is no noun of the taxonomy"):
             build_categories.telling_members(["kit", "set"], ["tool", "ghost"], TINY)
 
+    def test_rows_of_one_kind_are_united_under_all_of_its_names(self):
+        # A flower-pot is a knife in the tiny taxonomy, and so is a bun, first of all; but that has another meaning.
+        rows = [(["flower-pot", "pot"], ["roll", "food"]), (["cutter"], ["bun"]), (["knife"], ["food", "tool"])]
+        assert build_categories.united(rows, TINY) == [
+            (["flower-pot", "pot", "xray", "knife"], ["roll", "food", "tool"]),
+            (["cutter"], ["bun"]),
+        ]
+
     def test_things_are_counted_once(self):
         below = [[1, 3], [2, 6], [4], [5], [6], [], []]
         assert build_categories.count_below([1], below) == 4
@@ -94,6 +102,10 @@ class TestGrounding:
             "Footbridge": "BuiltStructure",
         }
         assert answers([*expected], OFFICE) == expected
+
+    def test_another_word_for_the_kind_has_the_same_things(self):
+        luminaires = make_tbox(make_class("Asset"), make_class("Luminaire", "Asset"))
+        assert answers(["BankersLamp"], luminaires) == {"BankersLamp": "Luminaire"}
 
     def test_a_small_kind_stands_against_a_large_one_of_the_taxonomy(self):
         # To WordNet a sofa is a seat, which is furniture; where there is seating of its own, it is that.
