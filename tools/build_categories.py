@@ -6,7 +6,8 @@ Usage: python -m tools.build_categories
 ontologies have classes for: its names, parted by `|`, and what belongs to it though the taxonomy has it elsewhere, each
 member as high up as all that is below it belongs too. `#2` behind a name is its second meaning in the taxonomy.
 
-Left out are members that the kind or another member has above it, and kinds of so many things that they tell nothing.
+Left out are members that have the kind, by each of its names, or another member above them, and kinds of so many
+things that they tell nothing.
 Run it again after `build_wordnet.py`.
 """
 
@@ -54,7 +55,7 @@ def united(rows: list[tuple[list[str], list[str]]], taxonomy: Taxonomy) -> list[
 
 
 def telling_members(kinds: list[str], members: list[str], taxonomy: Taxonomy) -> list[str]:
-    """Return the members that the taxonomy does not have below the kind, nor below another member.
+    """Return the members that the taxonomy does not have below the kind by each of its names, nor below another member.
 
     Raises:
         ValueError: a member is no noun of the taxonomy.
@@ -67,12 +68,12 @@ def telling_members(kinds: list[str], members: list[str], taxonomy: Taxonomy) ->
                 f"{CATEGORIES.name}: {'|'.join(kinds)}: {member!r} is no noun of the taxonomy, or has fewer meanings"
             )
         synsets.setdefault(synset, member)
-    known = {synset for kind in kinds if (synset := synset_of(kind, taxonomy)) is not None}
+    known = {synset_of(kind, taxonomy) for kind in kinds}
+    above = {synset: {up for up, _ in taxonomy.walk_up(synset)} for synset in synsets}
     return [
         member
         for synset, member in synsets.items()
-        if synset not in known
-        and not any(up in known or up in synsets for up, hops in taxonomy.walk_up(synset) if hops)
+        if not known <= above[synset] and above[synset].isdisjoint(synsets.keys() - {synset})
     ]
 
 

@@ -100,6 +100,10 @@ def read_tag_counts(path: Path) -> dict[tuple[str, str], int]:
     return counts
 
 
+_MADE, _VAGUE = "artifact", frozenset(["top", "communication", "substance", "shape"])
+"""The domain of what is made, and those that say little of what a thing is: a brick is a substance to WordNet."""
+
+
 class Synset(NamedTuple):
     """One synset that is kept."""
 
@@ -183,13 +187,21 @@ class Kinds:
         ]
 
     def _add_first(self, name: str, above: list[int]) -> None:
-        new = Synset(self._synsets[above[0]].domain, above, [(name, 1)])
+        new = Synset(self._domain_below(above), above, [(name, 1)])
         self._numbers[id(new)] = len(self._synsets)
         self._synsets.append(new)
         if _key(name) not in self._senses:
             self._senses[_key(name)].append((1, len(self._synsets) - 1))
         self._named[_key(name)].append(new)
         self._put_first(name, new)
+
+    def _domain_below(self, above: list[int]) -> str:
+        """Return the domain of the first kind; of what is made but has a kind like a unit or a symbol, that it is."""
+        domain = self._synsets[above[0]].domain
+        if domain not in _VAGUE:
+            return domain
+        everything_above = set().union(*map(self._all_above, above))
+        return _MADE if self._meant(_MADE) in everything_above else domain
 
     def _add_word(self, name: str, meant: int) -> None:
         synset = self._synsets[meant]

@@ -11,7 +11,7 @@ _PRODUCTION_TOKENS = frozenset(
     sm sk skm geo geom geometry mesh msh mdl model obj object grp group xform prop props asset jnt joint low
     high hi lo mid lod proxy render prx visual vis viz collision col coll lib link root ref rig final wip old
     new copy copie copia inst instance default scene node prim shape polysurface ver version cm mm ctrl loc
-    locator temp tmp test static bp
+    locator temp tmp test static bp models meshes prefab prefabs assets objects nodes scenes instances uploads
     """.split()
 )
 """Tokens that pipelines put into names and that say nothing of what a thing is."""

@@ -452,6 +452,36 @@ class TestHomeSynonyms:
         )
         assert [local(found) for found in ground_names(["teddy_bear", "flag"], toys)] == ["Toy", "DesignedArtifact"]
 
+    def test_of_classes_above_a_thing_the_one_below_the_others_is_meant(self):
+        # A laptop is office equipment, one step up, and a computer, three steps up.
+        office = make_tbox(make_class("Asset"), make_class("Equipment", "Asset"), make_class("Computer", "Equipment"))
+        assert local(ground_names(["laptop"], office)[0]) == "Computer"
+
+    def test_a_second_meaning_that_is_a_class_is_meant(self):
+        # A mailbox is a box for letters at a house, and where letters are posted.
+        general = (make_class("Thing"), make_class("Container", "Thing"))
+        town = make_tbox(*general, make_class("PostBox", "Thing", label="post box"))
+        assert local(ground_names(["Mailbox_02"], make_tbox(*general))[0]) == "Container"
+        assert local(ground_names(["Mailbox_02"], town)[0]) == "PostBox"
+
+    def test_a_class_of_what_is_not_made_is_meant_by_the_first_meaning_of_its_label(self):
+        # Of what is found in homes rock candy is likelier than rocks; an ontology may have rocks all the same.
+        park = make_tbox(make_class("Thing"), make_class("Rock", "Thing"), make_class("Rocket", "Thing"))
+        assert [local(found) for found in ground_names(["Boulder_03", "rock_mossy"], park)] == ["Rock", "Rock"]
+
+    def test_people_may_be_called_by_no_more_than_their_sex(self):
+        people = make_tbox(make_class("Thing"), make_class("Person", "Thing"), make_class("Tool", "Thing"))
+        names = ["female_adult_police_01", "male_adult_construction_05_new"]
+        assert [local(found) for found in ground_names(names, people)] == ["Person", "Person"]
+
+    def test_folders_for_whatever_there_is_are_no_group(self):
+        things = make_tbox(make_class("Thing"), make_class("Model", "Thing"), make_class("Mug", "Thing"))
+        named, unnamed = (
+            ground_view(ObjectView(name="qwrtzx", parents=("World", group), groups=("World", group)), things)
+            for group in ("Mugs", "Models")
+        )
+        assert (local(named), local(unnamed)) == ("Mug", "Thing")
+
     def test_the_setting_is_recorded(self):
         assert EmbeddedGrounder().settings != EmbeddedGrounder(use_home_synonyms=False).settings
 

@@ -112,6 +112,19 @@ class TestReferencesToParents:
         phrase = reader.read("cabinet10_coffee_mug", ("cabinet10", "Mug"))
         assert (phrase.words, phrase.context) == (("coffee", "mug"), ("cabinet",))
 
+    @pytest.mark.parametrize(
+        ("name", "parent", "words"),
+        [
+            ("GrainBread", "Bread", ("grain", "bread")),
+            ("LidPot", "Pot", ("lid",)),
+            ("handle_door", "door", ("handle",)),
+        ],
+    )
+    def test_a_kind_of_what_its_group_holds_keeps_the_word(
+        self, reader: NameReader, name: str, parent: str, words: tuple[str, ...]
+    ):
+        assert reader.read(name, ("World", parent)).words == words
+
     def test_a_number_parts_the_parents_word_from_a_term(self, reader: NameReader):
         assert reader.read("cabinet10_drawer", ("cabinet10",)).words == ("drawer",)
 
@@ -273,6 +286,25 @@ class TestCompounds:
     def test_a_compound_is_split_into_known_words(self, reader: NameReader, name: str, words: tuple[str, ...]):
         assert reader.read(name).words == words
 
+    @pytest.mark.parametrize(
+        ("name", "words"),
+        [
+            # Modifiers may be any English words.
+            ("resuscitationbed", ("resuscitation", "bed")),
+            # A plank is a substance to WordNet.
+            ("ironplank", ("iron", "plank")),
+        ],
+    )
+    def test_the_words_of_a_compound_need_not_be_things(self, reader: NameReader, name: str, words: tuple[str, ...]):
+        assert reader.read(name).words == words
+
+    def test_words_are_parted_as_a_name_above_parts_them(self, reader: NameReader):
+        name = "sm_instrrumenttray_a03_01"
+        assert reader.read(name, ("Ward", "InstrrumentTray_A")).words == ("instrument", "tray")
+        assert reader.read(name, ("Instrrument_A", "Tray")).words == ("instrrumenttray",)
+        # A word that is known stays: a carpet is no pet of a car.
+        assert reader.read("carpet_01", ("Car_Pet",)).words == ("carpet",)
+
     def test_a_term_of_two_words_that_is_written_as_one_is_two(self, home_tbox: TBox):
         expected = {
             "coffeecarafe": "CoffeeCarafe",
@@ -409,7 +441,7 @@ class TestSize:
         # A sign that hangs above an aisle is no aisle.
         ("ExitSign_Aisle", (0.3, 0.02, 0.15), "DesignedArtifact"),
         ("ExitSign_Aisle", None, "DesignedArtifact"),
-        ("exit_aisle", (9.0, 2.5, 0.01), "Floor"),
+        ("aisle_3", (9.0, 2.5, 0.01), "Floor"),
         ("storage_room", (4.0, 3.0, 2.5), "Room"),
         ("storage_room", None, "Room"),
         # So small it is no kitchen, but something in one that is misspelt.

@@ -17,6 +17,8 @@ def taxonomy_of(rows: dict[str, str]) -> Taxonomy:
         Synset("plant", [], [("bulb", 1)]),
         Synset("artifact", [2], [("rack", 1), ("stand", 1)]),
         Synset("person", [], [("person", 1)]),
+        Synset("top", [0], [("kit", 1)]),
+        Synset("substance", [], [("clay", 1)]),
     ]
     Kinds(synsets).add_all([(name, kind.split("|")) for name, kind in rows.items()])
     return Taxonomy(format_taxonomy([], synsets))
@@ -93,6 +95,14 @@ def test_a_name_with_meanings_may_be_another_word_first_of_all():
 def test_people_are_a_domain_of_their_own():
     assert [sense.domain for sense in taxonomy_of({"jogger": "person"}).senses("jogger")] == ["person"]
     assert chains(load_taxonomy(), "pedestrian")[0][:2] == ["pedestrian", "person"]
+
+
+def test_what_is_made_is_an_artifact_though_its_kind_is_a_unit_or_a_substance():
+    assert taxonomy_of({"office kit": "kit"}).senses("officekit")[0].domain == "artifact"
+    assert taxonomy_of({"brick": "clay|furniture"}).senses("brick")[0].domain == "artifact"
+    assert taxonomy_of({"mud": "clay"}).senses("mud")[0].domain == "substance"
+    assert taxonomy_of({"onion": "bulb.1|furniture"}).senses("onion")[0].domain == "plant"
+    assert load_taxonomy().senses("holepunch")[0].domain == "artifact"
 
 
 def test_an_unknown_kind_is_an_error():

@@ -376,6 +376,8 @@ def _anchor(
     for group, trust in ((meant, 1.0), (others, _UNTOLD)):
         best = max((sense_weight(sense) for sense in group), default=1.0)
         for sense in group:
-            share = sense_weight(sense) / best
+            # Rocks are stones first of all, though of what is found in homes the candy is likelier.
+            is_first = group is meant and sense == senses[0] and sense.domain in _UNMADE
+            share = 1.0 if is_first else sense_weight(sense) / best
             if share >= _PLAUSIBLE:
                 keep(sense, term.weight * share * trust)

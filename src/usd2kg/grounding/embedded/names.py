@@ -16,6 +16,7 @@ from usd2kg.grounding.embedded.tokens import (
     Token,
     is_half,
     is_reference,
+    parted_as_above,
     read_parent,
     shared_beginning,
     tokens_of,
@@ -133,7 +134,10 @@ class NameReader:
 
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
-        tokens = self._telling(self._without_additions(tokens_of(name)))[:_MOST_WORDS]
+        parted = chain.from_iterable(
+            [token] if self.is_known(token.text) else parted_as_above(token, parents) for token in tokens_of(name)
+        )
+        tokens = self._telling(self._without_additions(list(parted)))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         glued: list[bool] = []
@@ -298,9 +302,12 @@ class NameReader:
             token for token in references if token.number or not any(is_half(token, pair, references) for pair in pairs)
         ]
         own = [token for token in tokens if token not in references]
-        if any(not self.is_modifier(word) for token in own for word in self.correct(token.text)):
-            return own, references
-        return tokens, []
+        # Below `Bread` a `GrainBread` is no grain, but below `Pot` a `LidPot` is a lid.
+        is_member = tokens[-1] in references and not tokens[-1].number
+        words = [word for token in own for word in self.correct(token.text)]
+        if all(self.is_modifier(word) or (is_member and self._describes(word) >= _FLAVOUR) for word in words):
+            return tokens, []
+        return own, references
 
     def _is_term(self, pair: tuple[Token, Token]) -> bool:
         return pair[0].text + self._taxonomy.singular(pair[1].text) in self._lexicon.terms
@@ -339,7 +346,7 @@ class NameReader:
 
     def _known_words(self, word: str) -> tuple[str, ...] | None:
         """Return a run of letters as known words of any kind, the longest last word first."""
-        if self.is_known(word):
+        if self.is_known(word) or is_english_word(word):
             return (word,)
         for at in range(3, len(word) - 2):
             if self.is_known(word[at:]) and (before := self._known_words(word[:at])):
@@ -349,7 +356,11 @@ class NameReader:
     def _is_noun(self, word: str) -> bool:
         if word in self._lexicon.terms:
             return True
-        return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in self._taxonomy.senses(word))
+        # A plank is a substance to WordNet.
+        senses = self._taxonomy.senses(word)
+        return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in senses) or (
+            bool(senses) and senses[0].domain == "substance"
+        )
 
     def _with_vowels(self, word: str) -> tuple[str, ...] | None:
         """Return the noun of which a word has all consonants in order and some of the vowels: `microwv`."""

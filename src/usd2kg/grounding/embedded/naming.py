@@ -11,7 +11,7 @@ from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names, sens
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
-from usd2kg.grounding.embedded.terms import HEAD, LENT, Anchor, Term
+from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, Anchor, Term
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
@@ -26,6 +26,8 @@ _ABOUT_AS_NEAR = 1
 """Steps in the taxonomy by which a class may be farther off that tells more."""
 _MUCH_SMALLER = 2.5
 """How much smaller a kind has to be, as a logarithm, that people count a thing among against the taxonomy."""
+_SECOND = 0.9
+"""The weight that the second meaning of a noun has, of made things."""
 _FEW_THINGS = 100
 """Kinds below a noun, up to which the class of the only label that ends with it is meant."""
 _PLACED = 0.95
@@ -257,7 +259,10 @@ class Namer:
             if found is not None:
                 synset, hops, anchor = found
                 score = _COMPOUND_KIND if is_compound else _KIND
-                if not is_lacking or sense is usual:
+                if self._has_own and hops == 0 and anchor.weight == LABEL and sense_weight(sense) >= _SECOND:
+                    # An ontology with post boxes means one by its mailboxes, which may be letter boxes too.
+                    pass
+                elif not is_lacking or sense is usual:
                     score *= sense_weight(sense)
                 elif sense.domain in self._lexicon.kingdoms:
                     # An ontology with trees means one by its oaks and birches, rather than a rod.
@@ -291,7 +296,9 @@ class Namer:
                 nearest = up, hops, anchor
                 if not self._has_own:
                     break
-            elif hops <= nearest[1] + _ABOUT_AS_NEAR and self._depth(anchor) > self._depth(nearest[2]):
+            elif self._is_below(anchor.class_iri, nearest[2].class_iri) or (
+                hops <= nearest[1] + _ABOUT_AS_NEAR and self._depth(anchor) > self._depth(nearest[2])
+            ):
                 nearest = up, hops, anchor
         return self._counted_among(synset, nearest) or nearest if self._has_own else nearest
 
