@@ -259,17 +259,18 @@ class Namer:
             if found is not None:
                 synset, hops, anchor = found
                 score = _COMPOUND_KIND if is_compound else _KIND
-                if self._has_own and hops == 0 and anchor.weight == LABEL and sense_weight(sense) >= _SECOND:
+                weight = sense_weight(sense)
+                if self._has_own and hops == 0 and anchor.weight == LABEL and weight >= _SECOND:
                     # An ontology with post boxes means one by its mailboxes, which may be letter boxes too.
-                    pass
+                    score *= LABEL
                 elif not is_lacking or sense is usual:
-                    score *= sense_weight(sense)
+                    score *= weight
                 elif sense.domain in self._lexicon.kingdoms:
                     # An ontology with trees means one by its oaks and birches, rather than a rod.
                     score *= unmade_weight(sense)
                 else:
                     # Where there are no boxes, a box is not for that the compartment that it may be too.
-                    score *= _ROOT_SHARE * sense_weight(sense)
+                    score *= _ROOT_SHARE * weight
                 if anchor.class_iri in self._roots:
                     score *= _ROOT_SHARE * _HOP_DECAY ** max(0, _FROM_ROOT - hops)
                 else:
