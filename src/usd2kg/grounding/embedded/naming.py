@@ -27,7 +27,7 @@ _ABOUT_AS_NEAR = 1
 _MUCH_SMALLER = 2.5
 """How much smaller a kind has to be, as a logarithm, that people count a thing among against the taxonomy."""
 _SECOND = 0.9
-"""The weight that the second meaning of a noun has, of made things."""
+"""What a likely meaning of a noun weighs at least: of made things the first and the second do, no later one."""
 _FEW_THINGS = 100
 """Kinds below a noun, up to which the class of the only label that ends with it is meant."""
 _PLACED = 0.95
