@@ -1,13 +1,15 @@
 """How sure the embedded grounder says it is, by the answers to the whole stage."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from tests.grounding.records import LAB, make_class, make_tbox
-from usd2kg.grounding.embedded.calibration import general_odds
+from usd2kg.grounding.embedded.beliefs import NO_BELIEFS
+from usd2kg.grounding.embedded.calibration import features_of, general_odds
 from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.grounding.model import Prediction, Status
+from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import ObjectView
 
@@ -55,3 +57,14 @@ def test_other_answers_do_not_tell_how_sure_a_special_class_is():
 def test_nor_how_sure_a_root_of_the_home_tbox_is():
     home = load_home_tbox()
     assert confidence_of("sculpture", ["mug", "sofa"], home) == confidence_of("sculpture", ["statue"] * 9, home)
+
+
+@pytest.mark.parametrize(
+    ("tbox", "name", "is_foreign"), [(LABORATORY, "Beaker", True), (load_home_tbox(), "Cup", False)]
+)
+def test_the_margin_counts_apart_for_classes_of_other_ontologies(tbox: TBox, name: str, is_foreign: bool):
+    iri, *others = [cls.iri for cls in tbox.classes if cls.local_name == name] + [tbox.classes[0].iri]
+    said = replace(answer(None, "name"), class_iri=iri, candidates=(Candidate(iri, 0.8), Candidate(others[0], 0.3)))
+    features = features_of(said, NO_BELIEFS, tbox, odds=0.0)
+    assert features["margin"] == pytest.approx(0.5)
+    assert features["foreign_margin"] == pytest.approx(0.5 if is_foreign else 0.0)

@@ -224,6 +224,11 @@ def test_a_name_in_odd_capitals_is_no_common_noun():
     assert "OBI_0000696" not in anchored(lexicon_of(sequencer), "solid").values()
 
 
+def test_a_label_with_a_short_word_is_aligned_where_it_is_a_noun_of_several():
+    hospital = make_tbox(make_class("CTScanner", label="CT scanner"), make_class("Device"))
+    assert "CTScanner" in anchored(lexicon_of(hospital), "ctscanner").values()
+
+
 def test_a_general_synonym_makes_no_class_that_of_all_things():
     tbox = make_tbox(make_class("Object"), make_class("Exhibit", "Object", synonyms=("artefact",)))
     assert "Exhibit" not in anchored(lexicon_of(tbox), "artefact").values()

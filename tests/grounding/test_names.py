@@ -224,6 +224,12 @@ class TestSpelling:
         assert not reader.is_known(word)
         assert reader.correct(word) == (word,)
 
+    def test_a_word_that_is_known_only_within_a_noun_is_not_misspelt_there(self, reader: NameReader):
+        assert reader.correct("cycler") == ("cycle",)
+        assert reader.read("thermal_cycler").words == ("thermal", "cycler")
+        # The chefs of a chef's knife are but the plural.
+        assert reader.read("chefs_knife").words == reader.read("chef_knife").words
+
     @pytest.mark.parametrize(
         "word",
         [

@@ -119,6 +119,26 @@ def test_the_shipped_taxonomy_has_them(lemma: str, kind: str):
     assert kind in chains(load_taxonomy(), lemma)[0]
 
 
+@pytest.mark.parametrize(
+    ("lemma", "kind", "other"),
+    [
+        ("cheese cracker", "snack food", "firecracker"),
+        ("sandwich spread", "condiment", "ranch"),
+        ("vitamin tablet", "dietary supplement", "portable computer"),
+        ("police horse", "animal", "gymnastic horse"),
+        ("arm sling", "orthosis", "slingshot"),
+        ("chemical drum", "barrel", "percussion instrument"),
+        ("ice cream tub", "container", "bathtub"),
+        ("battenberg", "baked goods", "block"),
+        ("security tag", "security device", "rag"),
+    ],
+)
+def test_its_kinds_are_meant_as_they_are_for_such_a_thing(lemma: str, kind: str, other: str):
+    usual = chains(load_taxonomy(), lemma.replace(" ", ""))[0]
+    assert kind in usual
+    assert other not in usual
+
+
 def test_every_row_is_in_the_shipped_taxonomy():
     with KINDS.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -25,6 +25,7 @@ FEATURES = (
     "has_subclasses",
     "is_company",
     "is_foreign",
+    "foreign_margin",
     "foreign_general",
     "foreign_subclasses",
     "foreign_general_odds",
@@ -65,7 +66,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox, odds: float) 
     - `has_subclasses`: whether classes are below it, of which a person may have chosen one: a table fork for a fork;
     - `is_company`: whether other objects or the size decided and not the words;
     - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
-    - `foreign_general` and `foreign_subclasses`: what the two say where it is so;
+    - `foreign_margin`, `foreign_general` and `foreign_subclasses`: what these say where it is so;
     - `foreign_general_odds`: how often the stage's things are said to be a root, where this one is so by its words;
     - `company_score`: the score, where they did;
     - `belief`: how probable the class is by what the object looks like, the logarithm against a tenth; 0 where its size
@@ -93,6 +94,7 @@ def features_of(prediction: Prediction, look: Beliefs, tbox: TBox, odds: float) 
         "has_subclasses": float(has_subclasses),
         "is_company": float(is_by_look),
         "is_foreign": float(is_foreign),
+        "foreign_margin": first - second if is_foreign else 0.0,
         "foreign_general": float(is_foreign and is_general),
         "foreign_subclasses": float(is_foreign and has_subclasses),
         "foreign_general_odds": odds if is_foreign and is_general and _is_by_words(prediction) else 0.0,

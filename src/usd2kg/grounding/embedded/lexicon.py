@@ -157,10 +157,10 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
             # The components of five vendors are no component as such, and a shading device is not what any device is.
             keep_best(terms, next(iter(claimants)), rest, LABEL)
     for key, term in terms.items():
-        if key in taxonomy and _is_common_noun(term):
+        if key in taxonomy and _is_common_noun(term, taxonomy):
             _anchor(key, term, tbox, terms, taxonomy, anchors)
     for key, term in terms.items():
-        if term.weight == LABEL and _is_common_noun(term):
+        if term.weight == LABEL and _is_common_noun(term, taxonomy):
             for noun in said_otherwise(term.text, taxonomy, is_noun=key in taxonomy):
                 _anchor(noun, term._replace(weight=SYNONYM), tbox, terms, taxonomy, anchors)
     for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
@@ -184,14 +184,15 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     )
 
 
-def _is_common_noun(term: Term) -> bool:
-    """Return whether a term is a common noun: the SOLiD of a system's name is no solid.
+def _is_common_noun(term: Term, taxonomy: Taxonomy) -> bool:
+    """Return whether a term is a common noun: a CT scanner is one, the SOLiD of a system's name is no solid.
 
     What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
     """
     words = [word for word in term.text.split() if word not in _JOINING]
     is_general = term.weight < LABEL and term.text in _GENERAL
-    return not is_general and (len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE)
+    is_spelled_out = len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE
+    return not is_general and (is_spelled_out or taxonomy.is_phrase(term.text.replace(" ", "")))
 
 
 def _kingdoms(

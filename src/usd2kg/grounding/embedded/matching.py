@@ -19,7 +19,7 @@ __all__ = ["Matcher", "Named"]
 
 _RESPELLED = 0.9
 _LEAST = 0.05
-_LEAST_SHARE = 0.4
+_LEAST_SHARE = 0.2
 """Of its score a match keeps so much however unlikely its reading is: it is still a candidate."""
 _WRONG_SIZE, _RIGHT_SIZE = 0.05, 10.0
 """How much a size that is wrong or right for what a thing is called makes a reading less or more likely, at most."""
@@ -92,11 +92,14 @@ _NOTHING = Named((), (), 0.0, (), None)
 class Matcher:
     """Finds the classes for the phrases of one TBox."""
 
-    def __init__(self, tbox: TBox, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader) -> None:
+    def __init__(
+        self, tbox: TBox, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader, *, heeds_routes: bool = True
+    ) -> None:
+        """Begin; for `heeds_routes` see `Namer`."""
         self._tbox = tbox
         self._taxonomy = taxonomy
         self._reader = reader
-        self._namer = Namer(tbox, lexicon, taxonomy, reader)
+        self._namer = Namer(tbox, lexicon, taxonomy, reader, heeds_routes=heeds_routes)
         self.is_fallback = self._namer.is_fallback
         # What a word is depends on nothing else, and the readings of a name say the same words over and over.
         self._head = lru_cache(maxsize=16384)(self._knowing)

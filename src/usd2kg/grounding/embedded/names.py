@@ -155,11 +155,16 @@ class NameReader:
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
         # Among other unknown words an abbreviation is better read with them, by what the stage speaks of.
         is_spelled = any(map(self.is_known, others)) if others else len(tokens) > 1
-        for token in tokens:
+        for at, token in enumerate(tokens):
             read = self._spelled_out(token.text) if is_spelled else self.correct(token.text)
+            as_written = {(token.text,), (self._taxonomy.singular(token.text),)}
+            is_usual = token.text in usual_abbreviations()
+            if read not in as_written and not is_usual and self._is_in_compound(tokens, at):
+                # There are no cyclers, but thermal cyclers.
+                read = (token.text,)
             words.extend(read)
             glued.extend([token.is_glued, *[True] * (len(read) - 1)])
-            if read != (token.text,) and read != (self._taxonomy.singular(token.text),):
+            if read not in as_written:
                 corrections.append((token.text, " ".join(read)))
         context = tuple(word for token in references for word in self._spelled_out(token.text))
         if len(words) > 2 and words[-1] in _FASTENED and words[-2] in _BUILT:
@@ -205,6 +210,18 @@ class NameReader:
         ]
         terms = [run for run in runs if "".join(tokens[i].text for i in run) in self._lexicon.terms]
         return max(terms, key=len, default=range(0))
+
+    def _is_in_compound(self, tokens: list[Token], at: int) -> bool:
+        """Return whether a word is one of a noun of two or three words that is known as a whole."""
+        runs = (
+            tokens[start : start + length]
+            for length in (2, 3)
+            for start in range(max(0, at - length + 1), min(at, len(tokens) - length) + 1)
+        )
+        return any(
+            "".join((*(token.text for token in before), self._taxonomy.singular(last.text))) in self._taxonomy
+            for *before, last in runs
+        )
 
     def _spelled_out(self, word: str) -> tuple[str, ...]:
         """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""

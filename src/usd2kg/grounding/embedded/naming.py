@@ -10,12 +10,13 @@ from typing import NamedTuple
 from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names, sense_weight, unmade_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
+from usd2kg.grounding.embedded.routes import Route, Routes
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, Anchor, Term
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
-__all__ = ["Match", "Namer"]
+__all__ = ["RULED", "Match", "Namer"]
 
 _TERM, _COMPOUND_KIND, _KIND = 0.97, 0.88, 0.82
 _HOP_DECAY = 0.965
@@ -24,7 +25,7 @@ _ROOT_SHARE, _FROM_ROOT = 0.75, 2
 the TBox lacks, as a wall may be; what is near, a structure or a surface, says little of what a thing is."""
 _ABOUT_AS_NEAR = 1
 """Steps in the taxonomy by which a class may be farther off that tells more."""
-_MUCH_SMALLER = 2.5
+_MUCH_SMALLER = 1.8
 """How much smaller a kind has to be, as a logarithm, that people count a thing among against the taxonomy."""
 _SECOND = 0.9
 """What a likely meaning of a noun weighs at least: of made things the first and the second do, no later one."""
@@ -33,6 +34,10 @@ _FEW_THINGS = 100
 _PLACED = 0.95
 _SHORTEST_NOUN = 3
 """Fewer letters are a code more often than a noun, but for those of the home vocabulary: a TV, a PC."""
+RULED = 3.0
+"""How many times likelier the class that the rules give is than by the routes to it alone."""
+_SHARPNESS = 0.5
+"""Power of the odds of two classes that is the quotient of their scores: squared, as in `decision`, they are shares."""
 _LIKENESS = 0.5
 """How far the class of names that are alike is heard, where a name is in no list and its head or kind is."""
 
@@ -62,13 +67,19 @@ class Match(NamedTuple):
 class Namer:
     """Knows what words name in one TBox."""
 
-    def __init__(self, tbox: TBox, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader) -> None:
+    def __init__(
+        self, tbox: TBox, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader, *, heeds_routes: bool = True
+    ) -> None:
+        """Begin; `heeds_routes` is whether the rules are mixed with the fitted weights of `routes`."""
         self._tbox = tbox
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
         self._roots = frozenset(tbox.roots)
         self._has_own = not lexicon.listed.issuperset(tbox.by_iri)
+        # Of the classes of the home vocabulary more is known than the routes to them tell.
+        is_foreign = lexicon.listed.isdisjoint(tbox.by_iri)
+        self._routes = Routes(tbox, lexicon, taxonomy) if heeds_routes and is_foreign else None
         # What words name depends on nothing else, and names say the same words over and over.
         self._known = lru_cache(maxsize=4096)(self._naming)
         self._places_above = lru_cache(maxsize=4096)(self._telling_words_above)
@@ -104,8 +115,13 @@ class Namer:
         return ()
 
     def name(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[Match, ...]]:
-        """Return the longest known run of words at the end, and what the words name, heeding what is called alike."""
+        """Return the longest known run of words at the end, and what the words name.
+
+        Classes of the home vocabulary heed what is called alike, those of other ontologies all routes to them.
+        """
         run, found = self._at_head(words, places)
+        if self._routes is not None and found:
+            return run, self._heeding_routes(run, found)
         if not found or not self._lexicon.listed.issuperset([match.class_iri for match in found]):
             # Of classes that the home vocabulary does not have it knows nothing like.
             return run, found
@@ -123,6 +139,37 @@ class Namer:
             score = (1 - _LIKENESS) * (own.score if own else 0.0) + _LIKENESS * _TERM * shares.get(iri, 0.0)
             mixed.append(Match(iri, score, own.reason if own else partial(self._likeness_text, words, iri)))
         return tuple(sorted(mixed, key=lambda match: (-match.score, match.class_iri)))
+
+    def _heeding_routes(self, run: tuple[str, ...], found: tuple[Match, ...]) -> tuple[Match, ...]:
+        """Return the matches by the rules, mixed with how likely each class is by the routes to it."""
+        assert self._routes is not None
+        weighed, ruled = self._routes.weigh(run), _best(found)
+        if ruled not in weighed:
+            # No route leads to it: the place tells it, or the home vocabulary lends it.
+            return found
+        shares = {iri: share * (RULED if iri == ruled else 1.0) for iri, (share, _) in weighed.items()}
+        likeliest = min(shares, key=lambda iri: (-shares[iri], iri))
+        by_rules = {match.class_iri: match for match in sorted(found, key=lambda match: match.score)}
+        if likeliest == ruled:
+            most = by_rules[ruled].score
+        else:
+            # What the rules doubted is believed as much as a noun is whose class is clear.
+            most = (_KIND if len(run) == 1 else _COMPOUND_KIND) * (_ROOT_SHARE if likeliest in self._roots else 1.0)
+        mixed = [
+            Match(
+                iri,
+                most * (share / shares[likeliest]) ** _SHARPNESS,
+                by_rules[iri].reason if iri in by_rules else self._route_reason(weighed[iri][1]),
+            )
+            for iri, share in shares.items()
+        ]
+        untold = [match for iri, match in by_rules.items() if iri not in shares]
+        return tuple(sorted([*mixed, *untold], key=lambda match: (-match.score, match.class_iri)))
+
+    def _route_reason(self, route: Route) -> Callable[[], str]:
+        if isinstance(route.origin, Term):
+            return partial(self._term_text, route.origin)
+        return partial(self._kinds_text, *route.origin)
 
     def _at_head(self, words: tuple[str, ...], places: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[Match, ...]]:
         """Return the longest run of words that ends with the last one and is known, and its matches."""

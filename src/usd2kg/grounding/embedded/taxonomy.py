@@ -107,6 +107,10 @@ class Taxonomy:
     def __contains__(self, lemma: str) -> bool:
         return lemma in self._places
 
+    def is_phrase(self, lemma: str) -> bool:
+        """Return whether a lemma is known, and people write it as several words: `ctscanner` as CT scanner."""
+        return lemma in self._places and self._is_one_word[self._places[lemma]] == "0"
+
     def name(self, synset: int) -> str:
         """Return the lemma that WordNet lists first for a synset, with its spaces."""
         return self._names[synset]
