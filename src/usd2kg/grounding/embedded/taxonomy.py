@@ -32,7 +32,7 @@ class _Cells:
     def __init__(self, line: str) -> None:
         self._line = line.encode()
         tabs = np.flatnonzero(np.frombuffer(self._line, np.uint8) == ord("\t")) + 1
-        self._starts = array("l", [0, *tabs.tolist(), len(self._line) + 1])
+        self._starts = array("i", [0, *tabs.tolist(), len(self._line) + 1])
 
     def __getitem__(self, at: int) -> str:
         return self._line[self._starts[at] : self._starts[at + 1] - 1].decode()
