@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import shared_file
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -25,6 +27,25 @@ def test_the_answers_in_the_page_of_questions_are_those_of_the_demo_kitchen() ->
 @pytest.mark.parametrize("command", ["make demo", "make test"])
 def test_the_readme_shows_how_to_start(command: str) -> None:
     assert command in (ROOT / "README.md").read_text("utf-8")
+
+
+def test_the_readme_begins_with_what_a_build_says(tmp_path: Path) -> None:
+    scene, graph = shared_file("scenes/aws_robomaker/small_house.usdc"), tmp_path / "house.ttl"
+    said = subprocess.run(
+        [sys.executable, "-m", "usd2kg", "build", str(scene), "-o", str(graph)],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    counted, confidence, relations, _written = (said.stdout + said.stderr).splitlines()
+    told = (ROOT / "README.md").read_text("utf-8")
+    # How many seconds it took is another matter.
+    for line in (
+        f"small_house.usdc:{counted.partition('small_house.usdc:')[2]}",
+        confidence,
+        relations.partition(" in ")[0],
+    ):
+        assert f"\n{line}" in told
 
 
 def test_the_page_for_python_runs() -> None:
