@@ -35,6 +35,7 @@ sys.path.insert(0, str(ROOT))
 from benchmarks.bare import bare_scene  # noqa: E402  (scripts are no packages of the product)
 from benchmarks.names.run import TRAIN, Thing, load  # noqa: E402
 from benchmarks.ontologies import run as ontologies  # noqa: E402
+from tools import build_written_names  # noqa: E402
 
 LISTED = 0.5
 """What a list of names counts against a scene: nobody has built with them."""
@@ -93,7 +94,11 @@ def sample(scene: dict[str, Any]) -> Sample:
 
 
 def sample_of_list(things: list[Thing], tbox: TBox) -> Sample:
-    """Return the answers of a list of names, spelled out and abbreviated."""
+    """Return the answers of a list of names, spelled out and abbreviated.
+
+    Those that the reader of abbreviations learned from do not tell how well it reads others.
+    """
+    learned = frozenset(build_written_names.names())
     scene, paths = (
         bare_scene("a list of names", [thing.obj for thing in things]),
         [thing.obj.prim_path for thing in things],
@@ -102,7 +107,9 @@ def sample_of_list(things: list[Thing], tbox: TBox) -> Sample:
     for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED):
         answers = decide(scene, paths, regime, tbox)
         is_right = [answers[thing.obj.prim_path][0].class_iri == thing.target for thing in things]
-        samples.append(sample_of_answers([answers[path] for path in paths], is_right, paths, tbox))
+        told = sample_of_answers([answers[path] for path in paths], is_right, paths, tbox)
+        is_new = [regime is NamingRegime.SEMANTIC or thing.obj.name not in learned for thing in things]
+        samples.append(Sample(*(column[is_new] for column in told)))
     both = joined(samples)
     return both._replace(weights=both.weights * LISTED)
 

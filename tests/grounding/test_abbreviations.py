@@ -19,9 +19,9 @@ from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Company, NamingRegime, ObjectView, abbreviate, view_objects
 
-FULL = shortening._FULL
-SKELETON, FIRST_VOWEL, CUT = shortening._STYLES.values()
-KEPT = dict(shortening._LENGTHS)
+FULL = shortening.FULL
+SKELETON, FIRST_VOWEL, CUT = shortening.STYLES.values()
+KEPT = dict(shortening.LENGTHS)
 
 READER = _run_for(load_home_tbox(), True)._abbreviations
 """The one that grounds names too: the index of a first letter takes a fifth of a second, once."""
@@ -141,8 +141,8 @@ def test_readings_are_ranked_and_their_probabilities_leave_room_for_no_word():
 
 def test_letters_that_no_word_is_written_with_are_hardly_read():
     assert sum(reading.probability for reading in READER.read(["xqzv"])) < 0.01
-    # A brand among words is passed over: "lnde" is no word of a fork lift.
-    assert READER.read(["frklft", "lndwxz"])[0].words == ("forklift",)
+    # A brand among words is passed over.
+    assert READER.read(["frdg", "xqzkvw"])[0].words == ("fridge",)
 
 
 def test_a_word_of_many_terms_is_likelier_than_a_word_of_one():
@@ -294,6 +294,14 @@ def test_most_words_are_among_the_readings(shorten: Callable[[str, int], str], l
     assert sum(right) >= first * 300, f"{sum(right) / 300:.0%} first"
 
 
+def test_words_of_the_parents_name_are_likelier():
+    assert READER.read(["thdlg"])[0].words == ("tea", "headlight")
+    assert READER.read(["thdlg"], parent="Theodolites_grp")[0].words[0] == "theodolite"
+    # The words that other objects have count as before.
+    assert READER.read(["thdlg"], company("Theodolite", "Chair"), parent="Table")[0].words[0] == "theodolite"
+    assert READER.read(["thdlg"], company("Chair"), parent="Theodolite")[0].words[0] == "theodolite"
+
+
 # --- end to end --------------------------------------------------------------------------------------
 
 
@@ -316,6 +324,28 @@ def test_a_masked_cup_among_cups_is_a_cup_by_the_words_of_its_company(home_tbox:
     views = [view for _, view in view_objects(scene, NamingRegime.ABBREVIATED)]
     assert [view.name for view in views] == ["cp1", "cp2", "cp3", "chr"]
     assert local(ground_view(views[0], home_tbox)) == "Cup"
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("schpdlst", "DesignedTool"),  # Schöpfkelle, Edelstahl
+        ("trklnnnmssn", "DesignedHandle"),  # Türklinke, innen, Messing
+        ("grpdndst", "DesignedTool"),  # grapadora industrial
+    ],
+)
+def test_a_reading_in_another_language_is_translated(home_tbox: TBox, name: str, expected: str):
+    prediction = ground_view(ObjectView(name=name, is_masked=True), home_tbox)
+    assert local(prediction) == expected
+    assert f"“{name}” may be short for “" in prediction.explanation
+
+
+def test_the_name_of_the_prim_above_tells_what_is_short(home_tbox: TBox):
+    def leg(parent: str) -> str:
+        return ground_view(ObjectView(name="thdlg", parents=("World", parent), is_masked=True), home_tbox).explanation
+
+    assert "theodolite" in leg("Theodolite_grp")
+    assert "theodolite" not in leg("Group")
 
 
 def test_a_name_spelled_out_is_not_taken_for_an_abbreviation(home_tbox: TBox):

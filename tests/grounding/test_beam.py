@@ -10,7 +10,8 @@ import pytest
 from usd2kg.grounding.embedded import beam
 from usd2kg.grounding.embedded.beam import ROOT, Arc, Beam, Piece, log_sum
 
-SECONDS = {"tea": frozenset({"pot", "cup"}), "door": frozenset({"bell"})}
+SECONDS = {"tea": {"pot": math.log(15), "cup": math.log(3)}, "door": {"bell": math.log(40)}}
+MOST = math.log(40)
 NEVER = (-math.inf, 0.0)
 
 Ways = Mapping[tuple[int, int], tuple[tuple[float, float], Mapping[str, list[float]]]]
@@ -18,8 +19,8 @@ Ways = Mapping[tuple[int, int], tuple[tuple[float, float], Mapping[str, list[flo
 Found = list[tuple[tuple[str, ...], float]]
 
 
-def seconds(word: str) -> frozenset[str]:
-    return SECONDS.get(word, frozenset())
+def seconds(word: str) -> Mapping[str, float]:
+    return SECONDS.get(word, {})
 
 
 def piece(reasons: Mapping[str, list[float]]) -> Piece:
@@ -28,7 +29,7 @@ def piece(reasons: Mapping[str, list[float]]) -> Piece:
 
 
 def by_beam(ways: Ways, length: int) -> Found:
-    read = Beam(seconds)
+    read = Beam(seconds, MOST)
     paths = [ROOT]
     arcs: list[list[Arc]] = [[] for _ in range(length + 1)]
     for at in range(length):
@@ -65,7 +66,7 @@ def extended(
             if unread != NEVER:
                 yield begun + sum(unread), words, pieces + 1
             for word, scores in reasons.items():
-                bonus = beam._COMPOUND if words and word in seconds(words[-1]) else 0.0
+                bonus = seconds(words[-1]).get(word, 0.0) if words else 0.0
                 yield from ((begun + reason + bonus, (*words, word), pieces + 1) for reason in scores)
 
 
@@ -76,7 +77,7 @@ def assert_same(found: Found, expected: Found) -> None:
 
 def test_two_pieces_worked_by_hand():
     ways = {(0, 1): (NEVER, {"tea": [-1.0]}), (1, 2): ((-2.0, 0.0), {"pot": [-3.0], "bell": [-3.0]})}
-    bonus, step = beam._COMPOUND, beam._NEXT_WORD
+    bonus, step = math.log(15), beam._NEXT_WORD
     # A tea pot is known, a tea bell is not; the last letter may be no word.
     expected = [(("tea", "pot"), -4 + bonus + step), (("tea",), -3 + step), (("tea", "bell"), -4 + step)]
     assert_same(by_beam(ways, 2), expected)

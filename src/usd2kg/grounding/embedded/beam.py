@@ -14,8 +14,6 @@ from typing import NamedTuple
 
 __all__ = ["ROOT", "Arc", "Beam", "Path", "Piece", "Starts", "log_sum"]
 
-_COMPOUND = math.log(15)
-"""How much likelier two words are together if they make a known compound."""
 _NEXT_WORD = math.log(0.35)
 _WIDTH = 10
 _HOPELESS = 9.0
@@ -40,9 +38,9 @@ Path = tuple[float, int, int]
 """One way to read the letters up to some place: its score, which is the logarithm of its probability up to what all
 paths have in common, the number of its words, and the number of pieces that it takes the letters for: words, and
 letters that are none."""
-_Start = tuple[float, int, int, frozenset[str]]
-"""A path that goes on: its score, the number of its words, its pieces with the next one, and the words that make a
-known compound with its last."""
+_Start = tuple[float, int, int, Mapping[str, float]]
+"""A path that goes on: its score, the number of its words, its pieces with the next one, and the words that are
+likelier behind its last, with the logarithm of how much."""
 _Way = tuple[float, _Start | None, Sequence[float]]
 """Score of some words; if one way leads to them, its start and the reasons for the last word."""
 _Found = dict[_Key, _Way]
@@ -85,12 +83,18 @@ class Arc(NamedTuple):
 class Beam:
     """The paths of one run of letters; paths that read the same words are one."""
 
-    def __init__(self, seconds: Callable[[str], frozenset[str]]) -> None:
-        """Begin; `seconds` gives the words that make a known compound with a word."""
+    def __init__(self, seconds: Callable[[str], Mapping[str, float]], most: float) -> None:
+        """Begin.
+
+        Args:
+            seconds: gives the words that are likelier behind a word, with the logarithm of how much.
+            most: the greatest that there is.
+        """
         self._find_seconds = seconds
         self._nodes: dict[_Key, int] = {(-1, ""): 0}
         self._keys: list[_Key] = [(-1, "")]
-        self._seconds: list[frozenset[str]] = [frozenset()]
+        self._most = most
+        self._seconds: list[Mapping[str, float]] = [{}]
         self._spread = _SPREAD
 
     def words(self, path: Path) -> tuple[str, ...]:
@@ -160,15 +164,15 @@ class Beam:
         most, nodes = words[0][0], self._nodes
         for start in ordered:
             begun, node, _, seconds = start
-            if begun + most + _COMPOUND <= lowest:
+            if begun + most + self._most <= lowest:
                 break
             is_alone = counts[node] == 1
             least = needed if is_alone else needed - math.log(counts[node])
-            bonus = not seconds.isdisjoint(reasons)
+            bonus = not seconds.keys().isdisjoint(reasons)
             for likely, word in words:
                 score = begun + likely
                 if bonus and word in seconds:
-                    score += _COMPOUND
+                    score += seconds[word]
                 if score > least:
                     key = (node, word)
                     if key in found:
@@ -229,7 +233,7 @@ class Beam:
         before, word = key
         _, start, reasons = way
         if start is not None:
-            bonus = _COMPOUND if word in start[3] else 0.0
+            bonus = start[3].get(word, 0.0)
             found = [(start[0] + reason + bonus, start[2]) for reason in reasons]
         else:
             found = []
@@ -237,7 +241,7 @@ class Beam:
             for (_, by_node), (unread, letters), piece in arcs:
                 if before in by_node and word in piece.reasons:
                     score, _, pieces, seconds = by_node[before]
-                    bonus = _COMPOUND if word in seconds else 0.0
+                    bonus = seconds.get(word, 0.0)
                     found += [(score + reason + bonus, pieces) for reason in piece.reasons[word]]
                 if own in by_node:
                     score, _, pieces, _ = by_node[own]

@@ -25,7 +25,7 @@ from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
 from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Matcher
-from usd2kg.grounding.embedded.names import NamePhrase, NameReader
+from usd2kg.grounding.embedded.names import NameReader
 from usd2kg.grounding.embedded.naming import Match
 from usd2kg.grounding.embedded.shortening import may_be_short
 from usd2kg.grounding.embedded.sizes import Size, likelihoods_of, rounded
@@ -279,7 +279,9 @@ class _Run:
         if not tokens or (not view.is_masked and self._is_spelled_out(tokens)):
             return []
         spelled = {token for token in tokens if len(token) >= SHORTEST_WORD and self._is_word(token)}
-        return self._of_readings(view, self._abbreviations.read(tokens, view.company, spelled))
+        return self._of_readings(
+            view, self._abbreviations.read(tokens, view.company, spelled, "".join(view.parents[-1:]))
+        )
 
     def _is_spelled_out(self, tokens: Sequence[str]) -> bool:
         """Return whether the words of a name are all known, or are a name in another language."""
@@ -300,7 +302,7 @@ class _Run:
         spelled = {word for word in words if self._is_word(word) or not may_be_short(word)}
         if spelled.issuperset(words):
             return said
-        readings = self._abbreviations.read(words, view.company, spelled)
+        readings = self._abbreviations.read(words, view.company, spelled, "".join(view.parents[-1:]))
         if not readings or readings[0].probability < _BELIEVED or spelled.issuperset(readings[0].words):
             return said
         rest = 1 - readings[0].probability
@@ -317,7 +319,7 @@ class _Run:
         # What is left of the probability is that it is no word at all.
         total = _UNREAD * (1 - sum(reading.probability for reading in readings))
         for reading in readings:
-            matches, weight = self._matcher.weigh(NamePhrase(reading.words), view.parents, view.own_size)
+            matches, weight = self._matcher.weigh(self._reader.phrase(reading.words), view.parents, view.own_size)
             likelihood = reading.probability * max(weight, _UNREAD)
             total += likelihood
             if matches:

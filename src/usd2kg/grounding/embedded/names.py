@@ -142,16 +142,13 @@ class NameReader:
         words: list[str] = []
         glued: list[bool] = []
         corrections: list[tuple[str, str]] = []
-        translated = self._translated(tokens)
+        translated = self._translated(_texts(tokens))
         if translated is not None:
             at = shared_beginning(tokens, parents)
-            if (of_the_rest := self._translated(tokens[at:])) is not None:
+            if (of_the_rest := self._translated(_texts(tokens[at:]))) is not None:
                 # Below `armario_dormitorio` an `armario_puerta` is its door.
                 translated, tokens, references = of_the_rest, tokens[at:], [*references, *tokens[:at]]
-            written = " ".join(token.text for token in tokens)
-            context = tuple(token.text for token in references)
-            is_romance = language_of(tuple(token.text for token in tokens)) != "de"
-            return NamePhrase(translated, context, ((written, " ".join(translated)),), is_head_last=is_romance)
+            return _translation(_texts(tokens), translated, context=_texts(references))
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
         # Among other unknown words an abbreviation is better read with them, by what the stage speaks of.
         is_spelled = any(map(self.is_known, others)) if others else len(tokens) > 1
@@ -228,9 +225,13 @@ class NameReader:
         usual = usual_abbreviations().get(word)
         return tuple(usual.split()) if usual is not None and word not in self._lexicon.terms else self.correct(word)
 
-    def _translated(self, tokens: list[Token]) -> tuple[str, ...] | None:
+    def phrase(self, words: tuple[str, ...]) -> NamePhrase:
+        """Return the phrase of a name's words that are spelled out, in whatever language."""
+        translated = self._translated(words)
+        return NamePhrase(words) if translated is None else _translation(words, translated)
+
+    def _translated(self, words: tuple[str, ...]) -> tuple[str, ...] | None:
         """Return the name in English, head noun last, if it is in another language and no term of the TBox."""
-        words = tuple(token.text for token in tokens)
         is_english = all(word in self._taxonomy or word in self._taxonomy.adjectives for word in words)
         # A `chaise longue` and a `hors d'oeuvre` are English as compounds.
         is_borrowed = any("".join(pair) in self._taxonomy for pair in pairwise(words))
@@ -426,3 +427,12 @@ def _is_within(letters: str, word: str) -> bool:
 
 def _undoubled(word: str) -> str:
     return "".join(letter for letter, before in zip(word, " " + word, strict=False) if letter != before)
+
+
+def _texts(tokens: list[Token]) -> tuple[str, ...]:
+    return tuple(token.text for token in tokens)
+
+
+def _translation(words: tuple[str, ...], english: tuple[str, ...], context: tuple[str, ...] = ()) -> NamePhrase:
+    corrections = ((" ".join(words), " ".join(english)),)
+    return NamePhrase(english, context, corrections, is_head_last=language_of(words) != "de")

@@ -10,21 +10,25 @@ from importlib.resources import files
 from typing import NamedTuple
 
 __all__ = [
+    "FULL",
+    "LENGTHS",
+    "STYLES",
     "Choice",
     "FormIndex",
     "consonants_of",
     "find_range",
     "forms_of",
     "may_be_short",
+    "styled",
     "usual_abbreviations",
 ]
 
 _VOWELS = "aeiou"
-_FULL = 0.15
+FULL = 0.15
 """How often a word stands in full among abbreviations."""
-_STYLES = {"skeleton": 0.5, "skeleton with first vowel": 0.15, "cut": 0.2}
+STYLES = {"skeleton": 0.5, "skeleton with first vowel": 0.15, "cut": 0.2}
 """How often words are shortened in each way."""
-_LENGTHS = ((1, 0.02), (2, 0.1), (3, 0.28), (4, 0.35), (5, 0.15), (6, 0.1))
+LENGTHS = ((1, 0.02), (2, 0.1), (3, 0.28), (4, 0.35), (5, 0.15), (6, 0.1))
 """How many letters are kept, and how often."""
 _LONGEST = 6
 _REMEMBERED = 4
@@ -68,7 +72,7 @@ def consonants_of(word: str) -> str:
     return word[0] + word[1:].translate(_NO_VOWELS)
 
 
-def _styled(word: str) -> tuple[str, str, str]:
+def styled(word: str) -> tuple[str, str, str]:
     """Return the letters of a word in each style, before it is cut; none where it has but vowels."""
     rest = word[1:].translate(_NO_VOWELS)
     return rest if word[0] in _VOWELS else word[0] + rest, word[0] + rest, word
@@ -78,7 +82,7 @@ def _styled(word: str) -> tuple[str, str, str]:
 def forms_of(word: str) -> list[tuple[str, float]]:
     """Return (form, log probability) of the ways in which a word is written."""
     codes = {word: 0}
-    for style, letters in enumerate(_styled(word)):
+    for style, letters in enumerate(styled(word)):
         for length in range(1, min(len(letters), _LONGEST) + 1):
             form = letters[:length]
             codes[form] = codes.get(form, 0) + 3**style * (_WHOLE if length == len(letters) else _BEGINNING)
@@ -98,10 +102,10 @@ def _log_probabilities(length: int, is_full: bool) -> list[float]:
     """
     found = []
     for code in range(27):
-        probability = _FULL if is_full else 0.0
-        for style, share in enumerate(_STYLES.values()):
+        probability = FULL if is_full else 0.0
+        for style, share in enumerate(STYLES.values()):
             fit = code // 3**style % 3
-            for kept, how_often in _LENGTHS:
+            for kept, how_often in LENGTHS:
                 if (fit == _BEGINNING and kept == length) or (fit == _WHOLE and kept >= length):
                     probability += share * how_often
         found.append(math.log(probability) if probability else -math.inf)
@@ -188,7 +192,7 @@ class _Places(NamedTuple):
 
 def _skeletons(word: str) -> Iterator[tuple[str, str, int]]:
     """Yield (letters, word, which styles) of a word without its vowels; times the fit, the styles are a code."""
-    skeleton, with_first_vowel, _ = _styled(word)
+    skeleton, with_first_vowel, _ = styled(word)
     if skeleton == with_first_vowel:
         yield skeleton, word, _code(1, 1, 0)
     else:

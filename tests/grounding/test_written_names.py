@@ -1,0 +1,90 @@
+"""The words of names in scenes, and which follow one another."""
+
+import csv
+import math
+from pathlib import Path
+
+import pytest
+
+from benchmarks.names import run as home
+from benchmarks.ontologies import run as other
+from tests.grounding.records import make_class, make_tbox
+from tools import build_written_names
+from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
+from usd2kg.grounding.embedded.lexicon import build_lexicon
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.embedded.written_names import WrittenNames, load_written_names
+
+NAMES = WrittenNames("pot lid\npot lid\npot\nlamp\n")
+
+
+class TestWords:
+    def test_a_words_share_is_that_of_all_words(self):
+        # Six words, three of which are `pot`.
+        assert NAMES.log_share("pot") == pytest.approx(math.log(3 / 6))
+        assert NAMES.log_share("lamp") == pytest.approx(math.log(1 / 6))
+        assert NAMES.log_share("spoon") == -math.inf
+
+    def test_how_often_a_word_follows_another(self):
+        # Two of the three pots are before a lid, and five more uses are taken to be before unseen words.
+        assert NAMES.followers("pot") == {"lid": pytest.approx(2 / 8)}
+        assert NAMES.followers("lid") == NAMES.followers("spoon") == {}
+
+    def test_nothing_is_written_without_names(self):
+        empty = WrittenNames("")
+        assert empty.log_share("pot") == -math.inf
+        assert empty.followers("pot") == {}
+
+
+class TestReading:
+    """A reader of a TBox that knows none of these words."""
+
+    reader = AbbreviationReader(build_lexicon(make_tbox(make_class("Thing")), load_taxonomy(), {}), load_taxonomy())
+
+    @pytest.mark.parametrize(
+        ("letters", "words"),
+        [
+            # Texts have stools, loads and likes as often; names have materials and parts.
+            ("shlfstl", ("shelf", "steel")),
+            ("bxld", ("box", "lid")),
+            ("shlfk", ("shelf", "oak")),
+            ("glssdr", ("glass", "door")),
+        ],
+    )
+    def test_a_name_is_read_as_names_are_written(self, letters: str, words: tuple[str, ...]):
+        assert self.reader.read([letters])[0].words == words
+
+
+class TestFile:
+    def test_what_ships_is_what_the_tool_writes(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        shipped = build_written_names.OUTPUT.read_bytes()
+        monkeypatch.setattr(build_written_names, "OUTPUT", tmp_path / "written_names.txt")
+        build_written_names.main()
+        assert (tmp_path / "written_names.txt").read_bytes() == shipped
+
+    def test_no_list_that_is_a_test_is_read(self):
+        read = set(build_written_names.names())
+        tests = [home.HERE / f"{name}.csv" for name in home.TEST]
+        tests += [other.HERE / f"{name}.csv" for name, split in other.OWN.items() if split == "test"]
+        for path in tests:
+            with path.open(encoding="utf-8", newline="") as file:
+                names = {row["name"] for row in csv.DictReader(file)}
+            # People call some things alike.
+            assert len(names & read) < 0.15 * len(names), path.stem
+
+    @pytest.mark.parametrize(
+        ("name", "runs"),
+        [
+            ("SM_SaladSpinner_Felco_02", ["salad spinner"]),
+            ("CupBoard_left", ["cupboard left"]),
+            ("chr_dining_oak", ["dining oak"]),
+            ("spoons_matress_bed", ["spoon", "bed"]),
+            ("Kuehlschrank_links", ["kuehlschrank links"]),
+            ("LOD_01", []),
+        ],
+    )
+    def test_names_are_parted_by_what_is_no_word(self, name: str, runs: list[str]):
+        assert list(build_written_names.known_runs(name)) == runs
+
+    def test_left_is_among_the_words_of_names(self):
+        assert load_written_names().counts["left"] > load_written_names().counts["cup"]

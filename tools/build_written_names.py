@@ -1,0 +1,81 @@
+"""Write the data file of the words that names in scenes are made of.
+
+Usage: python -m tools.build_written_names
+
+Reads the names of the lists of `benchmarks/names` and `benchmarks/ontologies` that the authors of this project wrote
+and improved the grounder on; lists that are tests, and names that others gave, are left out. A line is a run of words
+that are known: what is misspelt, abbreviated or a brand parts a name. Run it again after adding a list.
+"""
+
+import csv
+from collections.abc import Iterator
+from functools import lru_cache
+from itertools import groupby
+from pathlib import Path
+
+from benchmarks.names import run as home
+from benchmarks.ontologies import run as other
+from usd2kg.grounding.embedded.english import is_english_word
+from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
+from usd2kg.grounding.embedded.names import NameReader
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.languages import language_of
+from usd2kg.ontology import load_home_tbox
+from usd2kg.words import words_of
+
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/written_names.txt"
+OF_OTHERS = frozenset(["found", "outdoors", "bedside", "factory"])
+SHORTEST = 3
+"""Shorter words are mostly codes."""
+
+
+def main() -> None:
+    """Write the file."""
+    lines = sorted(run for name in names() for run in known_runs(name))
+    OUTPUT.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print(f"{OUTPUT.name}: {len(lines)} runs of words")
+
+
+def names() -> Iterator[str]:
+    """Yield the names of all lists."""
+    own = [name for name, split in other.OWN.items() if split == "train"]
+    paths = [*(home.HERE / f"{name}.csv" for name in home.TRAIN), *(other.HERE / f"{name}.csv" for name in own)]
+    for path in paths:
+        if path.stem not in OF_OTHERS:
+            with path.open(encoding="utf-8", newline="") as file:
+                yield from (row["name"] for row in csv.DictReader(file))
+
+
+def known_runs(name: str) -> Iterator[str]:
+    """Yield the runs of known words in a name, in the singular; words that tell nothing are left out."""
+    words = [word for word in words_of(name) if word.isalpha() and len(word) >= SHORTEST]
+    for known, run in groupby(words, is_known):
+        if known:
+            yield " ".join(joined(list(map(load_taxonomy().singular, run))))
+
+
+def joined(words: list[str]) -> Iterator[str]:
+    """Yield words, two that people write as one together: the `CupBoard` is a cupboard."""
+    taxonomy = load_taxonomy()
+    at = 0
+    while at < len(words):
+        pair = "".join(words[at : at + 2])
+        is_one = at + 1 < len(words) and pair in taxonomy and not taxonomy.is_phrase(pair)
+        yield pair if is_one else words[at]
+        at += 2 if is_one else 1
+
+
+def is_known(word: str) -> bool:
+    """Return whether something is a word, in English or another language."""
+    return reader().is_known(word) or is_english_word(word) or language_of((word,)) is not None
+
+
+@lru_cache(maxsize=1)
+def reader() -> NameReader:
+    """Return one that knows the words of the home vocabulary."""
+    taxonomy = load_taxonomy()
+    return NameReader(build_lexicon(load_home_tbox(), taxonomy, home_names()), taxonomy)
+
+
+if __name__ == "__main__":
+    main()
