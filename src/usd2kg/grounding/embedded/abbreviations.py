@@ -205,7 +205,8 @@ class AbbreviationReader:
     def _second_words(self, first: str) -> dict[str, float]:
         """Return the words that are likelier behind a word, and how much: they make a compound, or are so in names."""
         start, end = find_range(self._compounds, first)
-        found = dict.fromkeys([key[len(first) :] for key in self._compounds[start:end]], _COMPOUND)
+        rests = (key[len(first) :] for key in self._compounds[start:end])
+        found = dict.fromkeys(filter(self._index.__contains__, rests), _COMPOUND)
         for word, share in load_written_names().followers(first).items():
             bonus = math.log(1 - _TOLD_BY_NAMES + _TOLD_BY_NAMES * share / math.exp(self._prior(word)))
             if bonus > found.get(word, 0.0):

@@ -75,7 +75,7 @@ def _with_gaps(ends: dict[int, _Parse], longest: int) -> dict[int, _Parse]:
     return found
 
 
-@lru_cache(maxsize=16384)
+@lru_cache(maxsize=2048)
 def _written(word: str) -> tuple[tuple[str, float, int], ...]:
     """Return (form, log probability, ways) of all forms of a word; no ways for one that people have agreed on."""
     ways = {word: 1}

@@ -136,6 +136,9 @@ class FormIndex:
         self._all = _Places(0, len(self._words), 0, len(self._letters))
         self._near = lru_cache(maxsize=8192)(self._find_near)
 
+    def __contains__(self, word: str) -> bool:
+        return word in self._priors
+
     def choices(self, form: str) -> list[Choice] | None:
         """Return the likeliest words for a form, best first; None if nothing that begins so is a form either."""
         places = self._find(form)
