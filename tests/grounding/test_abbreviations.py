@@ -117,6 +117,7 @@ def test_the_forms_of_any_word_are_at_most_one_in_sum(word: str):
         (["kbd"], ("keyboard",)),  # neither skeleton nor beginning: agreed on
         (["btn"], ("button",)),
         (["cpbrd"], ("cupboard",)),
+        (["scnntry"], ("scanner", "tray")),  # of an entry four letters would be left, and three of the scanner
         (["drwr", "blk"], ("drawer", "black")),
         (["micro"], ("microwave",)),
         (["lamp"], ("lamp",)),  # what is spelled out is read too
@@ -346,6 +347,14 @@ def test_the_name_of_the_prim_above_tells_what_is_short(home_tbox: TBox):
 
     assert "theodolite" in leg("Theodolite_grp")
     assert "theodolite" not in leg("Group")
+
+
+@pytest.mark.parametrize(
+    ("name", "parent"), [("ladder_rng", "Rungs"), ("chair_gld", "Glide_L"), ("fan_imp", "Impeller")]
+)
+def test_it_tells_what_the_short_words_among_others_are(home_tbox: TBox, name: str, parent: str):
+    assert local(ground_view(ObjectView(name=name, parents=("World", parent)), home_tbox)) == "DesignedComponent"
+    assert local(ground_view(ObjectView(name=name, parents=("World", "Group")), home_tbox)) != "DesignedComponent"
 
 
 def test_a_name_spelled_out_is_not_taken_for_an_abbreviation(home_tbox: TBox):

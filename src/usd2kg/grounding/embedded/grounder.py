@@ -279,9 +279,7 @@ class _Run:
         if not tokens or (not view.is_masked and self._is_spelled_out(tokens)):
             return []
         spelled = {token for token in tokens if len(token) >= SHORTEST_WORD and self._is_word(token)}
-        return self._of_readings(
-            view, self._abbreviations.read(tokens, view.company, spelled, "".join(view.parents[-1:]))
-        )
+        return self._of_readings(view, self._abbreviations.read(tokens, view.company, spelled, _parent_of(view)))
 
     def _is_spelled_out(self, tokens: Sequence[str]) -> bool:
         """Return whether the words of a name are all known, or are a name in another language."""
@@ -302,7 +300,7 @@ class _Run:
         spelled = {word for word in words if self._is_word(word) or not may_be_short(word)}
         if spelled.issuperset(words):
             return said
-        readings = self._abbreviations.read(words, view.company, spelled, "".join(view.parents[-1:]))
+        readings = self._abbreviations.read(words, view.company, spelled, _parent_of(view))
         if not readings or readings[0].probability < _BELIEVED or spelled.issuperset(readings[0].words):
             return said
         rest = 1 - readings[0].probability
@@ -410,6 +408,10 @@ class _Run:
             explanation=f"{reason}; {self.tbox.by_iri[iri].readable_name} is true of most things",
             candidates=(Candidate(iri, _DEFAULT),),
         )
+
+
+def _parent_of(view: ObjectView) -> str:
+    return view.parents[-1] if view.parents else ""
 
 
 def _refusal(prim_path: str, explanation: str) -> Prediction:
