@@ -19,9 +19,9 @@ from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Company, NamingRegime, ObjectView, abbreviate, view_objects
 
-FULL = shortening.FULL
-SKELETON, FIRST_VOWEL, CUT = shortening.STYLES.values()
-KEPT = dict(shortening.LENGTHS)
+FULL = shortening._FULL
+SKELETON, FIRST_VOWEL, CUT = shortening._STYLES.values()
+KEPT = dict(shortening._LENGTHS)
 
 READER = _run_for(load_home_tbox(), True)._abbreviations
 """The one that grounds names too: the index of a first letter takes a fifth of a second, once."""

@@ -6,11 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from usd2kg.grounding.embedded.consistency import _written, log_consistency
-from usd2kg.grounding.embedded.shortening import FULL, LENGTHS, STYLES, forms_of
+from usd2kg.grounding.embedded import shortening
+from usd2kg.grounding.embedded.consistency import log_consistency
 
-SKELETON, FIRST_VOWEL, CUT = STYLES.values()
-KEPT = dict(LENGTHS)
+SKELETON, FIRST_VOWEL, CUT = shortening._STYLES.values()
+FULL = shortening._FULL
+KEPT = dict(shortening._LENGTHS)
 
 
 def factor(letters: str, *words: str, whole: dict[int, str] | None = None) -> float:
@@ -60,12 +61,6 @@ def test_letters_of_no_word_lie_between():
 
 def test_words_that_are_not_there_are_not_alike():
     assert factor("xqz", "spoon", "fork") == pytest.approx(0.3)
-
-
-@given(st.text("abcdeioustrlnm", min_size=1, max_size=12))
-def test_the_ways_of_a_word_are_those_that_the_channel_has(word: str):
-    told = {form: log for form, log, ways in _written(word) if ways}
-    assert told == pytest.approx(dict(forms_of(word)))
 
 
 @given(st.text("abcdefgst", max_size=14), st.lists(st.sampled_from(["spoon", "fork", "oak", "a", "bed"]), max_size=4))

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.shortening import FULL, LENGTHS, STYLES, styled, usual_abbreviations
+from usd2kg.grounding.embedded.shortening import log_probability, usual_abbreviations, ways_of
 
 __all__ = ["log_consistency"]
 
@@ -21,9 +21,8 @@ _GAP = math.log(0.05)
 """About what a letter costs that belongs to no word."""
 _USUAL = math.log(0.01)
 """About what an abbreviation costs that people have agreed on."""
-_WAYS = (FULL, *(share * how_often for share in STYLES.values() for _, how_often in LENGTHS))
-"""How often each way is taken: all letters of a word; style by style, so many of those that are left."""
-_ANY_WAY = (1 << len(_WAYS)) - 1
+_ANY_WAY = -1
+"""All bits: nothing is told of the way."""
 
 
 class _Parse(NamedTuple):
@@ -46,7 +45,7 @@ def log_consistency(letters: str, words: Sequence[str], whole: Mapping[int, str]
         whole: place → word of those that stand in full for certain, and tell nothing of how others are shortened.
     """
     parse = _parse(letters, words, whole, longest_gap=0) or _parse(letters, words, whole, longest_gap=_LONGEST_GAP)
-    alike = 0.0 if parse is None else _probability(parse.ways) * math.exp(-parse.told)
+    alike = 0.0 if parse is None else math.exp(log_probability(parse.ways) - parse.told)
     return math.log(1 - _CONSISTENT + _CONSISTENT * alike)
 
 
@@ -78,14 +77,7 @@ def _with_gaps(ends: dict[int, _Parse], longest: int) -> dict[int, _Parse]:
 @lru_cache(maxsize=2048)
 def _written(word: str) -> tuple[tuple[str, float, int], ...]:
     """Return (form, log probability, ways) of all forms of a word; no ways for one that people have agreed on."""
-    ways = {word: 1}
-    at = 0
-    for letters in styled(word):
-        for length, _ in LENGTHS:
-            at += 1
-            if letters:
-                ways[letters[:length]] = ways.get(letters[:length], 0) | 1 << at
-    forms = [(form, math.log(_probability(bits)), bits) for form, bits in ways.items()]
+    forms = [(form, log_probability(ways), ways) for form, ways in ways_of(word).items()]
     return (*forms, *((short, _USUAL, 0) for short in _short_forms().get(word, ())))
 
 
@@ -95,8 +87,3 @@ def _short_forms() -> Mapping[str, list[str]]:
     for short, word in usual_abbreviations().items():
         found.setdefault(word, []).append(short)
     return found
-
-
-@lru_cache(maxsize=4096)
-def _probability(ways: int) -> float:
-    return sum(how_often for at, how_often in enumerate(_WAYS) if ways >> at & 1)

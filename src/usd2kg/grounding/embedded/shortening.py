@@ -10,26 +10,26 @@ from importlib.resources import files
 from typing import NamedTuple
 
 __all__ = [
-    "FULL",
-    "LENGTHS",
-    "STYLES",
     "Choice",
     "FormIndex",
     "consonants_of",
     "find_range",
     "forms_of",
+    "log_probability",
     "may_be_short",
-    "styled",
     "usual_abbreviations",
+    "ways_of",
 ]
 
 _VOWELS = "aeiou"
-FULL = 0.15
+_FULL = 0.15
 """How often a word stands in full among abbreviations."""
-STYLES = {"skeleton": 0.5, "skeleton with first vowel": 0.15, "cut": 0.2}
+_STYLES = {"skeleton": 0.5, "skeleton with first vowel": 0.15, "cut": 0.2}
 """How often words are shortened in each way."""
-LENGTHS = ((1, 0.02), (2, 0.1), (3, 0.28), (4, 0.35), (5, 0.15), (6, 0.1))
+_LENGTHS = ((1, 0.02), (2, 0.1), (3, 0.28), (4, 0.35), (5, 0.15), (6, 0.1))
 """How many letters are kept, and how often."""
+_WAYS = (_FULL, *(share * how_often for share in _STYLES.values() for _, how_often in _LENGTHS))
+"""How often each way is taken, see `ways_of`."""
 _LONGEST = 6
 _REMEMBERED = 4
 """So many first letters are worth remembering: there are some ten thousand, and few words begin with each."""
@@ -72,21 +72,38 @@ def consonants_of(word: str) -> str:
     return word[0] + word[1:].translate(_NO_VOWELS)
 
 
-def styled(word: str) -> tuple[str, str, str]:
+def _styled(word: str) -> tuple[str, str, str]:
     """Return the letters of a word in each style, before it is cut; none where it has but vowels."""
     rest = word[1:].translate(_NO_VOWELS)
     return rest if word[0] in _VOWELS else word[0] + rest, word[0] + rest, word
 
 
+def ways_of(word: str) -> dict[str, int]:
+    """Return form → the ways that lead to it, a bit for each: in full; style by style, so many letters kept.
+
+    Where a word has no more letters than are kept, all of them are.
+    """
+    ways = {word: 1}
+    at = 0
+    for letters in _styled(word):
+        for length, _ in _LENGTHS:
+            at += 1
+            if letters:
+                ways[letters[:length]] = ways.get(letters[:length], 0) | 1 << at
+    return ways
+
+
+@lru_cache(maxsize=4096)
+def log_probability(ways: int) -> float:
+    """Return the logarithm of how often one of some ways is taken; -inf for none."""
+    probability = sum(how_often for at, how_often in enumerate(_WAYS) if ways >> at & 1)
+    return math.log(probability) if probability else -math.inf
+
+
 @lru_cache(maxsize=8192)
 def forms_of(word: str) -> list[tuple[str, float]]:
     """Return (form, log probability) of the ways in which a word is written."""
-    codes = {word: 0}
-    for style, letters in enumerate(styled(word)):
-        for length in range(1, min(len(letters), _LONGEST) + 1):
-            form = letters[:length]
-            codes[form] = codes.get(form, 0) + 3**style * (_WHOLE if length == len(letters) else _BEGINNING)
-    return [(form, _log_probabilities(len(form), form == word)[code]) for form, code in codes.items()]
+    return [(form, log_probability(ways)) for form, ways in ways_of(word).items()]
 
 
 def _code(skeleton: int, with_first_vowel: int, cut: int) -> int:
@@ -102,10 +119,10 @@ def _log_probabilities(length: int, is_full: bool) -> list[float]:
     """
     found = []
     for code in range(27):
-        probability = FULL if is_full else 0.0
-        for style, share in enumerate(STYLES.values()):
+        probability = _FULL if is_full else 0.0
+        for style, share in enumerate(_STYLES.values()):
             fit = code // 3**style % 3
-            for kept, how_often in LENGTHS:
+            for kept, how_often in _LENGTHS:
                 if (fit == _BEGINNING and kept == length) or (fit == _WHOLE and kept >= length):
                     probability += share * how_often
         found.append(math.log(probability) if probability else -math.inf)
@@ -195,7 +212,7 @@ class _Places(NamedTuple):
 
 def _skeletons(word: str) -> Iterator[tuple[str, str, int]]:
     """Yield (letters, word, which styles) of a word without its vowels; times the fit, the styles are a code."""
-    skeleton, with_first_vowel, _ = styled(word)
+    skeleton, with_first_vowel, _ = _styled(word)
     if skeleton == with_first_vowel:
         yield skeleton, word, _code(1, 1, 0)
     else:
