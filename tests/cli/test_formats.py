@@ -9,6 +9,7 @@ import rdflib
 
 from tests.cli.conftest import Run
 from usd2kg.graph import load_graph
+from usd2kg.grounding import read_grounding
 
 
 class TestGround:
@@ -29,6 +30,18 @@ class TestGround:
         second = run("ground", room, "--decisions", path)
         assert "/Room/coffee_mug,http://www.ease-crc.org/ont/SOMA.owl#Bowl,bowl,1.0000,reviewed,person" in second.out
         assert second.out.count(",reviewed,") == 1
+
+    def test_the_ending_chooses_the_format(self, run: Run, room: Path):
+        for name in ("m.json", "m.TSV", "m.csv", "m.txt"):
+            assert run("ground", room, "-o", name).code == 0
+        assert read_grounding(Path("m.json")).by_path["/Room/coffee_mug"].explanation
+        assert Path("m.TSV").read_text("utf-8").startswith("#sssom_version")
+        for name in ("m.csv", "m.txt"):
+            assert Path(name).read_text("utf-8").startswith("path,class,label,")
+
+    def test_a_format_that_is_asked_for_goes_before_the_ending(self, run: Run, room: Path):
+        assert run("ground", room, "--format", "csv", "-o", "m.json").code == 0
+        assert Path("m.json").read_text("utf-8").startswith("path,class,label,")
 
     def test_options_of_sssom_alone_are_refused_elsewhere(self, run: Run, room: Path):
         done = run("ground", room, "--license", "https://x.org/l")

@@ -15,7 +15,9 @@ from usd2kg.errors import GroundingError
 
 __all__ = ["ground_command"]
 
-_SSSOM = "sssom"
+_CSV, _SSSOM = "csv", "sssom"
+_FORMATS = {".json": "json", ".tsv": _SSSOM}
+"""Ending of a file → the format that it has where none is asked for."""
 _INTERRUPTED = 130
 """Exit code of a program that the user stopped: 128 and the signal's number."""
 
@@ -32,7 +34,10 @@ def ground_command(
     paths: Annotated[
         Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
     ] = None,
-    file_format: Annotated[str, typer.Option("--format", help="csv (default), json or sssom.")] = "csv",
+    file_format: Annotated[
+        str | None,
+        typer.Option("--format", help="csv, json or sssom; default: by the ending of --output (.json, .tsv), else csv."),
+    ] = None,
     base: Annotated[
         str | None,
         typer.Option("--base", help="For sssom: IRI under which the individuals lie; default: by file name."),
@@ -55,6 +60,8 @@ def ground_command(
     from usd2kg.scene import read_scene, view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     groups, naming_regime = chosen.groups, chosen.naming_regime
+    if file_format is None:
+        file_format = _FORMATS.get(output.suffix.lower() if output is not None else "", _CSV)
     if file_format != _SSSOM:
         grounding.check_format(file_format)
         if base or license_iri or mapping_date:
