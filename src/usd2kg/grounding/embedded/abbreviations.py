@@ -217,7 +217,7 @@ class AbbreviationReader:
     def _compounds(self) -> list[str]:
         # The parts of a word that people write as one are no words of a name.
         terms = (key for key, term in self._lexicon.terms.items() if " " in term.text)
-        return sorted({*terms, *filter(self._taxonomy.is_phrase, self._taxonomy.lemmas)})
+        return sorted([*terms, *self._taxonomy.phrases()])
 
     def _rating(self, word: str, share: float, score: float) -> _Written:
         score = math.log(_STAGE_SHARE * min(1.0, share)) + score

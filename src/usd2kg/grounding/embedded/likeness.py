@@ -146,8 +146,13 @@ def _kinds_of(role: str, noun: str) -> Mapping[str, float]:
     features: dict[str, float] = {}
     for sense, value in zip(senses, _SENSES, strict=False):
         for synset, _ in taxonomy.walk_up(sense.synset):
-            features.setdefault(f"{role} {taxonomy.name(synset)}", value)
+            features.setdefault(_kind(role, synset), value)
     return features
+
+
+@lru_cache(maxsize=4096)
+def _kind(role: str, synset: int) -> str:
+    return f"{role} {load_taxonomy().name(synset)}"
 
 
 def similar_name(words: tuple[str, ...], class_iri: ClassIRI) -> str | None:

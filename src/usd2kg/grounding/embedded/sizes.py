@@ -128,10 +128,11 @@ def rounded(size: Size) -> Size:
 @lru_cache(maxsize=256)
 def _kept(size: Size) -> tuple[_Floats, float]:
     """Return `log_likelihoods`, and log mean over things of p(size | thing)."""
-    logs = log_likelihoods(size)
+    densities = _densities(_log_extents(np.array([size])))[0]
+    usual = math.log(densities.mean())
+    logs = np.log(densities, out=densities)
     logs.flags.writeable = False
-    # No density is too small or too large for this.
-    return logs, math.log(np.exp(logs).sum() / len(logs))
+    return logs, usual
 
 
 def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
@@ -154,17 +155,22 @@ def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
     extents = np.asarray(sizes, dtype=np.float64)
     if extents.ndim not in (1, 2) or extents.shape[-1] != 3:
         raise ValueError(f"sizes of shape {extents.shape}; expected (3,) or (n, 3)")
-    if not (np.isfinite(extents).all() and (extents >= 0).all()):
-        raise ValueError("sizes hold a negative or non-finite extent; leave objects without a box out")
-    logs = np.log(np.maximum(np.sort(extents, axis=-1)[..., ::-1], SMALLEST_EXTENT)).reshape(-1, 3)
+    logs = _log_extents(extents.reshape(-1, 3))
     found = np.empty((len(logs), len(_load_table().nouns)))
     for start in range(0, len(logs), _BLOCK):
-        _fill_log_densities(logs[start : start + _BLOCK], found[start : start + _BLOCK])
+        np.log(_densities(logs[start : start + _BLOCK]), out=found[start : start + _BLOCK])
     return found.reshape(*extents.shape[:-1], -1) if len(logs) else found
 
 
-def _fill_log_densities(logs: _Floats, found: _Floats) -> None:
-    """Write the result for boxes of the log extents `logs`, (n, 3), longest first, into `found`, (n, things)."""
+def _log_extents(extents: _Floats) -> _Floats:
+    """Return the logarithms of the extents of boxes, longest first, (n, 3)."""
+    if not (np.isfinite(extents).all() and (extents >= 0).all()):
+        raise ValueError("sizes hold a negative or non-finite extent; leave objects without a box out")
+    return np.log(np.maximum(np.sort(extents, axis=-1)[:, ::-1], SMALLEST_EXTENT))
+
+
+def _densities(logs: _Floats) -> _Floats:
+    """Return p(x | thing) for boxes of the log extents `logs`, (n, 3), longest first; (n, things)."""
     table = _load_table()
     offsets = logs[:, :, np.newaxis] * table.half_rates
     offsets -= table.scaled_centres
@@ -172,13 +178,13 @@ def _fill_log_densities(logs: _Floats, found: _Floats) -> None:
     offsets += 1.0
     product = offsets[:, 0] * offsets[:, 1]
     product *= offsets[:, 2]
-    # One square root and one logarithm for all three extents: (1 + t²/4)^(-5/2) is the slow part.
-    np.sqrt(product, out=found)
+    # One square root for all three extents: (1 + t²/4)^(-5/2) is the slow part.
+    found: _Floats = np.sqrt(product)
     product *= product
     found *= product
     np.divide(table.peaks, found, out=found)
     found += _BROAD_DENSITY
-    np.log(found, out=found)
+    return found
 
 
 @lru_cache(maxsize=1)

@@ -93,7 +93,8 @@ class Taxonomy:
 
         Many lemmas are of like kinds, so that what follows from these can be kept.
         """
-        return self._kinds[self._places[lemma]] if lemma in self._places else ""
+        at = self._places.get(lemma)
+        return "" if at is None else self._kinds[at]
 
     def parse_kinds(self, kinds: str) -> list[tuple[int, str]]:
         """Return (rank, domain) of the meanings that `kinds` speaks of, most used first."""
@@ -110,6 +111,10 @@ class Taxonomy:
     def is_phrase(self, lemma: str) -> bool:
         """Return whether a lemma is known, and people write it as several words: `ctscanner` as CT scanner."""
         return lemma in self._places and self._is_one_word[self._places[lemma]] == "0"
+
+    def phrases(self) -> list[str]:
+        """Return the lemmas that people write as several words, joined."""
+        return [lemma for lemma, is_one_word in zip(self._places, self._is_one_word, strict=True) if is_one_word == "0"]
 
     def name(self, synset: int) -> str:
         """Return the lemma that WordNet lists first for a synset, with its spaces."""
