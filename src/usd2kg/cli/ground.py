@@ -36,7 +36,7 @@ def ground_command(
     ] = None,
     file_format: Annotated[
         str | None,
-        typer.Option("--format", help="csv, json or sssom; default: by the ending of --output (.json, .tsv), else csv."),
+        typer.Option("--format", help="csv, json or sssom; default: by the file ending (.json, .tsv), else csv."),
     ] = None,
     base: Annotated[
         str | None,
