@@ -67,7 +67,7 @@ def joined(words: list[str]) -> Iterator[str]:
 
 def is_known(word: str) -> bool:
     """Return whether something is a word, in English or another language."""
-    return reader().is_known(word) or is_english_word(word) or language_of((word,)) is not None
+    return reader().kinds.is_known(word) or is_english_word(word) or language_of((word,)) is not None
 
 
 @lru_cache(maxsize=1)

@@ -221,7 +221,7 @@ class TestSpelling:
     @pytest.mark.parametrize("word", ["splash", "teaching", "removal"])
     def test_a_common_word_that_is_no_noun_for_a_thing_is_not_misspelt(self, reader: NameReader, word: str):
         # A splash is no splashback.
-        assert not reader.is_known(word)
+        assert not reader.kinds.is_known(word)
         assert reader.correct(word) == (word,)
 
     def test_a_word_that_is_known_only_within_a_noun_is_not_misspelt_there(self, reader: NameReader):
@@ -349,8 +349,8 @@ class TestModifiers:
         assert classes_of(expected, home_tbox) == expected
 
     def test_what_is_a_modifier(self, reader: NameReader):
-        assert all(reader.is_modifier(word) for word in ("red", "large", "left", "top", "wooden"))
-        assert not any(reader.is_modifier(word) for word in ("mug", "lamp", "drawer", "qwrtz"))
+        assert all(reader.kinds.is_modifier(word) for word in ("red", "large", "left", "top", "wooden"))
+        assert not any(reader.kinds.is_modifier(word) for word in ("mug", "lamp", "drawer", "qwrtz"))
 
 
 class TestNumbersAndCodes:
@@ -403,9 +403,9 @@ class TestNumbersAndCodes:
 
     @pytest.mark.parametrize("word", ["lidded", "braced", "striped", "folded", "carpeted"])
     def test_participles_describe(self, reader: NameReader, word: str):
-        assert reader.is_known(word)
-        assert reader.is_modifier(word)
-        assert reader.trailing(word) > 0.9
+        assert reader.kinds.is_known(word)
+        assert reader.kinds.is_modifier(word)
+        assert reader.kinds.trailing(word) > 0.9
 
     @pytest.mark.parametrize("word", ["squeezed", "unzipped", "scrunched", "docking", "stacking"])
     def test_a_participle_is_not_respelled_as_the_noun_of_its_verb(self, reader: NameReader, word: str):
@@ -429,7 +429,7 @@ class TestNumbersAndCodes:
 
     @pytest.mark.parametrize("word", ["bed", "sunbed", "seed", "shed", "xqzed"])
     def test_nouns_and_unknown_words_that_end_alike_are_no_participles(self, reader: NameReader, word: str):
-        assert not reader.is_modifier(word)
+        assert not reader.kinds.is_modifier(word)
 
     def test_participles_and_scans_leave_the_class(self, home_tbox: TBox):
         expected = {"Door_braced": "Door", "bowl_striped_blue": "Bowl", "chair_wooden_scan_v2": "DesignedChair"}

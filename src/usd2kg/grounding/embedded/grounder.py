@@ -286,7 +286,7 @@ class _Run:
         return all(map(self._is_word, tokens)) or translate(tuple(tokens)) is not None
 
     def _is_word(self, word: str) -> bool:
-        return self._reader.is_known(word) or is_english_word(word)
+        return self._reader.kinds.is_known(word) or is_english_word(word)
 
     def _completed(self, view: ObjectView, said: list[Finding]) -> list[Finding]:
         """Return what the name says where words of it are unknown and likely abbreviations: the blade of a `fan_bld`.
@@ -348,7 +348,7 @@ class _Run:
         words = self._reader.read(name).words
         if not words or len(words[-1]) < _SHORTEST_NOUN:
             return False
-        return not self._reader.is_modifier(words[-1]) and self._reader.is_noun(words[-1])
+        return not self._reader.kinds.is_modifier(words[-1]) and self._reader.kinds.is_noun(words[-1])
 
     def _match_text(
         self, text: str, parents: tuple[str, ...], size: tuple[float, float, float] | None = None

@@ -206,7 +206,7 @@ class Matcher:
             return named
         part = self._named((*of, *words), places, is_respelled)
         # That a cabinet in the kitchen is a kitchen cabinet is known from the places.
-        is_placed = self._reader.is_place(of[-1]) and self._is_below(part, named)
+        is_placed = self._reader.kinds.is_place(of[-1]) and self._is_below(part, named)
         return named if part.class_iri == named.class_iri or is_placed else part
 
     def _is_more_telling(self, turned: Named, plain: Named) -> bool:
@@ -286,12 +286,12 @@ class Matcher:
     def _is_beside_unknown(self, end: int, words: tuple[str, ...]) -> bool:
         """Return whether a name has other words than the one at an end, and none of them is known."""
         others = (*words[: end - 1], *words[end:])
-        return bool(others) and not any(map(self._reader.is_known, others))
+        return bool(others) and not any(map(self._reader.kinds.is_known, others))
 
     def _knowing(self, word: str) -> _Head:
-        telling, within = (1 - self._reader.trailing(word, is_last=is_last) for is_last in (True, False))
+        telling, within = (1 - self._reader.kinds.trailing(word, is_last=is_last) for is_last in (True, False))
         return _Head(
-            place=float(self._reader.is_place(word)),
+            place=float(self._reader.kinds.is_place(word)),
             telling=log(max(telling, _LEAST)),
             telling_within=log(max(within, _LEAST)),
             propensity=propensity(word),

@@ -9,7 +9,7 @@ from rapidfuzz.distance import OSA
 
 from usd2kg.grounding.embedded.english import is_common_word, is_english_word
 from usd2kg.grounding.embedded.frequencies import thing_prior
-from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
+from usd2kg.grounding.embedded.lexicon import Lexicon
 from usd2kg.grounding.embedded.shortening import consonants_of, usual_abbreviations
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.grounding.embedded.tokens import (
@@ -21,37 +21,14 @@ from usd2kg.grounding.embedded.tokens import (
     shared_beginning,
     tokens_of,
 )
+from usd2kg.grounding.embedded.word_kinds import PLACEMENTS, THING_DOMAINS, WordKinds
 from usd2kg.languages import language_of, translate
 from usd2kg.words import is_telling
 
-__all__ = ["AREAS", "NamePhrase", "NameReader"]
+__all__ = ["NamePhrase", "NameReader"]
 
-_PLACEMENTS = frozenset(
-    """
-    top bottom middle mid left right front back rear upper lower inner outer center centre side corner end north
-    south east west open closed main big small large long short tall mini new single double half full one two
-    three four five six first second third type var variant alt empty used set grey gray beige body assembly part
-    stack pile pair bunch heap row scan scanned lowpoly highpoly poly simplified decimated textured
-    """.split()
-)
-_PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility", "establishment"])
-_ENCLOSURES = frozenset(["compartment"])
-"""No places, though WordNet has them among the rooms: a locker is a thing, and so is a butter compartment."""
-_MOUNTS = frozenset(
-    "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
-)
-"""Where things hang and stand, and are called after: `clock_wall`."""
-AREAS = frozenset(["area", "zone", "section", "region", "exit"])
-"""Places within a room: the drawer in the `sink_area_drawer`, the sign of an `exit_sign`."""
 _BUILT, _FASTENED = frozenset(["wall", "ceiling"]), frozenset(["hung", "mounted", "recessed"])
 """What things are fastened to, and how: the last words of `toilet_wall_hung`, which say nothing of its kind."""
-_MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
-_DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
-_MOUNT, _PLACE = 0.3, 0.4
-_STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
-_CONTENT_DOMAINS = frozenset({"food", "plant"})
-_SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "person", "substance", "object", "shape"})
-_THING_DOMAINS = frozenset({"artifact", "food"})
 _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 _MOST_WORDS = 16
@@ -62,7 +39,6 @@ _LONGEST_TERM = 5
 """Words of a term that is looked for around a word that alone says nothing."""
 _LONG = 7
 """Letters of a word that is long enough to be told by its spelling."""
-_SHORTEST_PARTICIPLE = 5
 _ENDINGS = frozenset(["tor"])
 """Nouns that many words end with by chance: an operator is no opera's hill, nor its gate, which German calls so."""
 _LEAST_CONSONANTS = 4
@@ -113,21 +89,16 @@ class NameReader:
     def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
+        self.kinds = WordKinds(lexicon, taxonomy)
         # What a name or a word says depends on nothing else, and both are asked for over and over.
         self.read = lru_cache(maxsize=4096)(self._read)
         self.correct = lru_cache(maxsize=65536)(self._correct)
-        self.is_modifier = lru_cache(maxsize=16384)(self._is_modifier)
-        self.is_place = lru_cache(maxsize=16384)(self._is_place)
-        self._describes = lru_cache(maxsize=16384)(self._describing)
-        self._is_material = taxonomy.below(_MATERIALS)
-        self._is_kind_of_place = taxonomy.below(_PLACES)
-        self._is_kind_of_enclosure = taxonomy.below(_ENCLOSURES)
 
     @cached_property
     def _by_first_letter_and_length(self) -> dict[tuple[str, int], list[str]]:
         """(First letter, length) → the words that a misspelt one may mean; needed only where one is met."""
         found: dict[tuple[str, int], list[str]] = {}
-        thing_words = {word for word in self._taxonomy.words(_THING_DOMAINS) if len(word) > 3}
+        thing_words = {word for word in self._taxonomy.words(THING_DOMAINS) if len(word) > 3}
         for word in sorted(thing_words | self._lexicon.vocabulary.keys()):
             found.setdefault((word[0], len(word)), []).append(word)
         return found
@@ -135,7 +106,7 @@ class NameReader:
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
         parted = chain.from_iterable(
-            [token] if self.is_known(token.text) else parted_as_above(token, parents) for token in tokens_of(name)
+            [token] if self.kinds.is_known(token.text) else parted_as_above(token, parents) for token in tokens_of(name)
         )
         tokens = self._telling(self._without_additions(list(parted)))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
@@ -151,7 +122,7 @@ class NameReader:
             return _translation(_texts(tokens), translated, context=_texts(references))
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
         # Among other unknown words an abbreviation is better read with them, by what the stage speaks of.
-        is_spelled = any(map(self.is_known, others)) if others else len(tokens) > 1
+        is_spelled = any(map(self.kinds.is_known, others)) if others else len(tokens) > 1
         for at, token in enumerate(tokens):
             read = self._spelled_out(token.text) if is_spelled else self.correct(token.text)
             as_written = {(token.text,), (self._taxonomy.singular(token.text),)}
@@ -179,14 +150,18 @@ class NameReader:
 
     def _begins_addition(self, tokens: list[Token], at: int) -> bool:
         is_with = tokens[at].text in _WITH
-        return is_with and any(self._is_noun(self._taxonomy.singular(token.text)) for token in tokens[:at])
+        return is_with and any(self.kinds.names_thing(self._taxonomy.singular(token.text)) for token in tokens[:at])
 
     def _begins_place(self, tokens: list[Token], at: int) -> bool:
         before = tokens[at - 1].text
         if tokens[at].text not in _WHERE or before in _PARTICLED or before in self._taxonomy.adjectives:
             return False
         is_compound = "".join(token.text for token in tokens[at - 1 : at + 2]) in self._taxonomy
-        return self.is_noun(self._taxonomy.singular(before)) and not is_compound and not self._term_around(tokens, at)
+        return (
+            self.kinds.is_noun(self._taxonomy.singular(before))
+            and not is_compound
+            and not self._term_around(tokens, at)
+        )
 
     def _telling(self, tokens: list[Token]) -> list[Token]:
         """Return the tokens that say something: those of a pipeline (`low`, `test`) only in a term: `TestTube`."""
@@ -239,70 +214,6 @@ class NameReader:
             return None
         return translate(words)
 
-    def is_known(self, word: str) -> bool:
-        """Return whether a word is a term of the TBox, or a noun or adjective of the taxonomy."""
-        return (
-            word in self._lexicon.terms
-            or word in self._lexicon.vocabulary
-            or word in self._taxonomy
-            or word in self._taxonomy.adjectives
-            or word in _PLACEMENTS
-            or self._is_participle(word)
-        )
-
-    def _is_participle(self, word: str) -> bool:
-        """Return whether a word is no noun and looks like a participle of one that is known: `lidded`, `docking`."""
-        ending = next((ending for ending in ("ed", "ing") if word.endswith(ending)), "")
-        if not ending or len(word) < _SHORTEST_PARTICIPLE or word in self._taxonomy:
-            return False
-        stem = word.removesuffix(ending)
-        stems = {stem, stem + "e", stem[:-1] if stem[-1] == stem[-2] else stem, stem[:-1] + "y"}
-        return any(found in self._taxonomy for found in stems)
-
-    def _is_modifier(self, word: str) -> bool:
-        """Return whether a word, at the end of a name, describes and does not say what the thing is."""
-        if word in self._lexicon.terms:
-            return False
-        if word in _PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
-            return True
-        senses = self._taxonomy.senses(word)
-        return bool(senses) and all(sense.domain in _STUFF_DOMAINS for sense in senses)
-
-    def is_noun(self, word: str) -> bool:
-        """Return whether the taxonomy knows a word as a noun for something physical."""
-        return word in self._taxonomy
-
-    def trailing(self, word: str, *, is_last: bool = True) -> float:
-        """Return how likely a word, behind the head of a name, does no more than describe: `table_oak`.
-
-        A share of names by the word's first meaning, set by hand: materials, colours and shapes nearly always, codes
-        mostly, flavours and places often, other things seldom. Before the last word only the first kind does.
-        """
-        share = self._describes(word)
-        return share if is_last or share == _DESCRIBES else 0.0
-
-    def _describing(self, word: str) -> float:
-        if word in _PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
-            return _DESCRIBES
-        if word in _MOUNTS:
-            return _MOUNT
-        senses = self._taxonomy.senses(word)
-        if not senses:
-            return _OTHER_THING if word in self._lexicon.terms else _CODE
-        first = next((sense for sense in senses if sense.domain in _SOLID_DOMAINS), senses[0])
-        if first.domain in _STUFF_DOMAINS or self._is_material(first.synset):
-            return _DESCRIBES
-        if first.domain in _CONTENT_DOMAINS:
-            return _FLAVOUR
-        return _PLACE if self.is_place(word) else _OTHER_THING
-
-    def _is_place(self, word: str) -> bool:
-        """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
-        sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
-        if sense is None or self._is_kind_of_enclosure(sense.synset):
-            return word in AREAS
-        return word in AREAS or self._is_kind_of_place(sense.synset)
-
     def _part_references(self, tokens: list[Token], parents: tuple[str, ...]) -> tuple[list[Token], list[Token]]:
         """Part the words that repeat a parent's name from those that are the thing's own."""
         written = {token.text for token in tokens}
@@ -323,7 +234,7 @@ class NameReader:
         # Below `Bread` a `GrainBread` is no grain, but below `Pot` a `LidPot` is a lid.
         is_member = tokens[-1] in references and not tokens[-1].number
         words = [word for token in own for word in self.correct(token.text)]
-        if all(self.is_modifier(word) or (is_member and self._describes(word) >= _FLAVOUR) for word in words):
+        if all(self.kinds.may_describe(word) or (is_member and self.kinds.is_flavour(word)) for word in words):
             return tokens, []
         return own, references
 
@@ -332,7 +243,7 @@ class NameReader:
 
     def _correct(self, word: str) -> tuple[str, ...]:
         """Return a word as known words: itself, its singular, a compound split, or the nearest spelling."""
-        if self.is_known(word):
+        if self.kinds.is_known(word):
             return self._parts_of_term(word)
         singular = self._taxonomy.singular(word)
         if singular != word:
@@ -357,28 +268,19 @@ class NameReader:
             left, right = word[:at], self._taxonomy.singular(word[at:])
             if not is_telling(right):
                 return self._known_words(left)
-            is_head = right not in _PLACEMENTS and right not in _ENDINGS and self._is_noun(right)
+            is_head = right not in PLACEMENTS and right not in _ENDINGS and self.kinds.names_thing(right)
             if is_head and (before := self._known_words(left)):
                 return (*before, right)
         return None
 
     def _known_words(self, word: str) -> tuple[str, ...] | None:
         """Return a run of letters as known words of any kind, the longest last word first."""
-        if self.is_known(word) or is_english_word(word):
+        if self.kinds.is_known(word) or is_english_word(word):
             return (word,)
         for at in range(3, len(word) - 2):
-            if self.is_known(word[at:]) and (before := self._known_words(word[:at])):
+            if self.kinds.is_known(word[at:]) and (before := self._known_words(word[:at])):
                 return (*before, word[at:])
         return None
-
-    def _is_noun(self, word: str) -> bool:
-        if word in self._lexicon.terms:
-            return True
-        # A plank is a substance to WordNet.
-        senses = self._taxonomy.senses(word)
-        return any(sense.domain in _THING_DOMAINS and sense.rank <= 3 for sense in senses) or (
-            bool(senses) and senses[0].domain == "substance"
-        )
 
     def _with_vowels(self, word: str) -> tuple[str, ...] | None:
         """Return the noun of which a word has all consonants in order and some of the vowels: `microwv`."""

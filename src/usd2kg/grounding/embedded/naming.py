@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names, sense_weight, unmade_weight
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
-from usd2kg.grounding.embedded.names import AREAS, NamePhrase, NameReader
+from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.routes import Route, Routes
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, Anchor, Term
+from usd2kg.grounding.embedded.word_kinds import AREAS
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
@@ -104,7 +105,7 @@ class Namer:
             return ()
         *before, last = words
         key = "".join(before) + self._taxonomy.singular(last)
-        may_drop_last = len(whole) > 1 and (whole[-1] in AREAS or not self._reader.is_known(whole[-1]))
+        may_drop_last = len(whole) > 1 and (whole[-1] in AREAS or not self._reader.kinds.is_known(whole[-1]))
         for end in range(len(whole), len(whole) - 1 - may_drop_last, -1):
             head = self._taxonomy.singular(whole[end - 1])
             for start in range(end):
@@ -175,7 +176,7 @@ class Namer:
         """Return the longest run of words that ends with the last one and is known, and its matches."""
         *before, last = words
         singular = self._taxonomy.singular(last)
-        starts = range(len(before) if self._reader.is_modifier(last) else len(words))
+        starts = range(len(before) if self._reader.kinds.is_modifier(last) else len(words))
         keys = {start: "".join(before[start:]) + singular for start in starts}
         run, found = self._known_run(words, keys, places)
         if self._lexicon.borrowed and all(match.class_iri == self._lexicon.default for match in found):

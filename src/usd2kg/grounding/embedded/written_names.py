@@ -16,6 +16,9 @@ __all__ = ["WrittenNames", "load_written_names"]
 _UNSEEN = 5
 """So many uses of a word are taken to be before words that it was not seen before."""
 
+_RARE = 0.5
+"""So many uses of each kind are supposed of any word."""
+
 
 class WrittenNames:
     """The words of names, in the singular."""
@@ -35,6 +38,15 @@ class WrittenNames:
         """Return the words that stand directly behind a word in some name, with how often one does that."""
         total = self.counts[word] + _UNSEEN
         return {follower: count / total for follower, count in Counter(self._pairs.get(word, "").split()).items()}
+
+    def odds_of_last(self, word: str) -> float:
+        """Return how many times oftener a word stands last in names of several than before another word."""
+        last = self._last[word]
+        return (last + _RARE) / (self.counts[word] - last + _RARE)
+
+    @cached_property
+    def _last(self) -> Counter[str]:
+        return Counter(words[-1] for words in map(str.split, self._text.splitlines()) if len(words) > 1)
 
     @cached_property
     def _pairs(self) -> dict[str, str]:
