@@ -55,6 +55,17 @@ DOMAINS = (*KEPT_FILES.values(), _PERSON)
 _SLANG = "controlled substance"
 """The slang names of these are those of things: rope, soap, pot, glass, window pane. On a stage none means the drug."""
 
+_PLURALS = frozenset(
+    """
+    arms boards channels cleaners cleavers clocks cows dippers elements flaps hands humans irons numbers
+    organs rockers shakers strings taps threads trumpets viewers waters windows wings woods
+    """.split()
+)
+"""What WordNet has as nouns of their own (taps, the bugle call), and names in scenes mean as the plurals they are."""
+
+_NOT_SAID = {"toilet": {"can", "crapper", "pot", "stool", "throne"}}
+"""What WordNet calls first by a name → words for it that nobody writes on a stage who does not mean something else."""
+
 
 def drugs_of(synsets: dict[str, tuple[int, list[str], list[str]]]) -> frozenset[str]:
     """Return the offsets of controlled substances."""
@@ -288,7 +299,8 @@ def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
     senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for at, synset in enumerate(synsets):
         for lemma, rank in synset.lemmas:
-            senses[_key(lemma)].append((rank, at))
+            if lemma not in _PLURALS:
+                senses[_key(lemma)].append((rank, at))
     single = {lemma for synset in synsets for lemma, _ in synset.lemmas}
     ordered = {lemma: sorted(found) for lemma, found in senses.items()}
     lines = [
@@ -324,7 +336,11 @@ def main() -> None:
         Synset(
             _PERSON if lemmas[0] == _PERSON and KEPT_FILES[file] == "top" else KEPT_FILES[file],
             [number[up] for up in hypernyms if up in number],
-            [(lemma, index[lemma].index(offset) + 1) for lemma in lemmas],
+            [
+                (lemma, index[lemma].index(offset) + 1)
+                for lemma in lemmas
+                if lemma not in _NOT_SAID.get(lemmas[0], ())
+            ],
         )
         for offset, (file, lemmas, hypernyms) in ((offset, synsets[offset]) for offset in kept)
     ]

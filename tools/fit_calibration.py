@@ -126,8 +126,9 @@ def sample_of_answers(
 ) -> Sample:
     """Return the answers of one regime; each distinct name weighs the same, all together 1."""
     counts = Counter(names)
-    odds = general_odds((answer for answer, _ in answers), tbox)
-    features = [features_of(answer, beliefs, tbox, odds) for answer, beliefs in answers]
+    general = EmbeddedGrounder().general_classes(tbox)
+    odds = general_odds((answer for answer, _ in answers), general)
+    features = [features_of(answer, beliefs, tbox, general, odds) for answer, beliefs in answers]
     return Sample(
         features=np.array([[found[name] for name in FEATURES] for found in features]),
         is_right=np.array(is_right, dtype=float),

@@ -43,7 +43,7 @@ def confidence_of(name: str, beside: list[str], tbox: TBox) -> float:
     ],
 )
 def test_the_odds_of_a_root_worked_by_hand(answers: list[Prediction], odds: float):
-    assert general_odds(answers, LABORATORY) == pytest.approx(odds)
+    assert general_odds(answers, LABORATORY.roots) == pytest.approx(odds)
 
 
 def test_a_root_is_believed_where_the_ontology_was_made_for_other_things():
@@ -65,6 +65,6 @@ def test_nor_how_sure_a_root_of_the_home_tbox_is():
 def test_the_margin_counts_apart_for_classes_of_other_ontologies(tbox: TBox, name: str, is_foreign: bool):
     iri, *others = [cls.iri for cls in tbox.classes if cls.local_name == name] + [tbox.classes[0].iri]
     said = replace(answer(None, "name"), class_iri=iri, candidates=(Candidate(iri, 0.8), Candidate(others[0], 0.3)))
-    features = features_of(said, NO_BELIEFS, tbox, odds=0.0)
+    features = features_of(said, NO_BELIEFS, tbox, tbox.roots, odds=0.0)
     assert features["margin"] == pytest.approx(0.5)
     assert features["foreign_margin"] == pytest.approx(0.5 if is_foreign else 0.0)

@@ -22,6 +22,7 @@ from usd2kg.grounding.embedded.beliefs import (
 from usd2kg.grounding.embedded.calibration import features_of, general_odds, probability
 from usd2kg.grounding.embedded.context import Vote, ask_company, siblings_as_company, vote_of
 from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
+from usd2kg.grounding.embedded.defaults import is_residual
 from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
 from usd2kg.grounding.embedded.matching import Matcher
@@ -119,15 +120,19 @@ class EmbeddedGrounder:
         """Return one prediction for each (prim path, view)."""
         with paused_collection():
             answers = self.decide(views, tbox)
-            whole = _run_for(tbox, self._use_home_synonyms).tbox
-            odds = general_odds((answer for answer, _ in answers), whole)
+            general = self.general_classes(tbox)
+            odds = general_odds((answer for answer, _ in answers), general)
             decided = [
-                replace(answer, confidence=probability(features_of(answer, look, whole, odds)))
+                replace(answer, confidence=probability(features_of(answer, look, tbox, general, odds)))
                 if answer.class_iri is not None
                 else answer
                 for answer, look in answers
             ]
             return agree_by_asset([view for _, view in views], decided, tbox)
+
+    def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
+        """Return the classes of which little is said by saying that something is of them."""
+        return _run_for(tbox, self._use_home_synonyms).general
 
     def decide(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[tuple[Prediction, Beliefs]]:
         """Return for each (prim path, view) a prediction with a score for confidence, and what its look says."""
@@ -154,10 +159,10 @@ def _run_for(tbox: TBox, use_home_synonyms: bool) -> "_Run":
     return _Run(tbox, home_names() if use_home_synonyms else {})
 
 
-def _with_all_else(tbox: TBox) -> TBox:
-    """Return the TBox with one root above all classes, which stands for what it has no class for."""
-    root = OntologyClass(_ALL_ELSE, label=_NO_CLASS, alt_labels=(), comment="", parents=())
-    classes = [cls if cls.parents else replace(cls, parents=(_ALL_ELSE,)) for cls in tbox.classes]
+def _below_one_root(tbox: TBox, root: OntologyClass) -> TBox:
+    """Return the TBox with a class, which may be none of its own, above all others without one above."""
+    others = [cls for cls in tbox.classes if cls.iri != root.iri]
+    classes = [cls if cls.parents else replace(cls, parents=(root.iri,)) for cls in others]
     return replace(tbox, classes=tuple(sorted([*classes, root], key=lambda cls: cls.iri)))
 
 
@@ -167,14 +172,22 @@ class _Run:
     def __init__(self, tbox: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> None:
         taxonomy = load_taxonomy()
         self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
-        if self._lexicon.default is None:
+        default = self._lexicon.default
+        if default is None:
             is_home = self._lexicon.listed.issuperset(tbox.by_iri)
-            tbox = _with_all_else(tbox)
+            root = OntologyClass(_ALL_ELSE, label=_NO_CLASS, alt_labels=(), comment="", parents=())
             # Among classes of the home TBox alone it is no other ontology's.
             synonyms = {**synonyms, _ALL_ELSE: (_NO_CLASS,)} if is_home else synonyms
+            tbox = _below_one_root(tbox, root)
+            self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
+        elif len(tbox.roots) > 1 and default in tbox.roots and is_residual(tbox.by_iri[default], taxonomy):
+            # In a list of labels chairs and tables are beside the rest of all things.
+            tbox = _below_one_root(tbox, tbox.by_iri[default])
             self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
         self.tbox = tbox
-        """With a root of all else, where none of its own is true of most things."""
+        """With the class of all else above the others, where none of its own is true of most things."""
+        self.general = frozenset([*tbox.roots, *filter(None, [self._lexicon.default])])
+        """The classes of which little is said by saying that something is of them."""
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
         self._match = lru_cache(maxsize=8192)(self._match_text)

@@ -10,6 +10,7 @@ from importlib.resources import files
 from typing import NamedTuple
 
 from usd2kg.grounding.embedded.categories import members_of
+from usd2kg.grounding.embedded.defaults import GENERAL, anchor_default, default_class, residue_of
 from usd2kg.grounding.embedded.labels import (
     SENSE_KEY,
     affixes_of,
@@ -20,6 +21,7 @@ from usd2kg.grounding.embedded.labels import (
     words_of_label,
 )
 from usd2kg.grounding.embedded.lending import borrowed_names, lent_names
+from usd2kg.grounding.embedded.senses import sense_weight
 from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy
 from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, LESSER, SYNONYM, Anchor, Term, keep_best
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
@@ -29,25 +31,11 @@ __all__ = [
     "Lexicon",
     "build_lexicon",
     "home_names",
-    "sense_weight",
     "things_of",
-    "unmade_weight",
 ]
 
-_DOMAIN_WEIGHTS = {
-    "artifact": 1.0,
-    "food": 0.9,
-    "person": 0.8,
-    "substance": 0.6,
-    "communication": 0.4,
-    "group": 0.4,
-    "top": 0.3,
-}
-_OTHER_DOMAIN = 0.45
 _UNMADE = frozenset(["animal", "object", "person", "plant"])
 """Domains of what nobody made, whose things stand in scenes out of doors."""
-_RANK_DECAY = 0.93
-_GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
 _TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
 """What is above so many meanings that it sets none apart."""
 _ABOVE_MANY = _TOP | {
@@ -55,10 +43,7 @@ _ABOVE_MANY = _TOP | {
     "group",
 }
 """What is above a meaning, and is said in texts about any other too."""
-_NEGATIONS = ("un", "non", "not")
 _JOINING = frozenset(["and", "of", "or"])
-_MADE = "artifact"
-"""The lemma of all that is made."""
 _SHORTEST_CODE = 2
 """A word of so many letters is a code, in a term of several."""
 _HAPPENINGS = frozenset("activity event action process state situation task".split())
@@ -90,7 +75,7 @@ class Lexicon:
     vocabulary: Mapping[str, int]
     """Single word → the number of terms that hold it."""
     default: ClassIRI | None
-    """The class that is true of most things: the root with the most classes below it; None if that is of one kind."""
+    """The class of what has no other, see `default_class`."""
     borrowed: Mapping[str, Term]
     """Term without spaces → the class labelled as what the home vocabulary says is above the thing that is called so.
 
@@ -121,16 +106,6 @@ def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
     return {iri: tuple(found) for iri, found in names.items()}
 
 
-def sense_weight(sense: Sense) -> float:
-    """Return how likely a sense is meant by the name of an object on a stage: artifacts first."""
-    return _DOMAIN_WEIGHTS.get(sense.domain, _OTHER_DOMAIN) * _RANK_DECAY ** (sense.rank - 1)
-
-
-def unmade_weight(sense: Sense) -> float:
-    """Return the same for a thing that nobody made, where no made thing is meant."""
-    return _RANK_DECAY ** (sense.rank - 1)
-
-
 def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> Lexicon:
     """Return the lexicon of a TBox.
 
@@ -139,23 +114,8 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         taxonomy: what their terms are aligned with.
         synonyms: further terms by class IRI, beside the TBox's own labels.
     """
-    affixes = affixes_of(tbox, taxonomy)
-    terms: dict[str, Term] = {}
+    terms = _terms(tbox, taxonomy, synonyms)
     anchors: dict[int, Anchor] = {}
-    depths = tbox.depths
-    classes = sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri))
-    bare: dict[str, set[ClassIRI]] = {}
-    for cls in classes:
-        for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
-            said = phrase_of(text, taxonomy)
-            keep_best(terms, cls.iri, said, weight)
-            first, _, rest = said.partition(" ")
-            if rest and first in affixes:
-                bare.setdefault(rest, set()).add(cls.iri)
-    for rest, claimants in bare.items():
-        if len(claimants) == 1 and rest not in _ABOVE_MANY | _GENERAL:
-            # The components of five vendors are no component as such, and a shading device is not what any device is.
-            keep_best(terms, next(iter(claimants)), rest, LABEL)
     for key, term in terms.items():
         if key in taxonomy and _is_common_noun(term, taxonomy):
             _anchor(key, term, tbox, terms, taxonomy, anchors)
@@ -166,8 +126,8 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
         terms[key] = terms[key]._replace(weight=LESSER)
     listed = frozenset(synonyms.keys() & tbox.by_iri.keys())
-    default = _default_class(tbox, taxonomy)
-    _anchor_default(default, taxonomy, anchors)
+    default = default_class(tbox, taxonomy)
+    anchor_default(default, tbox, taxonomy, anchors)
     # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
     for class_iri, text in list(lent_names(tbox, terms, anchors, taxonomy, synonyms)):
         keep_best(terms, class_iri, phrase_of(text, taxonomy), LENT)
@@ -184,13 +144,34 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     )
 
 
+def _terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> dict[str, Term]:
+    """Return term without spaces → the class it names, by the labels and synonyms of the classes alone."""
+    affixes, depths = affixes_of(tbox, taxonomy), tbox.depths
+    terms: dict[str, Term] = {}
+    bare: dict[str, set[ClassIRI]] = {}
+    for cls in sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
+        for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
+            said = phrase_of(text, taxonomy)
+            keep_best(terms, cls.iri, said, weight)
+            # Other furniture is furniture, but for that with a class of its own.
+            keep_best(terms, cls.iri, residue_of(text, taxonomy) or "", min(weight, SYNONYM))
+            first, _, rest = said.partition(" ")
+            if rest and first in affixes:
+                bare.setdefault(rest, set()).add(cls.iri)
+    for rest, claimants in bare.items():
+        if len(claimants) == 1 and rest not in _ABOVE_MANY | GENERAL:
+            # The components of five vendors are no component as such, and a shading device is not what any device is.
+            keep_best(terms, next(iter(claimants)), rest, LABEL)
+    return terms
+
+
 def _is_common_noun(term: Term, taxonomy: Taxonomy) -> bool:
     """Return whether a term is a common noun: a CT scanner is one, the SOLiD of a system's name is no solid.
 
     What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
     """
     words = [word for word in term.text.split() if word not in _JOINING]
-    is_general = term.weight < LABEL and term.text in _GENERAL
+    is_general = term.weight < LABEL and term.text in GENERAL
     is_spelled_out = len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE
     return not is_general and (is_spelled_out or taxonomy.is_phrase(term.text.replace(" ", "")))
 
@@ -265,54 +246,9 @@ def _add_heads(terms: dict[str, Term]) -> None:
             by_head.setdefault(term.text.split()[-1], []).append(term)
     for head, named in by_head.items():
         is_unique = len({term.class_iri for term in named}) == 1
-        is_special = head not in terms and head not in _ABOVE_MANY | _GENERAL
+        is_special = head not in terms and head not in _ABOVE_MANY | GENERAL
         if is_unique and is_special and len(named[0].text.split()) == 2:
             terms[head] = Term(named[0].class_iri, head, HEAD)
-
-
-def _anchor_default(default: ClassIRI | None, taxonomy: Taxonomy, anchors: dict[int, Anchor]) -> None:
-    """Let what is made be of the default class where no class is above all that is made.
-
-    So a wall is understood in an ontology without walls, and is not taken for what a lesser meaning of the word, or its
-    size, would make it. Where no class is any kind of thing there is nothing to be understood.
-    """
-    made = taxonomy.senses(_MADE)[0].synset
-    if default is not None and anchors and anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
-        anchors[made] = Anchor(default, 1.0)
-
-
-def _default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
-    """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
-
-    An ontology's largest root may be of activities or states, and no thing is one of those: only what is called after
-    something made counts. Where a root is called the opposite of the best one, as `UnControllable` is, it has all that
-    is not known to be of the other. Of a list of chairs, tables and doors none is true of anything else.
-    """
-
-    def is_made(label: str) -> bool:
-        senses = taxonomy.senses(taxonomy.singular(head_of(label)))
-        return bool(senses) and senses[0].domain == "artifact"
-
-    below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
-    made_below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
-
-    def head(root: ClassIRI) -> str:
-        words = words_of_label(tbox.by_iri[root].label) or words_of_label(tbox.by_iri[root].local_name) or [""]
-        return taxonomy.singular(words[-1])
-
-    best = min(tbox.roots, key=lambda root: (head(root) not in _GENERAL, -made_below[root], -below[root], root))
-    if len(tbox.roots) > 1 and head(best) not in _GENERAL and _is_one_kind(head(best), taxonomy):
-        return None
-    called = "".join(words_of_label(tbox.by_iri[best].label))
-    opposites = {negation + called for negation in _NEGATIONS if called}
-    return next((root for root in tbox.roots if "".join(words_of_label(tbox.by_iri[root].label)) in opposites), best)
-
-
-def _is_one_kind(noun: str, taxonomy: Taxonomy) -> bool:
-    """Return whether a noun means one kind of thing among others, and not all that is made or more."""
-    usual = max(taxonomy.senses(noun), key=sense_weight, default=None)
-    made = taxonomy.senses(_MADE)[0].synset
-    return usual is not None and usual.synset not in {up for up, _ in taxonomy.walk_up(made)}
 
 
 def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:

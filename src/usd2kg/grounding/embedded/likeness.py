@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.grounding.embedded.lexicon import home_names, sense_weight
+from usd2kg.grounding.embedded.lexicon import home_names
+from usd2kg.grounding.embedded.senses import sense_weight
 from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import ClassIRI
 

@@ -7,9 +7,10 @@ from operator import itemgetter
 from typing import NamedTuple
 
 from usd2kg.grounding.embedded.heads import Features, likelihood, propensity
-from usd2kg.grounding.embedded.lexicon import Lexicon, sense_weight
+from usd2kg.grounding.embedded.lexicon import Lexicon
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.naming import Match, Namer
+from usd2kg.grounding.embedded.senses import sense_weight
 from usd2kg.grounding.embedded.sizes import Size, surprise, thing_row
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
@@ -225,8 +226,8 @@ class Matcher:
         return _named(*self._namer.name(words, places), is_respelled)
 
     def _naming_turned(self, head: str, kind: str, is_respelled: bool) -> Named:
-        run = (kind, self._taxonomy.singular(head))
-        return _named(run, self._namer.by_term("".join(run)), is_respelled)
+        run, matches = self._namer.name((kind, self._taxonomy.singular(head)), ())
+        return _named(run, matches, is_respelled) if len(run) > 1 else _NOTHING
 
     def _features(
         self,

@@ -7,10 +7,11 @@ from math import log
 from operator import itemgetter
 from typing import NamedTuple
 
-from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names, sense_weight, unmade_weight
+from usd2kg.grounding.embedded.lexicon import Counted, Lexicon, home_names
 from usd2kg.grounding.embedded.likeness import likely_classes, similar_name
 from usd2kg.grounding.embedded.names import NamePhrase, NameReader
 from usd2kg.grounding.embedded.routes import Route, Routes
+from usd2kg.grounding.embedded.senses import sense_weight, unmade_weight
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.grounding.embedded.terms import HEAD, LABEL, LENT, Anchor, Term
 from usd2kg.grounding.embedded.word_kinds import AREAS
@@ -76,7 +77,7 @@ class Namer:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
-        self._roots = frozenset(tbox.roots)
+        self._general = frozenset([*tbox.roots, *filter(None, [lexicon.default])])
         self._has_own = not lexicon.listed.issuperset(tbox.by_iri)
         # Of the classes of the home vocabulary more is known than the routes to them tell.
         is_foreign = lexicon.listed.isdisjoint(tbox.by_iri)
@@ -155,7 +156,7 @@ class Namer:
             most = by_rules[ruled].score
         else:
             # What the rules doubted is believed as much as a noun is whose class is clear.
-            most = (_KIND if len(run) == 1 else _COMPOUND_KIND) * (_ROOT_SHARE if likeliest in self._roots else 1.0)
+            most = (_KIND if len(run) == 1 else _COMPOUND_KIND) * (_ROOT_SHARE if likeliest in self._general else 1.0)
         mixed = [
             Match(
                 iri,
@@ -218,7 +219,7 @@ class Namer:
         if longer in self._lexicon.terms or not self._is_below(special, above):
             return False
         if self._has_own:
-            return above not in self._roots
+            return above not in self._general
         kinds = {up for sense in self._taxonomy.senses(longer) for up, _ in self._taxonomy.walk_up(sense.synset)}
         return key in self._lexicon.terms and any(sense.synset in kinds for sense in self._taxonomy.senses(key))
 
@@ -236,7 +237,7 @@ class Namer:
         if not self._has_own or term is None or term.weight != HEAD or not 0 < self._things_called(key) <= _FEW_THINGS:
             return ()
         if not any(
-            self._is_below(term.class_iri, kind.class_iri) and kind.class_iri not in self._roots for kind in kinds
+            self._is_below(term.class_iri, kind.class_iri) and kind.class_iri not in self._general for kind in kinds
         ):
             return ()
         return (Match(term.class_iri, _TERM * LENT, partial(self._term_text, term)),)
@@ -287,7 +288,7 @@ class Namer:
         above = {match.class_iri for match in found}
         for place in places:
             special = self._lexicon.terms.get(place + key) or self._lexicon.terms.get(place + head)
-            if special is None or special.class_iri in above or special.class_iri in self._roots:
+            if special is None or special.class_iri in above or special.class_iri in self._general:
                 continue
             if any(self._tbox.is_subclass(special.class_iri, iri) for iri in above):
                 reason = partial(self._place_text, key, place, special)
@@ -319,7 +320,7 @@ class Namer:
                 else:
                     # Where there are no boxes, a box is not for that the compartment that it may be too.
                     score *= _ROOT_SHARE * weight
-                if anchor.class_iri in self._roots:
+                if anchor.class_iri in self._general:
                     score *= _ROOT_SHARE * _HOP_DECAY ** max(0, _FROM_ROOT - hops)
                 else:
                     score *= _HOP_DECAY**hops
@@ -346,14 +347,16 @@ class Namer:
                 if not self._has_own:
                     break
             elif self._is_below(anchor.class_iri, nearest[2].class_iri) or (
-                hops <= nearest[1] + _ABOUT_AS_NEAR and self._depth(anchor) > self._depth(nearest[2])
+                hops <= nearest[1] + _ABOUT_AS_NEAR
+                and self._depth(anchor) > self._depth(nearest[2])
+                and all(up != above for above, _ in self._taxonomy.walk_up(nearest[0]))
             ):
                 nearest = up, hops, anchor
         return self._counted_among(synset, nearest) or nearest if self._has_own else nearest
 
     def _counted_among(self, synset: int, nearest: tuple[int, int, Anchor] | None) -> tuple[int, int, Anchor] | None:
         """Return the same for a class that people count a thing among, where that says more; mostly None."""
-        general = None if nearest is None or nearest[2].class_iri in self._roots else nearest
+        general = None if nearest is None or nearest[2].class_iri in self._general else nearest
 
         def tells_more(counted: Counted, size: float) -> bool:
             if general is None:

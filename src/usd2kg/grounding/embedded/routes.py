@@ -69,8 +69,11 @@ class Routes:
         self._tbox = tbox
         self._lexicon = lexicon
         self._taxonomy = taxonomy
-        self._roots = frozenset(tbox.roots)
+        self._general = frozenset([*tbox.roots, *filter(None, [lexicon.default])])
         self._below = Counter(above for cls in tbox.classes for above in tbox.closure(cls.iri))
+        if lexicon.default is not None and not tbox.children[lexicon.default]:
+            # What is called after the rest is as general as a root.
+            self._below[lexicon.default] = len(tbox.classes)
         # What a noun means depends on nothing else, and names say the same nouns over and over.
         self.weigh = lru_cache(maxsize=4096)(self._weighing)
 
@@ -109,7 +112,7 @@ class Routes:
         passed = {iri for iri in classes if any(one != iri and self._tbox.is_subclass(one, iri) for one in classes)}
         for up, hops, anchor, things in links:
             iri = anchor.class_iri
-            is_counted, is_root = things is not None, iri in self._roots
+            is_counted, is_root = things is not None, iri in self._general
             steps = 0.0 if is_counted else float(min(hops, _MOST_STEPS))
             features = self._features(
                 iri,

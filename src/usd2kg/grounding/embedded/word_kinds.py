@@ -2,7 +2,8 @@
 
 from functools import lru_cache
 
-from usd2kg.grounding.embedded.lexicon import Lexicon, home_names, sense_weight
+from usd2kg.grounding.embedded.lexicon import Lexicon, home_names
+from usd2kg.grounding.embedded.senses import sense_weight
 from usd2kg.grounding.embedded.taxonomy import Taxonomy
 from usd2kg.grounding.embedded.written_names import load_written_names
 
