@@ -57,7 +57,7 @@ _SLANG = "controlled substance"
 
 _PLURALS = frozenset(
     """
-    arms boards channels cleaners cleavers clocks cows dippers elements flaps hands humans irons numbers
+    arms boards channels cleaners cleavers clocks cows dippers elements hands humans irons numbers
     organs rockers shakers strings taps threads trumpets viewers waters windows wings woods
     """.split()
 )
@@ -336,11 +336,7 @@ def main() -> None:
         Synset(
             _PERSON if lemmas[0] == _PERSON and KEPT_FILES[file] == "top" else KEPT_FILES[file],
             [number[up] for up in hypernyms if up in number],
-            [
-                (lemma, index[lemma].index(offset) + 1)
-                for lemma in lemmas
-                if lemma not in _NOT_SAID.get(lemmas[0], ())
-            ],
+            [(lemma, index[lemma].index(offset) + 1) for lemma in lemmas if lemma not in _NOT_SAID.get(lemmas[0], ())],
         )
         for offset, (file, lemmas, hypernyms) in ((offset, synsets[offset]) for offset in kept)
     ]

@@ -39,6 +39,8 @@ from tools import build_written_names  # noqa: E402
 
 LISTED = 0.5
 """What a list of names counts against a scene: nobody has built with them."""
+UNLEARNED = 1.0
+"""The same of a list that nothing was learned from, which tells how sure to be of what nobody prepared for."""
 RIDGE = 1.0
 """Strength of the pull of the weights to zero, the intercept's apart."""
 ROUNDS = 50
@@ -66,7 +68,8 @@ def main() -> None:
             scenes[scene["name"]] = sample(scene)
     home = open_tbox(None)
     lists = [sample_of_list(load(ROOT / f"benchmarks/names/{listed}.csv", home), home) for listed in TRAIN]
-    lists += [sample_of_list(things, tbox) for things, tbox in ontologies.to_learn_from()]
+    lists += [sample_of_list(things, tbox) for things, tbox in ontologies.public_to_learn_from()]
+    lists += [sample_of_list(things, tbox, UNLEARNED) for things, tbox in ontologies.to_be_sure_by()]
     report = {left_out: check(left_out, scenes, lists) for left_out in scenes}
     weights = fit([*scenes.values(), *lists])
     text = {
@@ -93,7 +96,7 @@ def sample(scene: dict[str, Any]) -> Sample:
     return joined(samples)
 
 
-def sample_of_list(things: list[Thing], tbox: TBox) -> Sample:
+def sample_of_list(things: list[Thing], tbox: TBox, share: float = LISTED) -> Sample:
     """Return the answers of a list of names, spelled out and abbreviated.
 
     Those that the reader of abbreviations learned from do not tell how well it reads others.
@@ -111,7 +114,7 @@ def sample_of_list(things: list[Thing], tbox: TBox) -> Sample:
         is_new = [regime is NamingRegime.SEMANTIC or thing.obj.name not in learned for thing in things]
         samples.append(Sample(*(column[is_new] for column in told)))
     both = joined(samples)
-    return both._replace(weights=both.weights * LISTED)
+    return both._replace(weights=both.weights * share)
 
 
 def decide(scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox) -> dict[str, tuple[Prediction, Beliefs]]:

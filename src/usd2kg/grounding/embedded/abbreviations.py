@@ -88,7 +88,7 @@ class AbbreviationReader:
         """One function for all scenes: each remembers what it was told by it."""
         self._seconds = lru_cache(maxsize=4096)(self._second_words)
         self._of_parent = lru_cache(maxsize=1024)(self._choices_of_parent)
-        self._known = lru_cache(maxsize=4096)(self._known_piece)
+        self._known = lru_cache(maxsize=2048)(self._known_piece)
 
     def read(
         self,

@@ -226,8 +226,8 @@ class Matcher:
         return _named(*self._namer.name(words, places), is_respelled)
 
     def _naming_turned(self, head: str, kind: str, is_respelled: bool) -> Named:
-        run, matches = self._namer.name((kind, self._taxonomy.singular(head)), ())
-        return _named(run, matches, is_respelled) if len(run) > 1 else _NOTHING
+        run = (kind, self._taxonomy.singular(head))
+        return _named(run, self._namer.name_compound(run), is_respelled)
 
     def _features(
         self,

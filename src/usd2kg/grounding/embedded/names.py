@@ -92,7 +92,7 @@ class NameReader:
         self.kinds = WordKinds(lexicon, taxonomy)
         # What a name or a word says depends on nothing else, and both are asked for over and over.
         self.read = lru_cache(maxsize=4096)(self._read)
-        self.correct = lru_cache(maxsize=65536)(self._correct)
+        self.correct = lru_cache(maxsize=16384)(self._correct)
 
     @cached_property
     def _by_first_letter_and_length(self) -> dict[tuple[str, int], list[str]]:

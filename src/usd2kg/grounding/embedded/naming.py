@@ -131,6 +131,13 @@ class Namer:
         is_listed = "".join((*run[:-1], whole[-1])) in self._lexicon.terms and (len(run) > 1 or len(words) == 1)
         return run, found if is_listed else self._heeding_likeness(whole, found)
 
+    def name_compound(self, run: tuple[str, str]) -> tuple[Match, ...]:
+        """Return what two words name as a term, or in another ontology as a noun; nothing if they are not known so."""
+        if not self._has_own:
+            return self.by_term("".join(run))
+        known, found = self.name(run, ())
+        return found if len(known) > 1 else ()
+
     def _heeding_likeness(self, words: tuple[str, ...], found: Iterable[Match]) -> tuple[Match, ...]:
         """Return the matches of the head, mixed with what names like the whole one mean."""
         best = {match.class_iri: match for match in sorted(found, key=lambda match: match.score)}
@@ -340,7 +347,7 @@ class Namer:
         nearest: tuple[int, int, Anchor] | None = None
         for up, hops in self._taxonomy.walk_up(synset):
             anchor = self._lexicon.anchors.get(up)
-            if anchor is None:
+            if anchor is None or (nearest is not None and anchor.class_iri == self._lexicon.default):
                 continue
             if nearest is None or self._is_own_below(anchor.class_iri, nearest[2].class_iri):
                 nearest = up, hops, anchor
