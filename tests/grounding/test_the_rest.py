@@ -79,6 +79,17 @@ def test_the_rest_says_little_of_a_thing():
     assert EmbeddedGrounder().general_classes(home) == frozenset(home.roots)
 
 
+def test_other_activities_are_no_things():
+    tbox = make_tbox(
+        make_class("Object"),
+        make_class("Table", "Object"),
+        make_class("Activity"),
+        make_class("Other", "Activity"),
+    )
+    assert default_class(tbox, load_taxonomy()) == LAB + "Object"
+    assert ground_names(["kettle"], tbox)[0].class_iri == LAB + "Object"
+
+
 def test_a_class_for_the_rest_of_one_kind_is_not_for_all():
     tbox = make_tbox(*map(make_class, ["chair", "table", "otherfurniture"]))
     assert default_class(tbox, load_taxonomy()) is None

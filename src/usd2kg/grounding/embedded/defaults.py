@@ -68,16 +68,25 @@ def anchor_default(default: ClassIRI | None, tbox: TBox, taxonomy: Taxonomy, anc
 def default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
     """Return the class of what has no other; None if there is none.
 
-    Where a class is called after the rest (`sundry item`, `otherprop`) it is that one. Else it is the root that is true
-    of most things: an artifact or object by its name, or else the one with most below.
+    Where a class is called after the rest (`sundry item`, `otherprop`) it is that one, if it is a root or below the one
+    that is true of most things: of other activities no thing is one. Else it is that root.
+    """
+    root = _root_of_most(tbox, taxonomy)
+    residual = [
+        cls.iri
+        for cls in tbox.classes
+        if is_residual(cls, taxonomy) and (not cls.parents or (root is not None and tbox.is_subclass(cls.iri, root)))
+    ]
+    return min(residual, key=lambda iri: (tbox.depths[iri], iri), default=root)
+
+
+def _root_of_most(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
+    """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
 
     An ontology's largest root may be of activities or states, and no thing is one of those: only what is called after
     something made counts. Where a root is called the opposite of the best one, as `UnControllable` is, it has all that
     is not known to be of the other. Of a list of chairs, tables and doors none is true of anything else.
     """
-    residual = [cls.iri for cls in tbox.classes if is_residual(cls, taxonomy)]
-    if residual:
-        return min(residual, key=lambda iri: (tbox.depths[iri], iri))
 
     def is_made(label: str) -> bool:
         senses = taxonomy.senses(taxonomy.singular(head_of(label)))
