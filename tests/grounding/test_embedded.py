@@ -444,6 +444,25 @@ class TestHomeSynonyms:
             "Covering",
         ]
 
+    def test_but_not_one_that_the_nearer_one_is_a_kind_of(self):
+        # An area is what a room is a kind of, however deep the ontology has areas.
+        tbox = make_tbox(
+            make_class("Thing"),
+            make_class("Room", "Thing"),
+            make_class("Place", "Thing"),
+            make_class("Zone", "Place"),
+            make_class("Area", "Zone"),
+        )
+        assert local(ground_names(["pantry"], tbox)[0]) == "Room"
+
+    def test_a_noun_that_is_turned_is_of_the_ontologys_own_class_too(self):
+        music = make_tbox(
+            make_class("DesignedArtifact", base=DUL),
+            replace(make_class("StringedInstrument"), parents=(DUL + "DesignedArtifact",)),
+        )
+        names = ["electric_guitar", "guitar_electric", "guitar_electric_black"]
+        assert [local(found) for found in ground_names(names, music)] == ["StringedInstrument"] * 3
+
     def test_a_class_of_ones_own_is_meant_where_the_home_vocabulary_knows_a_general_one_only(self):
         # To the home vocabulary a teddy is an artifact; an ontology with toys below the artifacts means those.
         toys = make_tbox(

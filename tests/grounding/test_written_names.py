@@ -30,6 +30,17 @@ class TestWords:
         assert NAMES.followers("pot") == {"lid": pytest.approx(2 / 8)}
         assert NAMES.followers("lid") == NAMES.followers("spoon") == {}
 
+    def test_how_much_oftener_a_word_stands_last_than_before_another(self):
+        # Half a use more of each kind is supposed; the pot that is a name by itself is neither.
+        assert NAMES.odds_of_last("lid") == pytest.approx(2.5 / 0.5)
+        assert NAMES.odds_of_last("pot") == pytest.approx(0.5 / 2.5)
+        assert NAMES.odds_of_last("lamp") == NAMES.odds_of_last("spoon") == 1
+
+    def test_materials_end_names_and_towels_do_not(self):
+        odds = load_written_names().odds_of_last
+        assert min(odds("oak"), odds("brass"), odds("marble")) > 1
+        assert max(odds("towel"), odds("soap"), odds("milk")) < 0.2
+
     def test_nothing_is_written_without_names(self):
         empty = WrittenNames("")
         assert empty.log_share("pot") == -math.inf

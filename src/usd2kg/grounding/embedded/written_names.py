@@ -41,12 +41,13 @@ class WrittenNames:
 
     def odds_of_last(self, word: str) -> float:
         """Return how many times oftener a word stands last in names of several than before another word."""
-        last = self._last[word]
-        return (last + _RARE) / (self.counts[word] - last + _RARE)
+        last, before = self._last_and_before
+        return (last[word] + _RARE) / (before[word] + _RARE)
 
     @cached_property
-    def _last(self) -> Counter[str]:
-        return Counter(words[-1] for words in map(str.split, self._text.splitlines()) if len(words) > 1)
+    def _last_and_before(self) -> tuple[Counter[str], Counter[str]]:
+        names = [words for words in map(str.split, self._text.splitlines()) if len(words) > 1]
+        return Counter(words[-1] for words in names), Counter(word for words in names for word in words[:-1])
 
     @cached_property
     def _pairs(self) -> dict[str, str]:
