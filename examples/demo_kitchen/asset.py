@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
 
 from .mesh import Floats, Mesh, Vec3, is_flat
@@ -137,16 +138,21 @@ def _write_part(stage: Usd.Stage, root: Usd.Prim, part: Part, materials: dict[st
 
 def write_geometry(mesh: UsdGeom.Mesh, shape: Mesh) -> None:
     """Authors topology, points, normals and extent (centimetres) on a Mesh prim."""
-    points = np.round(shape.points, 4).astype(np.float32)
+    points = _rounded(shape.points)
     mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
     mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points))
     if not is_flat(shape):
-        mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(np.round(shape.normals, 4).astype(np.float32)))
+        mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(_rounded(shape.normals)))
         mesh.SetNormalsInterpolation(UsdGeom.Tokens.vertex)
     mesh.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(shape.counts.astype(np.int32)))
     mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(shape.indices.astype(np.int32)))
     extent = np.stack([points.min(axis=0), points.max(axis=0)])
     mesh.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(extent))
+
+
+def _rounded(values: Floats) -> NDArray[np.float32]:
+    # Which of the two zeros a sine ends at differs from processor to processor.
+    return np.round(values, 4).astype(np.float32) + np.float32(0)
 
 
 def _write_hinges(stage: Usd.Stage, root: Usd.Prim, hinges: list[Hinge]) -> None:
