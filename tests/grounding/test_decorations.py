@@ -4,6 +4,7 @@ import pytest
 
 from benchmarks.bare import bare_object, bare_scene
 from usd2kg.grounding import ground
+from usd2kg.grounding.embedded.taxonomy import load_taxonomy
 from usd2kg.ontology import ClassIRI, load_home_tbox
 
 SIZES = {
@@ -133,4 +134,18 @@ def test_below_a_group_of_its_own_name_with_what_it_is_made_of(material: str, pl
 )
 def test_another_thing_below_it_is_one(parent: str, part: str, local_name: str):
     iri = class_of(parent, part, (0.2, 0.1, 0.05))
+    assert load_home_tbox().by_iri[str(iri)].local_name == local_name
+
+
+@pytest.mark.parametrize("name", ["windows", "taps", "boards", "clocks", "shakers"])
+def test_a_plural_is_no_noun_of_its_own(name: str):
+    assert load_taxonomy().singular(name) == name[:-1]
+
+
+@pytest.mark.parametrize(
+    ("name", "local_name"),
+    [("windows", "DesignedComponent"), ("taps", "Tap"), ("cutting_boards", "DesignedTool"), ("stool", "DesignedChair")],
+)
+def test_a_word_is_what_a_stage_means_by_it(name: str, local_name: str):
+    iri = class_of("Props", name, (0.5, 0.4, 0.1))
     assert load_home_tbox().by_iri[str(iri)].local_name == local_name

@@ -186,8 +186,7 @@ class _Run:
             self._lexicon = build_lexicon(tbox, taxonomy, synonyms)
         self.tbox = tbox
         """With the class of all else above the others, where none of its own is true of most things."""
-        self.general = frozenset([*tbox.roots, *filter(None, [self._lexicon.default])])
-        """The classes of which little is said by saying that something is of them."""
+        self.general = self._lexicon.general
         self._reader = NameReader(self._lexicon, taxonomy)
         self._matcher = Matcher(tbox, self._lexicon, taxonomy, self._reader)
         self._match = lru_cache(maxsize=8192)(self._match_text)

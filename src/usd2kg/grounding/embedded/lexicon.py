@@ -76,6 +76,8 @@ class Lexicon:
     """Single word → the number of terms that hold it."""
     default: ClassIRI | None
     """The class of what has no other, see `default_class`."""
+    general: frozenset[ClassIRI]
+    """The classes of which little is said by saying that something is of them: the roots, and the default."""
     borrowed: Mapping[str, Term]
     """Term without spaces → the class labelled as what the home vocabulary says is above the thing that is called so.
 
@@ -137,6 +139,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         anchors=anchors,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default=default,
+        general=frozenset([*tbox.roots, *filter(None, [default])]),
         borrowed=borrowed_names(tbox, terms, default, taxonomy, synonyms),
         listed=listed,
         counted={} if listed.issuperset(tbox.by_iri) else _counted(tbox, terms, anchors, default, taxonomy, listed),

@@ -77,7 +77,7 @@ class Namer:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
-        self._general = frozenset([*tbox.roots, *filter(None, [lexicon.default])])
+        self._general = lexicon.general
         self._has_own = not lexicon.listed.issuperset(tbox.by_iri)
         # Of the classes of the home vocabulary more is known than the routes to them tell.
         is_foreign = lexicon.listed.isdisjoint(tbox.by_iri)

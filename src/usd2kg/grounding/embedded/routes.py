@@ -69,7 +69,6 @@ class Routes:
         self._tbox = tbox
         self._lexicon = lexicon
         self._taxonomy = taxonomy
-        self._general = frozenset([*tbox.roots, *filter(None, [lexicon.default])])
         self._below = Counter(above for cls in tbox.classes for above in tbox.closure(cls.iri))
         if lexicon.default is not None and not tbox.children[lexicon.default]:
             # What is called after the rest is as general as a root.
@@ -112,7 +111,7 @@ class Routes:
         passed = {iri for iri in classes if any(one != iri and self._tbox.is_subclass(one, iri) for one in classes)}
         for up, hops, anchor, things in links:
             iri = anchor.class_iri
-            is_counted, is_root = things is not None, iri in self._general
+            is_counted, is_root = things is not None, iri in self._lexicon.general
             steps = 0.0 if is_counted else float(min(hops, _MOST_STEPS))
             features = self._features(
                 iri,
