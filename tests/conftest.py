@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.scene.usda import METRES
 from usd2kg.ontology import TBox, load_home_tbox
+from usd2kg.scene import Scene, read_scene
 
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
@@ -41,3 +43,13 @@ def shared_file(relative: str) -> Path:
     if not path.exists():
         pytest.skip(f"needs the shared input {relative}, which is not part of the project")
     return path
+
+
+@pytest.fixture
+def read(write_stage) -> Callable[..., Scene]:
+    """A function that writes prims as a stage and reads it back."""
+
+    def run(*prims: str, layer: str = METRES, name: str = "scene.usda", **options) -> Scene:
+        return read_scene(write_stage(layer + "\n".join(prims), name), **options)
+
+    return run

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.languages import language_of, split_compound, translate
 from usd2kg.words import words_of
 

@@ -12,7 +12,7 @@ import hashlib
 import sys
 from pathlib import Path
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/bert_vocab.txt.gz"
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/bert_vocab.txt.gz"
 SHA256 = "07eced375cec144d27c900241f3e339478dec958f92fddbc551f295c992038a3"
 
 

@@ -15,10 +15,10 @@ import csv
 from pathlib import Path
 
 from tools.build_wordnet import count_below
-from usd2kg.grounding.embedded.categories import synset_of
-from usd2kg.grounding.embedded.taxonomy import Taxonomy, load_taxonomy
+from usd2kg.grounding.lexical.concepts.categories import synset_of
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/categories.csv"
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/categories.csv"
 CATEGORIES = Path(__file__).parent / "categories.csv"
 MOST_THINGS = 3000
 

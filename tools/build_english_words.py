@@ -10,9 +10,9 @@ import gzip
 import sys
 from pathlib import Path
 
-from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_common_word
+from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_common_word
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/english_words.txt.gz"
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/english_words.txt.gz"
 # Class 70 has what few people know, and among it what looks like a misspelling.
 CLASSES = (10, 20, 35, 40, 50, 55, 60)
 

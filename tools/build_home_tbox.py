@@ -14,7 +14,7 @@ from usd2kg.ontology import TBox, load_tbox
 from usd2kg.ontology.prefixes import PREFIXES, compact_iri
 
 HERE = Path(__file__).parent
-OUTPUT = HERE.parent / "src/usd2kg/ontology/data/home.ttl"
+OUTPUT = HERE.parent / "src/usd2kg/data/home.ttl"
 CONTAINMENT = PREFIXES["soma"] + "Containment"
 HEADER = """\
 # Written by tools/build_home_tbox.py; do not edit. Class IRIs and hierarchy are SOMA-HOME's; all texts are our own.

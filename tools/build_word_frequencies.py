@@ -20,12 +20,12 @@ from functools import lru_cache
 from itertools import compress
 from pathlib import Path
 
-from usd2kg.grounding.embedded.frequencies import UNKNOWN_FREQUENCY
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY
 from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
-DATA = Path(__file__).parent.parent / "src/usd2kg/grounding/data"
+DATA = Path(__file__).parent.parent / "src/usd2kg/data"
 OUTPUT = DATA / "frequencies.txt.gz"
 
 # The list of Google Books ends with the words seen 100,000 times among its 743,842,922,321.

@@ -1,4 +1,4 @@
-"""Reduce WordNet 3.1 to the data file that the embedded grounder reads.
+"""Reduce WordNet 3.1 to the data file that the lexical grounder reads.
 
 Usage: python tools/build_wordnet.py DICT_FOLDER
 
@@ -28,7 +28,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/wordnet.txt.gz"
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/wordnet.txt.gz"
 KINDS = Path(__file__).parent / "wordnet_kinds.csv"
 
 # Lexicographer files (lexnames(5WN)): what can stand in a scene, and what such things are made of or look like.

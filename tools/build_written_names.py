@@ -15,15 +15,15 @@ from pathlib import Path
 
 from benchmarks.names import run as home
 from benchmarks.ontologies import run as other
-from usd2kg.grounding.embedded.english import is_english_word
-from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.names import NameReader
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.english_words import is_english_word
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.languages import language_of
 from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/grounding/data/written_names.txt"
+OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/written_names.txt"
 OF_OTHERS = frozenset(["found", "outdoors", "bedside", "factory"])
 SHORTEST = 3
 """Shorter words are mostly codes."""

@@ -1,8 +1,8 @@
-"""Fit the probabilities of the embedded grounder on the labelled scenes and lists of names that are not tests.
+"""Fit the probabilities of the lexical grounder on the labelled scenes and lists of names that are not tests.
 
 Usage: python tools/fit_calibration.py
 
-Writes `src/usd2kg/grounding/data/calibration.json`: weights of a logistic model, and how well it does on each scene
+Writes `src/usd2kg/data/calibration.json`: weights of a logistic model, and how well it does on each scene
 when fitted on the other scenes and the lists. An answer is right if it is the gold class. Each distinct name of a scene
 and regime counts once, so that fifty copies of one box do not decide.
 """
@@ -19,17 +19,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.evaluation.gold import read_gold
-from usd2kg.grounding.embedded.beliefs import Beliefs
-from usd2kg.grounding.embedded.calibration import FEATURES, features_of, general_odds
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding import NamingRegime, view_objects
+from usd2kg.grounding.lexical.concepts.object_likelihoods import Beliefs
+from usd2kg.grounding.lexical.confidence import FEATURES, features_of, general_odds
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import NamingRegime, Scene, read_scene, view_objects
+from usd2kg.scene import Scene, read_scene
 
 ROOT = Path(__file__).parents[1]
 MATRIX = ROOT / "benchmarks/accuracy/matrix.toml"
-OUTPUT = ROOT / "src/usd2kg/grounding/data/calibration.json"
+OUTPUT = ROOT / "src/usd2kg/data/calibration.json"
 sys.path.insert(0, str(ROOT))
 
 from benchmarks.bare import bare_scene  # noqa: E402  (scripts are no packages of the product)
@@ -120,7 +121,7 @@ def sample_of_list(things: list[Thing], tbox: TBox, share: float = LISTED) -> Sa
 def decide(scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox) -> dict[str, tuple[Prediction, Beliefs]]:
     """Return prim path → the uncalibrated answer, and what is believed of it whatever it is called."""
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime)}
-    answers = EmbeddedGrounder().decide([(path, views[path]) for path in paths], tbox)
+    answers = LexicalGrounder().decide([(path, views[path]) for path in paths], tbox)
     return dict(zip(paths, answers, strict=True))
 
 
@@ -129,7 +130,7 @@ def sample_of_answers(
 ) -> Sample:
     """Return the answers of one regime; each distinct name weighs the same, all together 1."""
     counts = Counter(names)
-    general = EmbeddedGrounder().general_classes(tbox)
+    general = LexicalGrounder().general_classes(tbox)
     odds = general_odds((answer for answer, _ in answers), general)
     features = [features_of(answer, beliefs, tbox, general, odds) for answer, beliefs in answers]
     return Sample(

@@ -2,7 +2,7 @@
 
 Usage: python tools/fit_heads.py
 
-Writes `src/usd2kg/grounding/data/heads.json`: the weights of a conditional logit over the words where a name may end,
+Writes `src/usd2kg/data/heads.json`: the weights of a conditional logit over the words where a name may end,
 and how often the likeliest end has an accepted class, on names that the weights were not fitted on.
 """
 
@@ -18,19 +18,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.evaluation.gold import read_gold
-from usd2kg.grounding.embedded.heads import Features
-from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.matching import Matcher
-from usd2kg.grounding.embedded.names import NameReader
-from usd2kg.grounding.embedded.sizes import Size
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding import view_objects
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.alignment.matching import Matcher
+from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.head_noun import Features
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import read_scene, view_objects
+from usd2kg.scene import read_scene
 
 ROOT = Path(__file__).parents[1]
 MATRIX = ROOT / "benchmarks/accuracy/matrix.toml"
-OUTPUT = ROOT / "src/usd2kg/grounding/data/heads.json"
+OUTPUT = ROOT / "src/usd2kg/data/heads.json"
 sys.path.insert(0, str(ROOT))
 
 from benchmarks.names.run import TRAIN, load  # noqa: E402  (scripts are no packages of the product)

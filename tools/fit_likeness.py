@@ -2,7 +2,7 @@
 
 Usage: python tools/fit_likeness.py
 
-Writes `src/usd2kg/grounding/data/likeness.npz`: the weights of a multinomial logit, as bytes, and prints how often the
+Writes `src/usd2kg/data/likeness.npz`: the weights of a multinomial logit, as bytes, and prints how often the
 likeliest class is right for names that the weights were not fitted on. Takes five minutes.
 """
 
@@ -20,11 +20,11 @@ from sklearn.linear_model import LogisticRegression
 from sklearn.model_selection import cross_val_score
 from sklearn.pipeline import make_pipeline
 
-from usd2kg.grounding.embedded.lexicon import home_names
-from usd2kg.grounding.embedded.likeness import features_of
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.name_classifier import features_of
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 
-OUTPUT = Path(__file__).parents[1] / "src/usd2kg/grounding/data/likeness.npz"
+OUTPUT = Path(__file__).parents[1] / "src/usd2kg/data/likeness.npz"
 
 LEAST_COUNT = 2
 """Features that fewer names have tell nothing about others."""

@@ -2,7 +2,7 @@
 
 Usage: python tools/fit_routes.py
 
-Writes `src/usd2kg/grounding/data/routes.json`: the weights of a conditional logit over the routes from a noun to a
+Writes `src/usd2kg/data/routes.json`: the weights of a conditional logit over the routes from a noun to a
 class, and how often the likeliest class is right, with lists of ontologies that the weights were not fitted on.
 """
 
@@ -15,17 +15,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.grounding.embedded.heads import likelihood
-from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.matching import Matcher
-from usd2kg.grounding.embedded.names import NameReader
-from usd2kg.grounding.embedded.naming import RULED
-from usd2kg.grounding.embedded.routes import Features, Routes
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.alignment.matching import Matcher
+from usd2kg.grounding.lexical.alignment.naming import RULED
+from usd2kg.grounding.lexical.alignment.routes import Features, Routes
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.head_noun import likelihood
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox
 
 ROOT = Path(__file__).parents[1]
-OUTPUT = ROOT / "src/usd2kg/grounding/data/routes.json"
+OUTPUT = ROOT / "src/usd2kg/data/routes.json"
 sys.path.insert(0, str(ROOT))
 
 from benchmarks.names.run import Thing  # noqa: E402  (scripts are no packages of the product)

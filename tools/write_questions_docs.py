@@ -10,7 +10,8 @@ from pathlib import Path
 import usd2kg
 from usd2kg.cli.query import answer_text
 from usd2kg.demo import demo_scene
-from usd2kg.graph import FUNCTIONS, GraphStore, Question, list_questions
+from usd2kg.query import FUNCTIONS, GraphStore
+from usd2kg.query.questions import Question, list_questions
 
 OUTPUT = Path(__file__).parent.parent / "docs/questions.md"
 _ROWS = 5

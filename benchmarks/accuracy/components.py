@@ -1,4 +1,4 @@
-"""What each kind of evidence adds to the embedded grounder, on every scene with labels that is at hand.
+"""What each kind of evidence adds to the lexical grounder, on every scene with labels that is at hand.
 
 Usage: python benchmarks/accuracy/components.py
 
@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.evaluation.gold import GoldLabel, read_gold
-from usd2kg.grounding import ground
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ground
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import EVIDENCE_GROUPS, NamingRegime, Scene, read_scene
+from usd2kg.scene import Scene, read_scene
 
 MATRIX = Path(__file__).parent / "matrix.toml"
 WITHOUT = ("company", "geometry", "position", "hierarchy", "asset", "parts")
@@ -29,11 +29,11 @@ def main() -> None:
     cases = load_cases()
     print(f"{'regime':<18}{'evidence':<22}" + "".join(f"{name[:14]:>16}" for name in cases) + f"{'mean':>8}")
     for regime in NamingRegime:
-        row(regime, "all", cases, EmbeddedGrounder(), None)
-        row(regime, "no home vocabulary", cases, EmbeddedGrounder(use_home_synonyms=False), None)
-        row(regime, "abstaining upward", cases, EmbeddedGrounder(abstains=True), None)
+        row(regime, "all", cases, LexicalGrounder(), None)
+        row(regime, "no home vocabulary", cases, LexicalGrounder(use_home_synonyms=False), None)
+        row(regime, "abstaining upward", cases, LexicalGrounder(abstains=True), None)
         for group in WITHOUT:
-            row(regime, f"no {group}", cases, EmbeddedGrounder(), EVIDENCE_GROUPS - {group})
+            row(regime, f"no {group}", cases, LexicalGrounder(), EVIDENCE_GROUPS - {group})
 
 
 def load_cases() -> dict[str, Case]:
@@ -53,7 +53,7 @@ def row(
     regime: NamingRegime,
     name: str,
     cases: dict[str, Case],
-    grounder: EmbeddedGrounder,
+    grounder: LexicalGrounder,
     evidence: frozenset[str] | None,
 ) -> None:
     """Measure and print one row."""
@@ -66,7 +66,7 @@ def exact_match(
     scene: Scene,
     gold: tuple[GoldLabel, ...],
     tbox: TBox,
-    grounder: EmbeddedGrounder,
+    grounder: LexicalGrounder,
     regime: NamingRegime,
     evidence: frozenset[str] | None,
 ) -> float:

@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 import pyoxigraph as ox
 
 from usd2kg.graph import KnowledgeGraph, instantiate, write_graph
-from usd2kg.graph.relations import find_relations
 from usd2kg.grounding import Candidate, Grounding, Prediction, Status
 from usd2kg.ontology import TBox, load_home_tbox
+from usd2kg.relations import find_relations
 from usd2kg.scene import Box, MaterialDetails, Scene, SceneObject, StageFrame
 
 CUPS = 9
@@ -92,14 +92,14 @@ def make_grounding(scene: Scene, tbox: TBox) -> Grounding:
         candidates = (Candidate(classes[name], 0.9), *(Candidate(iri, 0.1) for iri in others))
         text = f"“{name.lower()}” is the label of {name}"
         predictions.append(
-            Prediction(obj.prim_path, classes[name], 0.9, Status.GROUNDED, "embedded", text, ("name",), candidates)
+            Prediction(obj.prim_path, classes[name], 0.9, Status.GROUNDED, "lexical", text, ("name",), candidates)
         )
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,
         ontology=tbox.ontology_iri,
         ontology_hash=tbox.content_hash,
-        grounder="embedded",
+        grounder="lexical",
         settings={"regime": "semantic"},
         is_calibrated=True,
         tool_version="0",

@@ -1,4 +1,4 @@
-"""Time the embedded grounder: how long it takes to load, and how many objects a second it grounds.
+"""Time the lexical grounder: how long it takes to load, and how many objects a second it grounds.
 
 Usage: python -m benchmarks.grounding.run [NAMES] (default 1500)
 
@@ -21,22 +21,23 @@ from itertools import islice
 from pathlib import Path
 
 from benchmarks.bare import bare_object, bare_scene
-from usd2kg.grounding import ground
-from usd2kg.grounding.embedded.lexicon import home_names
+from usd2kg.grounding import NamingRegime, ground
+from usd2kg.grounding.context.views import abbreviate
+from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.ontology import load_home_tbox
-from usd2kg.scene import NamingRegime, Scene, abbreviate
+from usd2kg.scene import Scene
 from usd2kg.words import words_of
 
 REPEATS = 3
 ROOM = 40
 LOAD = """
 import resource, sys, time
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import ObjectView
 
 imported = time.process_time()
-EmbeddedGrounder().ground_views([("/cup", ObjectView(name="coffee_mug"))], load_home_tbox())
+LexicalGrounder().ground_views([("/cup", ObjectView(name="coffee_mug"))], load_home_tbox())
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
 print(imported, time.process_time(), peak)
 """
@@ -45,12 +46,12 @@ import gzip, resource, sys, time
 from importlib.resources import files
 import numpy as np
 
-data = files("usd2kg.grounding") / "data"
+data = files("usd2kg") / "data"
 texts = [gzip.decompress((data / name).read_bytes()).decode() for name in ("wordnet.txt.gz", "frequencies.txt.gz")]
 texts += [(data / name).read_text("utf-8") for name in ("home_names.csv", "heads.json", "calibration.json")]
 with np.load(data / "likeness.npz") as arrays:
     weights = [arrays[name] for name in arrays.files]
-texts.append((files("usd2kg.ontology") / "data" / "home.ttl").read_text("utf-8"))
+texts.append((files("usd2kg") / "data" / "home.ttl").read_text("utf-8"))
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
 print(time.process_time(), peak)
 """

@@ -101,7 +101,7 @@ def outcomes(task: Task, options: argparse.Namespace) -> Iterator[Outcome]:
         settings = replace(FORMS[name], model=options.model, completions=options.completions / f"{slug(name)}.sqlite")
         yield ask(name, task, settings)
     start = time.perf_counter()
-    grounding = ground(task.scene, task.tbox, make_grounder("embedded"), paths=task.paths)
+    grounding = ground(task.scene, task.tbox, make_grounder("lexical"), paths=task.paths)
     seconds = time.perf_counter() - start
     scored = score_grounding(grounding, task.gold, task.tbox, seconds)
     classes = {p.prim_path: p.class_iri for p in grounding.predictions}

@@ -22,10 +22,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from benchmarks.bare import bare_object, bare_scene
-from usd2kg.grounding import ground
+from usd2kg.grounding import NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import NamingRegime, SceneObject
+from usd2kg.scene import SceneObject
 
 HERE = Path(__file__).parent
 TRAIN = (

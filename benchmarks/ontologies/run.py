@@ -41,9 +41,9 @@ from benchmarks.names.run import (
     told_by_two,
     twice_labelled,
 )
+from usd2kg.grounding import NamingRegime
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import NamingRegime
 
 HERE = Path(__file__).parent
 OWN = {

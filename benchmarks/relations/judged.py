@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import usd2kg
 from usd2kg.demo import demo_relations, demo_scene
-from usd2kg.graph.relations import Relation
+from usd2kg.relations import Relation
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]

@@ -14,9 +14,9 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from usd2kg.graph.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, Viewpoint, find_relations
 from usd2kg.grounding import Grounding, Prediction, Status
 from usd2kg.ontology import TBox, load_home_tbox
+from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, Viewpoint, find_relations
 from usd2kg.scene import Box, Scene, SceneObject, StageFrame
 
 ROOM = 6.0

@@ -52,15 +52,16 @@ def peak_memory() -> float:
 
 def measure(stage: Path, profile: str) -> dict[str, Any]:
     """Return how long each step takes on one stage."""
-    from usd2kg.graph import find_relations, instantiate, write_graph  # noqa: PLC0415 - only in the child processes
+    from usd2kg.graph import instantiate, write_graph  # noqa: PLC0415 - only in the child processes
     from usd2kg.grounding import ground  # noqa: PLC0415
     from usd2kg.ontology import load_home_tbox  # noqa: PLC0415
+    from usd2kg.relations import find_relations  # noqa: PLC0415 - only in the child processes
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
     clock = Clock()
     scene = clock.step("read", lambda: read_scene(stage))
     tbox = load_home_tbox()
-    grounding = clock.step("ground", lambda: ground(scene, tbox, "embedded"))
+    grounding = clock.step("ground", lambda: ground(scene, tbox, "lexical"))
     found = clock.step("relations", lambda: find_relations(scene, tbox, grounding))
     graph = clock.step("instantiate", lambda: instantiate(scene, tbox, grounding, profile=profile, relations=found))
     target = stage.with_suffix(".ttl")

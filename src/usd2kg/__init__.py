@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from usd2kg.errors import Usd2kgError
-    from usd2kg.graph import KnowledgeGraph, instantiate, load_graph, write_graph
+    from usd2kg.graph import KnowledgeGraph, instantiate, write_graph
     from usd2kg.grounding import Grounding, ground, make_grounder
     from usd2kg.ontology import TBox, load_home_tbox, load_tbox
     from usd2kg.pipeline import BuildResult, build
+    from usd2kg.query import load_graph
     from usd2kg.scene import Scene, read_scene
     from usd2kg.tables import Tables, to_tables
 
@@ -27,7 +28,7 @@ _HOMES = {
     "build": "pipeline",
     "ground": "grounding",
     "instantiate": "graph",
-    "load_graph": "graph",
+    "load_graph": "query",
     "load_home_tbox": "ontology",
     "load_tbox": "ontology",
     "make_grounder": "grounding",

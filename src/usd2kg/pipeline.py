@@ -4,10 +4,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from usd2kg.graph import GraphOptions, KnowledgeGraph, RelationOptions, find_relations, instantiate, merge_imports
-from usd2kg.grounding import Carried, Grounder, Grounding, ground
+from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
+from usd2kg.grounding import Carried, Grounder, Grounding, NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
-from usd2kg.scene import NamingRegime, ReadOptions, Scene, read_scene
+from usd2kg.relations import RelationOptions, find_relations
+from usd2kg.scene import ReadOptions, Scene, read_scene
 
 __all__ = ["BuildResult", "build", "open_tbox"]
 
@@ -26,7 +27,7 @@ def build(
     scene: Scene | Path | str,
     ontology: TBox | Path | str | None = None,
     *,
-    grounder: Grounder | str = "embedded",
+    grounder: Grounder | str = "lexical",
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,

@@ -9,8 +9,9 @@ from tests.grounding.records import make_object
 from usd2kg.assistant import ask_offline, describe, list_objects
 from usd2kg.assistant.phrases import list_phrases, match_phrase
 from usd2kg.errors import GraphError
-from usd2kg.graph import GraphStore, list_questions
 from usd2kg.ontology import TBox
+from usd2kg.query import GraphStore
+from usd2kg.query.questions import list_questions
 
 # On a table: a tray with a cup on it, a plate, and a bowl with an apple in it; a wardrobe apart.
 ROOM = [

@@ -8,9 +8,9 @@ from tests.graph.records import build_graph, open_store, thing
 from usd2kg.assistant import ask_model
 from usd2kg.assistant.writing import write_request
 from usd2kg.errors import GraphError, GroundingError
-from usd2kg.graph import GraphStore
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
 from usd2kg.ontology import TBox
+from usd2kg.query import GraphStore
 
 GOOD = "SELECT ?label { ?o u2k:primPath ?p ; rdfs:label ?label ; a ?c . ?c rdfs:label 'cup' }"
 

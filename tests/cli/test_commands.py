@@ -10,8 +10,8 @@ import pyoxigraph as ox
 import pytest
 
 from tests.cli.conftest import Run
-from usd2kg.graph import load_graph
 from usd2kg.grounding import read_grounding
+from usd2kg.query import load_graph
 
 PATHS = ["/Room/Table_1", "/Room/coffee_mug", "/Room/FruitBowl", "/Room/Apple"]
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
@@ -222,7 +222,7 @@ class TestGround:
             f"{SOMA}Bowl",
             f"{DUL}DesignedArtifact",
         ]
-        assert {row["grounder"] for row in rows} == {"embedded"}
+        assert {row["grounder"] for row in rows} == {"lexical"}
         assert rows[1]["label"] == "cup"
         assert all(0 <= float(row["confidence"]) <= 1 for row in rows)
 
@@ -239,7 +239,7 @@ class TestGround:
         assert done.code == 0
         rows = rows_of(done.out)
         assert [row["path"] for row in rows] == ["/Room/Apple", "/Room/Ghost", "/Room/Table_1"]
-        assert rows[1] == dict(zip(self.HEADER, ["/Room/Ghost", "", "", "", "missing", "embedded"], strict=True))
+        assert rows[1] == dict(zip(self.HEADER, ["/Room/Ghost", "", "", "", "missing", "lexical"], strict=True))
         assert done.err == f"{room}: there is no prim /Room/Ghost; its row has the status missing\n"
 
     def test_a_path_that_is_no_object_by_the_rules_is_answered_all_the_same(self, run: Run, room: Path, tmp_path: Path):

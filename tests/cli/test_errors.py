@@ -77,7 +77,7 @@ def test_an_ontology_that_cannot_be_read(run: Run, room: Path, tmp_path: Path, c
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--grounder", "oracle"], "grounder 'oracle' is unknown; expected one of embedded, dictionary"),
+        (["--grounder", "oracle"], "grounder 'oracle' is unknown; expected one of lexical, dictionary"),
         (["--regime", "dark"], "regime 'dark' is unknown; expected one of semantic"),
         (["--evidence", "name,colour"], "group 'colour' is unknown; expected a list of asset"),
         (["--evidence", ""], "no group is named"),

@@ -41,7 +41,7 @@ def test_run_as_text_names_what_is_wrong_and_why(run, room: Path, gold: Path) ->
 
 
 @pytest.mark.parametrize("regime", ["abbreviated", "opaque", "opaque-anonymous"])
-@pytest.mark.parametrize("grounder", ["embedded", "dictionary", "embedding", "volume"])
+@pytest.mark.parametrize("grounder", ["lexical", "dictionary", "embedding", "volume"])
 def test_every_grounder_runs_under_every_regime(run, room: Path, gold: Path, regime: str, grounder: str) -> None:
     done = run("eval", "run", room, "--gold", gold, "--regime", regime, "--grounder", grounder, "--json")
     assert done.code == 0
@@ -79,7 +79,7 @@ def test_class_sizes_of_the_user(run, room: Path, gold: Path, tmp_path: Path) ->
 
 
 def test_compare_finds_what_differs(run, room: Path, gold: Path, tmp_path: Path) -> None:
-    for name, grounder in (("a.json", "embedded"), ("b.json", "dictionary")):
+    for name, grounder in (("a.json", "lexical"), ("b.json", "dictionary")):
         assert run("eval", "run", room, "--gold", gold, "--grounder", grounder, "-o", tmp_path / name).code == 0
     data = json.loads(run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json", "--json").out)
     assert (data["n"], data["only_first"], data["only_second"]) == (3, 1, 0)
@@ -126,7 +126,7 @@ def test_agreement_of_two_people(run, gold: Path, tmp_path: Path) -> None:
 def test_reproduce_writes_every_report_and_resumes(run, room: Path, gold: Path, tmp_path: Path) -> None:
     matrix = tmp_path / "matrix.toml"
     matrix.write_text(
-        f'title = "one room"\ngrounders = ["embedded", "dictionary"]\nregimes = ["semantic", "opaque"]\n'
+        f'title = "one room"\ngrounders = ["lexical", "dictionary"]\nregimes = ["semantic", "opaque"]\n'
         f'[[scene]]\nname = "room"\npath = "{room}"\ngold = "{gold}"\n'
     )
     done = run("eval", "reproduce", matrix, "-o", tmp_path / "out")

@@ -8,8 +8,8 @@ import pytest
 import rdflib
 
 from tests.cli.conftest import Run
-from usd2kg.graph import load_graph
 from usd2kg.grounding import read_grounding
+from usd2kg.query import load_graph
 
 
 class TestGround:

@@ -233,7 +233,7 @@ def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, w
     assert "1 prompts for 1 objects" in plan.err
     assert classes(done.out) == {"/Kitchen/Cup": "Cup", "/Kitchen/xqzv": "Bowl"}
     assert done.err.splitlines()[0].split() == ["tier", "objects", "tokens", "price", "seconds"]
-    assert [line.split()[:2] for line in done.err.splitlines()[1:3]] == [["embedded", "1"], ["llm", "1"]]
+    assert [line.split()[:2] for line in done.err.splitlines()[1:3]] == [["lexical", "1"], ["llm", "1"]]
 
 
 def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
@@ -366,7 +366,7 @@ def test_a_cascade_is_scored_by_tier_and_a_model_calibrated(run: Run, write_stag
         assert "tier" not in alone.out
         tiers = run("eval", "run", scene, "--gold", gold, *model, "--cascade", "0.8", "--replay")
     assert [line.split() for line in tiers.out.splitlines()[-2:]] == [
-        ["embedded", "12", "100.0", "100.0"],
+        ["lexical", "12", "100.0", "100.0"],
         ["llm", "12", "0.0", "0.0"],
     ]
     data = json.loads(Path("alone.json").read_text("utf-8"))

@@ -7,8 +7,8 @@ import pytest
 
 from tests.cli.conftest import Run
 from tests.graph.records import build_graph, thing
-from tests.graph.validation.broken import ROOM
-from tests.graph.validation.test_elk import ELK, missing_elk
+from tests.validation.broken import ROOM
+from tests.validation.test_elk import ELK, missing_elk
 from usd2kg.graph import write_graph
 from usd2kg.ontology import TBox
 

@@ -9,7 +9,7 @@ import pytest
 import usd2kg
 from benchmarks.relations.judged import SCENES, Fact, compare, errors, read_judged, table, wilson
 from tests.conftest import shared_file
-from usd2kg.graph.relations import Relation
+from usd2kg.relations import Relation
 
 JUDGED = Path(__file__).parents[2] / "benchmarks" / "relations" / "judged"
 STAGES = {

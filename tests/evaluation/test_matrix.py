@@ -8,8 +8,8 @@ import pytest
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import read_matrix, run_matrix
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.scene import NamingRegime
+from usd2kg.grounding import NamingRegime
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 
 SCENE = """
 def Xform "World" {
@@ -31,7 +31,7 @@ def matrix(tmp_path: Path, write_stage: Callable[..., Path]) -> Path:
     (tmp_path / "gold.csv").write_text("path,class\n/World/Chair_1,DesignedChair\n/World/Table_1,Table\n")
     path = tmp_path / "matrix.toml"
     path.write_text(
-        'title = "two things"\ngrounders = ["embedded"]\nregimes = ["semantic", "opaque"]\nrepeats = 2\n'
+        'title = "two things"\ngrounders = ["lexical"]\nregimes = ["semantic", "opaque"]\nrepeats = 2\n'
         '[[scene]]\nname = "room"\npath = "scene.usda"\ngold = "gold.csv"\n'
         '[[scene]]\nname = "elsewhere"\npath = "none.usda"\ngold = "none.csv"\noptional = true\n'
     )
@@ -59,13 +59,13 @@ def test_answers_are_stored_and_never_asked_for_twice(
     matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[int] = []
-    original = EmbeddedGrounder.ground_views
+    original = LexicalGrounder.ground_views
 
-    def counting(self: EmbeddedGrounder, views, tbox):  # type: ignore[no-untyped-def]
+    def counting(self: LexicalGrounder, views, tbox):  # type: ignore[no-untyped-def]
         asked.append(len(views))
         return original(self, views, tbox)
 
-    monkeypatch.setattr(EmbeddedGrounder, "ground_views", counting)
+    monkeypatch.setattr(LexicalGrounder, "ground_views", counting)
     plan = read_matrix(matrix)
     (first,) = run_matrix(plan, tmp_path / "out")
     assert asked == [2, 2, 2, 2]
@@ -105,7 +105,7 @@ def test_another_gold_class_scores_the_stored_answers_anew(matrix: Path, tmp_pat
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('grounders = ["embedded"]', 'grounders = ["oracle"]', "grounder 'oracle' is unknown"),
+        ('grounders = ["lexical"]', 'grounders = ["oracle"]', "grounder 'oracle' is unknown"),
         ('"opaque"', '"foggy"', "expected regimes of semantic"),
         ("repeats = 2", "repeat = 2", "the matrix has the key 'repeat'; expected"),
         ('gold = "gold.csv"', 'golden = "gold.csv"', "scene 'room' has the key 'golden'"),

@@ -11,12 +11,7 @@ from sklearn.metrics import f1_score
 from tests.evaluation.records import PARENTS, E, label, score, small_tbox
 from usd2kg.evaluation.metrics.accuracy import accept_also, exact_match
 from usd2kg.evaluation.metrics.agreement import agreement
-from usd2kg.evaluation.metrics.calibration import (
-    accuracy_at_coverage,
-    calibration_error,
-    reliability,
-    risk_coverage,
-)
+from usd2kg.evaluation.metrics.calibration import accuracy_at_coverage, calibration_error, reliability, risk_coverage
 from usd2kg.evaluation.metrics.confusion import class_reports, confusion
 from usd2kg.evaluation.metrics.hierarchical import hierarchical, hierarchical_f1, hierarchical_one
 from usd2kg.evaluation.metrics.intervals import bootstrap_interval, mcnemar, mean_spread

@@ -11,20 +11,10 @@ from numpy.typing import NDArray
 from tests.conftest import shared_file
 from tests.grounding.records import words_written
 from usd2kg.demo import demo_scene
-from usd2kg.grounding import make_grounder
+from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ObjectView, make_grounder, view_objects
+from usd2kg.grounding.context import Companion, Neighbour
 from usd2kg.ontology import TBox
-from usd2kg.scene import (
-    EVIDENCE_GROUPS,
-    Companion,
-    Label,
-    NamingRegime,
-    Neighbour,
-    ObjectView,
-    Scene,
-    SceneObject,
-    read_scene,
-    view_objects,
-)
+from usd2kg.scene import Label, Scene, SceneObject, read_scene
 from usd2kg.words import words_of
 
 MASKED = [regime for regime in NamingRegime if regime is not NamingRegime.SEMANTIC]
@@ -151,7 +141,7 @@ def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, reg
 
 @pytest.mark.parametrize("regime", [NamingRegime.OPAQUE, NamingRegime.OPAQUE_ANONYMOUS])
 def test_another_name_of_the_target_makes_no_difference(scene: Scene, regime: NamingRegime, home_tbox: TBox) -> None:
-    grounder = make_grounder("embedded")
+    grounder = make_grounder("lexical")
     for at in range(0, len(scene.objects), max(1, len(scene.objects) // 8)):
         renamed = _renamed(scene, scene.objects[at])
         (_, before), (other, after) = (list(view_objects(whole, regime))[at] for whole in (scene, renamed))
@@ -189,7 +179,7 @@ def test_anonymous_parents_tell_nothing(scene: Scene) -> None:
 
 
 @pytest.mark.parametrize("regime", MASKED)
-@pytest.mark.parametrize("name", ["embedded", "dictionary"])
+@pytest.mark.parametrize("name", ["lexical", "dictionary"])
 def test_a_batch_gives_nothing_that_one_target_alone_does_not(
     scene: Scene, regime: NamingRegime, name: str, home_tbox: TBox
 ) -> None:

@@ -7,9 +7,9 @@ from usd2kg.evaluation import CellResult, GoldLabel, SceneResult
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION, Cell, SceneSpec
 from usd2kg.evaluation.metrics.selection import SelectionScore
 from usd2kg.evaluation.run import score_grounding
-from usd2kg.grounding import Grounding, Prediction, Status
+from usd2kg.grounding import Grounding, NamingRegime, Prediction, Status
 from usd2kg.ontology import OntologyClass, TBox
-from usd2kg.scene import Box, NamingRegime, Scene, SceneObject, StageFrame
+from usd2kg.scene import Box, Scene, SceneObject, StageFrame
 
 NS = "http://example.org/home#"
 HIERARCHY = {"Artifact": None, "Container": "Artifact", "Bowl": "Container", "Cup": "Container"} | {

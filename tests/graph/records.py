@@ -8,10 +8,11 @@ from typing import Any
 import pyoxigraph as ox
 
 from tests.grounding.records import make_object, make_scene
-from usd2kg.graph import RDF_FORMATS, GraphStore, KnowledgeGraph, instantiate, serialize_graph
+from usd2kg.graph import RDF_FORMATS, KnowledgeGraph, instantiate, serialize_graph
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.grounding import Candidate, Grounding, Prediction, Status
 from usd2kg.ontology import TBox
+from usd2kg.query import GraphStore
 from usd2kg.scene import Box, Scene, SceneObject
 
 BASE = "https://my.lab/k/"

@@ -10,7 +10,7 @@ from tests.graph.test_vocabulary import WRITTEN
 from tools.check_owl import check_owl, missing_tools
 from usd2kg.demo import demo_scene
 from usd2kg.graph import GraphOptions, read_document, vocabulary_text, write_graph
-from usd2kg.graph.relations import ALL_KINDS, RelationOptions, parse_viewpoint
+from usd2kg.relations import ALL_KINDS, RelationOptions, parse_viewpoint
 
 pytestmark = [
     pytest.mark.slow,

@@ -92,7 +92,7 @@ class TestJustification:
     @pytest.mark.parametrize(
         ("grounder", "process"),
         [
-            ("embedded", "CompositeMatching"),
+            ("lexical", "CompositeMatching"),
             ("dictionary", "LexicalMatching"),
             ("embedding", "SemanticSimilarityThresholdMatching"),
             ("volume", "BackgroundKnowledgeBasedMatching"),
@@ -116,7 +116,7 @@ def reviewed(tbox: TBox, name: str | None, reviewer: str = REVIEWER, **said: obj
         tbox.resolve("Cup"),
         0.75,
         Status.GROUNDED,
-        "embedded",
+        "lexical",
         "“cup” is the label",
         ("name",),
         (Candidate(tbox.resolve("Cup"), 0.75), Candidate(tbox.resolve("Glass"), 0.1)),
@@ -142,7 +142,7 @@ class TestReview:
         assert said[U2K + "reviewTime"] == "2026-07-15T12:00:00Z"
         assert said[U2K + "predictedClass"] == home_tbox.resolve("Cup")
         assert said[U2K + "predictedConfidence"] == "0.75"
-        assert (said[U2K + "grounder"], said[U2K + "explanation"]) == ("embedded", "“cup” is the label")
+        assert (said[U2K + "grounder"], said[U2K + "explanation"]) == ("lexical", "“cup” is the label")
 
     def test_a_confirmation_keeps_how_the_class_was_found(self, home_tbox: TBox):
         said = said_of(reviewed(home_tbox, "Cup", "Ada Lovelace"), "k:Cup rdf:type soma:Cup")

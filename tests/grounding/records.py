@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from usd2kg.grounding import Prediction
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding import ObjectView, Prediction
+from usd2kg.grounding.context import Company
+from usd2kg.grounding.context.neighbours import Ways
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import OntologyClass, TBox
-from usd2kg.scene import Company, Joint, ObjectView, Scene, SceneObject, StageFrame
-from usd2kg.scene.company import Ways
+from usd2kg.scene import Joint, Scene, SceneObject, StageFrame
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 LAB = "https://lab.example/onto#"
@@ -80,13 +81,13 @@ def make_tbox(*classes: OntologyClass) -> TBox:
 
 
 def ground_names(names: Sequence[str], tbox: TBox, **evidence: Any) -> list[Prediction]:
-    """Return the predictions of the embedded grounder for bare names."""
+    """Return the predictions of the lexical grounder for bare names."""
     views = [(f"/Room/thing{i}", ObjectView(name=name, **evidence)) for i, name in enumerate(names)]
-    return EmbeddedGrounder().ground_views(views, tbox)
+    return LexicalGrounder().ground_views(views, tbox)
 
 
 def ground_view(view: ObjectView, tbox: TBox) -> Prediction:
-    return EmbeddedGrounder().ground_views([("/Room/thing", view)], tbox)[0]
+    return LexicalGrounder().ground_views([("/Room/thing", view)], tbox)[0]
 
 
 def local(prediction: Prediction) -> str:

@@ -10,14 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import ground_view, local, make_class, make_tbox, scene_of
-from usd2kg.grounding.embedded import shortening
-from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
-from usd2kg.grounding.embedded.grounder import _run_for
-from usd2kg.grounding.embedded.lexicon import build_lexicon
-from usd2kg.grounding.embedded.shortening import forms_of
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding import NamingRegime, ObjectView, view_objects
+from usd2kg.grounding.context import Company, abbreviate
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import _run_for
+from usd2kg.grounding.lexical.reading import shortening
+from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader
+from usd2kg.grounding.lexical.reading.shortening import forms_of
 from usd2kg.ontology import TBox, load_home_tbox
-from usd2kg.scene import Company, NamingRegime, ObjectView, abbreviate, view_objects
 
 FULL = shortening._FULL
 SKELETON, FIRST_VOWEL, CUT = shortening._STYLES.values()

@@ -7,8 +7,8 @@ from functools import reduce
 
 import pytest
 
-from usd2kg.grounding.embedded import beam
-from usd2kg.grounding.embedded.beam import ROOT, Arc, Beam, Piece, log_sum
+from usd2kg.grounding.lexical.reading import beam_search as beam
+from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
 
 SECONDS = {"tea": {"pot": math.log(15), "cup": math.log(3)}, "door": {"bell": math.log(40)}}
 MOST = math.log(40)

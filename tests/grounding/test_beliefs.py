@@ -6,13 +6,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.grounding.records import make_class, make_tbox
-from usd2kg.grounding.embedded.beliefs import Beliefs, ThingBeliefs, log_likelihoods_of_look, neighbour_weights
-from usd2kg.grounding.embedded.grounder import _run_for
-from usd2kg.grounding.embedded.naming import Match
-from usd2kg.grounding.embedded.sizes import Size, likelihoods_of
-from usd2kg.grounding.embedded.whereabouts import PLACES, log_stances, place_shares, stance_of
+from usd2kg.grounding.context import Look
+from usd2kg.grounding.lexical.alignment.naming import Match
+from usd2kg.grounding.lexical.concepts.object_likelihoods import (
+    Beliefs,
+    ThingBeliefs,
+    log_likelihoods_of_look,
+    neighbour_weights,
+)
+from usd2kg.grounding.lexical.concepts.places import PLACES, log_stances, place_shares, stance_of
+from usd2kg.grounding.lexical.concepts.sizes import Size, likelihoods_of
+from usd2kg.grounding.lexical.grounder import _run_for
 from usd2kg.ontology import TBox
-from usd2kg.scene import Look
 
 ANYWHERE = np.full(len(PLACES), 1 / len(PLACES))
 

@@ -5,9 +5,8 @@ from collections.abc import Mapping, Sequence
 import pytest
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding import CascadeGrounder, Prediction, Status
+from usd2kg.grounding import CascadeGrounder, ObjectView, Prediction, Status
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
 CUP, BOWL = "http://example.org/Cup", "http://example.org/Bowl"
 

@@ -9,10 +9,10 @@ import pytest
 from tests.grounding.records import ground_names, local, make_class, make_tbox
 from tests.grounding.test_taxonomy import TINY
 from tools import build_categories
-from usd2kg.grounding.embedded.categories import members_of, synset_of
-from usd2kg.grounding.embedded.labels import wordings
-from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.alignment.class_labels import wordings
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.concepts.categories import members_of, synset_of
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox
 
 OFFICE = make_tbox(

@@ -1,4 +1,4 @@
-"""How sure the embedded grounder says it is, by the answers to the whole stage."""
+"""How sure the lexical grounder says it is, by the answers to the whole stage."""
 
 import math
 from dataclasses import replace
@@ -6,12 +6,12 @@ from dataclasses import replace
 import pytest
 
 from tests.grounding.records import LAB, make_class, make_tbox
-from usd2kg.grounding.embedded.beliefs import NO_BELIEFS
-from usd2kg.grounding.embedded.calibration import features_of, general_odds
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.concepts.object_likelihoods import NO_BELIEFS
+from usd2kg.grounding.lexical.confidence import features_of, general_odds
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import TBox, load_home_tbox
-from usd2kg.scene import ObjectView
 
 LABORATORY = make_tbox(
     make_class("Equipment"),
@@ -22,12 +22,12 @@ UNKNOWN = ["sofa", "guitar", "bicycle", "wardrobe", "toaster", "hammer"]
 
 
 def answer(name: str | None, *evidence: str) -> Prediction:
-    return Prediction("/x", LAB + name if name else None, 0.5, Status.GROUNDED, "embedded", "why", evidence)
+    return Prediction("/x", LAB + name if name else None, 0.5, Status.GROUNDED, "lexical", "why", evidence)
 
 
 def confidence_of(name: str, beside: list[str], tbox: TBox) -> float:
     views = [(f"/{other}", ObjectView(name=other)) for other in [name, *beside]]
-    return EmbeddedGrounder().ground_views(views, tbox)[0].confidence or 0.0
+    return LexicalGrounder().ground_views(views, tbox)[0].confidence or 0.0
 
 
 @pytest.mark.parametrize(

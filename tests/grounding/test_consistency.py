@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from usd2kg.grounding.embedded import shortening
-from usd2kg.grounding.embedded.consistency import log_consistency
+from usd2kg.grounding.lexical.reading import shortening
+from usd2kg.grounding.lexical.reading.shortening_style import log_consistency
 
 SKELETON, FIRST_VOWEL, CUT = shortening._STYLES.values()
 FULL = shortening._FULL

@@ -5,19 +5,16 @@ import math
 import pytest
 
 from tests.grounding.records import SOMA, make_object, make_scene
-from usd2kg.grounding.embedded import context
-from usd2kg.grounding.embedded.beliefs import Classify
-from usd2kg.grounding.embedded.context import (
-    Votes,
-    ask_company,
-    siblings_as_company,
-    vote_of,
-)
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder, _run_for
-from usd2kg.grounding.embedded.naming import Match
-from usd2kg.grounding.embedded.sizes import Size
+from usd2kg.grounding import NamingRegime, ObjectView, view_objects
+from usd2kg.grounding.context import Companion, Nearness
+from usd2kg.grounding.lexical import neighbour_vote as context
+from usd2kg.grounding.lexical.alignment.naming import Match
+from usd2kg.grounding.lexical.concepts.object_likelihoods import Classify
+from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.grounder import LexicalGrounder, _run_for
+from usd2kg.grounding.lexical.neighbour_vote import Votes, ask_company, siblings_as_company, vote_of
 from usd2kg.ontology import TBox
-from usd2kg.scene import Box, Companion, NamingRegime, Nearness, ObjectView, view_objects
+from usd2kg.scene import Box
 
 NEXT, SIBLING, TWIN, ALIKE = Nearness.NEXT, Nearness.SIBLING, Nearness.TWIN, Nearness.ALIKE
 REST = 0.5
@@ -136,6 +133,6 @@ def test_siblings_of_which_only_the_names_are_known_vote_alike():
 
 def test_hierarchy_alone_lets_the_siblings_speak(home_tbox: TBox):
     view = ObjectView(name="obj_001", parents=("Room",), siblings=["Cup_1", "Cup_2", "Plate_1"], is_masked=True)
-    (answer,) = EmbeddedGrounder().ground_views([("/Room/x", view)], home_tbox)
+    (answer,) = LexicalGrounder().ground_views([("/Room/x", view)], home_tbox)
     assert home_tbox.by_iri[answer.class_iri].local_name == "Cup"
     assert answer.evidence == ("hierarchy",)

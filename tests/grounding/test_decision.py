@@ -3,12 +3,11 @@
 import pytest
 
 from tests.grounding.records import SOMA
-from usd2kg.grounding import Prediction
-from usd2kg.grounding.embedded.decision import agree_by_asset, safest_class
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding import ObjectView, Prediction
+from usd2kg.grounding.lexical.class_choice import agree_by_asset, safest_class
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Status
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
 CUP, BOWL, PLATE, CROCKERY, KNIFE, TABLE_KNIFE = (
     SOMA + name for name in ("Cup", "Bowl", "Plate", "Crockery", "Knife", "TableKnife")
@@ -17,7 +16,7 @@ CUP, BOWL, PLATE, CROCKERY, KNIFE, TABLE_KNIFE = (
 
 def answer(path: str, iri: str, confidence: float) -> Prediction:
     candidates = (Candidate(iri, confidence),)
-    return Prediction(path, iri, confidence, Status.GROUNDED, "embedded", f"it is {iri}", ("name",), candidates)
+    return Prediction(path, iri, confidence, Status.GROUNDED, "lexical", f"it is {iri}", ("name",), candidates)
 
 
 def view(name: str, asset: str = "cup_a", size: float = 0.1, *, is_masked: bool = False) -> ObjectView:
@@ -74,7 +73,7 @@ class TestAbstaining:
         assert safest_class({CUP: 0.8, BOWL: 0.4}, home_tbox) == (CUP if cup > crockery else CROCKERY)
 
     def test_the_grounder_tells_that_it_abstained(self, home_tbox: TBox) -> None:
-        grounder = EmbeddedGrounder(abstains=True)
+        grounder = LexicalGrounder(abstains=True)
         assert grounder.settings["decision"] == "hierarchical"
         (clear,) = grounder.ground_views([("/a", ObjectView(name="Cup_1"))], home_tbox)
         assert (clear.class_iri, clear.status) == (CUP, Status.GROUNDED)

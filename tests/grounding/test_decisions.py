@@ -24,11 +24,11 @@ from usd2kg.ontology import TBox
 def prediction(path: str, iri: str | None, confidence: float | None, *others: str, why: str = "so") -> Prediction:
     status = Status.GROUNDED if iri else Status.FAILED
     candidates = tuple(Candidate(other, 0.5) for other in ((iri, *others) if iri else ()))
-    return Prediction(path, iri, confidence, status, "embedded", why, candidates=candidates)
+    return Prediction(path, iri, confidence, status, "lexical", why, candidates=candidates)
 
 
 def grounding_of(*predictions: Prediction) -> Grounding:
-    return Grounding("s", "h", "o", "h", "embedded", {}, True, "0", predictions)
+    return Grounding("s", "h", "o", "h", "lexical", {}, True, "0", predictions)
 
 
 def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tmp_path: Path):
@@ -38,7 +38,7 @@ def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tm
         prediction("/b", bowl, 0.4, cup, box, why="=HYPERLINK(evil)"),
         prediction("/c", None, None),
         prediction("/d", box, 0.1),
-        Prediction("/gone", None, None, Status.MISSING, "embedded", "there is no such prim"),
+        Prediction("/gone", None, None, Status.MISSING, "lexical", "there is no such prim"),
     )
     queue = unsure_of(found, 0.6)
     assert [p.prim_path for p in queue] == ["/c", "/d", "/b"]
@@ -66,7 +66,7 @@ def test_the_grounder_is_not_asked_about_what_a_person_decided(home_tbox: TBox):
     decided, asked = found.predictions
     assert (decided.class_iri, decided.confidence, decided.grounder) == (knife, 1.0, PERSON)
     assert asked.class_iri == home_tbox.resolve("Bowl")
-    assert asked.grounder == "embedded"
+    assert asked.grounder == "lexical"
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import pytest
 
 from benchmarks.bare import bare_object, bare_scene
 from usd2kg.grounding import ground
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.ontology import ClassIRI, load_home_tbox
 
 SIZES = {

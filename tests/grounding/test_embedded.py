@@ -21,10 +21,10 @@ from tests.grounding.records import (
     make_tbox,
     scene_of,
 )
-from usd2kg.grounding import Prediction, Status, ground
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding import NamingRegime, ObjectView, Prediction, Status, ground, view_objects
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
-from usd2kg.scene import Box, NamingRegime, ObjectView, SceneObject, view_objects
+from usd2kg.scene import Box, SceneObject
 
 
 def sized(path: str, size: tuple[float, float, float] | None) -> SceneObject:
@@ -234,7 +234,7 @@ class TestIndependence:
     @lru_cache
     def predictions(names: tuple[str, ...]) -> dict[str, Prediction]:
         views = [(f"/Room/{name}", ObjectView(name=name, parents=("Room",))) for name in names]
-        return {p.prim_path: p for p in EmbeddedGrounder().ground_views(views, load_home_tbox())}
+        return {p.prim_path: p for p in LexicalGrounder().ground_views(views, load_home_tbox())}
 
     def test_two_runs_agree(self):
         first = self.predictions(self.NAMES)
@@ -255,12 +255,12 @@ class TestIndependence:
 
     def test_one_answer_for_each_view_in_order(self, home_tbox: TBox):
         views = [(path, ObjectView(name="Cup")) for path in ("/b", "/a", "/c")]
-        assert [p.prim_path for p in EmbeddedGrounder().ground_views(views, home_tbox)] == ["/b", "/a", "/c"]
-        assert EmbeddedGrounder().ground_views([], home_tbox) == []
+        assert [p.prim_path for p in LexicalGrounder().ground_views(views, home_tbox)] == ["/b", "/a", "/c"]
+        assert LexicalGrounder().ground_views([], home_tbox) == []
 
     def test_the_path_is_no_evidence(self, home_tbox: TBox):
         for path in ("/Kitchen/Cup", "/Kitchen/Oven"):
-            (prediction,) = EmbeddedGrounder().ground_views([(path, ObjectView(name="obj_1"))], home_tbox)
+            (prediction,) = LexicalGrounder().ground_views([(path, ObjectView(name="obj_1"))], home_tbox)
             assert prediction.status is Status.SUPERCLASS
             assert prediction.prim_path == path
 
@@ -286,7 +286,7 @@ class TestHostileNames:
     @pytest.fixture(scope="class")
     @classmethod
     def before(cls, home_tbox: TBox) -> Mapping[str, Prediction]:
-        return ground(cls.SCENE, home_tbox, EmbeddedGrounder()).by_path
+        return ground(cls.SCENE, home_tbox, LexicalGrounder()).by_path
 
     @pytest.mark.parametrize("hostile", NAMES, ids=range(len(NAMES)))
     def test_an_odd_name_changes_its_own_row_only(
@@ -294,7 +294,7 @@ class TestHostileNames:
     ):
         objects = (replace(o, name=hostile) if o.name == "thing" else o for o in self.SCENE.objects)
         renamed = replace(self.SCENE, objects=tuple(objects))
-        after = ground(renamed, home_tbox, EmbeddedGrounder()).by_path
+        after = ground(renamed, home_tbox, LexicalGrounder()).by_path
         assert {path for path in before if before[path] != after[path]} <= {"/Room/thing"}
         assert after["/Room/thing"].class_iri in home_tbox.by_iri
 
@@ -323,23 +323,23 @@ class TestNamingRegimes:
 
     @pytest.mark.parametrize("regime", list(NamingRegime))
     def test_every_object_is_answered_under_its_authored_path(self, home_tbox: TBox, regime: NamingRegime):
-        grounding = ground(self.SCENE, home_tbox, EmbeddedGrounder(), regime=regime)
+        grounding = ground(self.SCENE, home_tbox, LexicalGrounder(), regime=regime)
         assert [p.prim_path for p in grounding.predictions] == [o.prim_path for o in self.SCENE.objects]
 
     def test_an_opaque_name_gives_nothing_away(self, home_tbox: TBox):
-        by_path = ground(self.SCENE, home_tbox, EmbeddedGrounder(), regime=NamingRegime.OPAQUE).by_path
+        by_path = ground(self.SCENE, home_tbox, LexicalGrounder(), regime=NamingRegime.OPAQUE).by_path
         # A chair sees three chairs and a cup beside it, the cup sees four chairs.
         assert {local(p) for p in by_path.values()} == {"DesignedChair"}
         assert {p.evidence for p in by_path.values()} == {("company",)}
 
     def test_anonymous_context_gives_nothing_away_either(self, home_tbox: TBox):
-        grounding = ground(self.SCENE, home_tbox, EmbeddedGrounder(), regime=NamingRegime.OPAQUE_ANONYMOUS)
+        grounding = ground(self.SCENE, home_tbox, LexicalGrounder(), regime=NamingRegime.OPAQUE_ANONYMOUS)
         assert {local(p) for p in grounding.predictions} == {"DesignedArtifact"}
 
     def test_evidence_may_be_limited(self, home_tbox: TBox):
-        by_name = ground(self.SCENE, home_tbox, EmbeddedGrounder(), evidence=frozenset({"name"}))
+        by_name = ground(self.SCENE, home_tbox, LexicalGrounder(), evidence=frozenset({"name"}))
         assert local(by_name.by_path["/Room/Cup"]) == "Cup"
-        by_size = ground(self.SCENE, home_tbox, EmbeddedGrounder(), evidence=frozenset({"geometry"}))
+        by_size = ground(self.SCENE, home_tbox, LexicalGrounder(), evidence=frozenset({"geometry"}))
         assert {p.status for p in by_size.predictions} == {Status.SUPERCLASS}
 
 
@@ -388,13 +388,13 @@ class TestAnotherDomain:
             ObjectView(name=name, size=(6.0, 2.4, 2.6), siblings=("Crane_01", "Container_02"))
             for name in ("Wall_North", "RoofBeam", "warehouse_pillar", "fire_door")
         ]
-        predictions = EmbeddedGrounder().ground_views([(f"/x{at}", view) for at, view in enumerate(views)], harbour)
+        predictions = LexicalGrounder().ground_views([(f"/x{at}", view) for at, view in enumerate(views)], harbour)
         assert [local(prediction) for prediction in predictions] == ["Asset"] * 4
         assert predictions[0].explanation.startswith("“wall” is a kind of “building element”")
 
     def test_things_of_which_nothing_is_known_do_not_vouch_for_each_other(self, harbour: TBox):
         scene = make_scene(*(sized(f"/Quay/{name}", (0.4, 0.3, 0.2)) for name in ("qwrtzx_1", "Bollard", "Bollard_02")))
-        predictions = ground(scene, harbour, EmbeddedGrounder()).by_path
+        predictions = ground(scene, harbour, LexicalGrounder()).by_path
         assert predictions["/Quay/qwrtzx_1"].status is Status.SUPERCLASS
         assert predictions["/Quay/qwrtzx_1"].confidence < predictions["/Quay/Bollard"].confidence
 
@@ -409,8 +409,8 @@ class TestAnotherDomain:
         assert prediction.explanation == "“photodetector” is the label of photodetector"
 
     def test_home_synonyms_do_not_leak_in(self, harbour: TBox):
-        with_home = EmbeddedGrounder(use_home_synonyms=True)
-        without = EmbeddedGrounder(use_home_synonyms=False)
+        with_home = LexicalGrounder(use_home_synonyms=True)
+        without = LexicalGrounder(use_home_synonyms=False)
         views = [("/x", ObjectView(name=name)) for name in ("mug", "sofa", "crane", "lamp")]
         assert with_home.ground_views(views, harbour) == without.ground_views(views, harbour)
 
@@ -425,8 +425,8 @@ class TestHomeSynonyms:
             make_class("DesignedFurniture", base=SOMA), make_class("BedsideTable", "DesignedFurniture", base=SOMA)
         )
         views = [("/x", ObjectView(name="bedside_cabinet"))]
-        (with_home,) = EmbeddedGrounder().ground_views(views, bare)
-        (without,) = EmbeddedGrounder(use_home_synonyms=False).ground_views(views, bare)
+        (with_home,) = LexicalGrounder().ground_views(views, bare)
+        (without,) = LexicalGrounder(use_home_synonyms=False).ground_views(views, bare)
         assert local(with_home) == "BedsideTable"
         assert local(without) == "DesignedFurniture"
 
@@ -503,7 +503,7 @@ class TestHomeSynonyms:
         assert (local(named), local(unnamed)) == ("Mug", "Thing")
 
     def test_the_setting_is_recorded(self):
-        assert EmbeddedGrounder().settings != EmbeddedGrounder(use_home_synonyms=False).settings
+        assert LexicalGrounder().settings != LexicalGrounder(use_home_synonyms=False).settings
 
 
 def test_ten_thousand_objects_take_seconds(home_tbox: TBox):

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-import usd2kg.grounding
+import usd2kg
 from tests.grounding.records import ground_names, local, make_class, make_tbox
-from usd2kg.grounding.embedded.english import SHORTEST_WORD, is_common_word, is_english_word
+from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_common_word, is_english_word
 from usd2kg.ontology import TBox
 
-DATA = Path(usd2kg.grounding.__file__).parent / "data"
+DATA = Path(usd2kg.__file__).parent / "data"
 
 
 @pytest.mark.parametrize("word", ["splash", "teaching", "exercise"])

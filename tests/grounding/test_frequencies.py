@@ -7,11 +7,11 @@ from importlib.resources import files
 
 import pytest
 
-from usd2kg.grounding.embedded import frequencies
-from usd2kg.grounding.embedded.frequencies import UNKNOWN_FREQUENCY, thing_prior, word_frequency
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading import word_frequencies as frequencies
+from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY, thing_prior, word_frequency
 
-DATA = files("usd2kg.grounding") / "data"
+DATA = files("usd2kg") / "data"
 
 COMMON_AND_RARE = """
     chair davenport, table tabor, cup chalice, lamp sconce, door wicket, window oriel, bottle demijohn, spoon skimmer,

@@ -7,9 +7,18 @@ import pytest
 
 from tests.grounding.records import LAB, make_class, make_object, make_scene, make_tbox, scene_of
 from usd2kg.errors import GroundingError
-from usd2kg.grounding import Prediction, Status, ground, parse_evidence, parse_regime
+from usd2kg.grounding import (
+    EVIDENCE_GROUPS,
+    NamingRegime,
+    ObjectView,
+    Prediction,
+    Status,
+    ground,
+    parse_evidence,
+    parse_regime,
+)
 from usd2kg.ontology import TBox
-from usd2kg.scene import EVIDENCE_GROUPS, Box, NamingRegime, ObjectView
+from usd2kg.scene import Box
 
 TBOX = make_tbox(make_class("Thing"))
 

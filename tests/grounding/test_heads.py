@@ -7,12 +7,12 @@ from importlib.resources import files
 import pytest
 
 from tests.grounding.records import ground_names, ground_view, local
-from usd2kg.grounding.embedded.heads import Features, likelihood, propensity
-from usd2kg.grounding.embedded.lexicon import home_names
+from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.reading.head_noun import Features, likelihood, propensity
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
-FITTED = json.loads((files("usd2kg.grounding") / "data" / "heads.json").read_text("utf-8"))
+FITTED = json.loads((files("usd2kg") / "data" / "heads.json").read_text("utf-8"))
 
 
 def test_there_is_a_weight_for_each_feature():

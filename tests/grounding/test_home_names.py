@@ -7,17 +7,13 @@ import time
 from collections import Counter
 from importlib.resources import files
 
-from usd2kg.grounding.embedded.lexicon import home_names
+from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier
 
-ROWS = list(
-    csv.DictReader(io.StringIO((files("usd2kg.grounding") / "data" / "home_names.csv").read_text("utf-8")), strict=True)
-)
+ROWS = list(csv.DictReader(io.StringIO((files("usd2kg") / "data" / "home_names.csv").read_text("utf-8")), strict=True))
 SHORT = list(
-    csv.DictReader(
-        io.StringIO((files("usd2kg.grounding") / "data" / "abbreviations.csv").read_text("utf-8")), strict=True
-    )
+    csv.DictReader(io.StringIO((files("usd2kg") / "data" / "abbreviations.csv").read_text("utf-8")), strict=True)
 )
 
 

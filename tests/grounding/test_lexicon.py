@@ -3,8 +3,8 @@
 import pytest
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
-from usd2kg.grounding.embedded.lexicon import Lexicon, build_lexicon, home_names, sense_weight
-from usd2kg.grounding.embedded.taxonomy import Sense, load_taxonomy
+from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, build_lexicon, home_names, sense_weight
+from usd2kg.grounding.lexical.concepts.taxonomy import Sense, load_taxonomy
 from usd2kg.ontology import TBox
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from tests.grounding.records import ground_names, local
-from usd2kg.grounding.embedded import likeness
-from usd2kg.grounding.embedded.lexicon import home_names
-from usd2kg.grounding.embedded.likeness import features_of, likely_classes, similar_name
+from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts import name_classifier as likeness
+from usd2kg.grounding.lexical.concepts.name_classifier import features_of, likely_classes, similar_name
 from usd2kg.ontology import TBox
 
 

@@ -31,7 +31,7 @@ def make_grounding(*predictions: Prediction) -> Grounding:
         scene_hash="sha256:1",
         ontology="https://lab.example/onto",
         ontology_hash="sha256:2",
-        grounder="embedded",
+        grounder="lexical",
         settings={"regime": "semantic", "evidence": "name"},
         is_calibrated=False,
         tool_version="0.1.0",
@@ -45,14 +45,14 @@ SMALL = make_grounding(
         LAB + "Cup",
         0.97,
         Status.GROUNDED,
-        "embedded",
+        "lexical",
         "“cup” is the label",
         ("name",),
         (Candidate(LAB + "Cup", 0.97), Candidate(LAB + "Thing", 0.123456789)),
     ),
-    Prediction("/Küche/x", LAB + "Thing", 0.1, Status.SUPERCLASS, "embedded", "nothing is known"),
+    Prediction("/Küche/x", LAB + "Thing", 0.1, Status.SUPERCLASS, "lexical", "nothing is known"),
     Prediction("/Küche/y", None, None, Status.REFUSED, "dictionary", "not in the dictionary"),
-    Prediction("/Küche/z", None, None, Status.MISSING, "embedded", "no such prim"),
+    Prediction("/Küche/z", None, None, Status.MISSING, "lexical", "no such prim"),
 )
 REVIEWED = SMALL.predictions[1].reviewed(
     LAB + "Cup",
@@ -67,10 +67,10 @@ class TestCsv:
     def test_exact_bytes(self):
         assert format_mapping(SMALL, TBOX, "csv") == (
             "path,class,label,confidence,status,grounder\n"
-            '/Küche/Cup_1,https://lab.example/onto#Cup,"cup, ""tall""",0.9700,grounded,embedded\n'
-            "/Küche/x,https://lab.example/onto#Thing,Thing,0.1000,superclass,embedded\n"
+            '/Küche/Cup_1,https://lab.example/onto#Cup,"cup, ""tall""",0.9700,grounded,lexical\n'
+            "/Küche/x,https://lab.example/onto#Thing,Thing,0.1000,superclass,lexical\n"
             "/Küche/y,,,,refused,dictionary\n"
-            "/Küche/z,,,,missing,embedded\n"
+            "/Küche/z,,,,missing,lexical\n"
         )
 
     def test_no_predictions_leave_the_header(self):
@@ -80,7 +80,7 @@ class TestCsv:
     @given(st.text(st.characters(exclude_characters="\r\x00", exclude_categories=["Cs"]), min_size=1, max_size=30))
     def test_any_path_and_label_survive(self, text: str):
         tbox = make_tbox(make_class("Thing", label=text))
-        grounding = make_grounding(Prediction(text, LAB + "Thing", 1.0, Status.GROUNDED, "embedded", ""))
+        grounding = make_grounding(Prediction(text, LAB + "Thing", 1.0, Status.GROUNDED, "lexical", ""))
         rows = list(csv.DictReader(io.StringIO(format_mapping(grounding, tbox, "csv"), newline="")))
         assert [(row["path"], row["label"]) for row in rows] == [(text, text)]
 
@@ -187,7 +187,7 @@ class TestReview:
             comment="it is one",
             time="2026-07-15T12:00:00Z",
         )
-        assert (REVIEWED.grounder, REVIEWED.explanation) == ("embedded", "nothing is known")
+        assert (REVIEWED.grounder, REVIEWED.explanation) == ("lexical", "nothing is known")
 
     def test_a_second_decision_keeps_what_the_grounder_said_not_the_first(self):
         again = REVIEWED.reviewed(None, "Ada", comment="no class fits")

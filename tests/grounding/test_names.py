@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import ground_names, ground_view, local, make_class, make_tbox
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.grounding.embedded.lexicon import build_lexicon
-from usd2kg.grounding.embedded.names import NamePhrase, NameReader
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
 from usd2kg.ontology import TBox, load_home_tbox
-from usd2kg.scene import ObjectView
 
 
 def classes_of(names: Iterable[str], tbox: TBox) -> dict[str, str]:
@@ -137,7 +137,7 @@ class TestReferencesToParents:
             "Door": ObjectView(name="oven_door", parents=("Kitchen", "oven")),
             "Appliance": ObjectView(name="table_lamp", parents=("Room", "table")),
         }
-        found = EmbeddedGrounder().ground_views(list(views.items()), home_tbox)
+        found = LexicalGrounder().ground_views(list(views.items()), home_tbox)
         assert [local(p) for p in found] == list(views)
 
 
@@ -392,7 +392,7 @@ class TestNumbersAndCodes:
     @pytest.mark.parametrize("name", ["pCube3", "polySurface12", "pCylinder_1", "Box_0012", "pPlane01"])
     def test_made_up_names_say_nothing(self, home_tbox: TBox, name: str):
         views = [("/a", ObjectView(name=name)), ("/b", ObjectView(name="obj_3"))]
-        made_up, nameless = EmbeddedGrounder().ground_views(views, home_tbox)
+        made_up, nameless = LexicalGrounder().ground_views(views, home_tbox)
         assert (made_up.class_iri, made_up.status) == (nameless.class_iri, nameless.status)
         assert made_up.confidence == nameless.confidence
         assert made_up.evidence == ()
@@ -656,9 +656,9 @@ class TestFreeText:
     def test_words_that_other_names_bear_are_ranked_the_same_in_every_run(self):
         # Sets of words have another order in each process.
         code = (
-            "from usd2kg.grounding.embedded.shortening import forms_of\n"
+            "from usd2kg.grounding.lexical.reading.shortening import forms_of\n"
             "from tests.grounding.records import make_object, make_scene, words_written\n"
-            "from usd2kg.scene import view_objects\n"
+            "from usd2kg.grounding import view_objects\n"
             "scene = make_scene(*(make_object(f'/R/{n}') for n in ('pot_big_red_tin', 'tap_tub_pit', 'x')))\n"
             "*_, (_, view) = view_objects(scene)\n"
             "print(words_written(view.company, 't', forms_of), words_written(view.company, 'p', forms_of))"

@@ -5,12 +5,11 @@ from dataclasses import replace
 import pytest
 
 from tests.grounding.records import LAB, ground_names, make_class, make_tbox, scene_of
-from usd2kg.grounding import Status, ground
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.grounding.embedded.lexicon import build_lexicon
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding import ObjectView, Status, ground
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import load_home_tbox
-from usd2kg.scene import ObjectView
 
 FLAT = make_tbox(*(make_class(name) for name in ("Chair", "Table", "Mug", "Plate", "Knife", "Refrigerator", "Door")))
 KNOWN = {"chair_06": "Chair", "side_plate": "Plate", "Fridge_01": "Refrigerator", "coffeeTable": "Table"}
@@ -52,7 +51,7 @@ def test_what_the_ontology_has_is_found():
 @pytest.mark.parametrize("abstains", [False, True])
 def test_what_it_lacks_gets_no_class(abstains: bool):
     views = [(f"/x{at}", ObjectView(name)) for at, name in enumerate(NONE)]
-    found = EmbeddedGrounder(abstains=abstains).ground_views(views, FLAT)
+    found = LexicalGrounder(abstains=abstains).ground_views(views, FLAT)
     assert [one.class_iri for one in found] == [None] * len(NONE)
     assert {one.status for one in found} == {Status.REFUSED}
     assert {one.confidence for one in found} == {None}

@@ -8,15 +8,15 @@ from pathlib import Path
 import pytest
 
 from tests.grounding.records import LAB, ground_names, local, make_class, make_tbox
-from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names
-from usd2kg.grounding.embedded.names import NameReader
-from usd2kg.grounding.embedded.naming import RULED, Match, Namer
-from usd2kg.grounding.embedded.routes import Features, Route, Routes, shares_of, strength
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
-from usd2kg.grounding.embedded.terms import Term
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.alignment.naming import RULED, Match, Namer
+from usd2kg.grounding.lexical.alignment.routes import Features, Route, Routes, shares_of, strength
+from usd2kg.grounding.lexical.alignment.terms import Term
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import TBox
 
-FITTED = json.loads((files("usd2kg.grounding") / "data" / "routes.json").read_text("utf-8"))
+FITTED = json.loads((files("usd2kg") / "data" / "routes.json").read_text("utf-8"))
 WEIGHTS = FITTED["weights"]
 KITCHEN = make_tbox(
     make_class("Artifact"),

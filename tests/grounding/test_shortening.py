@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usd2kg.grounding.embedded.shortening import Choice, FormIndex, find_range, forms_of, usual_abbreviations
+from usd2kg.grounding.lexical.reading.shortening import Choice, FormIndex, find_range, forms_of, usual_abbreviations
 
 PRIORS = {word: -float(at % 5) for at, word in enumerate("cup cap coffee cupboard copper oven ear eau gym a".split())}
 

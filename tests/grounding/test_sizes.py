@@ -9,12 +9,12 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from usd2kg.grounding.embedded import sizes
-from usd2kg.grounding.embedded.grounder import _run_for
-from usd2kg.grounding.embedded.sizes import log_likelihoods, surprise, thing_nouns
+from usd2kg.grounding.lexical.concepts import sizes
+from usd2kg.grounding.lexical.concepts.sizes import log_likelihoods, surprise, thing_nouns
+from usd2kg.grounding.lexical.grounder import _run_for
 from usd2kg.ontology import TBox
 
-ROWS = list(csv.DictReader(io.StringIO((files("usd2kg.grounding") / "data" / "things.csv").read_text("utf-8"))))
+ROWS = list(csv.DictReader(io.StringIO((files("usd2kg") / "data" / "things.csv").read_text("utf-8"))))
 BROAD = 0.02 * 6 / math.log(100 / 0.001) ** 3
 
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tools.build_wordnet import Synset, format_taxonomy
-from usd2kg.grounding.embedded.taxonomy import Sense, Taxonomy, load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy, load_taxonomy
 
 # Synsets by number; the rank of a meaning stands after its lemma.
 #

@@ -3,9 +3,9 @@
 import pytest
 
 from tests.grounding.records import LAB, ground_names, make_class, make_tbox
-from usd2kg.grounding.embedded.defaults import default_class, residue_of
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.alignment.residual_class import default_class, residue_of
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import load_home_tbox
 
 LABELS = "wall floor cabinet bed chair sofa table door window bookshelf counter desk shelves curtain television towel"
@@ -73,10 +73,10 @@ def test_rooms_are_no_sundries():
 
 
 def test_the_rest_says_little_of_a_thing():
-    assert EmbeddedGrounder().general_classes(SHOP) == {LAB + name for name in ("ShopThing", "MiscItem", "Process")}
-    assert LAB + "chair" not in EmbeddedGrounder().general_classes(LIST)
+    assert LexicalGrounder().general_classes(SHOP) == {LAB + name for name in ("ShopThing", "MiscItem", "Process")}
+    assert LAB + "chair" not in LexicalGrounder().general_classes(LIST)
     home = load_home_tbox()
-    assert EmbeddedGrounder().general_classes(home) == frozenset(home.roots)
+    assert LexicalGrounder().general_classes(home) == frozenset(home.roots)
 
 
 def test_other_activities_are_no_things():

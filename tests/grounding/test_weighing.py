@@ -2,7 +2,7 @@
 
 import pytest
 
-from usd2kg.grounding.embedded.weighing import Finding, weigh
+from usd2kg.grounding.lexical.evidence_combination import Finding, weigh
 
 
 def said(iri: str, score: float, group: str = "name") -> Finding:

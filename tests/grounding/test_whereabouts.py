@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from usd2kg.grounding.embedded import whereabouts
-from usd2kg.grounding.embedded.sizes import thing_nouns, thing_row, thing_rows
-from usd2kg.grounding.embedded.whereabouts import (
+from usd2kg.grounding.context import Look
+from usd2kg.grounding.lexical.concepts import places as whereabouts
+from usd2kg.grounding.lexical.concepts.places import (
     PLACES,
     log_stances,
     place_of_look,
@@ -17,7 +17,7 @@ from usd2kg.grounding.embedded.whereabouts import (
     stance_of,
     thing_shares,
 )
-from usd2kg.scene import Look
+from usd2kg.grounding.lexical.concepts.sizes import thing_nouns, thing_row, thing_rows
 
 NOWHERE = np.zeros(len(PLACES))
 

@@ -5,7 +5,7 @@ import csv
 import pytest
 
 from tools.build_wordnet import KINDS, Kinds, Synset, format_taxonomy
-from usd2kg.grounding.embedded.taxonomy import Taxonomy, load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
 
 def taxonomy_of(rows: dict[str, str]) -> Taxonomy:

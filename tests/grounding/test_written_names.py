@@ -10,10 +10,10 @@ from benchmarks.names import run as home
 from benchmarks.ontologies import run as other
 from tests.grounding.records import make_class, make_tbox
 from tools import build_written_names
-from usd2kg.grounding.embedded.abbreviations import AbbreviationReader
-from usd2kg.grounding.embedded.lexicon import build_lexicon
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
-from usd2kg.grounding.embedded.written_names import WrittenNames, load_written_names
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader
+from usd2kg.grounding.lexical.reading.name_bigrams import WrittenNames, load_written_names
 
 NAMES = WrittenNames("pot lid\npot lid\npot\nlamp\n")
 

@@ -2,12 +2,12 @@
 
 import pytest
 
+from usd2kg.diff.graph_things import read_statements
 from usd2kg.errors import GraphError, OntologyError
-from usd2kg.graph import load_graph
-from usd2kg.graph.diff.graph_things import read_statements
-from usd2kg.graph.document import read_document
+from usd2kg.graph.formats.document import read_document
 from usd2kg.ontology import load_tbox
 from usd2kg.ontology.entities import refuse_entity_bomb
+from usd2kg.query import load_graph
 
 OWL = 'xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:owl="http://www.w3.org/2002/07/owl#"'
 LAUGHS = '<!ENTITY a "' + "x" * 100 + '">' + "".join(f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in ("ab", "bc", "cd"))

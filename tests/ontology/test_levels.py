@@ -5,10 +5,10 @@ from time import process_time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usd2kg.graph.validation.axioms import Axioms
 from usd2kg.ontology.documents import read_triples
 from usd2kg.ontology.levels import level
 from usd2kg.ontology.scope import ancestors, nearest_parents
+from usd2kg.validation.axioms import Axioms
 
 NAMES = st.sampled_from("abcdefgh")
 HIERARCHIES = st.dictionaries(NAMES, st.sets(NAMES, max_size=3))

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from tests.conftest import shared_file
-from usd2kg.graph.validation import Severity
 from usd2kg.ontology import TBox, load_tbox
 from usd2kg.readiness import OntologyReport, check_ontology
+from usd2kg.validation import Severity
 
 HEAD = """
 @prefix : <https://lab.example/onto#> .

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from tests.scene.usda import METRES, component, cube, header, ops, prim, xform
 from usd2kg.scene import ReadOptions, read_scene
 from usd2kg.scene import shapes as module
-from usd2kg.scene.hull import convex_hull, convex_polygon, largest_normals, smallest_box, smallest_rectangle
 from usd2kg.scene.shapes import describe_shapes, describe_triangles
 from usd2kg.scene.stage import open_stage
+from usd2kg.shapes.hull import convex_hull, convex_polygon, largest_normals, smallest_box, smallest_rectangle
 
 SIDES = 48
 """Of everything round here: its area is that of the polygon, not that of the circle."""

@@ -7,7 +7,8 @@ from typing import Any
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.phrases import Phrase, match_phrase
 from usd2kg.errors import GraphError
-from usd2kg.graph import Answer, GraphStore, list_questions, term_list
+from usd2kg.query import Answer, GraphStore, term_list
+from usd2kg.query.questions import list_questions
 
 __all__ = ["AskedAnswer", "ask_offline"]
 

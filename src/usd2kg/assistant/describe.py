@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from usd2kg.graph import Answer, GraphStore
-from usd2kg.graph.validation import read_objects
+from usd2kg.query import Answer, GraphStore
+from usd2kg.validation import read_objects
 
 __all__ = ["describe", "description_answer", "list_objects"]
 

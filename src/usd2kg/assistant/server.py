@@ -15,7 +15,8 @@ from mcp.types import ToolAnnotations
 from usd2kg.assistant.asking import ask_offline
 from usd2kg.assistant.describe import describe, list_objects
 from usd2kg.errors import Usd2kgError
-from usd2kg.graph import Answer, GraphStore, Question, list_questions
+from usd2kg.query import Answer, GraphStore
+from usd2kg.query.questions import Question, list_questions
 
 __all__ = ["make_server"]
 

@@ -6,9 +6,10 @@ from importlib.resources import files
 
 from usd2kg.assistant.asking import AskedAnswer
 from usd2kg.errors import GraphError, GroundingError
-from usd2kg.graph import Answer, GraphStore, list_questions
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
 from usd2kg.grounding.llm.text import quote
+from usd2kg.query import Answer, GraphStore
+from usd2kg.query.questions import list_questions
 
 __all__ = ["ask_model", "write_request"]
 

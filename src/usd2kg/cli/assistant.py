@@ -14,7 +14,7 @@ from usd2kg.errors import Usd2kgError
 
 if TYPE_CHECKING:
     from usd2kg.assistant import AskedAnswer
-    from usd2kg.graph import GraphStore
+    from usd2kg.query import GraphStore
 
 __all__ = ["ask_command", "mcp_command"]
 
@@ -36,7 +36,7 @@ def ask_command(
 ) -> None:
     """Ask a graph in plain English: 'what is on the table?', 'how many cups are there?'."""
     from usd2kg.assistant import ask_offline  # noqa: PLC0415
-    from usd2kg.graph.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     store, text = open_graph(graph, scene), " ".join(words)
     asked = ask_offline(store, text) if model is None else _ask_model(store, text, model, completions)
@@ -52,7 +52,7 @@ def ask_command(
 
 def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "AskedAnswer":
     from usd2kg.assistant import ask_model  # noqa: PLC0415
-    from usd2kg.graph.endpoint import BoundedQueries  # noqa: PLC0415
+    from usd2kg.endpoint import BoundedQueries  # noqa: PLC0415
     from usd2kg.grounding.llm.settings import LLMSettings, open_asker  # noqa: PLC0415
 
     with open_asker(LLMSettings(model, completions=completions)) as asker, BoundedQueries(graph) as run:
@@ -71,8 +71,8 @@ def mcp_command(
         from usd2kg.assistant.server import make_server  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise Usd2kgError("mcp: the protocol's SDK is not installed; run: pip install 'usd2kg[mcp]'") from error
-    from usd2kg.graph.endpoint import BoundedQueries  # noqa: PLC0415
-    from usd2kg.graph.stores import open_graph  # noqa: PLC0415
+    from usd2kg.endpoint import BoundedQueries  # noqa: PLC0415
+    from usd2kg.stores import open_graph  # noqa: PLC0415
 
     store = open_graph(graph, scene)
     picture = None if stage is None else _picture_of(store, stage)
@@ -82,7 +82,7 @@ def mcp_command(
 
 def _picture_of(graph: "GraphStore", stage: Path) -> Callable[[str], bytes]:
     """Return what draws a thing of the graph where it stands; the first, where several are called so."""
-    from usd2kg.scene.render import Renderer  # noqa: PLC0415
+    from usd2kg.render import Renderer  # noqa: PLC0415
 
     renderer = Renderer(stage)
 

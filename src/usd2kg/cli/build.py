@@ -28,8 +28,8 @@ from usd2kg.cli.store import check_names, open_place, store_graphs
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
 if TYPE_CHECKING:
-    from usd2kg.graph.stores import SceneStore
     from usd2kg.pipeline import BuildResult
+    from usd2kg.stores import SceneStore
 
 __all__ = ["build_command", "summarize", "summary_text"]
 
@@ -159,8 +159,8 @@ def _keep(result: "BuildResult", merges: bool, target: Path | None, keeper: "Sce
     What is merged in stands in the file with the scene; in a store it is a graph of its own, which scenes share.
     """
     from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
-    from usd2kg.graph.stores import named_graph, ontology_graph  # noqa: PLC0415
     from usd2kg.ontology import read_closure  # noqa: PLC0415
+    from usd2kg.stores import named_graph, ontology_graph  # noqa: PLC0415
 
     closure = read_closure(result.tbox, result.graph.imports) if merges else None
     for iri in closure.missing if closure is not None else ():
@@ -175,7 +175,7 @@ def _keep(result: "BuildResult", merges: bool, target: Path | None, keeper: "Sce
 
 def summarize(result: "BuildResult") -> dict[str, Any]:
     """Return what a build gave, in numbers."""
-    from usd2kg.graph.relations import ALL_KINDS  # noqa: PLC0415
+    from usd2kg.relations import ALL_KINDS  # noqa: PLC0415
 
     predictions = result.grounding.predictions
     found = Counter(relation.kind for relation in result.graph.relations)

@@ -24,8 +24,9 @@ def demo_command(
     """Build the knowledge graph of the built-in demo kitchen and ask it three questions."""
     from usd2kg.demo import demo_scene  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
-    from usd2kg.graph import load_graph, rdf_format, write_graph  # noqa: PLC0415
+    from usd2kg.graph import rdf_format, write_graph  # noqa: PLC0415
     from usd2kg.pipeline import build  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.query import load_graph  # noqa: PLC0415
 
     start = time.perf_counter()
     # Questions are put to the file that was written.

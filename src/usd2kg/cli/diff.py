@@ -15,9 +15,9 @@ from usd2kg.errors import GraphError
 if TYPE_CHECKING:
     import pyoxigraph as ox
 
-    from usd2kg.graph.diff import Thing, Tolerances, Writing
-    from usd2kg.graph.relations import RelationOptions
+    from usd2kg.diff import Thing, Tolerances, Writing
     from usd2kg.ontology import TBox
+    from usd2kg.relations import RelationOptions
     from usd2kg.scene import ReadOptions
 
 __all__ = ["diff_command"]
@@ -47,7 +47,7 @@ class _ToleranceOptions:
 
     def tolerances(self) -> "Tolerances":
         """Return the same for the comparison."""
-        from usd2kg.graph.diff import Tolerances  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+        from usd2kg.diff import Tolerances  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
         return Tolerances(self.moved, self.turned, self.resized, self.resized_percent, self.match_within)
 
@@ -91,8 +91,8 @@ def diff_command(
     """Tell what changed between two graphs or scenes. Exit code 1 if anything did, as diff has it."""
     from usd2kg.cli.diff_data import changes_data  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.cli.diff_report import report_text  # noqa: PLC0415
+    from usd2kg.diff import compare_things, make_update  # noqa: PLC0415
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
-    from usd2kg.graph.diff import compare_things, make_update  # noqa: PLC0415
 
     chosen = _format(file_format, is_json=json, graph=graph)
     limits, kinds = tolerances.tolerances(), _kinds(relations)
@@ -134,7 +134,7 @@ def _format(file_format: str, *, is_json: bool, graph: str | None) -> str:
 
 
 def _kinds(text: str) -> frozenset[str]:
-    from usd2kg.graph.relations import ALL_KINDS  # noqa: PLC0415
+    from usd2kg.relations import ALL_KINDS  # noqa: PLC0415
 
     if text.strip() in {"all", "none"}:
         return frozenset(ALL_KINDS if text.strip() == "all" else ())
@@ -188,7 +188,7 @@ class _Sides:
 
     def open(self, old: Path, new: Path) -> tuple[_Side, _Side]:
         """Return both sides."""
-        from usd2kg.graph.diff import Writing  # noqa: PLC0415
+        from usd2kg.diff import Writing  # noqa: PLC0415
         from usd2kg.graph.iris import default_base  # noqa: PLC0415
 
         graphs = {path: _read(path) for path in (old, new) if path.suffix.lower() not in STAGE_ENDINGS}
@@ -209,9 +209,10 @@ class _Sides:
         return tbox
 
     def _build(self, path: Path, tbox: "TBox", writing: "Writing") -> _Side:
-        from usd2kg.graph import GraphOptions, find_relations, instantiate  # noqa: PLC0415
-        from usd2kg.graph.diff import things_of_graph, writing_of  # noqa: PLC0415
+        from usd2kg.diff import things_of_graph, writing_of  # noqa: PLC0415
+        from usd2kg.graph import GraphOptions, instantiate  # noqa: PLC0415
         from usd2kg.grounding import ground  # noqa: PLC0415
+        from usd2kg.relations import find_relations  # noqa: PLC0415
         from usd2kg.scene import read_scene  # noqa: PLC0415
 
         scene = read_scene(path, options=self._options)
@@ -229,14 +230,14 @@ class _Sides:
         return _Side(statements, things_of_graph(statements, str(path)), writing_of(statements))
 
     def _relation_options(self) -> "RelationOptions":
-        from usd2kg.graph.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions  # noqa: PLC0415
+        from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions  # noqa: PLC0415
 
         wanted = {*DEFAULT_KINDS, *self._kinds} - {*VIEWPOINT_KINDS}
         return RelationOptions(kinds=tuple(kind for kind in ALL_KINDS if kind in wanted))
 
 
 def _read(path: Path) -> _Side:
-    from usd2kg.graph.diff import read_statements, things_of_graph, writing_of  # noqa: PLC0415
+    from usd2kg.diff import read_statements, things_of_graph, writing_of  # noqa: PLC0415
 
     statements = read_statements(path)
     return _Side(statements, things_of_graph(statements, str(path)), writing_of(statements))

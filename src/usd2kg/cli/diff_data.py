@@ -5,7 +5,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from usd2kg.graph.diff import Change, Changes, Link, Thing, Tolerances
+    from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
 
 __all__ = ["changes_data"]
 
@@ -13,7 +13,7 @@ __all__ = ["changes_data"]
 def changes_data(changes: "Changes", tolerances: "Tolerances", old: str, new: str) -> dict[str, Any]:
     """Return all changes as lists and dictionaries; what did not change is left out."""
     # Imported here: it opens OpenUSD, too slow for --help.
-    from usd2kg.graph.relations import ALL_KINDS  # noqa: PLC0415
+    from usd2kg.relations import ALL_KINDS  # noqa: PLC0415
 
     pairs = ((match.old.iri, match.new.iri) for match in changes.matches)
     return {
@@ -48,7 +48,7 @@ def _links(links: "Iterable[Link]") -> list[dict[str, str]]:
 
 
 def _change(change: "Change", tolerances: "Tolerances") -> "Iterator[tuple[str, Any]]":
-    from usd2kg.graph.diff import tell_match  # noqa: PLC0415
+    from usd2kg.diff import tell_match  # noqa: PLC0415
 
     old, new = change.match.old, change.match.new
     yield "path", {"old": old.prim_path, "new": new.prim_path}

@@ -9,7 +9,7 @@ from usd2kg.cli.object_rows import numbers_text, size_text
 from usd2kg.cli.output import printable
 
 if TYPE_CHECKING:
-    from usd2kg.graph.diff import Change, Changes, Link, Thing, Tolerances
+    from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
 
 __all__ = ["report_text"]
 
@@ -89,8 +89,8 @@ def _tell_link(link: "Link") -> str:
 
 def _renamed(changed: "Iterable[Change]", tolerances: "Tolerances") -> Iterator[str]:
     """Yield a line for each thing, and one for all that only a group's path changed."""
-    from usd2kg.graph.diff import tell_match  # noqa: PLC0415 - opens OpenUSD, too slow for --help
-    from usd2kg.graph.diff.paths import stems_of  # noqa: PLC0415
+    from usd2kg.diff import tell_match  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.diff.paths import stems_of  # noqa: PLC0415
 
     renamed = [(stems_of(c.match.old.prim_path, c.match.new.prim_path), c) for c in changed if c.is_renamed]
     counts = Counter(stems for stems, _ in renamed)

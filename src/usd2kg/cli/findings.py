@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from usd2kg.cli.output import printable
 
 if TYPE_CHECKING:
-    from usd2kg.graph.validation import Finding
+    from usd2kg.validation import Finding
 
 __all__ = ["MOST_OF_A_RULE", "findings_text"]
 

@@ -35,8 +35,8 @@ def draw(
         raise OutputError(f"{target}: pictures of graphs are SVG or PNG, expected a name ending in .svg or .png")
     check_writable(target)
     check_apart([target], [graph])
-    from usd2kg.graph.picture import draw_room, draw_surroundings, to_png  # noqa: PLC0415
-    from usd2kg.graph.stores import open_graph  # noqa: PLC0415
+    from usd2kg.diagrams import draw_room, draw_surroundings, to_png  # noqa: PLC0415
+    from usd2kg.stores import open_graph  # noqa: PLC0415
 
     store = open_graph(graph, scene)
     if thing is None:
@@ -89,7 +89,7 @@ def export(
 ) -> None:
     """Write a graph as a property graph: nodes.csv, relationships.csv and a script that loads them."""
     from usd2kg.graph import read_document, read_property_graph, write_neo4j  # noqa: PLC0415
-    from usd2kg.graph.neo4j import NEO4J_FILES  # noqa: PLC0415
+    from usd2kg.graph.export.neo4j import NEO4J_FILES  # noqa: PLC0415
 
     if target != "neo4j":
         raise GraphError(f"--to {target!r} is unknown; expected neo4j, or usd2kg graph convert for files of RDF")

@@ -56,8 +56,9 @@ def ground_command(
     from usd2kg.cli.model_run import show_plan  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.graph import UNSPECIFIED_LICENSE, format_sssom  # noqa: PLC0415
+    from usd2kg.grounding import view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
-    from usd2kg.scene import read_scene, view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.scene import read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     groups, naming_regime = chosen.groups, chosen.naming_regime
     if file_format is None:

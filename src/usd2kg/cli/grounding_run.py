@@ -13,11 +13,11 @@ from usd2kg.cli.output import Progress, emit, talk
 from usd2kg.errors import GroundingError, SceneError
 
 if TYPE_CHECKING:
-    from usd2kg.grounding import Carried, CascadeGrounder, Grounder, Grounding
+    from usd2kg.grounding import Carried, CascadeGrounder, Grounder, Grounding, NamingRegime, ObjectView
     from usd2kg.grounding.llm.grounder import LLMGrounder
     from usd2kg.grounding.llm.prompts import Example
     from usd2kg.ontology import ClassIRI, TBox
-    from usd2kg.scene import NamingRegime, ObjectView, ReadOptions, Scene
+    from usd2kg.scene import ReadOptions, Scene
 
 __all__ = ["GroundingOptions", "GroundingRun", "check_files_apart", "open_run"]
 
@@ -28,7 +28,7 @@ _PICTURE = (256, 256)
 class GroundingOptions:
     """Who chooses the classes, and what is seen of the objects."""
 
-    grounder: GrounderName = "embedded"
+    grounder: GrounderName = "lexical"
     dictionary: Dictionary = None
     abstain: Abstains = False
     class_sizes: ClassSizes = None
@@ -124,7 +124,7 @@ def open_run(
     if not is_model:
         asked.refuse_without_model()
     quick = grounding.make_grounder(
-        "embedded" if is_model else chosen.grounder,
+        "lexical" if is_model else chosen.grounder,
         dictionary=chosen.dictionary,
         class_sizes=chosen.class_sizes,
         abstains=chosen.abstain,
@@ -153,8 +153,8 @@ def open_run(
 
 def _examples(scene: "Scene", decisions: "Mapping[str, ClassIRI]", most: int) -> "list[Example]":
     """Return the first decisions of each class, then the second ones, up to so many."""
+    from usd2kg.grounding import view_objects  # noqa: PLC0415
     from usd2kg.grounding.llm.prompts import Example  # noqa: PLC0415
-    from usd2kg.scene import view_objects  # noqa: PLC0415
 
     if most and not decisions:
         raise GroundingError("--examples shows decisions of a person; say where they are with --decisions FILE")
@@ -169,7 +169,7 @@ def _examples(scene: "Scene", decisions: "Mapping[str, ClassIRI]", most: int) ->
 
 
 def _pictures(source: Path, reading: "ReadOptions") -> Callable[[str], bytes | None]:
-    from usd2kg.scene.render import Renderer  # noqa: PLC0415
+    from usd2kg.render import Renderer  # noqa: PLC0415
 
     renderer = Renderer(source, reading)
 

@@ -15,7 +15,7 @@ from usd2kg.cli.output import emit, print_json, talk
 from usd2kg.errors import OutputError
 
 if TYPE_CHECKING:
-    from usd2kg.scene import LabelOptions, LabelReport
+    from usd2kg.labels import LabelOptions, LabelReport
 
 __all__ = ["app"]
 
@@ -97,7 +97,7 @@ def write_command(
 ) -> None:
     """Write a layer over a scene in which prims carry their classes as labels. `write` may be left away."""
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
-    from usd2kg.labelling import label_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.labels import label_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     target = output or Path(f"{scene.stem}.labels.usda")
@@ -132,7 +132,7 @@ def write_command(
 
 
 def _options(encoding: str, mode: str, is_bare: bool, de_instances: bool, provenance: dict[str, str]) -> "LabelOptions":
-    from usd2kg.scene import LABEL_MODES, LabelOptions  # noqa: PLC0415
+    from usd2kg.labels import LABEL_MODES, LabelOptions  # noqa: PLC0415
 
     wanted = [name.strip().lower() for name in encoding.split(",") if name.strip()]
     unknown = [name for name in wanted if name not in _ENCODINGS]
@@ -147,7 +147,7 @@ def _options(encoding: str, mode: str, is_bare: bool, de_instances: bool, proven
 
 def _told(report: "LabelReport") -> list[str]:
     """Return what became of the prims: counts, and for each reason how many prims and the first of them."""
-    from usd2kg.scene import OUTCOMES  # noqa: PLC0415
+    from usd2kg.labels import OUTCOMES  # noqa: PLC0415
 
     total = len(report.outcomes)
     parts = ", ".join(f"{report.counts[outcome]} {outcome}" for outcome in OUTCOMES if outcome in report.counts)
@@ -184,7 +184,7 @@ def lint_command(
     json: JsonOutput = False,
 ) -> None:
     """Find labels that are wrong, stale or contradict each other. Exit code 1 if there are any."""
-    from usd2kg.labelling import lint_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.labels import lint_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     tbox = open_tbox(ontology)

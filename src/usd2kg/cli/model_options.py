@@ -58,14 +58,12 @@ Shuffle = Annotated[
 ]
 Shortlist = Annotated[
     int | None,
-    typer.Option(
-        "--shortlist", min=1, help="Offer a model only so many classes that the embedded grounder likes best."
-    ),
+    typer.Option("--shortlist", min=1, help="Offer a model only so many classes that the lexical grounder likes best."),
 ]
 Cascade = Annotated[
     float | None,
     typer.Option(
-        "--cascade", min=0, max=1, help="Ask a model only where the embedded grounder is less confident than this."
+        "--cascade", min=0, max=1, help="Ask a model only where the lexical grounder is less confident than this."
     ),
 ]
 Replay = Annotated[

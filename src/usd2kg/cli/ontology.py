@@ -73,8 +73,8 @@ def check(
     json: JsonOutput = False,
 ) -> None:
     """Say how well an ontology will ground, and what to add. Exit code 1 if it finds an error or a warning."""
-    from usd2kg.graph.validation import Severity  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.readiness import check_ontology  # noqa: PLC0415
+    from usd2kg.validation import Severity  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     report = check_ontology(_load(file, root))
     if json:
@@ -143,7 +143,7 @@ def shapes(
     profile: Annotated[str, typer.Option("--profile", help="Of which graphs: soma (default) or plain.")] = "soma",
 ) -> None:
     """Print the SHACL shapes of the graphs that usd2kg builds, as Turtle."""
-    from usd2kg.graph.validation import shapes_text  # noqa: PLC0415 - loads the RDF parser
+    from usd2kg.validation import shapes_text  # noqa: PLC0415 - loads the RDF parser
 
     emit(shapes_text(profile), None)
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from usd2kg.graph import GraphOptions, RelationOptions
+    from usd2kg.graph import GraphOptions
+    from usd2kg.relations import RelationOptions
     from usd2kg.scene import ReadOptions
 
 __all__ = [
@@ -88,7 +89,7 @@ GrounderName = Annotated[
     str,
     typer.Option(
         "--grounder",
-        help="Who chooses the classes: embedded (default), dictionary, embedding, volume, or a language model: "
+        help="Who chooses the classes: lexical (default), dictionary, embedding, volume, or a language model: "
         "llm-A:MODEL is shown names, llm-B:MODEL the context too, llm-C:MODEL reasons first, llm-auto:MODEL goes by "
         "the name. MODEL is google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server that speaks "
         "OpenAI's protocol, or gguf:FILE for weights in this process.",
@@ -97,7 +98,7 @@ GrounderName = Annotated[
 Abstains = Annotated[
     bool,
     typer.Option(
-        "--abstain", help="For the embedded grounder: where candidates are split, take the class above; default: not."
+        "--abstain", help="For the lexical grounder: where candidates are split, take the class above; default: not."
     ),
 ]
 Dictionary = Annotated[
@@ -238,12 +239,7 @@ class RelatingOptions:
 
     def relation_options(self) -> "RelationOptions":
         """Return the same for the finder."""
-        from usd2kg.graph.relations import (  # noqa: PLC0415 - opens OpenUSD, too slow for --help
-            RelationOptions,
-            load_rules,
-            parse_kinds,
-            parse_viewpoint,
-        )
+        from usd2kg.relations import RelationOptions, load_rules, parse_kinds, parse_viewpoint  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
         seen_from = parse_viewpoint(self.viewpoint) if self.viewpoint is not None else None
         return RelationOptions(

@@ -10,7 +10,7 @@ from usd2kg.cli.output import emit, format_table, print_json
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
-    from usd2kg.graph import Answer
+    from usd2kg.query import Answer
 
 __all__ = ["answer_text", "query_command", "query_text"]
 
@@ -48,7 +48,7 @@ def query_command(
     json: JsonOutput = False,
 ) -> None:
     """Ask a graph: a ready question in words, one of the listed questions, or a SPARQL query."""
-    from usd2kg.graph.stores import chosen_graphs, is_store, open_graph, open_store  # noqa: PLC0415
+    from usd2kg.stores import chosen_graphs, is_store, open_graph, open_store  # noqa: PLC0415
 
     if is_list:
         _print_questions(json)
@@ -77,7 +77,7 @@ def query_command(
 
 
 def _print_questions(as_json: bool) -> None:
-    from usd2kg.graph import list_questions  # noqa: PLC0415
+    from usd2kg.query.questions import list_questions  # noqa: PLC0415
 
     questions = list_questions()
     if as_json:

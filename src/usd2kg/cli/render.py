@@ -38,8 +38,8 @@ def render_command(
     if target.suffix.lower() != ".png":
         raise OutputError(f"{target}: pictures are PNG files, expected a name ending in .png")
     check_writable(target)
+    from usd2kg.render import Renderer  # noqa: PLC0415
     from usd2kg.scene import ReadOptions  # noqa: PLC0415 - opens OpenUSD, too slow for --help
-    from usd2kg.scene.render import Renderer  # noqa: PLC0415
 
     renderer = Renderer(scene, ReadOptions(metres_per_unit=metres_per_unit, up_axis=up_axis, time=time_code))
     if path is None:

@@ -12,7 +12,7 @@ from usd2kg.cli.query import query_text
 from usd2kg.errors import OutputError, StoreError
 
 if TYPE_CHECKING:
-    from usd2kg.graph.stores import NamedGraph, SceneStore
+    from usd2kg.stores import NamedGraph, SceneStore
 
 __all__ = ["app", "check_names", "open_place", "store_graphs"]
 
@@ -23,7 +23,7 @@ app = typer.Typer(no_args_is_help=True, help="Keep the graphs of many scenes in 
 
 def open_place(place: str, update: str | None = None, data: str | None = None) -> "SceneStore":
     """Return a store that is ready for graphs, before any work is spent on them."""
-    from usd2kg.graph.stores import open_store  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.stores import open_store  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
     store = open_store(place, update=update, data=data)
     store.check()
@@ -49,7 +49,7 @@ def load_command(
     data: DataAddress = None,
 ) -> None:
     """Put graphs into a store, each in place of what the store has under its name, as a whole or not at all."""
-    from usd2kg.graph.stores import read_named_graph  # noqa: PLC0415
+    from usd2kg.stores import read_named_graph  # noqa: PLC0415
 
     if scene is not None and len(graphs) > 1:
         raise StoreError("--scene names one graph; expected one file with it, or load the files one by one")
@@ -62,7 +62,7 @@ def load_command(
 @app.command("list")
 def list_command(place: _Place, json: JsonOutput = False) -> None:
     """List the scenes and ontologies of a store."""
-    from usd2kg.graph.stores import open_store  # noqa: PLC0415
+    from usd2kg.stores import open_store  # noqa: PLC0415
 
     store = open_store(place)
     rows = [
@@ -90,7 +90,7 @@ def remove_command(
     update: UpdateAddress = None,
 ) -> None:
     """Take scenes out of a store."""
-    from usd2kg.graph.stores import choose_graph, open_store  # noqa: PLC0415
+    from usd2kg.stores import choose_graph, open_store  # noqa: PLC0415
 
     store = open_store(place, update=update)
     graphs = store.graphs()
@@ -106,7 +106,7 @@ def update_command(
     update: UpdateAddress = None,
 ) -> None:
     """Change a store by a SPARQL 1.1 update, all of it or nothing; usual prefixes are known."""
-    from usd2kg.graph.stores import open_store  # noqa: PLC0415
+    from usd2kg.stores import open_store  # noqa: PLC0415
 
     text = query_text(sparql)
     store = open_store(place, update=update)

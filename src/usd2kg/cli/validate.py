@@ -12,9 +12,9 @@ from usd2kg.cli.output import emit, print_json, talk
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
-    from usd2kg.graph import GraphStore
-    from usd2kg.graph.validation import ElkAnswer
     from usd2kg.ontology import Closure
+    from usd2kg.query import GraphStore
+    from usd2kg.validation import ElkAnswer
 
 __all__ = ["validate_command"]
 
@@ -51,9 +51,9 @@ def validate_command(
     json: JsonOutput = False,
 ) -> None:
     """Check a graph: its shape, against its ontology, and for what is hard to believe. Exit code 1 if it finds any."""
-    from usd2kg.graph.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
-    from usd2kg.graph.validation import elk_jars as find_elk_jars  # noqa: PLC0415
-    from usd2kg.graph.validation import read_rules, validate_graph  # noqa: PLC0415
+    from usd2kg.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.validation import elk_jars as find_elk_jars  # noqa: PLC0415
+    from usd2kg.validation import read_rules, validate_graph  # noqa: PLC0415
 
     if reasoner not in {None, "elk"}:
         raise GraphError(f"reasoner {reasoner!r} is unknown; expected elk")
@@ -84,9 +84,9 @@ def validate_command(
 
 def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None":
     """Return the ontology to check against; None, told on stderr, where the graph names one that is not given."""
-    from usd2kg.graph.validation import imports_of, ontology_of  # noqa: PLC0415
     from usd2kg.ontology import read_closure  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
+    from usd2kg.validation import imports_of, ontology_of  # noqa: PLC0415
 
     tbox = open_tbox(ontology)
     stated = ontology_of(store)
@@ -103,8 +103,8 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
 
 def _ask(store: "GraphStore", closure: "Closure | None", jars: Path | None, limit: float) -> "ElkAnswer":
     """Return what ELK says; what it did not hear, and what is the ontology's own fault, is told on stderr."""
-    from usd2kg.graph.validation import ask_elk  # noqa: PLC0415
     from usd2kg.ontology import compact_iri  # noqa: PLC0415
+    from usd2kg.validation import ask_elk  # noqa: PLC0415
 
     if closure is None:
         raise GraphError(

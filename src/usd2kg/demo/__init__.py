@@ -3,7 +3,11 @@
 from importlib.resources import files
 from pathlib import Path
 
-__all__ = ["demo_gold", "demo_relations", "demo_scene"]
+__all__ = [
+    "demo_gold",
+    "demo_relations",
+    "demo_scene",
+]
 
 
 def demo_scene() -> Path:

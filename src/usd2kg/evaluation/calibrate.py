@@ -7,7 +7,7 @@ import numpy as np
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation.sample import Score
 from usd2kg.grounding import PlattScaling
-from usd2kg.grounding.scaling import logit
+from usd2kg.grounding.platt_scaling import logit
 
 __all__ = ["fit_scaling"]
 

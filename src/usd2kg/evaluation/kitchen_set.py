@@ -11,8 +11,7 @@ from pathlib import Path
 
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation.matrix import Matrix, SceneSpec
-from usd2kg.grounding import GROUNDERS
-from usd2kg.scene import NamingRegime
+from usd2kg.grounding import GROUNDERS, NamingRegime
 
 __all__ = ["KitchenSet", "check_kitchen_set", "crate_version", "kitchen_matrix"]
 

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import EvaluationError, GroundingError
-from usd2kg.grounding import GROUNDERS, is_llm_name, parse_evidence
-from usd2kg.scene import NamingRegime
+from usd2kg.grounding import GROUNDERS, NamingRegime, is_llm_name, parse_evidence
 
 __all__ = ["STUDY_ABLATION", "Cell", "Matrix", "SceneSpec", "read_matrix"]
 

@@ -9,9 +9,9 @@ from usd2kg.evaluation.gold import GoldLabel
 from usd2kg.evaluation.metrics.selection import SelectionScore, score_selection
 from usd2kg.evaluation.sample import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
-from usd2kg.grounding import Grounder, Grounding, ground
+from usd2kg.grounding import ABBREVIATED_LENGTH, Grounder, Grounding, NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import ABBREVIATED_LENGTH, ASKED_FOR, NamingRegime, Scene
+from usd2kg.scene import ASKED_FOR, Scene
 
 __all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "selection_of"]
 

@@ -18,11 +18,11 @@ from usd2kg.graph.options import GraphOptions
 from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, uses_soma
 from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
 from usd2kg.graph.relation_terms import describe_between, describe_room, measures
-from usd2kg.graph.relations import Relation, find_relations
 from usd2kg.graph.terms import declare_terms
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
+from usd2kg.relations import Relation, find_relations
 from usd2kg.scene import Scene, SceneObject
 
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]

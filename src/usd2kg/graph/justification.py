@@ -14,7 +14,7 @@ __all__ = ["justify_class", "justify_refusal", "matching_process"]
 _ALTERNATIVES = 3
 _MATCHING = {
     "dictionary": SEMAPV.LexicalMatching,
-    "embedded": SEMAPV.CompositeMatching,
+    "lexical": SEMAPV.CompositeMatching,
     "embedding": SEMAPV.SemanticSimilarityThresholdMatching,
     "llm": SEMAPV.BackgroundKnowledgeBasedMatching,
     PERSON: SEMAPV.ManualMappingCuration,

@@ -13,8 +13,8 @@ from usd2kg.graph.appearance import knowrob_color, plain_color, usd_color
 from usd2kg.graph.articulation import LinkedJoint, plain_joint, soma_joint
 from usd2kg.graph.body import common_body, plain_body, soma_body, typed
 from usd2kg.graph.relation_terms import plain_relation, soma_relation
-from usd2kg.graph.relations import Relation
 from usd2kg.graph.vocabulary import DUL, SOMA, U2K, USD, Namespace, Triple
+from usd2kg.relations import Relation
 from usd2kg.scene import SceneObject
 
 __all__ = ["PlainProfile", "Profile", "SomaProfile", "uses_soma"]

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 import pyoxigraph as ox
 
 from usd2kg.graph.iris import individual_iri
-from usd2kg.graph.relations import SYMMETRIC_KINDS, Relation
 from usd2kg.graph.vocabulary import DUL, KNOWROB, OWL, RDF, RDFS, SOMA, SSSOM, U2K, Triple, number, text
+from usd2kg.relations import SYMMETRIC_KINDS, Relation
 
 __all__ = [
     "KIND_OF_INVERSE",

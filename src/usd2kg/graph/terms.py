@@ -72,7 +72,7 @@ _BUILT_IN = tuple(namespace.iri for namespace in (RDF, RDFS, OWL))
 
 def vocabulary_text() -> str:
     """Return the ontology of our own terms, as Turtle."""
-    return (files("usd2kg.graph") / "data" / "vocabulary.ttl").read_text("utf-8")
+    return (files("usd2kg.graph") / "vocabulary.ttl").read_text("utf-8")
 
 
 def vocabulary_triples() -> list[ox.Triple]:

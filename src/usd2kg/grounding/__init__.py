@@ -1,22 +1,37 @@
-"""From a Scene and a TBox to a Grounding: a class for every object, how sure, and why."""
+"""Scene × TBox → Grounding: a class for every object, its confidence, and the evidence behind it."""
 
-from usd2kg.grounding.base import Grounder, ground, parse_evidence, parse_regime
+from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.cascade import CascadeGrounder
+from usd2kg.grounding.context import (
+    ABBREVIATED_LENGTH,
+    EVIDENCE_GROUPS,
+    STUDY_GROUPS,
+    NamingRegime,
+    ObjectView,
+    view_objects,
+)
 from usd2kg.grounding.decisions import PERSON, Carried, format_queue, read_decisions, unsure_of
 from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
+from usd2kg.grounding.ground import ground as ground
+from usd2kg.grounding.ground import parse_evidence, parse_regime
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
+from usd2kg.grounding.platt_scaling import PlattScaling, read_scaling
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
-from usd2kg.grounding.scaling import PlattScaling, read_scaling
 
 __all__ = [
+    "ABBREVIATED_LENGTH",
+    "EVIDENCE_GROUPS",
     "GROUNDERS",
     "MAPPING_FORMATS",
     "PERSON",
+    "STUDY_GROUPS",
     "Candidate",
     "Carried",
     "CascadeGrounder",
     "Grounder",
     "Grounding",
+    "NamingRegime",
+    "ObjectView",
     "PlattScaling",
     "Prediction",
     "Review",
@@ -34,4 +49,5 @@ __all__ = [
     "read_paths",
     "read_scaling",
     "unsure_of",
+    "view_objects",
 ]

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.base import Grounder
+from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
 __all__ = ["CascadeGrounder", "TierReport"]
 

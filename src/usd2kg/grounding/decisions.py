@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.model import Grounding, Prediction, Status
-from usd2kg.grounding.sssom import is_sssom, read_sssom_decisions
+from usd2kg.grounding.sssom_decisions import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["PERSON", "Carried", "decided", "format_queue", "read_decisions", "unsure_of"]

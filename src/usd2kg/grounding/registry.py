@@ -7,7 +7,7 @@ from usd2kg.grounding.base import Grounder
 
 __all__ = ["GROUNDERS", "is_llm_name", "make_grounder"]
 
-GROUNDERS = ("embedded", "dictionary", "embedding", "volume")
+GROUNDERS = ("lexical", "dictionary", "embedding", "volume")
 """Names that `make_grounder` knows; the first is the default. Beside them it knows `llm-B:MODEL` and the like."""
 
 
@@ -25,7 +25,7 @@ def make_grounder(
         name: one of `GROUNDERS`, or a strategy and a language model: `llm-B:google:gemini-2.5-flash`.
         dictionary: for `dictionary`, a CSV file `name,class` of the user's own.
         class_sizes: for `volume`, a CSV file of usual sizes of the user's own.
-        abstains: for `embedded`, take the class above where the candidates are split.
+        abstains: for `lexical`, take the class above where the candidates are split.
 
     Raises:
         GroundingError: there is no such grounder, or its file cannot be read.
@@ -36,23 +36,23 @@ def make_grounder(
         )
     if class_sizes is not None and name != "volume":
         raise GroundingError(f"grounder {name!r} takes no class sizes; choose the grounder volume to use {class_sizes}")
-    if abstains and name != "embedded":
-        raise GroundingError(f"grounder {name!r} cannot abstain; choose the grounder embedded")
-    # Each is imported only when it is asked for: the embedded one reads a noun taxonomy.
-    if name == "embedded":
-        from usd2kg.grounding.embedded.grounder import EmbeddedGrounder  # noqa: PLC0415
+    if abstains and name != "lexical":
+        raise GroundingError(f"grounder {name!r} cannot abstain; choose the grounder lexical")
+    # Each is imported only when it is asked for: the lexical one reads a noun taxonomy.
+    if name == "lexical":
+        from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
 
-        return EmbeddedGrounder(abstains=abstains)
+        return LexicalGrounder(abstains=abstains)
     if name == "dictionary":
-        from usd2kg.grounding.dictionary import DictionaryGrounder  # noqa: PLC0415
+        from usd2kg.grounding.baselines.dictionary import DictionaryGrounder  # noqa: PLC0415
 
         return DictionaryGrounder.from_csv(dictionary) if dictionary else DictionaryGrounder.multiverse()
     if name == "embedding":
-        from usd2kg.grounding.embedding.grounder import EmbeddingGrounder  # noqa: PLC0415
+        from usd2kg.grounding.baselines.embedding.grounder import EmbeddingGrounder  # noqa: PLC0415
 
         return EmbeddingGrounder()
     if name == "volume":
-        from usd2kg.grounding.volume import VolumeGrounder  # noqa: PLC0415
+        from usd2kg.grounding.baselines.volume import VolumeGrounder  # noqa: PLC0415
 
         return VolumeGrounder.from_csv(class_sizes) if class_sizes else VolumeGrounder()
     if is_llm_name(name):

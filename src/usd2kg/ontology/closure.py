@@ -37,7 +37,7 @@ def read_closure(tbox: TBox, also: Iterable[str] = ()) -> Closure:
         OntologyError: a document cannot be read any more.
     """
     if tbox.source == HOME:
-        with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
+        with as_file(files("usd2kg") / "data" / "home.ttl") as path:
             return _read(path, also)
     return _read(Path(tbox.source), also)
 

@@ -51,7 +51,7 @@ def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
 
 @lru_cache(maxsize=4)
 def _load_home(roots: tuple[str, ...] | None) -> TBox:
-    with as_file(files("usd2kg.ontology") / "data" / "home.ttl") as path:
+    with as_file(files("usd2kg") / "data" / "home.ttl") as path:
         # The classes are SOMA-HOME's own, so that is what a graph over them imports.
         return replace(_load(path, HOME, roots, None), ontology_iri=_SOMA_HOME)
 

@@ -52,7 +52,7 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
     """
     source = str(path) if path is not None else "registry.toml"
     try:
-        text = (path or files("usd2kg.ontology") / "data" / "registry.toml").read_text(encoding="utf-8")
+        text = (path or files("usd2kg") / "data" / "registry.toml").read_text(encoding="utf-8")
         entries = tomllib.loads(text)["ontology"]
         known = [_ontology(source, entry) for entry in entries]
     except OSError as error:

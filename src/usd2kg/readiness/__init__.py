@@ -2,4 +2,7 @@
 
 from usd2kg.readiness.check import OntologyReport, check_ontology
 
-__all__ = ["OntologyReport", "check_ontology"]
+__all__ = [
+    "OntologyReport",
+    "check_ontology",
+]

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from usd2kg.graph.validation import Axioms, Finding, sort_findings
 from usd2kg.ontology import TBox, read_closure
 from usd2kg.readiness.hierarchy import find_hierarchy_faults
 from usd2kg.readiness.meaning import Meaning, find_unmeant
 from usd2kg.readiness.texts import Texts, find_text_faults
+from usd2kg.validation import Axioms, Finding, sort_findings
 
 __all__ = ["OntologyReport", "check_ontology"]
 

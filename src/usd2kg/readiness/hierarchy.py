@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from usd2kg.graph.validation import Axioms, Finding, Severity
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri, local_name
 from usd2kg.readiness.texts import about
+from usd2kg.validation import Axioms, Finding, Severity
 
 __all__ = ["find_hierarchy_faults"]
 

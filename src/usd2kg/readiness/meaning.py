@@ -3,14 +3,14 @@
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
-from usd2kg.graph.validation import Finding, Severity
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
-from usd2kg.grounding.embedded.lexicon import build_lexicon, home_names, things_of
-from usd2kg.grounding.embedded.taxonomy import load_taxonomy
-from usd2kg.grounding.embedded.terms import HEAD, Term, term_key
+from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names, things_of
+from usd2kg.grounding.lexical.alignment.terms import HEAD, Term, term_key
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
 from usd2kg.readiness.texts import about
-from usd2kg.scene import ObjectView
+from usd2kg.validation import Finding, Severity
 from usd2kg.words import words_of
 
 __all__ = ["Meaning", "find_unmeant"]
@@ -54,7 +54,7 @@ class Meaning:
     def answers(self) -> Mapping[ClassIRI, ClassIRI | None]:
         """Class with a term → the class of an object that bears nothing but that name."""
         views = [(iri, ObjectView(name=name)) for iri, name in self.names.items()]
-        found = EmbeddedGrounder().ground_views(views, self._tbox)
+        found = LexicalGrounder().ground_views(views, self._tbox)
         return {prediction.prim_path: prediction.class_iri for prediction in found}
 
     def rival(self, cls: OntologyClass) -> Term | None:

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator
 
 import pyoxigraph as ox
 
-from usd2kg.graph.validation import Finding, Severity
 from usd2kg.ontology import LABELS, OntologyClass, TBox, compact_iri
+from usd2kg.validation import Finding, Severity
 from usd2kg.words import split_identifier
 
 __all__ = ["Texts", "about", "find_text_faults"]

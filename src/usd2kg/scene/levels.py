@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from pxr import UsdGeom
 
 from usd2kg.scene.bounds import BoxReader, is_measurable
-from usd2kg.scene.box_pairs import overlapping_pairs
 from usd2kg.scene.meshes import read_mesh
 from usd2kg.scene.model import Box, StageFrame
 from usd2kg.scene.outline import Node
+from usd2kg.shapes.box_pairs import overlapping_pairs
 
 __all__ = ["find_levels", "holds_others", "read_levels"]
 

@@ -16,7 +16,8 @@ from usd2kg.scene.bounds import BoxReader, union
 from usd2kg.scene.evidence import asset_names, display_color, geometry_file, own_nodes, part_names, read_mass
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
-from usd2kg.scene.labels import LabelReader, lint_labels
+from usd2kg.scene.label_lint import lint_labels
+from usd2kg.scene.label_reader import LabelReader
 from usd2kg.scene.levels import holds_others, read_levels
 from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
@@ -24,14 +25,7 @@ from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Node, Outline
 from usd2kg.scene.plausibility import check_plausibility
 from usd2kg.scene.selection import ASKED_FOR, Selection, explain, select_objects
-from usd2kg.scene.stage import (
-    UNREADABLE,
-    OpenedStage,
-    captured_diagnostics,
-    error_text,
-    open_stage,
-    translated_errors,
-)
+from usd2kg.scene.stage import UNREADABLE, OpenedStage, captured_diagnostics, error_text, open_stage, translated_errors
 from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, above_endless, outline_stage
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]

@@ -12,12 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom
 
-from usd2kg.scene.hull import ConvexHull, convex_hull, convex_polygon, largest_normals, smallest_box, smallest_rectangle
 from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
 from usd2kg.scene.model import Diagnostic, Scene
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage
-from usd2kg.scene.vessels import NO_VESSEL, measure_vessel
+from usd2kg.shapes.hull import (
+    ConvexHull,
+    convex_hull,
+    convex_polygon,
+    largest_normals,
+    smallest_box,
+    smallest_rectangle,
+)
+from usd2kg.shapes.vessels import NO_VESSEL, measure_vessel
 
 __all__ = ["ShapeDescriptors", "describe_shapes", "describe_triangles"]
 

@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
+from usd2kg.grounding import ObjectView
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Status
-from usd2kg.scene import ObjectView
 
 TBOX = make_tbox(
     make_class("Cup", base=SOMA),

@@ -15,7 +15,7 @@ import pytest
 
 from tests.grounding.records import make_object, make_scene
 from usd2kg.errors import GroundingError
-from usd2kg.grounding import Status, ground
+from usd2kg.grounding import NamingRegime, ObjectView, Status, ground
 from usd2kg.grounding.llm.asking import Asker, Limits
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
@@ -24,7 +24,7 @@ from usd2kg.grounding.llm.grouping import distinct_views
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prices import Tariff, parse_price
 from usd2kg.ontology import TBox
-from usd2kg.scene import Box, NamingRegime, ObjectView, Scene
+from usd2kg.scene import Box, Scene
 
 Say = Callable[[Request], str]
 

@@ -16,13 +16,13 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
 from usd2kg.errors import GroundingError
+from usd2kg.grounding import ObjectView
 from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
 from usd2kg.grounding.llm.text import estimate_tokens, quote
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
 LETTERS = (Strategy.NAME_ONLY, Strategy.CONTEXT, Strategy.CHAIN_OF_THOUGHT)
 GOLDEN = Path(__file__).parent / "golden"

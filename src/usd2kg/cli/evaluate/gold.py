@@ -34,7 +34,7 @@ def annotate_command(
     check_apart([output], [scene, ontology])
     found = read_scene(scene)
     tbox = open_tbox(ontology)
-    suggestions = grounding.ground(found, tbox, grounding.make_grounder("embedded")) if suggest else None
+    suggestions = grounding.ground(found, tbox, grounding.make_grounder("lexical")) if suggest else None
     emit(gold_template(found, suggestions, tbox), output)
 
 

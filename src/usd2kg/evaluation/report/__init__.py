@@ -2,4 +2,6 @@
 
 from usd2kg.evaluation.report.write import write_report
 
-__all__ = ["write_report"]
+__all__ = [
+    "write_report",
+]

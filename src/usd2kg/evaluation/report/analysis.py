@@ -9,9 +9,9 @@ from usd2kg.evaluation.metrics.accuracy import exact_match
 from usd2kg.evaluation.metrics.intervals import McNemar, mcnemar
 from usd2kg.evaluation.reproduce import CellResult, SceneResult
 from usd2kg.evaluation.sample import Score, distinct_name
+from usd2kg.grounding import NamingRegime
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.model import local_name
-from usd2kg.scene import NamingRegime
 from usd2kg.words import words_of
 
 __all__ = [

@@ -21,7 +21,8 @@ from usd2kg.evaluation.report.document import ABSENT, Table, class_text, number_
 from usd2kg.evaluation.report.tables import size_title
 from usd2kg.evaluation.reproduce import SceneResult
 from usd2kg.evaluation.sample import Score, distinct_name
-from usd2kg.scene import NamingRegime, Scene
+from usd2kg.grounding import NamingRegime
+from usd2kg.scene import Scene
 
 __all__ = [
     "agreed_table",

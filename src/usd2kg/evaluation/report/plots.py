@@ -16,8 +16,8 @@ from usd2kg.evaluation.report.analysis import REGIMES, hierarchy_order, methods_
 from usd2kg.evaluation.report.document import Figure, class_text, plain_number, printable
 from usd2kg.evaluation.reproduce import CellResult, SceneResult
 from usd2kg.evaluation.sample import Score
+from usd2kg.grounding import NamingRegime
 from usd2kg.ontology import ClassIRI
-from usd2kg.scene import NamingRegime
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

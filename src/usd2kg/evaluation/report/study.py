@@ -44,7 +44,7 @@ def study_ablation() -> Mapping[str, Mapping[str, StudyFigure]]:
 
 @lru_cache(maxsize=2)
 def _read(table: str) -> Mapping[str, Mapping[str, StudyFigure]]:
-    text = (files("usd2kg.evaluation") / "data" / "study_results.csv").read_text("utf-8")
+    text = (files("usd2kg") / "data" / "study_results.csv").read_text("utf-8")
     found: dict[str, dict[str, StudyFigure]] = {}
     for row in csv.DictReader(text.splitlines()):
         if row["table"] == table:

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from itertools import islice
 
+from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.text import quote
-from usd2kg.scene import ObjectView
 
 __all__ = ["describe"]
 

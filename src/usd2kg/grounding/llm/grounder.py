@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import replace
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
 from usd2kg.grounding.llm.asking import Asker, RunReport
 from usd2kg.grounding.llm.completion import Completion, Finish
@@ -15,9 +16,8 @@ from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
 from usd2kg.grounding.llm.voting import Reply, vote
 from usd2kg.grounding.model import Prediction, Status
-from usd2kg.grounding.scaling import PlattScaling
+from usd2kg.grounding.platt_scaling import PlattScaling
 from usd2kg.ontology import TBox
-from usd2kg.scene import ObjectView
 
 __all__ = ["LLMGrounder"]
 
@@ -54,7 +54,7 @@ class LLMGrounder:
             asker: who asks the model.
             options: strategy and form of the prompts.
             is_once_each: ask once about objects whose prompts would differ in a number alone.
-            shortlist: offer for each object only so many classes that the embedded grounder thinks of first, with
+            shortlist: offer for each object only so many classes that the lexical grounder thinks of first, with
                 those above them and the roots; None offers all.
             workers: prompts that are on their way at the same time.
             samples: completions that are asked for each prompt; the class that most of them name is taken.

@@ -3,17 +3,17 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from usd2kg.grounding.embedded.grounder import EmbeddedGrounder
+from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import ObjectView
 
 __all__ = ["distinct_views", "shortlists"]
 
 
 def shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
-    """Return for each view the classes that the embedded grounder thinks of first, all above them, and the roots."""
-    first = EmbeddedGrounder().ground_views([("", view) for view in views], tbox)
+    """Return for each view the classes that the lexical grounder thinks of first, all above them, and the roots."""
+    first = LexicalGrounder().ground_views([("", view) for view in views], tbox)
     likely = [[candidate.class_iri for candidate in found.candidates[:most]] for found in first]
     return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
 

@@ -8,13 +8,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.class_lists import name_classes, offer_classes
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.descriptions import describe
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.text import fill_template, read_template
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.scene import ObjectView
 
 __all__ = ["Batch", "Example", "build_requests"]
 

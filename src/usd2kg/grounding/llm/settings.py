@@ -18,7 +18,7 @@ from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prices import find_tariff, parse_price
 from usd2kg.grounding.llm.prompts import Example
 from usd2kg.grounding.llm.traffic import Traffic
-from usd2kg.grounding.scaling import read_scaling
+from usd2kg.grounding.platt_scaling import read_scaling
 
 __all__ = ["LLMSettings", "make_llm_grounder", "open_asker", "open_llm_grounder", "parse_llm_name"]
 
@@ -38,7 +38,7 @@ class LLMSettings:
     shuffle_seed: int | None = None
     """Seed of a random order of the classes; None for the alphabet."""
     shortlist: int | None = None
-    """Classes of the embedded grounder that are offered for each object; None for all."""
+    """Classes of the lexical grounder that are offered for each object; None for all."""
     samples: int = 1
     """Completions of each prompt; the class that most of them name is taken."""
     first_sample: int = 0

@@ -16,7 +16,7 @@ import pytest
 from tests.grounding.llm.test_llama_server import WEIGHTS_SHA256
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
 from usd2kg.errors import GroundingError
-from usd2kg.grounding import Status, ground
+from usd2kg.grounding import ObjectView, Status, ground
 from usd2kg.grounding.llm.asking import Asker
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Finish, Request
@@ -27,7 +27,7 @@ from usd2kg.grounding.llm.local.llama import LlamaModel
 from usd2kg.grounding.llm.options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import build_requests
 from usd2kg.ontology import TBox, load_home_tbox
-from usd2kg.scene import Box, ObjectView
+from usd2kg.scene import Box
 
 pytestmark = pytest.mark.slow
 

@@ -1,0 +1,11 @@
+"""Pictures of a graph as SVG or PNG: one object in its surroundings, or what stands on what in a room."""
+
+from usd2kg.diagrams.png import to_png
+from usd2kg.diagrams.room_cards import draw_room
+from usd2kg.diagrams.surroundings import draw_surroundings
+
+__all__ = [
+    "draw_room",
+    "draw_surroundings",
+    "to_png",
+]

@@ -1,0 +1,61 @@
+"""to_png: a picture as pixels, drawn by resvg with the fonts of the system."""
+
+import re
+from functools import cache
+
+from usd2kg.diagrams.svg import FONT
+from usd2kg.errors import OutputError
+
+__all__ = ["to_png"]
+
+_SCALE = 2.0
+"""Pixels for one unit of the drawing: letters of 13 units are sharp on today's screens and in print."""
+_MOST_PIXELS = 60e6
+"""A larger picture is drawn at a smaller scale: programs refuse it, and it takes a gigabyte to draw."""
+_SANS_SERIF = (
+    "Arial", "DejaVu Sans", "Liberation Sans", "Noto Sans", "Open Sans", "Roboto", "Ubuntu", "Cantarell", "FreeSans",
+    "Segoe UI", "Verdana", "Lucida Grande",
+)  # fmt: skip
+"""What may stand for a sans-serif font, where the system has none of those that the pictures name."""
+_SIZE = re.compile(r'<svg [^>]*?width="(\d+)" height="(\d+)"')
+
+
+def to_png(svg: str) -> bytes:
+    """Return a picture that this package drew, as PNG: two pixels for each unit, fewer where that were too many.
+
+    Raises:
+        OutputError: resvg is not installed, or the system has no font, so that the picture would have no text.
+    """
+    family = _sans_serif()
+    if family is None:
+        raise OutputError(
+            "PNG: the system has no sans-serif font, so the picture would be without names; install one (on Debian: "
+            "apt-get install fonts-dejavu-core), or write SVG, which is drawn with the fonts of its reader"
+        )
+    found = _SIZE.match(svg)
+    assert found is not None, "pictures of this package state their size first"
+    width, height = (int(side) for side in found.groups())
+    scale = min(_SCALE, (_MOST_PIXELS / max(width * height, 1)) ** 0.5)
+    return _draw(svg, family, max(1, round(width * scale)))
+
+
+def _draw(svg: str, family: str, width: int) -> bytes:
+    try:
+        import resvg_py  # noqa: PLC0415 - an extra
+    except ImportError as error:
+        raise OutputError("PNG needs resvg: pip install 'usd2kg[pictures]', or write SVG") from error
+    return bytes(resvg_py.svg_to_bytes(svg_string=svg, width=width, sans_serif_family=family))
+
+
+@cache
+def _sans_serif() -> str | None:
+    """Return what to take for a sans-serif font so that text is drawn; None if there is none.
+
+    resvg tells of no font that it lacks: it leaves the text out.
+    """
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20" font-family="{FONT}">'
+    for family in _SANS_SERIF:
+        drawn, empty = (_draw(f'{head}<text y="16">{text}</text></svg>', family, 20) for text in ("M", ""))
+        if drawn != empty:
+            return family
+    return None

@@ -1,0 +1,199 @@
+"""What a picture shows of each object, and groups of objects that are alike."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from usd2kg.query.graph_store import GraphStore
+
+__all__ = ["Line", "Thing", "class_families", "collapse", "read_things"]
+
+_THINGS = """
+SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WHERE {
+  ?o u2k:primPath ?path ; rdfs:label ?label .
+  FILTER NOT EXISTS { ?o a u2k:RoomGroup }
+  OPTIONAL {
+    ?o a ?c . ?c rdfs:label ?class . FILTER(?c NOT IN (u2k:Object, usd:Prim))
+    OPTIONAL { ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?confidence }
+  }
+  OPTIONAL { ?o soma:isOntopOf|u2k:on ?on }
+  OPTIONAL { ?o soma:isInsideOf|u2k:inside ?in }
+  OPTIONAL { ?o u2k:partOf|^soma:hasPhysicalComponent ?whole . ?whole u2k:primPath [] }
+  OPTIONAL { ?j soma:hasChildLink|u2k:childObject ?o ; soma:hasParentLink|u2k:parentObject ?jointed }
+  OPTIONAL {
+    ?o (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:width ?w ;
+       (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:depth ?d ;
+       (soma:hasShape/dul:hasRegion/soma:hasHeight)|u2k:height ?h .
+  }
+} ORDER BY ?path ?on ?in ?whole ?jointed"""
+
+_ABOVE = """
+SELECT DISTINCT ?c ?label ?parent WHERE {
+  ?c a owl:Class ; rdfs:label ?label .
+  OPTIONAL { ?c rdfs:subClassOf ?parent }
+}"""
+
+_FAMILIES = 8
+"""Colours that a person still tells apart."""
+_OTHER = "other"
+_MOST_LETTERS = 24
+"""Of the labels of things that share a line."""
+
+
+@dataclass
+class Thing:
+    """An object, and what it hangs on in the tree: what it is in, else on, else part of, else jointed to."""
+
+    iri: str
+    path: str
+    label: str
+    class_iri: str | None
+    class_label: str
+    confidence: float | None
+    size: str
+    """"width × depth × height cm", of the world box; empty without one."""
+    parent: str | None
+    tie: str
+    """How it hangs on its parent: in, on, part, joint; empty without a parent."""
+    family: str = _OTHER
+    children: list["Thing"] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of a picture: a thing, or several alike."""
+
+    text: str
+    detail: str
+    tie: str
+    family: str
+    names: str
+    """For the tooltip."""
+    children: tuple["Line", ...] = ()
+
+
+def read_things(store: GraphStore) -> dict[str, Thing]:
+    """Return the objects of a graph by IRI, in the order of their paths, each below its parent."""
+    things: dict[str, Thing] = {}
+    for values in store.sparql(_THINGS).values:
+        row = dict(
+            zip(
+                ("o", "path", "label", "c", "class", "confidence", "on", "in", "whole", "jointed", "w", "d", "h"),
+                values,
+                strict=True,
+            )
+        )
+        if str(row["o"]) not in things:
+            things[str(row["o"])] = _thing(row)
+    families = class_families(store, [thing.class_iri for thing in things.values() if thing.class_iri])
+    for thing in things.values():
+        thing.family = families.get(thing.class_iri or "", _OTHER)
+        if thing.parent not in things or _is_below(thing, things):
+            thing.parent, thing.tie = None, ""
+    for thing in things.values():
+        if thing.parent is not None:
+            things[thing.parent].children.append(thing)
+    return things
+
+
+def _thing(row: Mapping[str, str | float | int | bool | None]) -> Thing:
+    ties = (("in", row["in"]), ("on", row["on"]), ("part", row["whole"]), ("joint", row["jointed"]))
+    tie, parent = next(((name, str(iri)) for name, iri in ties if iri), ("", None))
+    sides = [row[name] for name in ("w", "d", "h")]
+    size = " × ".join(f"{float(side) * 100:.3g}" for side in sides if side is not None)
+    confidence = row["confidence"]
+    return Thing(
+        iri=str(row["o"]),
+        path=str(row["path"]),
+        label=str(row["label"]),
+        class_iri=str(row["c"]) if row["c"] else None,
+        class_label=str(row["class"] or "no class"),
+        confidence=None if confidence is None else float(confidence),
+        size=f"{size} cm" if size else "",
+        parent=parent,
+        tie=tie,
+    )
+
+
+def _is_below(thing: Thing, things: Mapping[str, Thing]) -> bool:
+    """Return whether a thing would hang below itself, since the ties of a graph may run in a circle."""
+    seen = {thing.iri}
+    above = thing.parent
+    while above is not None and above in things:
+        if above in seen:
+            return True
+        seen.add(above)
+        above = things[above].parent
+    return False
+
+
+def class_families(store: GraphStore, used: Iterable[str]) -> dict[str, str]:
+    """Return the family of each used class: the largest groups are split until there are enough to tell apart.
+
+    A family is a class with all below it, by the first of its superclasses; the smallest families are one, "other".
+    """
+    labels: dict[str, str] = {}
+    parent_of: dict[str, str] = {}
+    for iri, label, parent in sorted(store.sparql(_ABOVE).rows, key=str):
+        labels.setdefault(iri or "", label or "")
+        if parent and iri not in parent_of:
+            parent_of[iri or ""] = parent
+    chains = {iri: _chain(iri, parent_of, labels) for iri in set(used)}
+    counts: dict[str, int] = {}
+    for iri in used:
+        counts[iri] = counts.get(iri, 0) + 1
+    depth = dict.fromkeys(chains, 0)
+    while True:
+        groups: dict[str, list[str]] = {}
+        for iri in sorted(chains):
+            groups.setdefault(chains[iri][min(depth[iri], len(chains[iri]) - 1)], []).append(iri)
+        sizes = {name: sum(counts[iri] for iri in members) for name, members in groups.items()}
+        splittable = [n for n, members in groups.items() if any(depth[iri] < len(chains[iri]) - 1 for iri in members)]
+        if len(groups) >= _FAMILIES or not splittable:
+            break
+        for iri in groups[max(splittable, key=lambda name: (sizes[name], name))]:
+            depth[iri] += 1
+    kept = sorted(groups, key=lambda name: (-sizes[name], name))[:_FAMILIES]
+    return {iri: labels[name] if name in kept else _OTHER for name, members in groups.items() for iri in members}
+
+
+def _chain(iri: str, parent_of: Mapping[str, str], labels: Mapping[str, str]) -> list[str]:
+    """Return a class and those above it, the topmost first."""
+    chain = [iri]
+    while (above := parent_of.get(chain[0])) and above in labels and above not in chain:
+        chain.insert(0, above)
+    return chain
+
+
+def collapse(things: Iterable[Thing]) -> tuple[Line, ...]:
+    """Return things as lines; those that carry nothing and are of one class and tie share a line."""
+    single: list[tuple[str, Line]] = []
+    alike: dict[tuple[str, str], list[Thing]] = {}
+    for thing in things:
+        if thing.children:
+            single.append((thing.path, _line(thing)))
+        else:
+            alike.setdefault((thing.class_label, thing.tie), []).append(thing)
+    for (class_label, tie), group in alike.items():
+        if len(group) == 1:
+            single.append((group[0].path, _line(group[0])))
+        else:
+            labels = [thing.label for thing in group]
+            line = Line(f"{len(group)} × {class_label}", _some(labels), tie, group[0].family, ", ".join(labels))
+            single.append((group[0].path, line))
+    return tuple(line for _, line in sorted(single, key=lambda pair: (not pair[1].children, pair[0])))
+
+
+def _some(labels: list[str]) -> str:
+    """Return the first labels, as many as a line has room for, and an ellipsis for the others."""
+    shown = labels[:1]
+    for label in labels[1:]:
+        if len(", ".join((*shown, label))) > _MOST_LETTERS:
+            return f"{', '.join(shown)}, …"
+        shown.append(label)
+    return ", ".join(shown)
+
+
+def _line(thing: Thing) -> Line:
+    sure = "" if thing.confidence is None else f" {thing.confidence:.2f}"
+    names = f"{thing.path} {thing.size}".strip()
+    return Line(thing.label, f"{thing.class_label}{sure}", thing.tie, thing.family, names, collapse(thing.children))

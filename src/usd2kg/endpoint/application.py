@@ -1,0 +1,238 @@
+"""make_app: a read-only SPARQL 1.1 Protocol endpoint with a page to ask from."""
+
+import base64
+import hashlib
+import re
+import time
+from collections.abc import AsyncIterator, Callable, Iterable
+from contextlib import asynccontextmanager
+from dataclasses import asdict
+from importlib.resources import files
+from typing import Any
+from urllib.parse import parse_qsl
+
+import pyoxigraph as ox
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.routing import Route
+
+from usd2kg.endpoint.examples import Example
+from usd2kg.endpoint.formats import GRAPH_TYPES, render
+from usd2kg.endpoint.guard import Guard
+from usd2kg.endpoint.negotiation import negotiate
+from usd2kg.endpoint.pool import BusyError, Limits, TimeLimitError, WorkerLostError, WorkerPool
+from usd2kg.graph.vocabulary import PREFIXES, named_node
+from usd2kg.query.functions import FUNCTION_NAMESPACE
+
+__all__ = ["RequestFaultError", "make_app"]
+
+_FORM = "application/x-www-form-urlencoded"
+_QUERY = "application/sparql-query"
+_DESCRIPTION = """
+PREFIX sd: <http://www.w3.org/ns/sparql-service-description#>
+CONSTRUCT {
+  [] a sd:Service ; sd:endpoint ENDPOINT ; sd:supportedLanguage sd:SPARQL11Query ; sd:feature sd:UnionDefaultGraph ;
+    sd:resultFormat <http://www.w3.org/ns/formats/SPARQL_Results_JSON>, <http://www.w3.org/ns/formats/SPARQL_Results_XML>,
+      <http://www.w3.org/ns/formats/SPARQL_Results_CSV>, <http://www.w3.org/ns/formats/SPARQL_Results_TSV>,
+      <http://www.w3.org/ns/formats/Turtle>, <http://www.w3.org/ns/formats/N-Triples>,
+      <http://www.w3.org/ns/formats/RDF_XML>, <http://www.w3.org/ns/formats/JSON-LD>
+} WHERE {}"""
+
+
+class RequestFaultError(Exception):
+    """A request that cannot be answered, with the status and a text for the person behind it."""
+
+    def __init__(self, status: int, text: str) -> None:
+        super().__init__(text)
+        self.status = status
+
+
+def make_app(
+    pool: WorkerPool,
+    limits: Limits,
+    *,
+    title: str,
+    graphs: Iterable[str],
+    examples: Iterable[Example],
+    when_ready: Callable[[], None] = lambda: None,
+    hosts: Iterable[str] = (),
+    origins: Iterable[str] = (),
+) -> Starlette:
+    """Return the application.
+
+    Args:
+        pool: who answers.
+        limits: what one request may take.
+        title: what is served, for the page.
+        graphs: IRIs of its named graphs.
+        examples: queries that the page offers.
+        when_ready: called once queries can be answered.
+        hosts: names, besides localhost and addresses in digits, that it may be asked by.
+        origins: sites whose pages may ask it, like https://my.lab, or *.
+    """
+    about = {
+        "title": title,
+        "graphs": list(graphs),
+        "limits": asdict(limits),
+        "prefixes": {**PREFIXES, "u2kf": FUNCTION_NAMESPACE},
+        "examples": [asdict(example) for example in examples],
+    }
+    page = (files("usd2kg.endpoint") / "page.html").read_text("utf-8")
+
+    async def show_page(_: Request) -> Response:
+        return HTMLResponse(page, headers={"Content-Security-Policy": _page_policy(page)})
+
+    async def show_about(_: Request) -> Response:
+        return JSONResponse(about)
+
+    async def ask(request: Request) -> Response:
+        return await _ask(request, pool, limits)
+
+    @asynccontextmanager
+    async def lifespan(_: Starlette) -> AsyncIterator[None]:
+        await pool.warm()
+        when_ready()
+        yield
+        await pool.close()
+
+    methods = ["GET", "POST", "OPTIONS"]
+    return Starlette(
+        routes=[
+            Route("/", show_page),
+            Route("/about", show_about),
+            Route("/sparql", ask, methods=methods),
+            Route("/query", ask, methods=methods),
+        ],
+        middleware=[Middleware(Guard, hosts=tuple(hosts), origins=tuple(origins))],
+        lifespan=lifespan,
+    )
+
+
+def _page_policy(page: str) -> str:
+    """Return the policy under which only the script and the style of the page itself run."""
+
+    def digest(tag: str) -> str:
+        found = re.search(rf"<{tag}>(.*?)</{tag}>", page, flags=re.DOTALL)
+        assert found is not None, f"the page has a {tag}"
+        return "'sha256-" + base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode() + "'"
+
+    return (
+        f"default-src 'none'; script-src {digest('script')}; style-src {digest('style')}; connect-src 'self'; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    )
+
+
+async def _ask(request: Request, pool: WorkerPool, limits: Limits) -> Response:
+    """Answer one request of the SPARQL 1.1 Protocol (section 2.1)."""
+    if request.method == "OPTIONS":
+        return Response(status_code=204, headers={"Allow": "GET, POST, OPTIONS"})
+    try:
+        wanted = await _read_request(request, limits)
+        if wanted is None:
+            return _describe(request)
+        return await _answer(wanted, pool, limits)
+    except RequestFaultError as fault:
+        return _refusal(request, fault)
+
+
+async def _answer(wanted: dict[str, Any], pool: WorkerPool, limits: Limits) -> Response:
+    start = time.perf_counter()
+    try:
+        result = await pool.run(wanted)
+    except BusyError as error:
+        raise RequestFaultError(503, "too many queries are waiting; try again in a moment") from error
+    except TimeLimitError as error:
+        raise RequestFaultError(
+            503, f"the query took more than {limits.seconds:g} s and was stopped; ask for less, or raise --time-limit"
+        ) from error
+    except WorkerLostError as error:
+        raise RequestFaultError(
+            503, f"the query needed more than {limits.memory_mib} MiB and was stopped; ask for less, like with LIMIT"
+        ) from error
+    if result.told["status"] != 200:
+        raise RequestFaultError(result.told["status"], result.body.decode())
+    seconds = time.perf_counter() - start
+    headers = {"Usd2kg-Rows": str(result.told["rows"]), "Server-Timing": f"query;dur={1000 * seconds:.1f}"}
+    if result.told["cut"]:
+        headers["X-SPARQL-MaxRows"] = str(result.told["rows"])
+    media_type = result.told["type"]
+    charset = "; charset=utf-8" if media_type.startswith("text/") else ""
+    headers["Content-Type"] = media_type + charset
+    headers["Vary"] = "Accept"
+    return Response(result.body, headers=headers)
+
+
+async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | None:
+    """Return what is asked; None where nothing is, and the service is to describe itself."""
+    fields = parse_qsl(request.url.query, keep_blank_values=True)
+    if request.method == "POST":
+        body = await _read_body(request, limits.body_bytes)
+        content_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+        if content_type == _FORM:
+            fields += parse_qsl(body, keep_blank_values=True)
+        elif content_type == _QUERY:
+            fields.append(("query", body))
+        else:
+            raise RequestFaultError(
+                415, f"content type {content_type or 'none'} is not read; expected {_QUERY} or {_FORM}"
+            )
+    elif not fields:
+        return None
+    if any(name in {"update", "using-graph-uri", "using-named-graph-uri"} for name, _ in fields):
+        raise RequestFaultError(400, "this endpoint is read only: updates are not done here")
+    queries = [value for name, value in fields if name == "query"]
+    if len(queries) != 1 or not queries[0].strip():
+        raise RequestFaultError(400, f"expected one query, found {len(queries) if any(queries) else 'none'}")
+    return {
+        "query": queries[0],
+        "accept": request.headers.get("accept"),
+        "default_graphs": _graphs(fields, "default-graph-uri"),
+        "named_graphs": _graphs(fields, "named-graph-uri"),
+    }
+
+
+def _graphs(fields: list[tuple[str, str]], name: str) -> list[str]:
+    found = [value for field, value in fields if field == name]
+    for value in found:
+        if named_node(value) is None:
+            raise RequestFaultError(400, f"{name}={value}: expected an absolute IRI")
+    return found
+
+
+async def _read_body(request: Request, most: int) -> str:
+    body = b""
+    try:
+        async for piece in request.stream():
+            body += piece
+            if len(body) > most:
+                raise RequestFaultError(413, f"the request is larger than {most} bytes; send a shorter query")
+        return body.decode()
+    except UnicodeDecodeError as error:
+        raise RequestFaultError(400, "the request is not UTF-8") from error
+    except ClientDisconnect as error:
+        raise RequestFaultError(400, "the request broke off") from error
+
+
+def _describe(request: Request) -> Response:
+    """Return what this service can do (SPARQL 1.1 Service Description), or the page for a browser."""
+    accept = request.headers.get("accept")
+    media_type = negotiate(accept, (*GRAPH_TYPES, "text/html"))
+    if media_type == "text/html":
+        return RedirectResponse("/", 303)
+    # The address was checked by its host, and prints itself escaped.
+    endpoint = str(ox.NamedNode(str(request.url.replace(query=""))))
+    found = ox.Store().query(_DESCRIPTION.replace("ENDPOINT", endpoint))
+    assert isinstance(found, ox.QueryTriples), "the description is a CONSTRUCT"
+    chosen = media_type or GRAPH_TYPES[0]
+    return Response(render(found, chosen, 100).body, media_type=chosen)
+
+
+def _refusal(request: Request, fault: RequestFaultError) -> Response:
+    """Return the text of a fault, as JSON for clients that read JSON."""
+    headers = {"Retry-After": "1"} if str(fault).startswith("too many") else {}
+    accept = request.headers.get("accept", "")
+    if "json" in accept and "text/plain" not in accept:
+        return JSONResponse({"error": str(fault)}, fault.status, headers=headers)
+    return PlainTextResponse(str(fault) + "\n", fault.status, headers=headers)

@@ -1,0 +1,91 @@
+"""Queries that the page offers: the ready questions, about things of the graph that is served."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pyoxigraph as ox
+
+from usd2kg.graph.vocabulary import PREFIXES, RDFS
+from usd2kg.query.questions import Parameter, Question, list_questions, parse_number
+
+__all__ = ["Example", "make_examples"]
+
+_MOST_USED = """
+SELECT ?o (COUNT(DISTINCT ?x) AS ?n) WHERE {
+  ?o u2k:primPath ?p . OPTIONAL { ?x soma:isOntopOf|u2k:on ?o }
+} GROUP BY ?o ORDER BY DESC(?n) ?o LIMIT 1"""
+_CLASS = """
+SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; rdfs:label ?l }
+GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
+_POSITION = "0 0 1"
+_FIRST = "count"
+"""The question that the page opens with: any graph has an answer."""
+
+
+@dataclass(frozen=True)
+class Example:
+    """A query with its question in words."""
+
+    title: str
+    query: str
+
+
+def make_examples(store: ox.Store) -> tuple[Example, ...]:
+    """Return the ready questions as queries without parameters, about what a store holds."""
+    terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
+    questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
+    return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)
+
+
+def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> Example | None:
+    """Return a question with each parameter replaced by a term; None where the graph has none for it."""
+    title, query = question.text, question.sparql
+    for parameter in question.parameters:
+        term = _term(parameter, terms)
+        if term is None:
+            return None
+        query = _replace(query, parameter.variable, term)
+        unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
+        title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
+    lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
+    return Example(title, "\n".join((f"# {_line(title)}", *lines)))
+
+
+def _replace(query: str, name: str, term: ox.NamedNode | ox.Literal) -> str:
+    """Return a query with a term in place of a variable; what is selected and grouped by has to be variables."""
+    head, where, rest = query.partition("WHERE")
+    body, brace, tail = rest.rpartition("}")
+    variable = re.compile(rf"\s*\?{name}\b")
+    return variable.sub("", head) + where + variable.sub(lambda _: f" {term}", body) + brace + variable.sub("", tail)
+
+
+def _term(parameter: Parameter, terms: dict[str, ox.NamedNode | None]) -> ox.NamedNode | ox.Literal | None:
+    if parameter.kind in terms:
+        return terms[parameter.kind]
+    if parameter.kind == "position":
+        return ox.Literal(_POSITION)
+    return None if parameter.default is None else ox.Literal(parse_number(parameter.default, parameter.kind))
+
+
+def _shown(store: ox.Store, term: ox.NamedNode | ox.Literal) -> str:
+    if isinstance(term, ox.Literal):
+        return str(term.value)
+    labels = sorted(_labels(store, term))
+    return labels[0] if labels else term.value
+
+
+def _labels(store: ox.Store, term: ox.NamedNode) -> Iterator[str]:
+    found = (quad.object for quad in store.quads_for_pattern(term, RDFS.label, None))
+    return (label.value for label in found if isinstance(label, ox.Literal))
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _first(store: ox.Store, query: str) -> ox.NamedNode | None:
+    found = store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
+    assert isinstance(found, ox.QuerySolutions)
+    node = next((row[0] for row in found), None)
+    return node if isinstance(node, ox.NamedNode) else None

@@ -1,7 +1,0 @@
-"""A read-only SPARQL 1.1 endpoint over a graph or a store, with a page to ask from."""
-
-from usd2kg.graph.endpoint.bounded import BoundedQueries
-from usd2kg.graph.endpoint.pool import Limits
-from usd2kg.graph.endpoint.serving import ServeOptions, serve
-
-__all__ = ["BoundedQueries", "Limits", "ServeOptions", "serve"]

@@ -1,0 +1,1 @@
+"""Graphs for other systems: property graphs (Neo4j, GraphML) and SSSOM mappings."""

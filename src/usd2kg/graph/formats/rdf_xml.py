@@ -1,0 +1,147 @@
+"""RDF/XML (RDF 1.1 XML Syntax), written in pieces: one Description for each run of triples with one subject."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby, islice
+from xml.sax.saxutils import escape
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.formats.document import refuse_rdf12
+from usd2kg.graph.vocabulary import RDF
+
+__all__ = ["not_xml", "rdf_xml_pieces", "replace_not_xml", "xml_attribute", "xml_text"]
+
+_START = (
+    "A-Z_a-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
+    "\u2c00-\u2fef\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
+)
+"""Letters that a name may begin with (Namespaces in XML 1.0, section 3)."""
+_NAME = re.compile(f"(.*?)([{_START}][{_START}\\-.0-9\u00b7\u0300-\u036f\u203f\u2040]*)\\Z", flags=re.DOTALL)
+"""The longest end of an IRI that can be the name of an element."""
+_RESERVED = {
+    "Description",
+    "RDF",
+    "ID",
+    "about",
+    "aboutEach",
+    "aboutEachPrefix",
+    "bagID",
+    "li",
+    "nodeID",
+    "parseType",
+    "resource",
+}
+"""Names in RDF's namespace that are no properties in this syntax (RDF 1.1 XML Syntax, section 6.2)."""
+_PREFIX = re.compile(r"[A-Za-z_][\w.-]*\Z", flags=re.ASCII)
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What XML 1.0 cannot hold, not even escaped (section 2.2)."""
+_RETURN = {"\r": "&#13;"}
+"""A reader of XML turns a bare carriage return into a line feed (section 2.11)."""
+_SUBJECTS = 10_000
+"""Runs of triples that are put into one piece."""
+
+
+def rdf_xml_pieces(triples: Sequence[ox.Triple], prefixes: Mapping[str, str], source: str) -> Iterator[bytes]:
+    """Yield the file.
+
+    Raises:
+        GraphError: a property's IRI does not end in an XML name, or a value holds what XML cannot.
+    """
+    names = _Names(prefixes, source)
+    yield b'<?xml version="1.0" encoding="UTF-8"?>\n<rdf:RDF'
+    yield "".join(f'\n  xmlns:{prefix}="{xml_attribute(iri)}"' for iri, prefix in names.by_iri.items()).encode()
+    yield b">\n"
+    runs = groupby(triples, key=lambda triple: triple.subject)
+    while piece := "".join(_description(subject, run, names) for subject, run in islice(runs, _SUBJECTS)):
+        yield piece.encode()
+    yield b"</rdf:RDF>\n"
+
+
+class _Names:
+    """Names of elements for the IRIs of properties."""
+
+    def __init__(self, prefixes: Mapping[str, str], source: str) -> None:
+        self.source = source
+        usable = {iri: prefix for prefix, iri in sorted(prefixes.items()) if _PREFIX.match(prefix) and prefix != "rdf"}
+        self.by_iri = {RDF.iri: "rdf", **{iri: prefix for iri, prefix in usable.items() if prefix[:3].lower() != "xml"}}
+        self._known: dict[str, tuple[str, str]] = {}
+
+    def element(self, iri: str) -> tuple[str, str]:
+        """Return the name of an element and the declaration that it needs, if any."""
+        if iri not in self._known:
+            self._known[iri] = self._find(iri)
+        return self._known[iri]
+
+    def _find(self, iri: str) -> tuple[str, str]:
+        found = _NAME.match(iri)
+        if found is None or not found[1] or (found[1] == RDF.iri and found[2] in _RESERVED):
+            raise GraphError(
+                f"{self.source}: the property <{iri}> does not end in a name that XML has; RDF/XML cannot hold it, "
+                "choose .ttl, .nt or .jsonld"
+            )
+        namespace, name = found.groups()
+        known = self.by_iri.get(namespace)
+        return (f"{known}:{name}", "") if known else (f"p:{name}", f' xmlns:p="{xml_attribute(namespace)}"')
+
+
+def _description(subject: ox.NamedNode | ox.BlankNode | ox.Triple, run: Iterator[ox.Triple], names: _Names) -> str:
+    about = _reference(subject, "about")
+    lines = "".join(_property(triple, names) for triple in run)
+    return f"  <rdf:Description {about}>\n{lines}  </rdf:Description>\n"
+
+
+def _property(triple: ox.Triple, names: _Names) -> str:
+    refuse_rdf12(triple, "RDF/XML", names.source)
+    name, declaration = names.element(triple.predicate.value)
+    value = triple.object
+    if not isinstance(value, ox.Literal):
+        return f"    <{name}{declaration} {_reference(value, 'resource')}/>\n"
+    if wrong := not_xml(value.value):
+        raise GraphError(
+            f"{names.source}: a value of <{triple.predicate.value}> of {triple.subject} holds {wrong!r}; "
+            "XML cannot hold it, choose .ttl, .nt or .jsonld"
+        )
+    if value.language:
+        kind = f' xml:lang="{value.language}"'
+    elif value.datatype.value.endswith("#string"):
+        kind = ""
+    else:
+        kind = f' rdf:datatype="{xml_attribute(value.datatype.value)}"'
+    return f"    <{name}{declaration}{kind}>{xml_text(value.value)}</{name}>\n"
+
+
+def _reference(node: ox.NamedNode | ox.BlankNode | ox.Triple, attribute: str) -> str:
+    if isinstance(node, ox.BlankNode):
+        return f'rdf:nodeID="{_node_id(node.value)}"'
+    assert isinstance(node, ox.NamedNode), "triple terms were refused"
+    return f'rdf:{attribute}="{xml_attribute(node.value)}"'
+
+
+def _node_id(label: str) -> str:
+    """Return the name of a blank node: a name in XML begins with a letter, and no two nodes may become one."""
+    found = _NAME.match(label)
+    is_name = found is not None and not found[1] and not label.startswith("b_")
+    return label if is_name else f"b_{label}"
+
+
+def not_xml(text: str) -> str | None:
+    """Return the first character that XML cannot hold, None if there is none."""
+    found = _NO_XML.search(text)
+    return found[0] if found else None
+
+
+def xml_text(text: str) -> str:
+    """Return text as the content of an element, `]]>` and carriage returns included."""
+    return escape(text, _RETURN)
+
+
+def xml_attribute(text: str) -> str:
+    """Return text as the value of an attribute in double quotes."""
+    return escape(text, {**_RETURN, '"': "&quot;", "\n": "&#10;", "\t": "&#9;"})
+
+
+def replace_not_xml(text: str) -> str:
+    """Return text with U+FFFD for each character that XML cannot hold."""
+    return _NO_XML.sub("\ufffd", text)

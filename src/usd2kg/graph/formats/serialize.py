@@ -1,0 +1,187 @@
+"""Writing graphs to files: the same graph gives the same bytes."""
+
+import zlib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.files import write_whole
+from usd2kg.graph.export.graphml import graphml_pieces
+from usd2kg.graph.export.property_graph import read_property_graph
+from usd2kg.graph.formats.document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
+from usd2kg.graph.formats.json_ld import json_ld_pieces
+from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces
+from usd2kg.graph.instantiate import KnowledgeGraph
+from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.ontology import write_functional_syntax
+
+__all__ = ["GRAPH_FORMATS", "GraphFormat", "graph_format", "serialize_graph", "write_graph"]
+
+_CHUNK = 100_000
+"""Triples that are serialised at a time."""
+
+Pieces = Iterator[bytes | memoryview]
+
+
+class GraphFormat(NamedTuple):
+    """A format of files that graphs are written in."""
+
+    name: str
+    write: Callable[[GraphDocument], Pieces]
+    """Yields the file in pieces, so that a large one need not be in memory whole."""
+
+
+def graph_format(path: Path) -> GraphFormat:
+    """Return the format that a file name asks for, without regard to a last .gz.
+
+    Raises:
+        GraphError: the ending is not known.
+    """
+    name = path.with_suffix("") if _is_packed(path) else path
+    found = GRAPH_FORMATS.get(name.suffix.lower())
+    if found is None:
+        endings = ", ".join(GRAPH_FORMATS)
+        raise GraphError(f"{path}: the ending {name.suffix!r} names no graph format; expected one of {endings}")
+    return found
+
+
+def serialize_graph(graph: KnowledgeGraph | GraphDocument, rdf_format: ox.RdfFormat) -> bytes:
+    """Return the graph in a syntax of RDF, deterministically.
+
+    Raises:
+        GraphError: the syntax cannot hold the graph.
+    """
+    ending = next(ending for ending, syntax in RDF_FORMATS.items() if syntax == rdf_format)
+    return b"".join(_pieces(graph, GRAPH_FORMATS[ending]))
+
+
+def write_graph(graph: KnowledgeGraph | GraphDocument, path: Path | str) -> None:
+    """Write the graph to `path`, in the format of its ending, whole or not at all; packed where that ends in .gz.
+
+    Raises:
+        GraphError: the ending is not known, or the format cannot hold the graph.
+        OutputError: the file cannot be written.
+    """
+    path = Path(path)
+    pieces = _pieces(graph, graph_format(path))
+    write_whole(path, _packed(pieces) if _is_packed(path) else pieces)
+
+
+def _pieces(graph: KnowledgeGraph | GraphDocument, chosen: GraphFormat) -> Pieces:
+    return chosen.write(document_of(graph) if isinstance(graph, KnowledgeGraph) else graph)
+
+
+def _is_packed(path: Path) -> bool:
+    return path.suffix.lower() == ".gz"
+
+
+def _packed(pieces: Iterable[bytes | memoryview]) -> Iterator[bytes]:
+    # Python's gzip writes the time into the file; zlib does not.
+    packer = zlib.compressobj(wbits=31)
+    for piece in pieces:
+        yield packer.compress(piece)
+    yield packer.flush()
+
+
+def _turtle(document: GraphDocument) -> Pieces:
+    yield _prefix_lines(document.prefixes)
+    yield from _statements(document.triples, document.prefixes)
+
+
+def _trig(document: GraphDocument) -> Pieces:
+    yield _prefix_lines(document.prefixes)
+    for part in document.parts:
+        if part.iri:
+            yield f"{_graph_name(part.iri)} {{\n".encode()
+        yield from _statements(part.triples, document.prefixes)
+        if part.iri:
+            yield b"}\n"
+
+
+def _prefix_lines(prefixes: Mapping[str, str]) -> bytes:
+    # The serialiser writes its prefixes in an order that changes from run to run.
+    return "".join(sorted(f"@prefix {name}: <{iri}> .\n" for name, iri in prefixes.items())).encode()
+
+
+def _statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> Pieces:
+    """Yield statements of Turtle without the prefixes."""
+    for chunk in _chunks(triples):
+        data = _bytes(ox.serialize(chunk, format=ox.RdfFormat.TURTLE, prefixes=dict(prefixes)))
+        end = 0
+        for _ in prefixes:
+            end = data.index(b"\n", end) + 1
+        yield memoryview(data)[end:]
+
+
+def _n_triples(document: GraphDocument) -> Pieces:
+    return _lines(document.triples)
+
+
+def _n_quads(document: GraphDocument) -> Pieces:
+    for part in document.parts:
+        end = f" {_graph_name(part.iri)} .\n".encode() if part.iri else b" .\n"
+        for lines in _lines(part.triples):
+            # A line feed ends a line and stands nowhere else.
+            yield lines.replace(b" .\n", end)
+
+
+def _graph_name(name: str) -> str:
+    return name if name.startswith("_:") else f"<{name}>"
+
+
+def _lines(triples: Sequence[ox.Triple]) -> Iterator[bytes]:
+    for chunk in _chunks(triples):
+        yield _bytes(ox.serialize(chunk, format=ox.RdfFormat.N_TRIPLES))
+
+
+def _chunks(triples: Sequence[ox.Triple]) -> Iterator[Sequence[ox.Triple]]:
+    """Yield the triples in runs of some length, parted where the subject changes."""
+    start = 0
+    while start < len(triples):
+        end = start + _CHUNK
+        while end < len(triples) and triples[end].subject == triples[end - 1].subject:
+            end += 1
+        yield triples[start:end]
+        start = end
+
+
+def _bytes(data: bytes | None) -> bytes:
+    assert data is not None, "without an output file, serialize returns the bytes"
+    return data
+
+
+def _rdf_xml(document: GraphDocument) -> Pieces:
+    return rdf_xml_pieces(document.triples, document.prefixes, document.source)
+
+
+def _json_ld(document: GraphDocument) -> Pieces:
+    return json_ld_pieces(document.triples, document.base, document.source)
+
+
+def _functional(document: GraphDocument) -> Pieces:
+    for triple in document.triples:
+        refuse_rdf12(triple, "OWL", document.source)
+    rdf = b"".join(_lines(document.triples)).decode()
+    # The scene's own prefix would make names that functional syntax has not, like :-stage.
+    yield write_functional_syntax(rdf, PREFIXES, document.source).encode()
+
+
+def _graphml(document: GraphDocument) -> Pieces:
+    return graphml_pieces(read_property_graph(document))
+
+
+GRAPH_FORMATS = {
+    ".ttl": GraphFormat("Turtle", _turtle),
+    ".nt": GraphFormat("N-Triples", _n_triples),
+    ".trig": GraphFormat("TriG", _trig),
+    ".nq": GraphFormat("N-Quads", _n_quads),
+    ".rdf": GraphFormat("RDF/XML", _rdf_xml),
+    ".owl": GraphFormat("RDF/XML", _rdf_xml),
+    ".jsonld": GraphFormat("JSON-LD", _json_ld),
+    ".ofn": GraphFormat("OWL functional syntax", _functional),
+    ".graphml": GraphFormat("GraphML", _graphml),
+}
+"""File ending → format that can be written; each may be followed by .gz."""

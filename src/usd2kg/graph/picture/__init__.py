@@ -1,7 +1,0 @@
-"""Pictures of a graph as SVG or PNG: one object in its surroundings, or what stands on what in a room."""
-
-from usd2kg.graph.picture.png import to_png
-from usd2kg.graph.picture.room import draw_room
-from usd2kg.graph.picture.surroundings import draw_surroundings
-
-__all__ = ["draw_room", "draw_surroundings", "to_png"]

@@ -1,0 +1,78 @@
+"""The study's dictionary baseline: the prim's name, looked up letter by letter."""
+
+import csv
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+
+from usd2kg.errors import GroundingError, OntologyError
+from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.model import Candidate, Prediction, Status
+from usd2kg.ontology import TBox
+
+__all__ = ["DictionaryGrounder"]
+
+
+class DictionaryGrounder:
+    """Looks the name up, exactly as written, in a table of (name, class)."""
+
+    name = "dictionary"
+    is_calibrated = False
+
+    def __init__(self, pairs: Mapping[str, str], source: str) -> None:
+        """Make the grounder from name → class (IRI, CURIE or local name); `source` says where they are from."""
+        self._pairs = dict(pairs)
+        self._source = source
+
+    @classmethod
+    def from_csv(cls, path: Path) -> "DictionaryGrounder":
+        """Return a grounder over the columns `name` and `class` of a CSV file.
+
+        Raises:
+            GroundingError: the file is missing or has not these columns.
+        """
+        try:
+            text = path.read_text("utf-8-sig")
+        except (OSError, UnicodeDecodeError) as error:
+            raise GroundingError(
+                f"{path}: cannot be read as a CSV file with the columns name,class ({error})"
+            ) from error
+        return cls(_read_pairs(text, str(path)), str(path))
+
+    @classmethod
+    def multiverse(cls) -> "DictionaryGrounder":
+        """Return a grounder over the pairs that Multiverse-Knowledge ships, the study's baseline."""
+        text = (files("usd2kg") / "data" / "multiverse_dictionary.csv").read_text("utf-8")
+        return cls(_read_pairs(text, "multiverse"), "multiverse")
+
+    @property
+    def settings(self) -> Mapping[str, str]:
+        """The settings that its answers depend on."""
+        return {"dictionary": self._source}
+
+    def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
+        """Return one prediction for each (prim path, view)."""
+        return [self._predict(path, view, tbox) for path, view in views]
+
+    def _predict(self, path: str, view: ObjectView, tbox: TBox) -> Prediction:
+        named = self._pairs.get(view.name)
+        if named is None:
+            return Prediction(path, None, None, Status.REFUSED, self.name, f"“{view.name}” is not in the dictionary")
+        try:
+            iri = tbox.resolve(named)
+        except OntologyError:
+            text = f"the dictionary says {named}, which is no class of the TBox"
+            return Prediction(path, None, None, Status.UNREADABLE, self.name, text)
+        text = f"“{view.name}” is in the dictionary as {named}"
+        return Prediction(path, iri, 1.0, Status.GROUNDED, self.name, text, ("name",), (Candidate(iri, 1.0),))
+
+
+def _read_pairs(text: str, source: str) -> dict[str, str]:
+    rows = csv.DictReader(text.splitlines())
+    try:
+        if not {"name", "class"} <= set(rows.fieldnames or ()):
+            found = ", ".join(rows.fieldnames or ()) or "nothing"
+            raise GroundingError(f"{source}: line 1 has the columns {found}; expected name,class")
+        return {row["name"]: row["class"] for row in rows if row["name"] and row["class"]}
+    except csv.Error as error:
+        raise GroundingError(f"{source}: line {rows.line_num} is not CSV ({error}); expected name,class") from error

@@ -1,0 +1,280 @@
+"""What a grounder is given of one object: the evidence it may use, with names masked by the naming regime.
+
+A regime masks the name of *one* target at a time; its siblings and parents keep theirs. So views are made one
+by one, and nothing that is learnt from one may be used for another (leave-one-out): the union of all siblings'
+lists would give every name away.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import overload
+
+from usd2kg.grounding.context.neighbours import Company, companies
+from usd2kg.grounding.context.placement import Look, Plan, Standing
+from usd2kg.scene.model import Scene, SceneObject, Vector
+from usd2kg.words import split_identifier
+
+__all__ = [
+    "ABBREVIATED_LENGTH",
+    "EVIDENCE_GROUPS",
+    "STUDY_GROUPS",
+    "NamingRegime",
+    "ObjectView",
+    "abbreviate",
+    "view_objects",
+]
+
+STUDY_GROUPS = frozenset({"name", "geometry", "position", "hierarchy"})
+"""The evidence of the study."""
+EVIDENCE_GROUPS = STUDY_GROUPS | {"asset", "company", "labels", "materials", "parts"}
+"""All evidence a grounder can be limited to."""
+_MASKED_GROUPS = STUDY_GROUPS | {"company"}
+"""What a masked regime shows: assets, labels, parts and materials would give the name away."""
+_CLASS_TAXONOMIES = frozenset({"class", "iri", "semantics", "wikidata_class"})
+"""Taxonomies of labels whose values are names of classes."""
+ABBREVIATED_LENGTH = 4
+"""Letters kept of each word in the abbreviated regime. The study does not publish its own; this one is ours."""
+
+
+class NamingRegime(StrEnum):
+    """What a grounder sees of the target's own name."""
+
+    SEMANTIC = "semantic"
+    """The authored name."""
+    ABBREVIATED = "abbreviated"
+    """Vowels removed, each word cut short."""
+    OPAQUE = "opaque"
+    """A running number: `obj_042`."""
+    OPAQUE_ANONYMOUS = "opaque-anonymous"
+    """A running number for the target, its siblings and its parents alike."""
+
+
+class _Siblings(Sequence[str]):
+    """The names of a family without one member; the family's list is stored once."""
+
+    def __init__(self, family: Sequence[str], left_out: int) -> None:
+        self._family = family
+        self._left_out = left_out
+
+    def __len__(self) -> int:
+        return len(self._family) - 1
+
+    @overload
+    def __getitem__(self, index: int) -> str: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[str]: ...
+    def __getitem__(self, index: int | slice) -> str | list[str]:
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        if index < 0:
+            index += len(self)
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        return self._family[index + (index >= self._left_out)]
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for i, name in enumerate(self._family) if i != self._left_out)
+
+
+@dataclass(frozen=True)
+class ObjectView:
+    """The evidence about one target. What is empty or None is unknown, or may not be used."""
+
+    name: str = ""
+    """The prim's name, as the regime shows it."""
+    parents: tuple[str, ...] = ()
+    """Names of the prims above, outermost first."""
+    groups: tuple[str, ...] = ()
+    """The last of `parents`: those that are below the nearest object above, and so only group."""
+    siblings: Sequence[str] = ()
+    """Names of the other objects under the same prim, in traversal order."""
+    size: Vector | None = None
+    """Extent of the world box in metres."""
+    oriented_size: Vector | None = None
+    """Extent along the thing's own axes in metres, where they are turned against the world's."""
+    mass_kg: float | None = None
+    position: Vector | None = None
+    """World translation in metres."""
+    standing: Standing | None = None
+    """How it stands among the others, whatever they are called."""
+    display_name: str = ""
+    documentation: str = ""
+    asset: tuple[str, ...] = ()
+    labels: tuple[str, ...] = ()
+    """Words of the class labels that the stage has on it already."""
+    materials: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
+    company: Company | None = None
+    """The other objects of the stage; None where they are nameless too."""
+    is_masked: bool = field(default=False)
+    """Whether the name is not the authored one: what it seems to say may be a token of the mask."""
+
+    @property
+    def own_size(self) -> Vector | None:
+        """The extent that says most of what the thing is: however it is turned, it has the same."""
+        return self.oriented_size or self.size
+
+    @property
+    def look(self) -> Look | None:
+        """What is seen of it besides names; None where its size is not known."""
+        if self.own_size is None or self.size is None:
+            return None
+        is_nested = len(self.groups) < len(self.parents)
+        if self.standing is None:
+            return Look(self.own_size, self.size[2], None, is_nested)
+        height = self.size[2] if self.standing.is_laid_out else None
+        return Look(self.own_size, height, self.standing.elevation, is_nested)
+
+
+def abbreviate(name: str, length: int = ABBREVIATED_LENGTH) -> str:
+    """Return a name with the vowels removed and each word cut to `length` letters, in lower case.
+
+    A word of vowels alone keeps its first letter; numbers stay.
+
+    >>> abbreviate("CupCBlue_1")
+    'cpcbl1'
+    """
+    short = []
+    for word in split_identifier(name):
+        lower = word.lower()
+        if lower.isdecimal():
+            short.append("".join(str(int(digit)) for digit in lower).lstrip("0") or "0")
+        else:
+            short.append("".join(c for c in lower if c not in "aeiou")[:length] or lower[0])
+    return "".join(short) or name.lower()
+
+
+def view_objects(
+    scene: Scene,
+    regime: NamingRegime = NamingRegime.SEMANTIC,
+    groups: frozenset[str] | None = None,
+    length: int = ABBREVIATED_LENGTH,
+) -> Iterator[tuple[SceneObject, ObjectView]]:
+    """Yield each object with the view of it that a grounder gets.
+
+    Args:
+        scene: the scene.
+        regime: how the target's name is masked. Masked regimes show the study's evidence and the company: assets,
+            labels, parts and materials would give the name away.
+        groups: the evidence to show, default all that the regime allows.
+        length: letters kept of each word in the abbreviated regime.
+    """
+    allowed = EVIDENCE_GROUPS if regime is NamingRegime.SEMANTIC else _MASKED_GROUPS
+    shown = allowed if groups is None else allowed & groups
+    masked = _masked_names(scene, regime, length)
+    families = _families(scene)
+    has_company = "company" in shown and regime is not NamingRegime.OPAQUE_ANONYMOUS
+    plan = Plan(scene)
+    others = companies(scene) if has_company else [None] * len(scene.objects)
+    for index, obj in enumerate(scene.objects):
+        parents, siblings = _company(obj, families, regime)
+        grouping = parents[obj.parent_path.count("/") if obj.parent_path else 0 :]
+        view = ObjectView(
+            name=masked[index] if "name" in shown else "",
+            is_masked=regime is not NamingRegime.SEMANTIC,
+            company=others[index],
+            standing=Standing(plan, index, is_anonymous=not has_company) if "position" in shown else None,
+        )
+        yield obj, _with_evidence(view, obj, shown, parents, grouping, siblings)
+
+
+def _with_evidence(
+    view: ObjectView,
+    obj: SceneObject,
+    shown: frozenset[str],
+    parents: tuple[str, ...],
+    grouping: tuple[str, ...],
+    siblings: Sequence[str],
+) -> ObjectView:
+    has_name = "name" in shown and not view.is_masked
+    return ObjectView(
+        name=view.name,
+        is_masked=view.is_masked,
+        company=view.company,
+        standing=view.standing,
+        parents=parents if "hierarchy" in shown else (),
+        groups=grouping if "hierarchy" in shown else (),
+        siblings=siblings if "hierarchy" in shown else (),
+        size=obj.box.size if obj.box and "geometry" in shown else None,
+        oriented_size=obj.oriented_size if "geometry" in shown else None,
+        mass_kg=obj.mass_kg if "geometry" in shown else None,
+        position=obj.position if "position" in shown else None,
+        display_name=obj.display_name if has_name else "",
+        documentation=obj.documentation if has_name else "",
+        asset=obj.asset if "asset" in shown else (),
+        labels=_label_words(obj) if "labels" in shown else (),
+        materials=obj.materials if "materials" in shown else (),
+        parts=obj.parts if "parts" in shown else (),
+    )
+
+
+def _label_words(obj: SceneObject) -> tuple[str, ...]:
+    """Return the class labels on the object's own prim as names: `drawer` of `drawer.n.wn.artifact`, WordNet's form."""
+    values = [
+        label.iri or label.value
+        for label in obj.labels.own
+        if label.strength == "label" and (label.encoding == "Multiverse" or label.taxonomy in _CLASS_TAXONOMIES)
+    ]
+    local = (re.split(r"[#/]", value.rstrip("#/"))[-1] for value in values)
+    return tuple(dict.fromkeys(re.split(r"\.[nvasr]\.", name)[0] for name in local))
+
+
+def _masked_names(scene: Scene, regime: NamingRegime, length: int) -> list[str]:
+    names = [obj.name for obj in scene.objects]
+    if regime is NamingRegime.SEMANTIC:
+        return names
+    if regime is NamingRegime.ABBREVIATED:
+        return _collision_free(names, [abbreviate(name, length) for name in names])
+    return [f"obj_{index:03d}" for index in range(1, len(names) + 1)]
+
+
+def _collision_free(names: list[str], short: list[str]) -> list[str]:
+    """Return the short names, numbered where different authored names would share one."""
+    by_name: dict[str, str] = {}
+    owned: set[str] = set()
+    counts: Counter[str] = Counter()
+    for name, abbreviation in zip(names, short, strict=True):
+        if name in by_name:
+            continue
+        candidate = abbreviation
+        while candidate in owned:
+            counts[abbreviation] += 1
+            candidate = f"{abbreviation}x{counts[abbreviation] + 1}"
+        owned.add(candidate)
+        by_name[name] = candidate
+    return [by_name[name] for name in names]
+
+
+@dataclass(frozen=True)
+class _Families:
+    """Objects under the same prim: their names once, and each object's place among them."""
+
+    names: dict[str, list[str]]
+    anonymous: dict[str, list[str]]
+    """The same with running numbers for names."""
+    places: dict[str, tuple[str, int]]
+
+
+def _families(scene: Scene) -> _Families:
+    names: dict[str, list[str]] = {}
+    places: dict[str, tuple[str, int]] = {}
+    for obj in scene.objects:
+        above = obj.prim_path.rpartition("/")[0]
+        family = names.setdefault(above, [])
+        places[obj.prim_path] = (above, len(family))
+        family.append(obj.name)
+    anonymous = {above: [f"sibling_{i}" for i in range(1, len(family) + 1)] for above, family in names.items()}
+    return _Families(names, anonymous, places)
+
+
+def _company(obj: SceneObject, families: _Families, regime: NamingRegime) -> tuple[tuple[str, ...], Sequence[str]]:
+    above, place = families.places[obj.prim_path]
+    parents = tuple(name for name in above.split("/") if name)
+    siblings: Sequence[str] = _Siblings(families.names[above], place)
+    if regime is NamingRegime.OPAQUE_ANONYMOUS:
+        parents = tuple(f"group_{depth}" for depth in range(1, len(parents) + 1))
+        siblings = _Siblings(families.anonymous[above], place)
+    return parents, siblings

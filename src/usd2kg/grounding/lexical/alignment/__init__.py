@@ -1,0 +1,1 @@
+"""Which class of a TBox a noun phrase belongs to."""

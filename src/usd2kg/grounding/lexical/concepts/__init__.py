@@ -1,0 +1,1 @@
+"""What things are, whatever the ontology: senses, hypernyms, usual sizes and places."""

@@ -1,0 +1,204 @@
+"""WordNet's nouns for physical things: lemmas, senses in order of use, and what is a kind of what."""
+
+import gzip
+from array import array
+from collections.abc import Callable, Collection, Iterator
+from functools import lru_cache
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+
+__all__ = ["Sense", "Taxonomy", "load_taxonomy"]
+
+# Morphy's detachment rules for nouns (morphy(7WN)).
+_PLURALS = (("ches", "ch"), ("shes", "sh"), ("sses", "ss"), ("xes", "x"), ("zes", "z"), ("ies", "y"), ("men", "man"))
+_MORE_PLURALS = (("ves", "f"), ("ves", "fe"), ("es", "e"), ("es", ""), ("s", ""))
+
+
+class Sense(NamedTuple):
+    """One meaning of a lemma."""
+
+    synset: int
+    rank: int
+    """1 for the meaning used most."""
+    domain: str
+    """WordNet's lexicographer file: artifact, food, plant…"""
+
+
+class _Cells:
+    """The cells of a line, parted by tabs: a hundred thousand strings by themselves would take ten times its memory."""
+
+    def __init__(self, line: str) -> None:
+        self._line = line.encode()
+        tabs = np.flatnonzero(np.frombuffer(self._line, np.uint8) == ord("\t")) + 1
+        self._starts = array("i", [0, *tabs.tolist(), len(self._line) + 1])
+
+    def __getitem__(self, at: int) -> str:
+        return self._line[self._starts[at] : self._starts[at + 1] - 1].decode()
+
+    def __len__(self) -> int:
+        return len(self._starts) - 1
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._line.decode().split("\t"))
+
+
+class Taxonomy:
+    """A noun hierarchy. Synsets are numbers; lemmas are lower case, compounds without space or hyphen.
+
+    What a lemma or synset holds is taken apart when it is first asked for: no scene speaks of all of them.
+    """
+
+    def __init__(self, text: str) -> None:
+        """Read the lines that `tools/build_wordnet.py` writes.
+
+        1. adjectives, parted by spaces;
+        2. domains, parted by spaces, the first called `a` below, the next `b`…;
+        3. the domain of each synset, a letter each;
+        4. what is above each synset: numbers of synsets parted by spaces; tabs part synsets;
+        5. the name of each synset; tabs;
+        6. lemmas; tabs;
+        7. for each lemma the domain and rank of its meanings, those used most first: `c1 f2`; tabs;
+        8. for each lemma the synsets of its meanings, in that order; tabs.
+        9. for each lemma 1 if people write it as one word, 0 if only as several; no tabs;
+        10. for each synset the number of those below it, itself included; tabs.
+        """
+        adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word, sizes = text.split("\n")[:10]
+        self.adjectives = frozenset(adjectives.split())
+        self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
+        self._above_texts = _Cells(above)
+        self._names = _Cells(names)
+        self._sizes = _Cells(sizes)
+        self._places = {lemma: at for at, lemma in enumerate(lemmas.split("\t"))}
+        self._kinds = _Cells(kinds)
+        self._synsets = _Cells(senses)
+        self._senses: dict[str, tuple[Sense, ...]] = {}
+        self._above: dict[int, tuple[int, ...]] = {}
+        self._singular = lru_cache(maxsize=16384)(self._find_singular)
+
+    def senses(self, lemma: str) -> tuple[Sense, ...]:
+        """Return the meanings of a lemma or joined compound (`flowerpot`), most used first; maybe none."""
+        found = self._senses.get(lemma)
+        if found is None:
+            if lemma not in self._places:
+                return ()
+            synsets, kinds = self._synsets[self._places[lemma]].split(), self.parse_kinds(self.kinds(lemma))
+            pairs = zip(synsets, kinds, strict=True)
+            found = self._senses[lemma] = tuple(Sense(int(synset), *kind) for synset, kind in pairs)
+        return found
+
+    def kinds(self, lemma: str) -> str:
+        """Return of what kinds the meanings of a lemma are, for `parse_kinds`; empty for an unknown one.
+
+        Many lemmas are of like kinds, so that what follows from these can be kept.
+        """
+        at = self._places.get(lemma)
+        return "" if at is None else self._kinds[at]
+
+    def parse_kinds(self, kinds: str) -> list[tuple[int, str]]:
+        """Return (rank, domain) of the meanings that `kinds` speaks of, most used first."""
+        return [(int(kind[1:]), self._domains[kind[0]]) for kind in kinds.split()]
+
+    @property
+    def lemmas(self) -> Collection[str]:
+        """All lemmas."""
+        return self._places.keys()
+
+    def __contains__(self, lemma: str) -> bool:
+        return lemma in self._places
+
+    def is_phrase(self, lemma: str) -> bool:
+        """Return whether a lemma is known, and people write it as several words: `ctscanner` as CT scanner."""
+        return lemma in self._places and self._is_one_word[self._places[lemma]] == "0"
+
+    def phrases(self) -> list[str]:
+        """Return the lemmas that people write as several words, joined."""
+        return [lemma for lemma, is_one_word in zip(self._places, self._is_one_word, strict=True) if is_one_word == "0"]
+
+    def name(self, synset: int) -> str:
+        """Return the lemma that WordNet lists first for a synset, with its spaces."""
+        return self._names[synset]
+
+    def size(self, synset: int) -> int:
+        """Return the number of synsets that are a kind of one, itself included."""
+        return int(self._sizes[synset])
+
+    @property
+    def synset_count(self) -> int:
+        """The number of synsets."""
+        return len(self._names)
+
+    def above(self, synset: int) -> tuple[int, ...]:
+        """Return the synsets that a synset is directly a kind of."""
+        found = self._above.get(synset)
+        if found is None:
+            found = self._above[synset] = tuple(map(int, self._above_texts[synset].split()))
+        return found
+
+    def walk_up(self, synset: int) -> Iterator[tuple[int, int]]:
+        """Yield (synset, hops) from a synset upwards, nearest first, itself with 0 hops."""
+        hops = {synset: 0}
+        pending = [synset]
+        for current in pending:
+            yield current, hops[current]
+            for up in self.above(current):
+                if up not in hops:
+                    hops[up] = hops[current] + 1
+                    pending.append(up)
+
+    def below(self, names: frozenset[str]) -> Callable[[int], bool]:
+        """Return a function that tells whether a synset, or one above it, has one of these names."""
+        known: dict[int, bool] = {}
+
+        def is_below(synset: int) -> bool:
+            if synset not in known:
+                known[synset] = self._names[synset] in names or any(is_below(up) for up in self.above(synset))
+            return known[synset]
+
+        return is_below
+
+    def path_up(self, synset: int, target: int) -> list[int]:
+        """Return the synsets from `synset` up to `target`, both included, by a shortest way."""
+        came_from: dict[int, int | None] = {synset: None}
+        for current, _ in self.walk_up(synset):
+            for up in self.above(current):
+                came_from.setdefault(up, current)
+        path: list[int] = []
+        step: int | None = target
+        while step is not None:
+            path.append(step)
+            step = came_from[step]
+        return path[::-1]
+
+    def singular(self, word: str) -> str:
+        """Return the singular of a plural noun; a word that is a noun as it stands, or unknown, unchanged.
+
+        >>> load_taxonomy().singular("knives")
+        'knife'
+        """
+        return word if word in self._places or len(word) < 4 else self._singular(word)
+
+    def _find_singular(self, word: str) -> str:
+        for ending, singular in (*_PLURALS, *_MORE_PLURALS):
+            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._places:
+                return stem
+        return word
+
+    def words(self, domains: frozenset[str]) -> list[str]:
+        """Return the single-word lemmas that have a meaning in one of `domains`, sorted."""
+        others = frozenset(letter for letter, domain in self._domains.items() if domain in domains).isdisjoint
+        return sorted(
+            [
+                lemma
+                for lemma, kinds, is_one_word in zip(self._places, self._kinds, self._is_one_word, strict=True)
+                if is_one_word == "1" and lemma.isalpha() and not others(kinds)
+            ]
+        )
+
+
+@lru_cache(maxsize=1)
+def load_taxonomy() -> Taxonomy:
+    """Return the taxonomy that ships with the package, read once."""
+    data = (files("usd2kg") / "data" / "wordnet.txt.gz").read_bytes()
+    return Taxonomy(gzip.decompress(data).decode())

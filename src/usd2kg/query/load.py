@@ -1,0 +1,37 @@
+"""Reading a graph from a file."""
+
+import zlib
+from pathlib import Path
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.formats.document import TOO_LARGE, open_rdf, rdf_format
+from usd2kg.query.graph_store import GraphStore
+
+__all__ = ["load_graph"]
+
+
+def load_graph(path: Path | str) -> GraphStore:
+    """Return the graph in a file, ready to be asked.
+
+    Raises:
+        GraphError: the file is missing, its ending names no RDF format, or it does not parse.
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise GraphError(f"{path}: is a folder; expected a graph that usd2kg build wrote")
+    if not path.is_file():
+        raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
+    syntax = rdf_format(path)
+    store = ox.Store()
+    try:
+        with open_rdf(path) as file:
+            store.bulk_load(file, format=syntax)
+    except MemoryError as error:
+        # So pyoxigraph says it, whose parser holds no text of more than 16 MiB.
+        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
+    except (SyntaxError, OSError, EOFError, zlib.error) as error:
+        reason = " ".join(str(error).split())
+        raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
+    return GraphStore(store, str(path))

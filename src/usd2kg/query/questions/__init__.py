@@ -1,0 +1,131 @@
+"""Questions that robots ask: SPARQL with parameters, one file each, with its question in words at its head.
+
+A file begins with comments: `# id:`, `# question:` with the parameters in braces, for each of them a line
+`# parameter: NAME | KIND | DEFAULT`, and notes. A kind is `object`, `class`, `position`, or the unit of a number, `m`,
+`kg` or `share`. In the query the parameter is the variable `?the_NAME`; the query selects it, since only what is
+selected can be bound, and the answer leaves it out. What a user gives is bound as a term: none of it is pasted in.
+"""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from usd2kg.errors import GraphError
+
+__all__ = [
+    "Parameter",
+    "Question",
+    "find_question",
+    "list_questions",
+    "parse_number",
+]
+
+_UNITS: dict[str, dict[str, float]] = {
+    "m": {"m": 1.0, "cm": 0.01, "mm": 0.001},
+    "kg": {"kg": 1.0, "g": 0.001},
+    "share": {"": 1.0, "%": 0.01},
+}
+"""Unit of a parameter → units that a person may write → how many of the first one they are."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What is left open in a question."""
+
+    name: str
+    kind: str
+    """`object`, `class`, `position` ("x y z", metres), or the unit of a number: m, kg, share."""
+    default: str | None
+    """None where it must be given."""
+
+    @property
+    def variable(self) -> str:
+        """Name of the variable that it is in the query."""
+        return f"the_{self.name}"
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question that a graph answers."""
+
+    id: str
+    text: str
+    """In words, with the parameters in braces."""
+    parameters: tuple[Parameter, ...]
+    note: str
+    """How it is answered, and what is not seen; may be empty."""
+    sparql: str
+
+    def fill(self, given: Mapping[str, str]) -> dict[Parameter, str]:
+        """Return the value of each parameter, as text.
+
+        Raises:
+            GraphError: a parameter is unknown, or one without a default is missing.
+        """
+        names = [parameter.name for parameter in self.parameters]
+        for name in given:
+            if name not in names:
+                expected = f"expected {', '.join(names)}" if names else "it takes none"
+                raise GraphError(f"question {self.id}: has no parameter {name!r}; {expected}")
+        values = {p: given.get(p.name, p.default) for p in self.parameters}
+        missing = [p for p, value in values.items() if value is None]
+        if missing:
+            wanted = " ".join(f"--with {p.name}={p.kind.upper()}" for p in missing)
+            raise GraphError(f"question {self.id} ({self.text}) needs {wanted}")
+        return {p: value for p, value in values.items() if value is not None}
+
+
+@cache
+def list_questions() -> tuple[Question, ...]:
+    """Return all questions, by id."""
+    folder = files("usd2kg.query.questions")
+    found = [_parse(item.read_text("utf-8")) for item in folder.iterdir() if item.name.endswith(".rq")]
+    return tuple(sorted(found, key=lambda question: question.id))
+
+
+def find_question(question_id: str) -> Question:
+    """Return a question by its id.
+
+    Raises:
+        GraphError: there is none of this id.
+    """
+    by_id = {question.id: question for question in list_questions()}
+    if question_id not in by_id:
+        raise GraphError(f"question {question_id!r} is unknown; expected one of {', '.join(by_id)}")
+    return by_id[question_id]
+
+
+def parse_number(text: str, unit: str) -> float:
+    """Return a number with or without its unit, in the unit of the parameter.
+
+    >>> parse_number("50 cm", "m"), parse_number("0.5", "m"), parse_number("80 %", "share")
+    (0.5, 0.5, 0.8)
+
+    Raises:
+        GraphError: it is no number, or has another unit.
+    """
+    found = re.fullmatch(r"([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*([a-z%]*)", text.strip())
+    factor = _UNITS[unit].get(found.group(2) or ("" if unit == "share" else unit)) if found else None
+    value = float(found.group(1)) * factor if found and factor is not None else math.inf
+    if not math.isfinite(value):
+        units = ", ".join(name or "none" for name in _UNITS[unit])
+        raise GraphError(f"{text!r} is not what was expected: a number, with one of these units or without: {units}")
+    return value
+
+
+def _parse(text: str) -> Question:
+    head: dict[str, list[str]] = {}
+    for line in text.splitlines():
+        found = re.fullmatch(r"# (id|question|parameter|note): (.+)", line)
+        if found:
+            head.setdefault(found.group(1), []).append(found.group(2))
+    parameters = tuple(_parse_parameter(line) for line in head.get("parameter", ()))
+    return Question(head["id"][0], head["question"][0], parameters, " ".join(head.get("note", ())), text)
+
+
+def _parse_parameter(line: str) -> Parameter:
+    name, kind, *default = (part.strip() for part in line.split("|"))
+    return Parameter(name, kind, default[0] if default else None)

@@ -1,0 +1,161 @@
+"""The objects of a scene as arrays: boxes, footprints, and what their classes allow."""
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.grounding import Grounding
+from usd2kg.ontology import TBox, expand_curie
+from usd2kg.relations.thresholds import ClassNames
+from usd2kg.scene import Box, SceneObject
+
+__all__ = ["Bodies", "Classes", "corners_of", "overlap_areas"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_FOOT = 0.01
+"""Metres: parts that begin so little above the bottom are feet."""
+_UPRIGHT = 0.9999
+"""The least that the upright axis of a thing that is turned about the vertical rises."""
+_FITS = 0.01
+"""How far, relative to its sides, the box around a turned footprint may differ from the measured one."""
+
+
+class Classes:
+    """Which objects are in which list of classes, by their grounded class; an object without one is in none."""
+
+    def __init__(self, names: ClassNames, tbox: TBox, grounding: Grounding, objects: Sequence[SceneObject]) -> None:
+        self._names = names
+        self._tbox = tbox
+        found = (grounding.by_path.get(obj.prim_path) for obj in objects)
+        iris = [prediction.class_iri if prediction is not None else None for prediction in found]
+        self._known = list(dict.fromkeys(iris))
+        number = {iri: index for index, iri in enumerate(self._known)}
+        self._which = np.array([number[iri] for iri in iris], np.int64)
+
+    def are_in(self, name: str) -> Mask:
+        """Return for each object whether its class is in the list `name`, or below a class that is."""
+        items: tuple[str, ...] = getattr(self._names, name)
+        exact = {expand_curie(item[1:]) for item in items if item.startswith("=")}
+        whole = {expand_curie(item) for item in items if not item.startswith("=")}
+        is_in = [
+            iri is not None and (iri in exact or not whole.isdisjoint(self._tbox.closure(iri))) for iri in self._known
+        ]
+        return np.array(is_in, np.bool_)[self._which]
+
+    @cached_property
+    def can_contain(self) -> Mask:
+        """For each object, whether things can be inside it: any object can where the ontology does not tell."""
+        disposition = expand_curie(self._names.containment_disposition)
+        tells = any(disposition in cls.dispositions for cls in self._tbox.classes)
+        if not tells:
+            return np.ones(len(self._which), np.bool_)
+        is_made_to = [iri is None or disposition in self._tbox.by_iri[iri].dispositions for iri in self._known]
+        can = np.array(is_made_to, np.bool_)[self._which] | self.are_in("containers")
+        return np.asarray(can & ~self.are_in("not_containers"))
+
+
+class Bodies:
+    """The objects that have a box of their own, as arrays: metres, z-up world frame, one row for each."""
+
+    def __init__(self, objects: Sequence[SceneObject]) -> None:
+        self.number = np.array([index for index, obj in enumerate(objects) if obj.own_box is not None], np.int64)
+        """Place among all objects."""
+        self.objects = [obj for obj in objects if obj.own_box is not None]
+        boxes = [obj.own_box for obj in self.objects if obj.own_box is not None]
+        self.lower = np.array([box.lower for box in boxes], np.float64).reshape(-1, 3)
+        self.upper = np.array([box.upper for box in boxes], np.float64).reshape(-1, 3)
+        self.size = self.upper - self.lower
+        self.middle = (self.lower + self.upper) / 2
+        self.area = self.size[:, 0] * self.size[:, 1]
+        self.volume = self.area * self.size[:, 2]
+
+    def __len__(self) -> int:
+        return len(self.objects)
+
+    @cached_property
+    def rank(self) -> Indices:
+        """The place of each in the order of prim paths: what decides between equals, whatever the scene's order."""
+        paths = [obj.prim_path for obj in self.objects]
+        rank = np.empty(len(paths), np.int64)
+        rank[sorted(range(len(paths)), key=paths.__getitem__)] = np.arange(len(paths))
+        return rank
+
+    @cached_property
+    def feet(self) -> tuple[Array, Array]:
+        """Lower and upper corners (n, 3) of the box around the parts that each stands on; of the whole where it is one.
+
+        What a tap stands on is its foot, and not what is below its spout.
+        """
+        lower, upper = self.lower.copy(), self.upper.copy()
+        for index, obj in enumerate(self.objects):
+            if obj.part_boxes:
+                bottom = lower[index, 2] + _FOOT
+                feet = corners_of([box for box in obj.part_boxes if box.lower[2] <= bottom])
+                if len(feet[0]):
+                    lower[index], upper[index] = feet[0].min(axis=0), feet[1].max(axis=0)
+        return lower, upper
+
+    @cached_property
+    def parts(self) -> tuple[Indices, Array, Array]:
+        """Where the parts of each start (n + 1), and their lower and upper corners; the whole box where it is one."""
+        own = [obj.part_boxes or (obj.own_box,) for obj in self.objects]
+        starts = np.cumsum([0, *(len(boxes) for boxes in own)])
+        lower, upper = corners_of([box for boxes in own for box in boxes if box is not None])
+        return starts.astype(np.int64), lower, upper
+
+    @cached_property
+    def turned(self) -> tuple[Mask, Array, Array]:
+        """Whether each footprint is a rectangle that is turned; its half sides (n, 2); the unit vector of the first.
+
+        It is one where the extents along the prim's own axes give just the box that was measured; else the box's own
+        footprint stands for it.
+        """
+        is_turned = np.zeros(len(self), np.bool_)
+        half, along = self.size[:, :2] / 2, np.tile([1.0, 0.0], (len(self), 1))
+        for index, obj in enumerate(self.objects):
+            found = _turned_footprint(obj)
+            if found is not None:
+                is_turned[index] = True
+                half[index], along[index] = found
+        return is_turned, half, along
+
+
+def _turned_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
+    """Return half sides and the direction of the first side, for a thing that is turned about the vertical alone."""
+    if obj.oriented_size is None or obj.orientation is None or obj.own_box is None or obj.own_box != obj.box:
+        return None
+    x, y, z, w = obj.orientation
+    # Rows are the prim's axes in the world.
+    axes = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+            [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+            [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    upright = int(np.abs(axes[:, 2]).argmax())
+    if abs(axes[upright, 2]) < _UPRIGHT:
+        return None
+    first, second = (axis for axis in range(3) if axis != upright)
+    sides = np.array([obj.oriented_size[first], obj.oriented_size[second]])
+    along = axes[first, :2] / np.hypot(*axes[first, :2])
+    around = np.abs(along) * sides[0] + np.abs(along[::-1]) * sides[1]
+    is_that = np.abs(around - obj.own_box.size[:2]).max() <= _FITS * sides.max()
+    return (sides / 2, along) if is_that else None
+
+
+def corners_of(boxes: Sequence[Box]) -> tuple[Array, Array]:
+    """Return lower and upper corners (n, 3) of boxes."""
+    lower = np.array([box.lower for box in boxes], np.float64).reshape(-1, 3)
+    return lower, np.array([box.upper for box in boxes], np.float64).reshape(-1, 3)
+
+
+def overlap_areas(lower: Array, upper: Array, others_lower: Array, others_upper: Array) -> Array:
+    """Return the area that footprints share, pair by pair, in square metres."""
+    sides = np.clip(np.minimum(upper, others_upper)[:, :2] - np.maximum(lower, others_lower)[:, :2], 0, None)
+    return np.asarray(sides[:, 0] * sides[:, 1])

@@ -1,0 +1,101 @@
+"""`room`: which room a thing is in."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.relations.columns import first_of_each
+from usd2kg.relations.model import Links, clearness, share_above
+from usd2kg.relations.objects import Bodies, Classes
+from usd2kg.relations.thresholds import RoomRules
+from usd2kg.scene import Box, SceneObject
+from usd2kg.shapes import overlapping_pairs
+from usd2kg.words import words_of
+
+__all__ = ["RoomLinks", "find_rooms"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+class RoomLinks(NamedTuple):
+    """Which object is in which room."""
+
+    links: Links
+    """Anchors that are no objects are numbered on from the last body."""
+    groups: list[str]
+    """Paths of the group prims that are rooms."""
+
+
+class _Room(NamedTuple):
+    number: int
+    lower: Array
+    upper: Array
+
+
+def find_rooms(objects: Sequence[SceneObject], bodies: Bodies, classes: Classes, rule: RoomRules) -> RoomLinks:
+    """Return the smallest room that the middle of each thing is in.
+
+    A room's box is that of all below it: floor and walls are often objects of their own in there.
+    """
+    boxes = [objects[number].box for number in bodies.number.tolist()]
+    named = np.flatnonzero(classes.are_in("rooms")[bodies.number]).tolist()
+    rooms = [room for index in named if (room := _room(index, boxes[index], rule))]
+    groups: list[str] = []
+    if not rooms:
+        found = _group_boxes(objects, rule)
+        made = [_room(len(bodies) + place, box, rule) for place, box in enumerate(found.values())]
+        rooms, groups = [room for room in made if room], list(found)
+    rule_id = rule.group_rule if groups else rule.rule
+    is_placed = ~classes.are_in("not_neighbours") | classes.are_in("handles")
+    links = _members(bodies, rooms, np.flatnonzero(is_placed[bodies.number]), rule)
+    return RoomLinks(links._replace(rule=rule_id), groups)
+
+
+def _room(number: int, box: Box | None, rule: RoomRules) -> _Room | None:
+    if box is None or min(box.size[:2]) < rule.min_side or box.size[2] < rule.min_height:
+        return None
+    return _Room(number, np.array(box.lower), np.array(box.upper))
+
+
+def _group_boxes(objects: Sequence[SceneObject], rule: RoomRules) -> dict[str, Box]:
+    """Return the box around all objects below each prim that is no object and is called after a room, by path."""
+    paths = {obj.prim_path for obj in objects}
+    words = frozenset(rule.words)
+    is_room: dict[str, bool] = {}
+    below: dict[str, list[Box]] = {}
+    for obj in objects:
+        above = obj.prim_path.rpartition("/")[0]
+        while above and obj.box is not None:
+            if above not in is_room:
+                named = words_of(above.rpartition("/")[2])
+                is_room[above] = bool(named) and named[-1] in words and above not in paths
+            if is_room[above]:
+                below.setdefault(above, []).append(obj.box)
+            above = above.rpartition("/")[0]
+    return {path: _around(boxes) for path, boxes in sorted(below.items())}
+
+
+def _around(boxes: list[Box]) -> Box:
+    lower = np.array([box.lower for box in boxes]).min(axis=0).tolist()
+    upper = np.array([box.upper for box in boxes]).max(axis=0).tolist()
+    return Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
+
+
+def _members(bodies: Bodies, rooms: list[_Room], placed: Indices, rule: RoomRules) -> Links:
+    number = np.array([room.number for room in rooms], np.int64)
+    lower = np.array([room.lower for room in rooms]).reshape(-1, 3)
+    upper = np.array([room.upper for room in rooms]).reshape(-1, 3)
+    volume = (upper - lower).prod(axis=1)
+    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
+    at = bodies.middle[placed, :2]
+    for i, j in overlapping_pairs(at, at, (lower[:, :2], upper[:, :2])):
+        inner = np.minimum(bodies.middle[placed[i]] - lower[j], upper[j] - bodies.middle[placed[i]])
+        is_in = (inner.min(axis=1) >= 0) & (placed[i] != number[j])
+        found.append((placed[i[is_in]], j[is_in], inner[is_in, :2].min(axis=1)))
+    target, room, margin = (np.concatenate(column) for column in zip(*found, strict=True))
+    best = first_of_each(target, (number[room], volume[room]))
+    clear = clearness(share_above(margin[best], 0.0, rule.clear_margin))
+    return Links("room", rule.rule, target[best], number[room[best]], {"margin": margin[best]}, clear)

@@ -1,0 +1,108 @@
+"""Reading the rules: `data/spatial.toml`, and what a user replaces in it."""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, TypeVar
+
+from usd2kg.errors import GraphError
+from usd2kg.relations.thresholds import Rules
+
+__all__ = ["load_rules"]
+
+_EXTEND = "extend"
+
+
+def load_rules(overrides: Path | str | None = None) -> Rules:
+    """Return the rules that ship with the package, with the values of a TOML file in place of theirs.
+
+    Args:
+        overrides: sections and keys as in `data/spatial.toml`, just those that change; `[classes.extend]` adds to
+            lists of classes.
+
+    Raises:
+        GraphError: the file cannot be read, or holds a key or a value that the rules do not know.
+    """
+    rules = _shipped_rules()
+    if overrides is None:
+        return rules
+    return _changed(rules, _parse(Path(overrides)), str(overrides))
+
+
+@lru_cache(maxsize=1)
+def _shipped_rules() -> Rules:
+    table = tomllib.loads((files("usd2kg") / "data" / "spatial.toml").read_text("utf-8"))
+    made = {entry.name: entry.type(**_tuples(table[entry.name])) for entry in fields(Rules)}  # type: ignore[operator]
+    return Rules(**made)
+
+
+def _tuples(section: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in section.items()}
+
+
+def _parse(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise GraphError(f"{path}: cannot be read as relation rules ({error}); expected a TOML file") from error
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise GraphError(f"{path}: not valid TOML ({error}); see docs/relations.md for an example") from error
+
+
+def _changed(rules: Rules, table: dict[str, Any], source: str) -> Rules:
+    sections = {}
+    for name, values in table.items():
+        known = [entry.name for entry in fields(Rules)]
+        if name not in known:
+            raise GraphError(f"{source}: section [{name}] is unknown; expected one of {', '.join(known)}")
+        if not isinstance(values, dict):
+            raise GraphError(f"{source}: {name} is {values!r}; expected a section [{name}] with keys and values")
+        section = getattr(rules, name)
+        extended = values.pop(_EXTEND, {}) if name == "classes" else {}
+        section = _replaced(section, values, f"{source}: [{name}]")
+        sections[name] = _extended(section, extended, f"{source}: [{name}.{_EXTEND}]")
+    return replace(rules, **sections)
+
+
+_Section = TypeVar("_Section")
+
+
+def _replaced(section: _Section, values: Mapping[str, Any], where: str) -> _Section:
+    known = [entry.name for entry in fields(section)]  # type: ignore[arg-type]
+    for key, value in values.items():
+        if key not in known:
+            raise GraphError(f"{where}: key {key!r} is unknown; expected one of {', '.join(known)}")
+        _check(getattr(section, key), value, f"{where} {key}")
+    changed: _Section = replace(section, **_tuples(values))  # type: ignore[type-var]
+    return changed
+
+
+def _extended(section: _Section, values: Any, where: str) -> _Section:
+    if not isinstance(values, dict):
+        raise GraphError(f'{where} is {values!r}; expected lists of classes, like containers = ["soma:Table"]')
+    lists = {key: old for entry in fields(section) if isinstance(old := getattr(section, key := entry.name), tuple)}  # type: ignore[arg-type]
+    for key, value in values.items():
+        if key not in lists:
+            raise GraphError(f"{where}: key {key!r} is unknown; expected one of {', '.join(lists)}")
+        _check(lists[key], value, f"{where} {key}")
+    longer = {key: (*lists[key], *value) for key, value in values.items()}
+    changed: _Section = replace(section, **longer)  # type: ignore[type-var]
+    return changed
+
+
+def _check(shipped: Any, value: Any, where: str) -> None:
+    """Raise unless a value is of the kind that ships: a number, a whole number, a text, or a list of texts."""
+    if isinstance(shipped, tuple):
+        is_good, expected = isinstance(value, list) and all(isinstance(item, str) for item in value), "a list of texts"
+    elif isinstance(shipped, str):
+        is_good, expected = isinstance(value, str), "a text"
+    elif isinstance(shipped, int):
+        is_good, expected = type(value) is int and value >= 0, "a whole number, not negative"
+    else:
+        is_good, expected = type(value) in {int, float} and math.isfinite(value), "a finite number"
+    if not is_good:
+        raise GraphError(f"{where} is {value!r}; expected {expected}, like {shipped!r}")

@@ -1,0 +1,148 @@
+"""Pictures of a stage that is opened once."""
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Sdf, Usd
+from rapidfuzz import fuzz, process
+
+from usd2kg.errors import SceneError
+from usd2kg.render.png import encode_png
+from usd2kg.render.soup import gather
+from usd2kg.render.views_of_scene import Size, picture_in_context, picture_of_object, picture_of_scene
+from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
+from usd2kg.scene.model import Diagnostic
+from usd2kg.scene.options import ReadOptions
+from usd2kg.scene.stage import captured_diagnostics, open_stage
+
+__all__ = ["Renderer", "render_object", "render_objects", "render_scene"]
+
+_THUMBNAIL: Size = (256, 256)
+_OVERVIEW: Size = (800, 600)
+_LARGEST = 4096
+_SURROUNDINGS = 3.0
+"""How far around an object its surroundings are drawn, in its own largest extents."""
+_LEAST_SURROUNDINGS = 0.6
+"""Metres."""
+
+
+def render_object(
+    source: Path | str | Usd.Stage, prim_path: str, *, size: Size = _THUMBNAIL, in_context: bool = False
+) -> bytes:
+    """Return a PNG of one object, by itself or highlighted where it stands.
+
+    The same stage gives the same bytes.
+
+    Raises:
+        SceneError: the stage cannot be read, there is no such prim, or it has no geometry that is drawn.
+    """
+    return Renderer(source).render_object(prim_path, size=size, in_context=in_context)
+
+
+def render_objects(
+    source: Path | str | Usd.Stage, prim_paths: Iterable[str], *, size: Size = _THUMBNAIL, in_context: bool = False
+) -> Iterator[tuple[str, bytes | None]]:
+    """Yield (prim path, PNG) for each object, opening the stage once; None where there is no geometry to draw.
+
+    Raises:
+        SceneError: the stage cannot be read, or there is no such prim.
+    """
+    renderer = Renderer(source)
+    for path in prim_paths:
+        has_geometry = bool(renderer.meshes_below(path))
+        yield path, renderer.render_object(path, size=size, in_context=in_context) if has_geometry else None
+
+
+def render_scene(source: Path | str | Usd.Stage, *, size: Size = _OVERVIEW) -> bytes:
+    """Return a PNG of the whole scene from a corner above, without ceiling and near walls.
+
+    Raises:
+        SceneError: the stage cannot be read, or has no geometry that is drawn.
+    """
+    return Renderer(source).render_scene(size=size)
+
+
+class Renderer:
+    """Draws pictures of one stage; triangles are read when first needed and kept."""
+
+    def __init__(self, source: Path | str | Usd.Stage, options: ReadOptions | None = None) -> None:
+        options = options or ReadOptions()
+        self._opened = open_stage(source, options)
+        self._time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
+        self.diagnostics: list[Diagnostic] = list(self._opened.diagnostics)
+        """What was odd on the stage, so far as it was read."""
+
+    def render_object(self, prim_path: str, *, size: Size = _THUMBNAIL, in_context: bool = False) -> bytes:
+        """Return a PNG of one object; see `usd2kg.render.render_object`."""
+        _check_size(size)
+        meshes = self.meshes_below(prim_path)
+        if not meshes:
+            raise SceneError(f"{self._opened.source}: {prim_path} has no geometry that is drawn, so no picture of it")
+        if not in_context:
+            return encode_png(picture_of_object(gather(meshes), size))
+        soup = gather([*meshes, *self._around(meshes)])
+        return encode_png(picture_in_context(soup, len(meshes), size))
+
+    def render_scene(self, *, size: Size = _OVERVIEW) -> bytes:
+        """Return a PNG of the whole scene; see `usd2kg.render.render_scene`."""
+        _check_size(size)
+        if not self._all_meshes:
+            raise SceneError(f"{self._opened.source}: no geometry that is drawn is on the stage, so no picture of it")
+        return encode_png(picture_of_scene(gather(self._all_meshes), size))
+
+    def meshes_below(self, prim_path: str) -> list[ObjectMesh]:
+        """Return what is drawn at and below a prim, or of one copy of a point instancer (`path[number]`).
+
+        Raises:
+            SceneError: there is no such prim.
+        """
+        self._check_path(prim_path)
+        return self._read([prim_path])
+
+    def _read(self, paths: list[str]) -> list[ObjectMesh]:
+        with captured_diagnostics() as openusd_notes:
+            found = list(iterate_meshes(self._opened, paths, self._time, diagnostics=self.diagnostics))
+        self.diagnostics.extend(openusd_notes)
+        return [mesh for mesh in found if len(mesh.triangles)]
+
+    @cached_property
+    def _all_meshes(self) -> list[ObjectMesh]:
+        return self._read(["/"])
+
+    @cached_property
+    def _boxes(self) -> NDArray[np.float32]:
+        """(n, 2, 3): lowest and highest corner of each mesh."""
+        boxes = [(mesh.points.min(axis=0), mesh.points.max(axis=0)) for mesh in self._all_meshes]
+        return np.array(boxes, np.float32).reshape(-1, 2, 3)
+
+    def _around(self, meshes: list[ObjectMesh]) -> list[ObjectMesh]:
+        """Return the other meshes that reach into the surroundings of an object."""
+        low = np.min([mesh.points.min(axis=0) for mesh in meshes], axis=0)
+        high = np.max([mesh.points.max(axis=0) for mesh in meshes], axis=0)
+        reach = max(_SURROUNDINGS * float((high - low).max()), _LEAST_SURROUNDINGS)
+        is_near = ((self._boxes[:, 1] >= low - reach) & (self._boxes[:, 0] <= high + reach)).all(axis=1)
+        own = {mesh.prim_path for mesh in meshes}
+        return [self._all_meshes[i] for i in np.flatnonzero(is_near) if self._all_meshes[i].prim_path not in own]
+
+    def _check_path(self, prim_path: str) -> None:
+        name = prim_path.partition("[")[0]
+        stage: Any = self._opened.stage
+        if name.startswith("/") and Sdf.Path.IsValidPathString(name) and stage.GetPrimAtPath(name):
+            return
+        everything = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+        paths = [str(prim.GetPath()) for prim in Usd.PrimRange(stage.GetPseudoRoot(), everything)][1:]
+        # People type a name without its path, or half remember it.
+        wanted = name.rpartition("/")[2].lower()
+        names = [path.rpartition("/")[2].lower() for path in paths]
+        close = [paths[match[2]] for match in process.extract(wanted, names, scorer=fuzz.WRatio, limit=3)]
+        hint = f"; did you mean {' or '.join(close)}?" if close else ""
+        raise SceneError(f"{self._opened.source}: there is no prim {prim_path}, expected an absolute path{hint}")
+
+
+def _check_size(size: Size) -> None:
+    if not all(1 <= side <= _LARGEST for side in size):
+        raise SceneError(f"a picture of {size[0]}x{size[1]} pixels cannot be drawn; expected 1 to {_LARGEST} each way")

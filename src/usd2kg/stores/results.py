@@ -1,0 +1,41 @@
+"""Answers of servers, as our own."""
+
+import re
+
+import pyoxigraph as ox
+
+from usd2kg.errors import StoreError
+from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.query.answer import Answer, make_answer
+
+__all__ = ["read_answer", "with_prefixes"]
+
+
+def read_answer(body: bytes, sparql: str) -> Answer:
+    """Return what a server answered in SPARQL's JSON or in N-Triples.
+
+    Raises:
+        StoreError: it is neither.
+    """
+    try:
+        if not body.lstrip().startswith(b"{"):
+            triples = sorted(map(tuple, ox.parse(body, format=ox.RdfFormat.N_TRIPLES)), key=lambda t: list(map(str, t)))
+            return make_answer(("subject", "predicate", "object"), [triple[:3] for triple in triples], sparql)
+        found = ox.parse_query_results(body, format=ox.QueryResultsFormat.JSON)
+        if isinstance(found, ox.QueryBoolean):
+            return Answer(("answer",), ((str(bool(found)).lower(),),), ((bool(found),),), sparql)
+        columns = tuple(variable.value for variable in found.variables)
+        return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], sparql)
+    except (SyntaxError, UnicodeDecodeError) as error:
+        raise StoreError(f"the server's answer is neither SPARQL's JSON nor N-Triples ({error})") from error
+
+
+def with_prefixes(sparql: str) -> str:
+    """Return a query or update with our usual prefixes declared, where it uses and does not declare them.
+
+    >>> with_prefixes("ASK { ?s u2k:primPath ?p }")
+    'PREFIX u2k: <https://w3id.org/usd2kg#> ASK { ?s u2k:primPath ?p }'
+    """
+    declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
+    used = [n for n in PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
+    return "".join(f"PREFIX {name}: <{PREFIXES[name]}> " for name in used) + sparql

@@ -1,0 +1,149 @@
+"""Where a graph contradicts its ontology: disjoint classes, domains and ranges, deprecated and unknown classes.
+
+No reasoner: only what named classes, their disjointness, and domains and ranges say. What is found is a contradiction;
+what is not found may still be one.
+"""
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.graph.terms import vocabulary_triples
+from usd2kg.graph.vocabulary import OWL, RDF
+from usd2kg.ontology import Closure, compact_iri
+from usd2kg.validation.axioms import Axioms, Disjointness
+from usd2kg.validation.finding import Finding, Severity
+from usd2kg.validation.objects import GraphObject, values_of
+
+__all__ = ["find_clashes", "read_axioms"]
+
+_MEND_CLASS = "Correct the class with a decision (usd2kg build --decisions), or remove the other statement."
+
+MakeFinding = Callable[..., Finding]
+"""Makes a finding about a node: severity, rule, node, found, expected, advice."""
+_Types = frozenset[str]
+
+
+def read_axioms(closure: Closure) -> Axioms:
+    """Return what an ontology, with its imports and our vocabulary, states."""
+    return Axioms((*closure.triples, *vocabulary_triples()))
+
+
+def find_clashes(
+    store: ox.Store, objects: list[GraphObject], axioms: Axioms, missing: tuple[str, ...], make: MakeFinding
+) -> Iterator[Finding]:
+    """Yield each contradiction between a graph and an ontology.
+
+    Args:
+        store: the graph.
+        objects: its objects.
+        axioms: what the ontology states.
+        missing: IRIs of imports that are not at hand: nothing is unknown that may be theirs.
+        make: makes a finding about a node.
+    """
+    types = _types(store)
+    yield from _disjoint(types, axioms, make)
+    yield from _ends(store, types, axioms, make)
+    yield from _odd_classes(objects, axioms, missing, make)
+
+
+def _types(store: ox.Store) -> dict[Any, _Types]:
+    """Return individual → its classes; equal sets are one object, so that they are compared once."""
+    known: dict[_Types, _Types] = {}
+    found = {}
+    for node, values in values_of(store, RDF.type).items():
+        types = frozenset(v.value for v in values if isinstance(v, ox.NamedNode) and v != OWL.NamedIndividual)
+        found[node] = known.setdefault(types, types)
+    return found
+
+
+def _way(axioms: Axioms, start: str, end: str) -> str:
+    return axioms.named(start) if start == end else f"{axioms.named(start)}, below {axioms.named(end)},"
+
+
+def _explain(axioms: Axioms, first: str, second: str, clash: Disjointness) -> str:
+    return (
+        f"{_way(axioms, first, clash.first)} and {_way(axioms, second, clash.second)}; "
+        f"axiom: {compact_iri(clash.first)} owl:disjointWith {compact_iri(clash.second)}"
+    ).replace(",;", ";")
+
+
+def _disjoint(types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> Iterator[Finding]:
+    clashes: dict[_Types, str | None] = {}
+    for node, own in types.items():
+        if own not in clashes:
+            pairs = ((a, b, axioms.clash(a, b)) for a, b in combinations(sorted(own), 2))
+            clashes[own] = next((_explain(axioms, a, b, clash) for a, b, clash in pairs if clash is not None), None)
+        found = clashes[own]
+        if found is not None:
+            expected = "classes that can have a member in common"
+            yield make(Severity.ERROR, "disjoint-classes", node, f"it is {found}", expected, _MEND_CLASS)
+
+
+def _ends(store: ox.Store, types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> Iterator[Finding]:
+    for iri in sorted(axioms.properties):
+        name = ox.NamedNode(iri)
+        if next(iter(store.quads_for_pattern(None, name, None)), None) is None:
+            continue
+        for rule, is_subject in (("domain-clash", True), ("range-clash", False)):
+            demands = axioms.ends(iri, is_subject=is_subject)
+            if demands:
+                quads = store.quads_for_pattern(None, name, None)
+                nodes = dict.fromkeys(quad.subject if is_subject else quad.object for quad in quads)
+                yield from _unfit(rule, iri, nodes, demands, types, axioms, make)
+
+
+def _unfit(
+    rule: str,
+    iri: str,
+    nodes: dict[Any, None],
+    demands: list[tuple[str, tuple[str, ...]]],
+    types: dict[Any, _Types],
+    axioms: Axioms,
+    make: MakeFinding,
+) -> Iterator[Finding]:
+    """Yield the nodes at one end of a property whose classes rule out what the property demands."""
+    end = "domain" if rule == "domain-clash" else "range"
+    verdicts: dict[_Types, tuple[str, str] | None] = {}
+    for node in nodes:
+        own = types.get(node, frozenset())
+        if own not in verdicts:
+            verdicts[own] = _verdict(axioms, iri, end, own, demands)
+        verdict = verdicts[own]
+        if verdict is not None:
+            yield make(Severity.ERROR, rule, node, *verdict, _MEND_CLASS)
+
+
+def _verdict(
+    axioms: Axioms, iri: str, end: str, own: _Types, demands: list[tuple[str, tuple[str, ...]]]
+) -> tuple[str, str] | None:
+    """Return what was found and expected, if all alternatives of a demand are disjoint with a class."""
+    for stated, alternatives in demands:
+        for cls in sorted(own):
+            clashes = [(other, axioms.clash(cls, other)) for other in alternatives]
+            other, first = clashes[0]
+            if first is not None and all(clash is not None for _, clash in clashes):
+                role = "has" if end == "domain" else "is a value of"
+                found = f"it {role} {axioms.named(iri)}, and is {_explain(axioms, cls, other, first)}"
+                named = " or ".join(axioms.named(alternative) for alternative in alternatives)
+                return found, f"{named}: the {end} of {axioms.named(stated)}, or of its inverse"
+    return None
+
+
+def _odd_classes(
+    objects: list[GraphObject], axioms: Axioms, missing: tuple[str, ...], make: MakeFinding
+) -> Iterator[Finding]:
+    elsewhere = tuple(f"{iri.rstrip('#/')}{end}" for iri in missing for end in "#/")
+    for obj in objects:
+        node = ox.NamedNode(obj.iri)
+        for cls in obj.classes:
+            if cls in axioms.deprecated:
+                advice = "Take the class that the ontology names instead, with a decision (usd2kg build --decisions)."
+                found = f"its class {axioms.named(cls)} is deprecated"
+                yield make(Severity.WARNING, "class-deprecated", node, found, "a class that is in use", advice)
+            if cls not in axioms.classes and cls not in axioms.parents and not cls.startswith(elsewhere):
+                advice = "Name the ontology that the graph was built with (--ontology), or build the graph again."
+                found = f"its class {compact_iri(cls)} is not in the ontology"
+                yield make(Severity.ERROR, "class-unknown", node, found, "a class of the ontology", advice)

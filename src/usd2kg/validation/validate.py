@@ -1,0 +1,148 @@
+"""validate_graph: what is wrong with a graph, by shapes, by its ontology and by plausibility."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GraphError
+from usd2kg.graph.vocabulary import OWL, RDFS, U2K
+from usd2kg.ontology import Closure, compact_iri
+from usd2kg.query.graph_store import GraphStore
+from usd2kg.validation.clashes import find_clashes, read_axioms
+from usd2kg.validation.elk import ElkAnswer
+from usd2kg.validation.finding import Finding, Severity, sort_findings
+from usd2kg.validation.kinds import Kinds
+from usd2kg.validation.objects import GraphObject, find_owner, profile_of, read_objects, values_of
+from usd2kg.validation.plausibility import SceneOfObjects, find_oddities
+from usd2kg.validation.rules import Rules, read_rules
+from usd2kg.validation.shapes import compile_shapes, find_violations
+
+__all__ = ["ValidationReport", "imports_of", "ontology_of", "validate_graph"]
+
+_MEND_ONTOLOGY = "Mend the ontology, or take another class with a decision (usd2kg build --decisions)."
+_MEND_STATEMENT = "Correct the class with a decision (usd2kg build --decisions), or remove one of these statements."
+
+
+@dataclass(frozen=True)
+class ValidationReport:
+    """The findings of a graph."""
+
+    profile: str
+    objects: int
+    findings: tuple[Finding, ...]
+    """Most serious first, those of one rule together."""
+
+    def counts(self) -> dict[str, int]:
+        """Return severity → number of findings."""
+        return {severity.value: sum(f.severity == severity for f in self.findings) for severity in Severity}
+
+
+def ontology_of(graph: GraphStore) -> str | None:
+    """Return the IRI of the ontology that the objects of a graph were grounded to, as the graph says."""
+    return next((value.value for values in values_of(graph.store, U2K.ontologyIri).values() for value in values), None)
+
+
+def imports_of(graph: GraphStore) -> tuple[str, ...]:
+    """Return the IRIs of the ontologies that a graph imports, sorted."""
+    return tuple(sorted(v.value for values in values_of(graph.store, OWL.imports).values() for v in values))
+
+
+def validate_graph(
+    graph: GraphStore,
+    closure: Closure | None = None,
+    rules: Rules | None = None,
+    answer: ElkAnswer | None = None,
+) -> ValidationReport:
+    """Return what is wrong with a graph that usd2kg built.
+
+    Args:
+        graph: the graph.
+        closure: the ontology that its objects were grounded to, with its imports; without it, clashes are not looked
+            for and classes are known by what the graph itself says of them.
+        rules: the rules of plausibility; our own by default.
+        answer: what a reasoner said of it, see `ask_elk`.
+
+    Raises:
+        GraphError: there is no object in the graph.
+    """
+    profile = profile_of(graph.store)
+    if profile is None:
+        raise GraphError(
+            f"{graph.source}: holds no object (no usd:Prim, no u2k:Object); expected a graph that usd2kg build wrote"
+        )
+    run = _Run(graph.store, closure)
+    findings = [*run.shapes(profile), *run.clashes(), *run.oddities(read_rules() if rules is None else rules)]
+    if answer is not None and not answer.is_consistent:
+        findings += run.inconsistencies(answer)
+    return ValidationReport(profile, len(run.objects), sort_findings(findings))
+
+
+class _Run:
+    """One graph under validation."""
+
+    def __init__(self, store: ox.Store, closure: Closure | None) -> None:
+        self._store = store
+        self._closure = closure
+        self._axioms = read_axioms(closure) if closure is not None else None
+        self.objects = read_objects(store)
+        self._by_iri = {obj.iri: obj for obj in self.objects}
+
+    def shapes(self, profile: str) -> Iterator[Finding]:
+        """Yield what breaks the shapes of the profile."""
+        for rule in compile_shapes(profile):
+            for broken in find_violations(self._store, rule):
+                found = ", ".join(broken.found)
+                yield self._finding(rule.severity, rule.id, broken.focus, found, rule.expected, rule.advice)
+
+    def clashes(self) -> Iterator[Finding]:
+        """Yield what contradicts the ontology."""
+        if self._axioms is not None and self._closure is not None:
+            yield from find_clashes(self._store, self.objects, self._axioms, self._closure.missing, self._finding)
+
+    def inconsistencies(self, answer: ElkAnswer) -> Iterator[Finding]:
+        """Yield what a reasoner calls inconsistent."""
+        for clash in answer.clashes:
+            node = ox.NamedNode(clash.iri) if not clash.iri.startswith("_:") else ox.BlankNode(clash.iri[2:])
+            if clash.impossible is not None:
+                found = f"it is {compact_iri(clash.impossible)}, which can have no member by the ontology itself"
+                yield self._finding(
+                    Severity.ERROR, "elk-impossible-class", node, found, "a class that can have members", _MEND_ONTOLOGY
+                )
+            else:
+                found = f"stated of it: {'; '.join(clash.statements)}"
+                yield self._finding(
+                    Severity.ERROR, "elk-clash", node, found, "statements that can be true together", _MEND_STATEMENT
+                )
+        if not answer.clashes:
+            found = "ELK calls the graph inconsistent, and no single individual is to blame"
+            yield Finding(Severity.ERROR, "elk-inconsistent", "", "", "", found, "a consistent graph", _MEND_STATEMENT)
+
+    def oddities(self, rules: Rules) -> Iterator[Finding]:
+        """Yield what is implausible."""
+        calibrated = values_of(self._store, U2K.isCalibrated).values()
+        has_probabilities = not any(value.value in {"false", "0"} for values in calibrated for value in values)
+        scene = SceneOfObjects(self.objects, Kinds(self._store, self._axioms, self.objects), has_probabilities)
+        for rule, obj, found, expected in find_oddities(scene, rules):
+            yield _about(obj, rule.severity, rule.id, obj.iri, found, expected, rule.advice)
+
+    def _finding(self, severity: Severity, rule: str, node: Any, found: str, expected: str, advice: str) -> Finding:
+        owner = find_owner(self._store, node, self._by_iri)
+        name = node.value if isinstance(node, ox.NamedNode | ox.BlankNode | ox.Literal) else str(node)
+        if owner is not None:
+            return _about(owner, severity, rule, name, found, expected, advice)
+        label, path = (self._text(node, term) for term in (RDFS.label, U2K.definingPrim))
+        return Finding(severity, rule, label, path, name, found, expected, advice)
+
+    def _text(self, node: Any, name: ox.NamedNode) -> str:
+        if not isinstance(node, ox.NamedNode | ox.BlankNode):
+            return ""
+        values = (quad.object for quad in self._store.quads_for_pattern(node, name, None))
+        return min((value.value for value in values if isinstance(value, ox.Literal)), default="")
+
+
+def _about(
+    obj: GraphObject, severity: Severity, rule: str, iri: str, found: str, expected: str, advice: str
+) -> Finding:
+    return Finding(severity, rule, obj.label, obj.prim_path, iri, found, expected, advice)

@@ -1,0 +1,47 @@
+"""Queries of strangers end, whatever they ask, and the next one is answered."""
+
+import pytest
+
+from tests.graph.records import build_graph, open_store, thing
+from usd2kg.endpoint import BoundedQueries, Limits
+from usd2kg.errors import GraphError
+from usd2kg.ontology import TBox
+from usd2kg.query import GraphStore
+
+CUPS = "SELECT ?label { ?o u2k:primPath ?p ; rdfs:label ?label } ORDER BY ?label"
+ENDLESS = "SELECT (COUNT(*) AS ?n) { ?a ?b ?c . ?d ?e ?f . ?g ?h ?i . ?j ?k ?l }"
+
+
+@pytest.fixture(scope="module")
+def graph(home_tbox: TBox) -> GraphStore:
+    return open_store(
+        build_graph(home_tbox, [(thing(f"/Cup_{i}", (i, 0, 0), (0.1, 0.1, 0.1)), "Cup") for i in range(9)])
+    )
+
+
+def test_answers_are_those_of_the_graph_itself(graph: GraphStore):
+    with BoundedQueries(graph) as run:
+        assert run(CUPS) == graph.sparql(CUPS)
+        assert run("ASK { ?o a soma:Cup }").values == ((True,),)
+        construct = "CONSTRUCT { ?o a soma:Cup } WHERE { ?o a soma:Cup }"
+        assert sorted(run(construct).rows) == sorted(graph.sparql(construct).rows)
+
+
+def test_an_endless_query_is_stopped_and_the_next_one_answered(graph: GraphStore):
+    with BoundedQueries(graph, Limits(seconds=1, workers=1)) as run:
+        with pytest.raises(GraphError, match="stopped after 1 s; ask for less"):
+            run(ENDLESS)
+        assert len(run(CUPS).rows) == 9
+
+
+@pytest.mark.parametrize(
+    ("query", "message"),
+    [
+        ("SELEC", "not valid SPARQL"),
+        ("DELETE WHERE { ?s ?p ?o }", "not valid SPARQL"),
+        ("SELECT * { SERVICE <http://127.0.0.1/> { ?s ?p ?o } }", "no query leaves this machine"),
+    ],
+)
+def test_what_is_wrong_is_told(graph: GraphStore, query: str, message: str):
+    with BoundedQueries(graph) as run, pytest.raises(GraphError, match=message):
+        run(query)

@@ -1,0 +1,278 @@
+"""The endpoint as a process of its own, asked over HTTP as strangers would."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from http.client import HTTPConnection
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import quote, urlencode
+
+import pyoxigraph as ox
+import pytest
+
+from tests.graph.records import build_graph, thing
+from usd2kg.ontology import TBox
+from usd2kg.stores import EmbeddedStore, named_graph, open_store
+
+HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">'\"\t=1+1"
+ASK = "ASK { ?s ?p ?o }"
+CROSS = "SELECT (COUNT(*) AS ?n) { ?a ?b ?c . ?d ?e ?f . ?g ?h ?i . ?j ?k ?l }"
+PATHS = "SELECT ?path { ?o u2k:primPath ?path } ORDER BY ?path"
+
+
+class Reply(NamedTuple):
+    status: int
+    headers: dict[str, str]
+    body: str
+
+
+@pytest.fixture(scope="module")
+def port(home_tbox: TBox, tmp_path_factory: pytest.TempPathFactory) -> Iterator[int]:
+    """The port of an endpoint over two scenes, one with a hostile name in it."""
+    folder = tmp_path_factory.mktemp("serve") / "store"
+    store = EmbeddedStore(folder)
+    table = (thing("/Table", (0, 0, 0), (1, 1, 1)), "Table")
+    cups = [(thing(f"/{name}", (0.4, 0.4, 1), (0.1, 0.1, 0.1), name=name), "Cup") for name in ("Mug", HOSTILE)]
+    for base, placed in (("https://my.lab/a/", [table, cups[0]]), ("https://my.lab/b/", [table, cups[1]])):
+        store.load(named_graph(build_graph(home_tbox, placed, base=base)))
+    # A class, too, whose label comes first of all.
+    hostile = ox.Literal(HOSTILE)
+    store.update(f"INSERT {{ GRAPH ?g {{ ?c rdfs:label {hostile} }} }} WHERE {{ GRAPH ?g {{ ?c rdfs:label 'cup' }} }}")
+    options = ["--port", "0", "--time-limit", "2", "--max-rows", "50", "--max-body", "2000", "--memory-limit", "200"]
+    command = [sys.executable, "-m", "usd2kg", "serve", str(folder), *options, "--allow-host", "graphs.lab"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr is not None
+        line = process.stderr.readline()
+        assert "serves " in line, line
+        found = int(line.partition("http://127.0.0.1:")[2].partition("/")[0])
+        # Answers once its workers are warm.
+        for _ in range(600):
+            try:
+                ask(found, ASK)
+                break
+            except OSError:
+                time.sleep(0.1)
+        yield found
+        process.terminate()
+
+
+def request(port: int, method: str, path: str, body: bytes | None = None, **headers: str) -> Reply:
+    connection = HTTPConnection("127.0.0.1", port, timeout=60)
+    connection.request(method, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
+    reply = connection.getresponse()
+    text = reply.read().decode()
+    connection.close()
+    return Reply(reply.status, {name.lower(): value for name, value in reply.getheaders()}, text)
+
+
+def ask(port: int, query: str, *more: tuple[str, str], **headers: str) -> Reply:
+    return request(port, "GET", f"/sparql?{urlencode([('query', query), *more])}", **headers)
+
+
+def test_the_three_ways_of_asking(port: int):
+    form = urlencode({"query": ASK}).encode()
+    replies = [
+        ask(port, ASK),
+        request(port, "POST", "/sparql", form, Content_Type="application/x-www-form-urlencoded"),
+        request(port, "POST", "/sparql", ASK.encode(), Content_Type="application/sparql-query; charset=utf-8"),
+    ]
+    for reply in replies:
+        assert (reply.status, json.loads(reply.body)) == (200, {"head": {}, "boolean": True})
+        assert reply.headers["content-type"] == "application/sparql-results+json"
+
+
+@pytest.mark.parametrize("media_type", ["application/sparql-results+json", "application/sparql-results+xml"])
+def test_tables_are_read_back_by_another_parser(port: int, media_type: str):
+    query = "SELECT ?o ?label ?n { ?o u2k:primPath ?p ; rdfs:label ?label . OPTIONAL { ?o <urn:none> ?n } } ORDER BY ?p"
+    reply = ask(port, query, Accept=media_type)
+    assert reply.headers["content-type"] == media_type
+    rdf_format = ox.QueryResultsFormat.JSON if media_type.endswith("json") else ox.QueryResultsFormat.XML
+    found = ox.parse_query_results(reply.body, format=rdf_format)
+    assert isinstance(found, ox.QuerySolutions)
+    rows = list(found)
+    assert len(rows) == 4
+    assert {row["label"].value for row in rows} == {"Table", "Mug", HOSTILE}
+    assert all(row["n"] is None for row in rows)
+
+
+def test_csv_and_tsv_are_as_the_standard_has_them(port: int):
+    query = "SELECT * { VALUES (?a ?b) { ('x,\"y\"' 1) (<urn:z> UNDEF) ('tab\\there'@en true) } }"
+    assert ask(port, query, Accept="text/csv").body == 'a,b\r\n"x,""y""",1\r\nurn:z,\r\ntab\there,true\r\n'
+    tsv = ask(port, query, Accept="text/tab-separated-values").body.splitlines()
+    assert tsv[:3] == ["?a\t?b", '"x,\\"y\\""\t"1"^^<http://www.w3.org/2001/XMLSchema#integer>', "<urn:z>\t"]
+    assert tsv[3].startswith('"tab\\there"@en\t')
+
+
+@pytest.mark.parametrize("kind", ["text/turtle", "application/n-triples", "application/rdf+xml", "application/ld+json"])
+def test_graphs_are_read_back(port: int, kind: str):
+    reply = ask(port, "CONSTRUCT { ?o u2k:primPath ?p } WHERE { ?o u2k:primPath ?p }", Accept=kind)
+    assert reply.headers["content-type"].partition(";")[0] == kind
+    assert len(list(ox.parse(reply.body, format=ox.RdfFormat.from_media_type(kind)))) == 4
+
+
+def test_a_dataset_can_be_chosen(port: int):
+    a, b = "https://my.lab/a", "https://my.lab/b"
+    assert len(json.loads(ask(port, PATHS).body)["results"]["bindings"]) == 4
+    assert ask(port, PATHS, ("default-graph-uri", a), Accept="text/csv").body == "path\r\n/Mug\r\n/Table\r\n"
+    graphs = "SELECT DISTINCT ?g { GRAPH ?g { ?s ?p ?o } } ORDER BY ?g"
+    assert ask(port, graphs, Accept="text/csv").body == f"g\r\n{a}\r\n{b}\r\n"
+    assert ask(port, graphs, ("named-graph-uri", b), Accept="text/csv").body == f"g\r\n{b}\r\n"
+    assert ask(port, ASK, ("named-graph-uri", b), Accept="text/csv").body == "false\n"
+    assert ask(port, ASK, ("default-graph-uri", "no iri")).status == 400
+
+
+@pytest.mark.parametrize(
+    ("query", "text"),
+    [
+        ("SELECT * {", "not valid SPARQL"),
+        ("INSERT DATA { <urn:a> <urn:b> 1 }", "only SELECT, ASK, CONSTRUCT and DESCRIBE run here"),
+        ("LOAD <http://127.0.0.1:9/>", "no query leaves this machine"),
+        ("SELECT * { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }", "no query leaves this machine"),
+        (" ", "expected one query"),
+    ],
+)
+def test_what_cannot_be_asked_is_400(port: int, query: str, text: str):
+    reply = ask(port, query)
+    assert (reply.status, text in reply.body, reply.body.count("\n")) == (400, True, 1)
+    assert json.loads(ask(port, query, Accept="application/json").body)["error"] == reply.body.rstrip("\n")
+
+
+def test_other_refusals_have_their_own_status(port: int):
+    assert ask(port, ASK, Accept="image/png").status == 406
+    assert request(port, "POST", "/sparql", b"x", Content_Type="text/plain").status == 415
+    assert (
+        request(port, "POST", "/sparql", b"update=CLEAR+ALL", Content_Type="application/x-www-form-urlencoded").status
+        == 400
+    )
+    assert request(port, "PUT", "/sparql", b"x").status == 405
+    assert request(port, "POST", "/sparql", b"x" * 2001, Content_Type="application/sparql-query").status == 413
+    assert ask(port, ASK, ("query", ASK)).status == 400
+
+
+def test_answers_are_cut_and_say_so(port: int):
+    reply = ask(port, "SELECT * { ?s ?p ?o }", Accept="text/csv")
+    assert (len(reply.body.splitlines()), reply.headers["x-sparql-maxrows"]) == (51, "50")
+    assert "x-sparql-maxrows" not in ask(port, PATHS).headers
+    graph = ask(port, "CONSTRUCT WHERE { ?s ?p ?o }", Accept="application/n-triples")
+    assert (len(graph.body.splitlines()), graph.headers["x-sparql-maxrows"]) == (50, "50")
+
+
+def test_a_hostile_query_is_stopped_while_others_are_answered(port: int):
+    with ThreadPoolExecutor(2) as threads:
+        start = time.monotonic()
+        hostile = threads.submit(ask, port, CROSS)
+        time.sleep(0.3)
+        assert ask(port, ASK).status == 200
+        quick = time.monotonic() - start
+        reply = hostile.result()
+    assert quick < 2
+    assert (reply.status, "took more than 2 s and was stopped" in reply.body) == (503, True)
+    assert ask(port, ASK).status == 200
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is limited where the system can say it")
+def test_a_query_that_eats_memory_is_stopped(port: int):
+    grow = "BIND(CONCAT(?x0, ?x0, ?x0, ?x0, ?x0, ?x0, ?x0, ?x0) AS ?x1) "
+    steps = "".join(grow.replace("x1", f"x{i + 1}").replace("x0", f"x{i}") for i in range(9))
+    reply = ask(port, f"SELECT (STRLEN(?x9) AS ?n) {{ BIND('0123456789' AS ?x0) {steps} }}")
+    assert (reply.status, "was stopped; ask for less" in reply.body) == (503, True)
+    assert ask(port, ASK).status == 200
+
+
+def test_other_names_and_other_sites_are_turned_away(port: int):
+    assert ask(port, ASK, Host="evil.example").status == 403
+    assert ask(port, ASK, Host="127.0.0.1.evil.example").status == 403
+    for host in ("localhost:1", "[::1]", "graphs.lab", "127.0.0.1"):
+        assert ask(port, ASK, Host=host).status == 200
+    other = ask(port, ASK, Origin="https://evil.example")
+    assert (other.status, "access-control-allow-origin" in other.headers) == (403, False)
+    assert ask(port, ASK, Origin=f"http://127.0.0.1:{port}").status == 200
+
+
+def test_headers_keep_a_browser_careful(port: int):
+    page = request(port, "GET", "/")
+    policy = page.headers["content-security-policy"]
+    assert policy.startswith("default-src 'none'; script-src 'sha256-")
+    assert "unsafe" not in policy
+    assert page.headers["x-content-type-options"] == "nosniff"
+    assert ask(port, ASK).headers["content-security-policy"] == "default-src 'none'; frame-ancestors 'none'"
+    assert "http://" not in page.body.replace("https?://", "")
+
+
+def test_the_service_describes_itself(port: int):
+    reply = request(port, "GET", "/sparql", Accept="text/turtle")
+    text = {
+        str(triple.predicate.value).rpartition("#")[2] for triple in ox.parse(reply.body, format=ox.RdfFormat.TURTLE)
+    }
+    assert {"endpoint", "supportedLanguage", "resultFormat"} <= text
+    assert request(port, "GET", "/sparql", Accept="text/html").headers["location"] == "/"
+
+
+def test_our_own_client_asks_it(port: int):
+    store = open_store(f"http://127.0.0.1:{port}")
+    assert [graph.name for graph in store.graphs()] == ["a", "b"]
+
+
+def test_every_example_of_the_page_runs(port: int):
+    examples = json.loads(request(port, "GET", "/about").body)["examples"]
+    assert len(examples) > 15
+    assert [(e["title"], r.body) for e in examples if (r := ask(port, e["query"])).status != 200] == []
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="needs the browser chromium")
+def test_the_page_shows_hostile_names_as_text(port: int, tmp_path: Path):
+    query = "SELECT ?label { ?o rdfs:label ?label ; u2k:primPath ?p }"
+    browser = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}"]
+    page = f"http://127.0.0.1:{port}/"
+    done = subprocess.run(
+        [*browser, "--virtual-time-budget=8000", "--dump-dom", f"{page}#{quote(query)}"],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    assert "Look at the query, then ask." in done.stdout
+    assert "<td" not in done.stdout
+    # Without a query in the address it asks the first example by itself: the number of objects by label of class.
+    done = subprocess.run(
+        [*browser, "--virtual-time-budget=8000", "--dump-dom", page],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    assert "&lt;script&gt;document.title='owned'" in done.stdout
+    assert "<title>owned" not in done.stdout
+    assert "<img" not in done.stdout
+
+
+def test_the_default_is_loopback_only(port: int):
+    with pytest.raises(urllib.error.URLError):
+        urllib.request.urlopen(f"http://[::1]:{port}/", timeout=2)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not ended by signals there")
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_quietly_and_leaves_nothing(tmp_path: Path, sent: signal.Signals):
+    graph, temporary = tmp_path / "a.nt", tmp_path / "temporary"
+    graph.write_text("<urn:a> <urn:b> <urn:c> .\n")
+    temporary.mkdir()
+    command = [sys.executable, "-m", "usd2kg", "serve", str(graph), "--port", "0", "--workers", "1"]
+    settings = {**os.environ, "TMPDIR": str(temporary)}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=settings) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline().startswith(f"serves {graph} at http://127.0.0.1:")
+        assert len(list(temporary.iterdir())) == 1
+        process.send_signal(sent)
+        assert process.wait(60) == 0
+        assert process.stderr.read() == "stopped\n"
+    assert list(temporary.iterdir()) == []

@@ -1,0 +1,61 @@
+"""No query makes this machine ask another: whatever the guard lets through, a real engine does not connect."""
+
+import socket
+import threading
+
+import pyoxigraph as ox
+import pytest
+
+from usd2kg.query.federation import reaches_out
+
+CALLS = [
+    "SELECT * { SERVICE <URL> { ?s ?p ?o } }",
+    "SELECT * { service silent <URL>{?s ?p ?o} }",
+    "SELECT * { FILTER(1<2)SERVICE#>\n <URL> { ?s ?p ?o } FILTER(2>1) }",
+    "SELECT * { FILTER(1<2)SERVICE#}\n <URL> #{\n { ?s ?p ?o } }",
+    "SELECT * { ?s ?p 'it' . FILTER(1<2)SERVICE<URL>{ ?s ?p ?o } }",
+    "PREFIX e: <URL> SELECT * { SERVICEe:#x\n{ ?s ?p ?o } }",
+    "SELECT * { VALUES ?u { <URL> } SERVICE ?u { ?s ?p ?o } }",
+    "SELECT * { { SELECT * { SERVICE\n#c\nSILENT <URL> { ?s ?p ?o } } } }",
+]
+HARMLESS = [
+    "SELECT * { ?s rdfs:label 'Service Trolley' . OPTIONAL { ?s ?p ?o } }",
+    "SELECT * { ?s a <https://my.lab/Service> . { ?s ?p ?o } }",
+    "# a service: none\nSELECT * { ?service ?p ?load }",
+]
+
+
+@pytest.mark.parametrize("query", CALLS)
+def test_calls_are_found(query: str):
+    assert reaches_out(query.replace("URL", "http://127.0.0.1:9/"))
+
+
+@pytest.mark.parametrize("query", HARMLESS)
+def test_names_are_no_calls(query: str):
+    assert not reaches_out(query)
+
+
+@pytest.mark.parametrize(
+    "update", ["LOAD <http://x/>", "load silent <http://x/> into graph <urn:g>", "LOAD#\n<http://x>"]
+)
+def test_loads_are_found(update: str):
+    assert reaches_out(update)
+
+
+def test_the_engine_would_connect_without_the_guard():
+    with socket.socket() as listening:
+        listening.bind(("127.0.0.1", 0))
+        listening.listen()
+        met = threading.Event()
+
+        def accept() -> None:
+            connection, _ = listening.accept()
+            with connection:
+                met.set()
+
+        thread = threading.Thread(target=accept)
+        thread.start()
+        with pytest.raises(OSError, match=r"."):
+            list(ox.Store().query(CALLS[0].replace("URL", f"http://127.0.0.1:{listening.getsockname()[1]}/")))  # type: ignore[arg-type]
+        thread.join(10)
+        assert met.is_set()

@@ -1,0 +1,121 @@
+"""What stands on, in and beside furniture that is one mesh, has drawers, or is nested in the stage.
+
+Lengths are metres; the cases are those that were found wrong by eye in real scenes.
+"""
+
+import pytest
+
+from tests.graph.records import box_at, related, thing
+from tests.relations.rooms import FLOOR, HAIR, RULES, artifact, relate
+from tests.relations.test_parts import joint
+from usd2kg.scene import Box
+
+
+def level(x: float, y: float, z: float, width: float, depth: float) -> Box:
+    return box_at((x, y, z), (width, depth, 0))
+
+
+class TestATapOverAWorktop:
+    """A kitchen unit as one mesh, 1.2 m high: its worktop is at 0.9 m, and a tap rises over it."""
+
+    UNIT = (thing("/unit", (0, 0, 0), (2, 0.6, 1.2), support_levels=(level(0, 0, 0.9, 2, 0.6),)), "KitchenCabinet")
+
+    def test_what_hangs_at_the_height_of_the_tap_is_not_on_it(self):
+        ladle = artifact("ladle", (1, 0.55, 1.2), (0.1, 0.02, 0.3))
+        assert relate(self.UNIT, ladle) == ()
+
+    def test_nor_does_it_touch_it(self):
+        ladle = artifact("ladle", (1, 0.55, 1.2), (0.1, 0.02, 0.3))
+        assert relate(self.UNIT, ladle, kinds=("touching",)) == ()
+
+    def test_what_stands_on_the_worktop_is_on_it(self):
+        jar = artifact("jar", (1, 0.3, 0.9), (0.1, 0.1, 0.2))
+        assert related(relate(self.UNIT, jar)) == {("jar", "on", "unit")}
+
+    @pytest.mark.parametrize(
+        "levels", [(level(0, 0, 0.1, 0.3, 0.3),), (level(0, 0, 0.25, 0.1, 0.1),)], ids=["bottom", "narrow shelf"]
+    )
+    def test_a_lid_lies_on_the_rim_of_a_pot(self, levels: tuple[Box, ...]):
+        # The one level is the pot's bottom, or high up and too narrow to be its top.
+        pot = (thing("/pot", (0, 0, 0), (0.3, 0.3, 0.3), support_levels=levels), "Pot")
+        lid = (thing("/lid", (0, 0, 0.3), (0.3, 0.3, 0.02)), "Lid")
+        assert related(relate(pot, lid)) == {("lid", "on", "pot")}
+
+
+class TestTheLedgeOfASideboard:
+    """A sideboard whose lower board, at 0.2 m, sticks out by 0.4 m beside the body under the top at 0.5 m."""
+
+    LEVELS = (level(0, 0, 0.2, 2, 0.5), level(0.4, 0, 0.5, 1.6, 0.5))
+    SIDEBOARD = (thing("/sideboard", (0, 0, 0), (2, 0.5, 0.5), support_levels=LEVELS), "Cupboard")
+
+    def test_what_stands_on_the_ledge_is_on_it_and_not_inside(self):
+        frame = artifact("frame", (0.1, 0.2, 0.2), (0.15, 0.05, 0.15))
+        assert related(relate(self.SIDEBOARD, frame)) == {("frame", "on", "sideboard")}
+
+    def test_what_stands_below_the_top_is_inside(self):
+        book = artifact("book", (1, 0.2, 0.2), (0.15, 0.05, 0.15))
+        assert related(relate(self.SIDEBOARD, book)) == {("book", "inside", "sideboard")}
+
+    def test_what_is_in_the_basin_of_an_open_sink_is_inside(self):
+        # Its drainer, at 0.19 m, lies beside the basin, not over it; a sink has no top.
+        levels = (level(0, 0, 0.02, 0.4, 0.4), level(0.4, 0, 0.19, 0.4, 0.4))
+        sink = (thing("/sink", (0, 0, 0), (0.8, 0.4, 0.2), support_levels=levels), "Sink")
+        plate = (thing("/plate", (0.1, 0.1, 0.02), (0.2, 0.2, 0.02)), "Plate")
+        assert related(relate(sink, plate)) == {("plate", "inside", "sink")}
+
+
+class TestDrawers:
+    CABINET = (thing("/cab", (0, 0, 0.1), (0.6, 0.6, 0.8)), "KitchenCabinet")
+    TABLE = (thing("/low_table", (0, 0, 0), (1, 0.6, 0.4)), "CoffeeTable")
+    DRAWER = (thing("/drawer", (0.3, 0, 0.1), (0.4, 0.5, 0.25)), "Drawer")
+
+    def test_a_shut_drawer_is_in_the_table_that_it_is_a_part_of(self):
+        runs = [joint("/low_table", "/drawer", "prismatic")]
+        assert related(relate(self.TABLE, self.DRAWER, joints=runs)) == {("drawer", "inside", "low_table")}
+
+    def test_one_that_stands_below_a_table_is_not(self):
+        other = (thing("/store/drawer", (0.3, 0, 0.1), (0.4, 0.5, 0.25)), "Drawer")
+        assert relate(self.TABLE, other) == ()
+
+    def test_a_drawer_that_is_pulled_out_is_not(self):
+        out = (thing("/drawer", (0.3, -0.45, 0.1), (0.4, 0.5, 0.25)), "Drawer")
+        assert relate(self.TABLE, out, joints=[joint("/low_table", "/drawer", "prismatic")]) == ()
+
+    def test_a_drawer_behind_the_tall_front_of_another_is_in_the_cabinet(self):
+        # The front is as high as the cabinet, so the box of the lower drawer is around the one above it.
+        lower = (thing("/lower", (0, -0.02, 0.1), (0.6, 0.5, 0.79)), "Drawer")
+        upper = (thing("/upper", (0.05, 0.05, 0.6), (0.5, 0.4, 0.1)), "Drawer")
+        runs = [joint("/cab", "/lower", "prismatic"), joint("/cab", "/upper", "prismatic")]
+        found = related(relate(self.CABINET, lower, upper, joints=runs))
+        assert found == {("lower", "inside", "cab"), ("upper", "inside", "cab")}
+
+    def test_a_cabinet_does_not_stand_in_its_own_lowest_drawer(self):
+        low = (thing("/low", (0, -0.02, 0.1), (0.6, 0.58, 0.4)), "Drawer")
+        found = relate(self.CABINET, low, joints=[joint("/cab", "/low", "prismatic")])
+        assert related(found) == {("low", "inside", "cab")}
+
+    def test_no_slab_lies_on_a_drawer(self):
+        # Both end at 0.9 m; what runs in the cabinet carries nothing.
+        other = (thing("/other", (0.6, 0, 0.1), (0.6, 0.6, 0.8)), "KitchenCabinet")
+        front = (thing("/front", (0, -0.02, 0.1), (0.6, 0.5, 0.8)), "Drawer")
+        slab = (thing("/slab", (0, -0.02, 0.9), (1.2, 0.64, 0.04)), "Countertop")
+        found = related(relate(self.CABINET, other, front, slab, kinds=("on",)))
+        assert found == {("slab", "on", "cab"), ("slab", "on", "other")}
+
+
+class TestWallsInOnePiece:
+    """The box around the walls of a whole house is around all that is in there, too."""
+
+    HOUSE = (thing("/walls", (-5, -5, 0), (10, 10, 2.5)), "Wall")
+
+    def test_what_hovers_in_the_house_is_on_what_it_is_close_over(self):
+        chair = (thing("/chair", (0, 0, 0.05), (0.5, 0.5, 0.9)), "DesignedChair")
+        (relation,) = relate(FLOOR, self.HOUSE, chair)
+        assert (relation.target, relation.anchor, relation.rule) == ("/chair", "/floor", RULES.hovering.rule)
+
+    @pytest.mark.parametrize(("step", "is_on"), [(-HAIR, False), (HAIR, True)])
+    def test_a_wall_is_as_thick_as_the_rules_say_at_most(self, step: float, is_on: bool):
+        thick = RULES.hovering.max_wall_thickness + step
+        wall = (thing("/wall", (-5, 1, 0), (10, thick, 2.5)), "Wall")
+        chair = (thing("/chair", (0, 0.5, 0.05), (0.5, 0.5, 0.9)), "DesignedChair")
+        assert bool(relate(FLOOR, wall, chair)) is is_on

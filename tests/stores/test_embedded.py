@@ -1,0 +1,209 @@
+"""A folder: whole or not at all, one writer at a time, the same nodes each time."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pyoxigraph as ox
+import pytest
+
+from usd2kg.errors import GraphError, StoreError
+from usd2kg.stores import EmbeddedStore, NamedGraph, chosen_graphs, open_graph
+from usd2kg.stores.folder_lock import hold_for_reading, hold_for_writing
+from usd2kg.stores.pending import PENDING_NAME, write_pending
+
+
+def held(folder: Path) -> set[str]:
+    return {str(quad) for quad in ox.Store.read_only(str(folder))}
+
+
+def triples(graph: NamedGraph) -> int:
+    return len(graph.triples)
+
+
+def test_a_scene_is_kept_and_asked(tmp_path: Path, large: NamedGraph):
+    store = EmbeddedStore(tmp_path / "store")
+    store.load(large)
+    (graph,) = store.graphs()
+    assert (graph.iri, graph.name, graph.is_scene) == ("https://my.lab/k", "k", True)
+    assert (graph.count_objects(store.select), graph.count_triples(store.select)) == (4, triples(large))
+    assert [row[0] for row in open_graph(str(tmp_path / "store")).ask(["on", "table"]).rows] == [
+        "Cup_1",
+        "Cup_2",
+        "Mug",
+    ]
+
+
+def test_loading_again_gives_the_same_nodes(tmp_path: Path, large: NamedGraph, other: NamedGraph):
+    store = EmbeddedStore(tmp_path)
+    store.load(large)
+    store.load(other)
+    before = held(tmp_path)
+    store.load(large)
+    assert held(tmp_path) == before
+    assert len(before) == triples(large) + triples(other)
+
+
+def test_nodes_of_two_graphs_are_not_one(tmp_path: Path):
+    store = EmbeddedStore(tmp_path)
+    blank = ox.Triple(ox.BlankNode("x"), ox.NamedNode("urn:p"), ox.BlankNode("y"))
+    store.load(NamedGraph("urn:a", (blank,)))
+    store.load(NamedGraph("urn:b", (blank,)))
+    nodes = {term for quad in ox.Store.read_only(str(tmp_path)) for term in (quad.subject, quad.object)}
+    assert len(nodes) == 4
+
+
+def test_a_smaller_graph_replaces_all_of_a_larger_one(tmp_path: Path, small: NamedGraph, large: NamedGraph):
+    store = EmbeddedStore(tmp_path)
+    store.load(large)
+    store.load(small)
+    assert len(held(tmp_path)) == triples(small)
+    store.remove(small.iri)
+    assert held(tmp_path) == set()
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from usd2kg.stores import EmbeddedStore, read_named_graph
+import pyoxigraph
+graph = read_named_graph(Path(sys.argv[2]))
+def die(*_, **kept):
+    if not kept.get("missing_ok"): os.kill(os.getpid(), signal.SIGKILL)
+place = {"unnamed": (Path, "replace"), "named": (EmbeddedStore, "_finish"), "emptied": (pyoxigraph, "parse"),
+    "full": (Path, "unlink")}[sys.argv[3]]
+setattr(*place, die)
+EmbeddedStore(sys.argv[1]).load(graph)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes are not killed like this there")
+@pytest.mark.parametrize("moment", ["unnamed", "named", "emptied", "full"])
+def test_a_killed_load_is_finished_by_the_next_reader(
+    tmp_path: Path, small: NamedGraph, large: NamedGraph, moment: str
+):
+    folder, file = tmp_path / "store", tmp_path / "k.nt"
+    EmbeddedStore(folder).load(small)
+    ox.serialize(large.triples, str(file), format=ox.RdfFormat.N_TRIPLES)
+    done = subprocess.run([sys.executable, "-c", KILLED, str(folder), str(file), moment], check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert list(folder.glob(f"{PENDING_NAME}*"))
+    found = EmbeddedStore(folder).fetch([large.iri])
+    # The new graph counts as loaded once it is on the disk under its name.
+    assert len(found) == (triples(small) if moment == "unnamed" else triples(large))
+    EmbeddedStore(folder).load(large)
+    assert len(held(folder)) == triples(large)
+    assert not list(folder.glob("usd2kg.pending*"))
+
+
+def test_a_second_writer_waits_and_is_told(tmp_path: Path, small: NamedGraph):
+    EmbeddedStore(tmp_path).load(small)
+    with (
+        hold_for_writing(tmp_path, 1),
+        pytest.raises(StoreError, match=r"another process is still using it after 0.1 s"),
+    ):
+        EmbeddedStore(tmp_path, wait_s=0.1).load(small)
+    with hold_for_reading(tmp_path, 1):
+        assert len(EmbeddedStore(tmp_path, wait_s=0.1).graphs()) == 1
+        with pytest.raises(StoreError, match="wait for it, then try again"):
+            EmbeddedStore(tmp_path, wait_s=0.1).load(small)
+    EmbeddedStore(tmp_path, wait_s=0.1).load(small)
+
+
+def test_another_program_in_the_folder_is_named(tmp_path: Path, small: NamedGraph):
+    EmbeddedStore(tmp_path).load(small)
+    theirs = ox.Store(str(tmp_path))
+    with pytest.raises(StoreError, match="another program holds it, like a running Oxigraph server"):
+        EmbeddedStore(tmp_path).load(small)
+    del theirs
+
+
+def test_a_folder_of_other_things_is_left_alone(tmp_path: Path, small: NamedGraph):
+    (tmp_path / "thesis.tex").write_text("mine")
+    with pytest.raises(StoreError, match="holds other things; expected a new folder or a store"):
+        EmbeddedStore(tmp_path).load(small)
+    with pytest.raises(StoreError, match="is a file; expected a folder"):
+        EmbeddedStore(tmp_path / "thesis.tex").load(small)
+    with pytest.raises(StoreError, match="is no store; expected a folder that usd2kg build"):
+        EmbeddedStore(tmp_path).graphs()
+    assert list(tmp_path.iterdir()) == [tmp_path / "thesis.tex"]
+
+
+def test_an_update_is_done_whole_or_not(tmp_path: Path, small: NamedGraph):
+    store = EmbeddedStore(tmp_path)
+    store.load(small)
+    with pytest.raises(GraphError, match="update: not valid SPARQL"):
+        store.update("DELETE NONSENSE")
+    with pytest.raises(GraphError, match="nothing was changed"):
+        store.update(f"DROP GRAPH <{small.iri}> ; CREATE GRAPH <urn:x> ; CREATE GRAPH <urn:x>")
+    with pytest.raises(GraphError, match="LOAD and SERVICE ask another server"):
+        store.update("LOAD <http://127.0.0.1:9/>")
+    assert len(held(tmp_path)) == triples(small)
+    store.update(f"INSERT DATA {{ GRAPH <{small.iri}> {{ <urn:x> u2k:note 'new' }} }}")
+    assert len(held(tmp_path)) == triples(small) + 1
+
+
+def test_scenes_are_chosen_by_name_label_or_iri(tmp_path: Path, small: NamedGraph, other: NamedGraph):
+    store = EmbeddedStore(tmp_path)
+    with pytest.raises(StoreError, match="is no store"):
+        chosen_graphs(store, None)
+    store.load(small)
+    store.load(other)
+    assert chosen_graphs(store, None) == ["https://my.lab/k", "https://my.lab/other"]
+    for name in ("k", "https://my.lab/k", "https://my.lab/k/"):
+        assert chosen_graphs(store, name) == ["https://my.lab/k"]
+    with pytest.raises(GraphError, match=r"holds no graph 'x'; it holds https://my.lab/k, https://my.lab/other"):
+        chosen_graphs(store, "x")
+    with pytest.raises(GraphError, match=r"may be https://my.lab/k, https://my.lab/other; expected one, by its IRI"):
+        chosen_graphs(store, store.graphs()[0].label)
+
+
+@pytest.mark.parametrize("damage", ["garbage", "letters", "cut", "cut between triples", "folder", "other graph"])
+def test_a_damaged_load_is_set_aside_and_the_store_still_read(
+    tmp_path: Path, small: NamedGraph, caplog: pytest.LogCaptureFixture, damage: str
+):
+    store, pending = EmbeddedStore(tmp_path), tmp_path / PENDING_NAME
+    store.load(small)
+    write_pending(tmp_path, small.iri, small.triples)
+    lines = pending.read_bytes().splitlines(keepends=True)
+    damaged = {
+        "garbage": b"not a graph\n",
+        "letters": b"\xff\xfe\n",
+        "cut": lines[0] + lines[1][:20],
+        "cut between triples": b"".join(lines[:3]),
+        "other graph": b"# <urn:x>\n" + b"".join(lines[1:]),
+    }
+    pending.unlink()
+    if damage == "folder":
+        pending.mkdir()
+    else:
+        pending.write_bytes(damaged[damage])
+    assert len(store.fetch([small.iri])) == triples(small)
+    assert "what it left is damaged" in caplog.text
+    assert "load that scene again" in caplog.text
+    assert not pending.exists()
+    assert len(list(tmp_path.glob("usd2kg.damaged.*"))) == 1
+
+
+@pytest.mark.parametrize("name", ["CURRENT", "MANIFEST-*", "*.sst"])
+def test_a_damaged_store_is_one_line(tmp_path: Path, small: NamedGraph, name: str):
+    store = EmbeddedStore(tmp_path)
+    store.load(small)
+    for path in tmp_path.glob(name):
+        path.write_bytes(b"junk\n")
+    for use in (store.graphs, store.check):
+        with pytest.raises(StoreError, match=r"the store is damaged .*; restore the folder from a copy, or") as error:
+            use()
+        assert "\n" not in str(error.value)
+
+
+def test_a_lock_alone_makes_no_store_of_other_things(tmp_path: Path, small: NamedGraph):
+    (tmp_path / "usd2kg.lock").touch()
+    (tmp_path / "thesis.tex").write_text("mine")
+    with pytest.raises(StoreError, match="holds other things; expected a new folder or a store"):
+        EmbeddedStore(tmp_path).load(small)
+    assert {path.name for path in tmp_path.iterdir()} == {"thesis.tex", "usd2kg.lock"}
+    (tmp_path / "thesis.tex").rename(tmp_path / "OPTIONS-000007")
+    EmbeddedStore(tmp_path).load(small)
+    assert len(held(tmp_path)) == triples(small)

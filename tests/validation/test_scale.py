@@ -1,0 +1,80 @@
+"""Twenty thousand objects are checked in seconds, and each broken one of them is found."""
+
+import time
+
+import pyoxigraph as ox
+import pytest
+
+from tests.graph.records import BASE
+from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD, number, text
+from usd2kg.ontology import Closure
+from usd2kg.query import GraphStore
+from usd2kg.validation import validate_graph
+from usd2kg.validation.shapes import compile_shapes, find_violations
+
+COUNT = 20_000
+SECONDS = 30.0
+"""Of processor time, so that other load does not count. Three is usual; a quadratic step takes minutes."""
+
+
+def crowd(same_place: bool) -> GraphStore:
+    """Return a plain graph of cups in rows, on one table; or all in one place."""
+    quads = []
+    table = ox.NamedNode(BASE + "Table")
+    for i in range(COUNT):
+        node = ox.NamedNode(f"{BASE}Cup{i}")
+        x, y = (0, 0) if same_place else (i % 200, i // 200)
+        said = [
+            (RDF.type, OWL.NamedIndividual),
+            (RDF.type, U2K.Object),
+            (RDF.type, SOMA.Cup),
+            (RDFS.label, text(f"Cup{i}")),
+            (U2K.primPath, text(f"/Cup{i}")),
+            (U2K.width, number(-0.1 if i == 7 else 0.1)),
+            (U2K.depth, number(0.1)),
+            (U2K.height, number(0.1)),
+            (U2K.boxCenter, text(f"{x} {y} 0.05")),
+            *([(U2K.on, table)] if i % 2 else []),
+        ]
+        quads.extend(ox.Quad(node, name, value) for name, value in said)
+    quads.extend(
+        ox.Quad(table, name, value)
+        for name, value in ((RDF.type, SOMA.Table), (U2K.primPath, text("/Table")), (RDFS.label, text("Table")))
+    )
+    store = ox.Store()
+    store.bulk_extend(quads)
+    return GraphStore(store, "crowd.ttl")
+
+
+@pytest.mark.parametrize(("same_place", "count"), [(False, 1), (True, COUNT - 1)])
+def test_twenty_thousand_objects(same_place: bool, count: int):
+    graph = crowd(same_place)
+    axioms = tuple(ox.Triple(cls, RDF.type, OWL.Class) for cls in (SOMA.Cup, SOMA.Table))
+    start = time.process_time()
+    report = validate_graph(graph, Closure(axioms, (), ()))
+    assert time.process_time() - start < SECONDS
+    assert len(report.findings) == count
+    assert report.findings[0].rule == "box-width"
+
+
+def test_twenty_thousand_objects_with_shapes_of_their_own():
+    quads = []
+    for i in range(COUNT):
+        cup, shape, box = (ox.NamedNode(f"{BASE}Cup{i}{part}") for part in ("", "-shape", "-box"))
+        quads += [
+            ox.Quad(cup, RDF.type, USD.Prim),
+            ox.Quad(cup, RDF.type, SOMA.Cup),
+            ox.Quad(cup, U2K.primPath, text(f"/Cup{i}")),
+            ox.Quad(cup, RDFS.label, text(f"Cup{i}")),
+            ox.Quad(cup, SOMA.hasShape, shape),
+            ox.Quad(shape, RDF.type, SOMA.Shape),
+            ox.Quad(shape, DUL.hasRegion, box),
+            ox.Quad(box, RDF.type, SOMA.MeshShape if i == 7 else SOMA.BoxShape),
+        ]
+    store = ox.Store()
+    store.bulk_extend(quads)
+    rule = next(rule for rule in compile_shapes("soma") if rule.id == "box-missing")
+    start = time.process_time()
+    broken = list(find_violations(store, rule))
+    assert time.process_time() - start < SECONDS
+    assert [found.focus.value for found in broken] == [f"{BASE}Cup7"]

@@ -1,0 +1,98 @@
+"""Our shapes find what is broken, each in its place, and a SHACL processor finds the same."""
+
+import warnings
+
+import pytest
+
+from tests.graph.records import BASE, build_graph, reread
+from tests.validation.broken import ROOM, SHAPES, Break, found_in, open_room
+from usd2kg.graph import GraphOptions
+from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.ontology import TBox
+from usd2kg.query import GraphStore
+from usd2kg.validation.shapes import compile_shapes, find_violations, shapes_text
+
+CASES = pytest.mark.parametrize("case", SHAPES, ids=[f"{i}-{c.profile}-{c.rule}" for i, c in enumerate(SHAPES)])
+PROFILES = pytest.mark.parametrize("profile", ["soma", "plain"])
+
+
+@PROFILES
+def test_nothing_is_found_where_all_is_well(home_tbox: TBox, profile: str):
+    assert found_in(open_room(home_tbox, profile)) == ()
+
+
+@CASES
+def test_each_edit_breaks_its_rule_and_no_other(home_tbox: TBox, case: Break):
+    found = found_in(open_room(home_tbox, case.profile, case.update))
+    assert {finding.rule for finding in found} == {case.rule}
+
+
+@PROFILES
+def test_each_shape_is_broken_by_a_case(profile: str):
+    assert {c.rule for c in SHAPES if c.profile == profile} == {rule.id for rule in compile_shapes(profile)}
+
+
+def test_a_finding_says_whose_box_it_is_what_was_found_and_what_to_do(home_tbox: TBox):
+    case = next(c for c in SHAPES if c.rule == "box-width" and c.profile == "soma")
+    (finding,) = found_in(open_room(home_tbox, "soma", case.update))
+    assert (finding.severity, finding.label, finding.prim_path) == ("error", "Fork", "/Fork")
+    assert finding.iri == "https://my.lab/k/Fork-box"
+    assert (finding.found, finding.expected) == ("-0.2", "exactly one extent from 0 to 100000 m")
+    assert "metersPerUnit" in finding.advice
+
+
+def test_a_joint_is_named_by_its_prim(home_tbox: TBox):
+    case = next(c for c in SHAPES if c.rule == "joint-limits" and c.profile == "plain")
+    (finding,) = found_in(open_room(home_tbox, "plain", case.update))
+    assert (finding.label, finding.prim_path, finding.found) == ("hinge", "/Cupboard/hinge", "2")
+
+
+@CASES
+def test_a_shacl_processor_finds_the_same_in_a_broken_graph(home_tbox: TBox, case: Break):
+    compare_with_pyshacl(open_room(home_tbox, case.profile, case.update), case.profile)
+
+
+@PROFILES
+def test_a_shacl_processor_finds_nothing_where_all_is_well(home_tbox: TBox, profile: str):
+    assert compare_with_pyshacl(open_room(home_tbox, profile), profile) == set()
+
+
+def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]]:
+    """Assert that both find the same; return it as pairs of rule and node, blank nodes without a name."""
+    import pyoxigraph as ox  # noqa: PLC0415
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import pyshacl  # noqa: PLC0415
+        import rdflib  # noqa: PLC0415
+
+        triples = ox.serialize((quad.triple for quad in graph.store), format=ox.RdfFormat.N_TRIPLES)
+        data = rdflib.Graph().parse(data=triples, format="nt")
+        _, report, _ = pyshacl.validate(
+            data, shacl_graph=shapes_text(profile), shacl_graph_format="turtle", inference="none"
+        )
+    shacl = rdflib.Namespace("http://www.w3.org/ns/shacl#")
+    theirs = set()
+    for result in report.subjects(rdflib.RDF.type, shacl.ValidationResult):
+        focus = report.value(result, shacl.focusNode)
+        name = "" if isinstance(focus, rdflib.BNode) else str(focus)
+        theirs.add((str(report.value(result, shacl.sourceShape)).rpartition("#")[2], name))
+    ours = {
+        (rule.id, "" if isinstance(broken.focus, ox.BlankNode) else broken.focus.value)
+        for rule in compile_shapes(profile)
+        for broken in find_violations(graph.store, rule)
+    }
+    assert ours == theirs
+    return ours
+
+
+def test_confidences_on_triple_terms_are_checked_too(home_tbox: TBox):
+    graph = GraphStore(reread(build_graph(home_tbox, ROOM, options=GraphOptions(annotations="rdf12"))), "room.ttl")
+    assert found_in(graph) == ()
+    graph.store.update(
+        "DELETE { ?x sssom:confidence ?o } INSERT { ?x sssom:confidence 2.0 } "
+        "WHERE { ?x sssom:confidence ?o ; rdf:reifies <<( k:Cup rdf:type ?c )>> }",
+        prefixes={**PREFIXES, "k": BASE},
+    )
+    (finding,) = found_in(graph)
+    assert (finding.rule, finding.prim_path, finding.found) == ("confidence-range", "/Cup", "2")
