@@ -1,4 +1,4 @@
-"""Pictures of objects and scenes, drawn on the processor: the same stage gives the same bytes each time."""
+"""Pictures of objects and scenes, rendered deterministically on the CPU."""
 
 from usd2kg.render.renderer import Renderer, render_object, render_objects, render_scene
 

@@ -1,4 +1,4 @@
-"""Where a picture is taken from, and where points of the world fall in it."""
+"""Pinhole cameras: framing, projection and view rays."""
 
 import math
 from dataclasses import dataclass, replace
@@ -6,53 +6,54 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.render.settings import VIEWPOINT
+
 __all__ = ["Camera", "aim"]
 
 Array = NDArray[np.float64]
 
-_VIEW_ANGLE = math.radians(28)
-"""Vertical: a long lens, which keeps what is upright upright."""
+_VIEW_ANGLE = math.radians(VIEWPOINT.vertical_view_angle)
 
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole camera; lengths in metres in the z-up world."""
+    """A pinhole camera in the z-up world frame; lengths in metres."""
 
     eye: Array
     axes: Array
-    """(3, 3): rows are the directions to the right, up and forward."""
+    """(3, 3): rows are the unit vectors right, up and forward."""
     width: int
     """Pixels."""
     height: int
     focal: float
     """Pixels."""
     near: float
-    """What is nearer than this, in metres along the view, is cut off."""
+    """Near clipping distance along the view direction, in metres."""
 
     def to_view(self, points: NDArray[np.floating]) -> Array:
-        """Return world points as (right, up, forward) of the eye."""
+        """Return world points in camera axes (right, up, forward)."""
         return (points.astype(np.float64) - self.eye) @ self.axes.T
 
     def to_pixels(self, view: Array) -> Array:
-        """Return points in front of the eye as (x, y, 1 / forward), x and y in pixels from the top left corner."""
+        """Return points in camera axes as (x, y, 1 / forward), x and y in pixels from the top left corner."""
         inverse = 1.0 / view[..., 2]
         x = self.width / 2 + view[..., 0] * inverse * self.focal
         y = self.height / 2 - view[..., 1] * inverse * self.focal
         return np.stack([x, y, inverse], axis=-1)
 
     def rays(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> Array:
-        """Return the (right, up, 1) direction that each point of the picture looks along, in the eye's axes."""
+        """Return the view direction (right, up, 1) of image points, in camera axes."""
         right = (x - self.width / 2) / self.focal
         up = (self.height / 2 - y) / self.focal
         rays: Array = np.stack([right, up, np.ones_like(right)], axis=-1)
         return rays
 
     def cut_before(self, points: NDArray[np.floating]) -> "Camera":
-        """Return the same view with all that is nearer than the nearest of `points` cut off."""
+        """Return the same view, clipped in front of the nearest of `points`."""
         return replace(self, near=max(self.near, float(self.to_view(points)[:, 2].min())))
 
     def scaled(self, factor: float) -> "Camera":
-        """Return the same view with `factor` times the pixels each way."""
+        """Return the same view with `factor` times the pixels along each axis."""
         width, height = max(1, round(self.width * factor)), max(1, round(self.height * factor))
         return Camera(self.eye, self.axes, width, height, self.focal * height / self.height, self.near)
 
@@ -60,21 +61,21 @@ class Camera:
 def aim(
     points: NDArray[np.floating], azimuth: float, elevation: float, size: tuple[int, int], margin: float = 0.08
 ) -> Camera:
-    """Return a camera that sees all `points`, framed, from a direction.
+    """Return a camera that frames all `points` from a direction.
 
     Args:
         points: (n, 3), world, at least one.
-        azimuth: degrees from the x axis, counter-clockwise seen from above: where the camera stands.
+        azimuth: camera direction in degrees from the x axis, counter-clockwise seen from above.
         elevation: degrees above the horizon.
         size: width and height of the picture in pixels.
-        margin: empty border, as a part of the picture's shorter side.
+        margin: empty border, as a share of the shorter side of the picture.
     """
     width, height = size
     axes = _axes(math.radians(azimuth), math.radians(elevation))
     local = points.astype(np.float64) @ axes.T
     middle = (local.min(axis=0) + local.max(axis=0)) / 2
     extent = max(float(np.ptp(local, axis=0).max()), 1e-6)
-    # A width of view that fits both ways; the border is the same in pixels on all sides.
+    # Tangents of the half angles that leave a border of equal width in pixels on all sides.
     border = margin * min(width, height)
     up = math.tan(_VIEW_ANGLE / 2) * (1 - 2 * border / height)
     right = math.tan(_VIEW_ANGLE / 2) * (width - 2 * border) / height
@@ -84,7 +85,7 @@ def aim(
         # |x| ≤ right · (distance + z) and |y| ≤ up · (distance + z) for all points.
         distance = float((np.maximum(np.abs(offset[:, 0]) / right, np.abs(offset[:, 1]) / up) - offset[:, 2]).max())
         distance = max(distance, extent * 0.05)
-        # Perspective shifts the middle of what is seen: move the camera so that the borders are even.
+        # Perspective shifts the projected centre: move the camera so that the borders are even.
         seen = offset[:, :2] / (distance + offset[:, 2:])
         middle[:2] += (seen.min(axis=0) + seen.max(axis=0)) / 2 * distance
     eye = (middle - np.array([0.0, 0.0, distance])) @ axes

@@ -1,22 +1,22 @@
-"""What is left out so that one can look into a scene: ceiling, near walls, what is lost far away."""
+"""Cutaway views: scenes without ceiling, near walls and stray meshes."""
 
 import math
 
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.render.soup import Soup
+from usd2kg.render.triangle_soup import TriangleSoup
 
 __all__ = ["open_room", "without_ground", "without_strays"]
 
 Array = NDArray[np.float64]
 
 
-def without_strays(soup: Soup) -> Soup:
-    """Leave out sky domes and meshes that are lost far away: the rest would be a dot."""
+def without_strays(soup: TriangleSoup) -> TriangleSoup:
+    """Return the triangles without sky domes and far outliers, which would shrink the rest to a dot."""
     low, high = _mesh_boxes(soup)
     extent, middle = (high - low).max(axis=1), (low + high) / 2
-    # Where the middle three fifths of all meshes are, and how large a scene that makes.
+    # The scene is where the middle 60 % of mesh centres are.
     inner_low, center, inner_high = (
         np.nanquantile(middle, share, axis=0, method="nearest") for share in (0.2, 0.5, 0.8)
     )
@@ -26,8 +26,8 @@ def without_strays(soup: Soup) -> Soup:
     return soup.part(kept) if kept.any() else soup
 
 
-def without_ground(soup: Soup) -> Soup:
-    """Leave out flat grounds that reach far beyond all else, so that a view can be framed to what stands on them."""
+def without_ground(soup: TriangleSoup) -> TriangleSoup:
+    """Return the triangles without ground planes that extend far beyond all other meshes, for framing."""
     low, high = _mesh_boxes(soup)
     size = high - low
     is_flat = size[:, 2] < 0.02 * size.max(axis=1)
@@ -39,10 +39,10 @@ def without_ground(soup: Soup) -> Soup:
     return soup.part(~is_ground[soup.mesh])
 
 
-def open_room(soup: Soup, azimuth: float, kept_meshes: int = 0) -> Soup:
-    """Take off the ceiling, and the walls on the side of a viewer at `azimuth` with what hangs on them.
+def open_room(soup: TriangleSoup, azimuth: float, kept_meshes: int = 0) -> TriangleSoup:
+    """Return the triangles without the ceiling and without the walls towards `azimuth` and what hangs on them.
 
-    The first `kept_meshes` meshes stay whatever they are.
+    The first `kept_meshes` meshes are always kept.
     """
     low, high = _mesh_boxes(soup)
     size = high - low
@@ -55,18 +55,18 @@ def open_room(soup: Soup, azimuth: float, kept_meshes: int = 0) -> Soup:
     rise = np.maximum(np.maximum(z0, z1), z2) - bottom
     is_wide = (size[:, :2] > 0.5 * span[:2]).all(axis=1)
     is_out = bottom > floor[2] + np.where(is_wide[soup.mesh], 0.8, 0.95) * span[2]
-    # A roof may slope: what lies rather flat, high up, in a mesh as wide as the scene.
+    # A roof may slope: remove flat-ish triangles high up in a mesh as wide as the scene.
     is_out |= is_wide[soup.mesh] & (bottom > floor[2] + 0.55 * span[2]) & (_steepness(corners) < 0.8)
     is_tall = size[:, 2] > 0.6 * span[2]
     for axis, toward in ((0, math.cos(math.radians(azimuth))), (1, math.sin(math.radians(azimuth)))):
         across = 1 - axis
-        # How far each mesh reaches into the scene from the near side, in metres.
+        # Distance that each mesh extends into the scene from the near side, in metres.
         inward = top[axis] - low[:, axis] if toward > 0 else high[:, axis] - floor[axis]
         is_thin = size[:, axis] < 0.08 * span.max()
         is_wall = is_tall & is_thin & (size[:, across] > 0.25 * span[across]) & (inward < 0.15 * span[axis])
         if is_wall.any():
             is_out |= (inward < inward[is_wall].max() + 0.08 * span[2])[soup.mesh]
-        # A shell in one mesh, floor and all: its near wall is cut out triangle by triangle.
+        # A room shell in one mesh: cut out its near wall triangle by triangle.
         is_shell = is_tall & (size[:, :2] > 0.6 * span[:2]).all(axis=1)
         depth = top[axis] - corners[..., axis] if toward > 0 else corners[..., axis] - floor[axis]
         is_near = (depth < 0.1 * span[2]).all(axis=1) & (rise > 0.02 * span[2])
@@ -76,17 +76,17 @@ def open_room(soup: Soup, azimuth: float, kept_meshes: int = 0) -> Soup:
 
 
 def _steepness(corners: Array) -> Array:
-    """Return the sine of the slope of each triangle: 0 for a floor, 1 for a wall."""
+    """Return the sine of the slope of each triangle: 0 for horizontal, 1 for vertical."""
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     steepness: Array = np.hypot(normal[:, 0], normal[:, 1]) / np.maximum(np.linalg.norm(normal, axis=1), 1e-30)
     return steepness
 
 
-def _mesh_boxes(soup: Soup) -> tuple[Array, Array]:
-    """Return the lowest and highest corner of each mesh (k, 3); NaN for a mesh of which nothing is left."""
+def _mesh_boxes(soup: TriangleSoup) -> tuple[Array, Array]:
+    """Return the AABB corners (k, 3) of each mesh; NaN for a mesh without triangles."""
     count = int(soup.mesh.max(initial=-1)) + 1
     low, high = np.full((count, 3), np.nan), np.full((count, 3), np.nan)
-    # A soup lists its triangles mesh by mesh.
+    # Triangles are sorted by mesh.
     starts = np.flatnonzero(np.diff(soup.mesh, prepend=-1))
     here = soup.mesh[starts]
     corners = [soup.points[soup.triangles[:, i]] for i in range(3)]

@@ -1,4 +1,4 @@
-"""PNG files without an imaging library."""
+"""PNG encoding."""
 
 import struct
 import zlib
@@ -19,7 +19,7 @@ def encode_png(pixels: NDArray[np.uint8]) -> bytes:
         pixels: (height, width, 3), sRGB.
     """
     height, width, _ = pixels.shape
-    # Each row as its difference from the row above, modulo 256: flat pictures become a third smaller.
+    # The Up filter makes flat pictures a third smaller.
     differences = np.diff(pixels, axis=0, prepend=np.zeros((1, width, 3), np.uint8))
     rows = np.empty((height, 1 + width * 3), np.uint8)
     rows[:, 0] = _UP_FILTER

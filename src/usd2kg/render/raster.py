@@ -1,4 +1,4 @@
-"""Which triangle is seen at each pixel: a z-buffer in numpy."""
+"""A z-buffer rasteriser in numpy."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -15,22 +15,22 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _CHUNK = 1 << 21
-"""Pixels worked on at a time; bounds the memory."""
+"""Pixels rasterised at a time, which bounds memory."""
 
 
 class Hits(NamedTuple):
-    """What a picture shows, pixel by pixel."""
+    """The visible triangle at each pixel."""
 
     triangle: NDArray[np.int32]
-    """(height, width): index of the nearest triangle, -1 where there is none."""
+    """(height, width): index of the nearest triangle, -1 for background."""
     nearness: NDArray[np.float32]
-    """(height, width): 1 / (metres along the view), 0 where there is nothing."""
+    """(height, width): 1 / (metres along the view direction), 0 for background."""
 
 
 def rasterise(camera: Camera, points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Hits:
-    """Return the nearest triangle at the middle of each pixel; both sides of a triangle are seen.
+    """Return the nearest triangle at each pixel centre; triangles are two-sided.
 
-    Of triangles at the same distance the last one is seen.
+    Of triangles at equal distance, the last one wins.
     """
     corners, source = _in_front(camera, points, triangles)
     buffer = np.full(camera.width * camera.height, -1, np.int64)
@@ -45,7 +45,7 @@ def rasterise(camera: Camera, points: NDArray[np.floating], triangles: NDArray[n
 
 
 def _in_front(camera: Camera, points: NDArray[np.floating], triangles: NDArray[np.integer]) -> tuple[Array, Indices]:
-    """Return corners (n, 3, 3) in the eye's axes, cut at the near plane, and the triangle that each is from."""
+    """Return corners (n, 3, 3) in camera axes, clipped at the near plane, and their source triangles (n,)."""
     view = camera.to_view(points)
     is_behind = view[:, 2] < camera.near
     behind = sum(is_behind[triangles[:, i]].astype(np.int8) for i in range(3))
@@ -54,7 +54,7 @@ def _in_front(camera: Camera, points: NDArray[np.floating], triangles: NDArray[n
     for count in (1, 2):
         cut = np.flatnonzero(behind == count)
         if len(cut):
-            # Turn each so that the corner that is alone on its side comes first.
+            # Rotate each so that the corner that is alone on its side of the plane comes first.
             alone = np.argmax(is_behind[triangles[cut]] == (count == 1), axis=1)
             order = (alone[:, None] + np.arange(3)) % 3
             a, b, c = np.moveaxis(view[np.take_along_axis(triangles[cut], order, axis=1)], 1, 0)
@@ -73,8 +73,8 @@ def _at_near(a: Array, b: Array, near: float) -> Array:
 
 
 def _kept(pixels: Array, source: Indices, camera: Camera) -> tuple[Array, Indices, Indices, Indices]:
-    """Return the triangles that touch a row of the picture, with their first row and number of rows."""
-    # numpy reduces over short axes slowly: three columns instead.
+    """Return the triangles that cover a pixel centre, with their first row and number of rows."""
+    # numpy reduces slowly over short axes: use three columns.
     (x0, x1, x2), (y0, y1, y2), _ = np.moveaxis(pixels, (2, 1), (0, 1))
     left = np.clip(np.ceil(np.minimum(np.minimum(x0, x1), x2) - 0.5), 0, camera.width)
     right = np.clip(np.ceil(np.maximum(np.maximum(x0, x1), x2) - 0.5), 0, camera.width)
@@ -89,12 +89,12 @@ class _Rows(NamedTuple):
     """(n, 3, 3), triangles."""
     source: Indices
     of: Indices
-    """The triangle of each row."""
+    """Triangle of each row."""
     y: Indices
 
 
 def _chunks(pixels: Array, source: Indices, top: Indices, count: Indices) -> Iterator[_Rows]:
-    """Yield rows of triangles, split so that each part covers a bounded number of pixels."""
+    """Yield triangle rows in parts that cover a bounded number of pixels."""
     spans = np.clip(np.ptp(pixels[..., 0], axis=1), 1, 1 << 13) * count
     part = (np.cumsum(spans) // _CHUNK).astype(np.int64)
     starts = [0, *(np.flatnonzero(np.diff(part)) + 1).tolist(), len(part)]
@@ -106,13 +106,13 @@ def _chunks(pixels: Array, source: Indices, top: Indices, count: Indices) -> Ite
 
 
 def _within(counts: Indices) -> Indices:
-    """Return 0, 1, … for each count: [2, 3] gives 0 1 0 1 2."""
+    """Return 0, 1, … count - 1 for each count: [2, 3] gives 0 1 0 1 2."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def _draw(rows: _Rows, camera: Camera, buffer: Indices) -> None:
-    """Fill the spans of pixels between a triangle's edges, row by row, into the buffer."""
+    """Fill the pixel spans between the edges of triangles, row by row."""
     middle = rows.y + 0.5
     left, right = np.full(len(middle), np.inf), np.full(len(middle), -np.inf)
     for i in range(3):
@@ -133,16 +133,16 @@ def _draw(rows: _Rows, camera: Camera, buffer: Indices) -> None:
     begin += slope[of, 1] * (middle[kept] - rows.pixels[of, 0, 1])
     step = _within(counts)
     values = np.repeat(begin, counts) + step * np.repeat(slope[of, 0], counts)
-    # Slivers must not reach beyond their own corners.
+    # The plane of a sliver is ill-conditioned: clamp to the depth of its corners.
     np.clip(values, np.repeat(nearness[of].min(axis=1), counts), np.repeat(nearness[of].max(axis=1), counts), values)
-    # The bits of positive floats sort as the floats do: nearness above, the triangle below, one number to compare.
+    # Bits of positive floats sort as the floats do: pack nearness above the triangle index, and compare one number.
     bits = values.astype(np.float32).view(np.int32).astype(np.int64) << 32
     place = np.repeat(rows.y[kept] * camera.width + start, counts) + step
     np.maximum.at(buffer, place, bits | np.repeat(rows.source[of], counts))
 
 
 def _planes(pixels: Array) -> tuple[Array, Array]:
-    """Return 1 / forward at the corners (n, 3), and how it changes along x and y (n, 2): it is linear in a picture."""
+    """Return inverse depth at the corners (n, 3) and its gradient along x and y (n, 2): it is linear in image space."""
     ab, ac = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
     safe = np.where(np.abs(area) < 1e-9, np.inf, area)

@@ -1,4 +1,4 @@
-"""Pictures of a stage that is opened once."""
+"""Renderer: pictures of a stage that is opened once."""
 
 from collections.abc import Iterable, Iterator
 from functools import cached_property
@@ -11,9 +11,10 @@ from pxr import Sdf, Usd
 from rapidfuzz import fuzz, process
 
 from usd2kg.errors import SceneError
+from usd2kg.render.pictures import Size, choose_scene_view, picture_in_context, picture_of_object, picture_of_scene
 from usd2kg.render.png import encode_png
-from usd2kg.render.soup import gather
-from usd2kg.render.views_of_scene import Size, picture_in_context, picture_of_object, picture_of_scene
+from usd2kg.render.settings import PICTURE, VIEWPOINT
+from usd2kg.render.triangle_soup import gather
 from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
 from usd2kg.scene.model import Diagnostic
 from usd2kg.scene.options import ReadOptions
@@ -21,32 +22,28 @@ from usd2kg.scene.stage import captured_diagnostics, open_stage
 
 __all__ = ["Renderer", "render_object", "render_objects", "render_scene"]
 
-_THUMBNAIL: Size = (256, 256)
-_OVERVIEW: Size = (800, 600)
-_LARGEST = 4096
-_SURROUNDINGS = 3.0
-"""How far around an object its surroundings are drawn, in its own largest extents."""
-_LEAST_SURROUNDINGS = 0.6
-"""Metres."""
-
 
 def render_object(
-    source: Path | str | Usd.Stage, prim_path: str, *, size: Size = _THUMBNAIL, in_context: bool = False
+    source: Path | str | Usd.Stage, prim_path: str, *, size: Size = PICTURE.thumbnail_size, in_context: bool = False
 ) -> bytes:
-    """Return a PNG of one object, by itself or highlighted where it stands.
+    """Return a PNG of one object, alone or highlighted in its surroundings.
 
-    The same stage gives the same bytes.
+    The output is deterministic.
 
     Raises:
-        SceneError: the stage cannot be read, there is no such prim, or it has no geometry that is drawn.
+        SceneError: the stage cannot be read, there is no such prim, or it has no visible geometry.
     """
     return Renderer(source).render_object(prim_path, size=size, in_context=in_context)
 
 
 def render_objects(
-    source: Path | str | Usd.Stage, prim_paths: Iterable[str], *, size: Size = _THUMBNAIL, in_context: bool = False
+    source: Path | str | Usd.Stage,
+    prim_paths: Iterable[str],
+    *,
+    size: Size = PICTURE.thumbnail_size,
+    in_context: bool = False,
 ) -> Iterator[tuple[str, bytes | None]]:
-    """Yield (prim path, PNG) for each object, opening the stage once; None where there is no geometry to draw.
+    """Yield (prim path, PNG) for each object, or None where it has no visible geometry; the stage is opened once.
 
     Raises:
         SceneError: the stage cannot be read, or there is no such prim.
@@ -57,45 +54,57 @@ def render_objects(
         yield path, renderer.render_object(path, size=size, in_context=in_context) if has_geometry else None
 
 
-def render_scene(source: Path | str | Usd.Stage, *, size: Size = _OVERVIEW) -> bytes:
+def render_scene(source: Path | str | Usd.Stage, *, size: Size = PICTURE.scene_size) -> bytes:
     """Return a PNG of the whole scene from a corner above, without ceiling and near walls.
 
     Raises:
-        SceneError: the stage cannot be read, or has no geometry that is drawn.
+        SceneError: the stage cannot be read, or has no visible geometry.
     """
     return Renderer(source).render_scene(size=size)
 
 
 class Renderer:
-    """Draws pictures of one stage; triangles are read when first needed and kept."""
+    """Draws pictures of one stage; meshes are read when first needed and cached."""
 
     def __init__(self, source: Path | str | Usd.Stage, options: ReadOptions | None = None) -> None:
         options = options or ReadOptions()
         self._opened = open_stage(source, options)
         self._time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
         self.diagnostics: list[Diagnostic] = list(self._opened.diagnostics)
-        """What was odd on the stage, so far as it was read."""
+        """Problems found on the stage so far."""
 
-    def render_object(self, prim_path: str, *, size: Size = _THUMBNAIL, in_context: bool = False) -> bytes:
+    def render_object(self, prim_path: str, *, size: Size = PICTURE.thumbnail_size, in_context: bool = False) -> bytes:
         """Return a PNG of one object; see `usd2kg.render.render_object`."""
         _check_size(size)
         meshes = self.meshes_below(prim_path)
         if not meshes:
-            raise SceneError(f"{self._opened.source}: {prim_path} has no geometry that is drawn, so no picture of it")
+            raise SceneError(f"{self._opened.source}: {prim_path} has no visible geometry, so it cannot be drawn")
         if not in_context:
             return encode_png(picture_of_object(gather(meshes), size))
         soup = gather([*meshes, *self._around(meshes)])
         return encode_png(picture_in_context(soup, len(meshes), size))
 
-    def render_scene(self, *, size: Size = _OVERVIEW) -> bytes:
+    def render_scene(self, *, size: Size = PICTURE.scene_size) -> bytes:
         """Return a PNG of the whole scene; see `usd2kg.render.render_scene`."""
+        return encode_png(picture_of_scene(gather(self._scene_meshes(size)), size))
+
+    def project_scene(self, points: NDArray[np.floating], *, size: Size = PICTURE.scene_size) -> NDArray[np.float64]:
+        """Return where world points (n, 3) appear in the picture that `render_scene` draws: (n, 2), pixels.
+
+        Raises:
+            SceneError: the stage has no visible geometry.
+        """
+        camera = choose_scene_view(gather(self._scene_meshes(size)), size).camera
+        return camera.to_pixels(camera.to_view(points))[:, :2]
+
+    def _scene_meshes(self, size: Size) -> list[ObjectMesh]:
         _check_size(size)
         if not self._all_meshes:
-            raise SceneError(f"{self._opened.source}: no geometry that is drawn is on the stage, so no picture of it")
-        return encode_png(picture_of_scene(gather(self._all_meshes), size))
+            raise SceneError(f"{self._opened.source}: the stage has no visible geometry, so it cannot be drawn")
+        return self._all_meshes
 
     def meshes_below(self, prim_path: str) -> list[ObjectMesh]:
-        """Return what is drawn at and below a prim, or of one copy of a point instancer (`path[number]`).
+        """Return the visible meshes at and below a prim, or of one point instance (`path[index]`).
 
         Raises:
             SceneError: there is no such prim.
@@ -115,15 +124,15 @@ class Renderer:
 
     @cached_property
     def _boxes(self) -> NDArray[np.float32]:
-        """(n, 2, 3): lowest and highest corner of each mesh."""
+        """(n, 2, 3): AABB corners of each mesh."""
         boxes = [(mesh.points.min(axis=0), mesh.points.max(axis=0)) for mesh in self._all_meshes]
         return np.array(boxes, np.float32).reshape(-1, 2, 3)
 
     def _around(self, meshes: list[ObjectMesh]) -> list[ObjectMesh]:
-        """Return the other meshes that reach into the surroundings of an object."""
+        """Return the other meshes that overlap the surroundings of an object."""
         low = np.min([mesh.points.min(axis=0) for mesh in meshes], axis=0)
         high = np.max([mesh.points.max(axis=0) for mesh in meshes], axis=0)
-        reach = max(_SURROUNDINGS * float((high - low).max()), _LEAST_SURROUNDINGS)
+        reach = max(VIEWPOINT.surroundings * float((high - low).max()), VIEWPOINT.least_surroundings)
         is_near = ((self._boxes[:, 1] >= low - reach) & (self._boxes[:, 0] <= high + reach)).all(axis=1)
         own = {mesh.prim_path for mesh in meshes}
         return [self._all_meshes[i] for i in np.flatnonzero(is_near) if self._all_meshes[i].prim_path not in own]
@@ -135,14 +144,16 @@ class Renderer:
             return
         everything = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
         paths = [str(prim.GetPath()) for prim in Usd.PrimRange(stage.GetPseudoRoot(), everything)][1:]
-        # People type a name without its path, or half remember it.
+        # Users type a name without its path, or with a typo.
         wanted = name.rpartition("/")[2].lower()
         names = [path.rpartition("/")[2].lower() for path in paths]
         close = [paths[match[2]] for match in process.extract(wanted, names, scorer=fuzz.WRatio, limit=3)]
         hint = f"; did you mean {' or '.join(close)}?" if close else ""
-        raise SceneError(f"{self._opened.source}: there is no prim {prim_path}, expected an absolute path{hint}")
+        raise SceneError(f"{self._opened.source}: there is no prim {prim_path}; expected an absolute path{hint}")
 
 
 def _check_size(size: Size) -> None:
-    if not all(1 <= side <= _LARGEST for side in size):
-        raise SceneError(f"a picture of {size[0]}x{size[1]} pixels cannot be drawn; expected 1 to {_LARGEST} each way")
+    if not all(1 <= side <= PICTURE.largest_side for side in size):
+        raise SceneError(
+            f"cannot draw a picture of {size[0]}x{size[1]} pixels; expected 1 to {PICTURE.largest_side} per side"
+        )

@@ -1,4 +1,4 @@
-"""All triangles of a picture in one set of arrays, and the normals that make round things look round."""
+"""TriangleSoup: the triangles of several meshes in one set of arrays, and their smooth normals."""
 
 import math
 from collections.abc import Iterable
@@ -7,20 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.render.settings import PICTURE
 from usd2kg.scene.meshes import ObjectMesh
 
-__all__ = ["Soup", "corner_normals", "gather"]
+__all__ = ["TriangleSoup", "corner_normals", "gather"]
 
 Array = NDArray[np.float64]
 
-_SMOOTH = math.cos(math.radians(42))
-"""Faces that meet at less than this angle are one round surface."""
-_MOST_AROUND = 64
-"""A point shared by more faces than this keeps the faces' own normals."""
+_SMOOTH_COSINE = math.cos(math.radians(PICTURE.smooth_angle))
 
 
 @dataclass(frozen=True)
-class Soup:
+class TriangleSoup:
     """Triangles of several meshes."""
 
     points: NDArray[np.float32]
@@ -32,30 +30,32 @@ class Soup:
     opacity: NDArray[np.float32]
     """(m,), 1 for solid."""
     mesh: NDArray[np.int32]
-    """(m,), the number of the mesh that each triangle is from, in ascending order."""
+    """(m,), mesh number of each triangle, ascending."""
 
     def used_points(self) -> NDArray[np.float32]:
-        """Return the points that belong to a triangle (k, 3)."""
+        """Return the points that a triangle uses, (k, 3)."""
         is_used = np.zeros(len(self.points), np.bool_)
         is_used[self.triangles] = True
         return self.points[is_used]
 
-    def part(self, chosen: NDArray[np.bool_]) -> "Soup":
-        """Return the chosen triangles only."""
-        return Soup(self.points, self.triangles[chosen], self.colors[chosen], self.opacity[chosen], self.mesh[chosen])
+    def part(self, chosen: NDArray[np.bool_]) -> "TriangleSoup":
+        """Return the triangles where `chosen` is true."""
+        return TriangleSoup(
+            self.points, self.triangles[chosen], self.colors[chosen], self.opacity[chosen], self.mesh[chosen]
+        )
 
-    def recolored(self, colors: NDArray[np.floating]) -> "Soup":
-        """Return the same triangles in other colours."""
-        return Soup(self.points, self.triangles, colors.astype(np.float32), self.opacity, self.mesh)
+    def recolored(self, colors: NDArray[np.floating]) -> "TriangleSoup":
+        """Return the same triangles with other colours (m, 3)."""
+        return TriangleSoup(self.points, self.triangles, colors.astype(np.float32), self.opacity, self.mesh)
 
 
-def gather(meshes: Iterable[ObjectMesh]) -> Soup:
+def gather(meshes: Iterable[ObjectMesh]) -> TriangleSoup:
     """Return the triangles of all meshes, numbered in the order of the meshes."""
     known = list(meshes)
     counts = [len(mesh.triangles) for mesh in known]
     starts = np.cumsum([0, *(len(mesh.points) for mesh in known)])
     triangles = [mesh.triangles.astype(np.int64) + start for mesh, start in zip(known, starts, strict=False)]
-    return Soup(
+    return TriangleSoup(
         points=np.concatenate([np.zeros((0, 3), np.float32), *(mesh.points for mesh in known)]),
         triangles=np.concatenate([np.zeros((0, 3), np.int64), *triangles]),
         colors=np.repeat(np.array([mesh.color for mesh in known], np.float32).reshape(-1, 3), counts, axis=0),
@@ -65,10 +65,10 @@ def gather(meshes: Iterable[ObjectMesh]) -> Soup:
 
 
 def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wanted: NDArray[np.integer]) -> Array:
-    """Return unit normals of the wanted triangles' corners (k, 3, 3).
+    """Return the unit normals (k, 3, 3) at the corners of the wanted triangles.
 
-    A corner's normal is the mean, by area, over the faces around the point that are bent by less than 42°; points at
-    the same place are one point, as exporters split them.
+    A corner normal is the area-weighted mean over the adjacent faces that meet at less than `smooth_angle`. Points with
+    equal positions are merged, because exporters split them.
     """
     corners = points[triangles].astype(np.float64)
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -78,15 +78,15 @@ def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wa
     count = np.bincount(place.reshape(-1), minlength=1)
     start = np.cumsum(count) - count
     asked = place[wanted].reshape(-1)
-    counts = np.where(count[asked] <= _MOST_AROUND, count[asked], 0)
+    counts = np.where(count[asked] <= PICTURE.most_faces_at_point, count[asked], 0)
     of = np.repeat(np.arange(len(asked)), counts)
     ends = np.cumsum(counts)
     nth = np.arange(len(of)) - np.repeat(ends - counts, counts)
     other = around[start[asked[of]] + nth] // 3
     own = wanted[of // 3]
-    # Meshes with faces turned at random are common: a neighbour counts by its slope, whichever way it faces.
+    # Meshes with inconsistent winding are common: compare face planes, not their orientation.
     cosine = np.einsum("ij,ij->i", faces[own], faces[other])
-    weight = np.where(np.abs(cosine) > _SMOOTH, np.sign(cosine), 0.0)
+    weight = np.where(np.abs(cosine) > _SMOOTH_COSINE, np.sign(cosine), 0.0)
     sums = [np.bincount(of, weight * areas[other, axis], minlength=len(asked)) for axis in range(3)]
     normals = np.stack(sums, axis=1)
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -96,7 +96,7 @@ def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wa
 
 
 def _places(points: NDArray[np.float32]) -> NDArray[np.int64]:
-    """Return a number for each point, the same for points at the same place."""
+    """Return a number for each point; points with equal positions share one."""
     low = points.min(axis=0).astype(np.float64)
     step = max(float((points.max(axis=0) - low).max()) / (1 << 20), 1e-9)
     cells = np.round((points - low) / step).astype(np.int64)
