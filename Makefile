@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow data data-check owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -25,6 +25,12 @@ test: $(READY) ## Run the tests
 
 test-slow: $(READY) ## Run the tests that take long
 	$(BIN)/python -m pytest -q -m slow
+
+data: $(READY) ## Build the package data in src/usd2kg/data from knowledge/
+	$(BIN)/python -m tools.build_data
+
+data-check: $(READY) ## Check that the package data is what knowledge/ gives
+	$(BIN)/python -m tools.build_data --check
 
 owl-jars: ## Fetch the OWL API and HermiT into build/owl, for the checks of make test-slow; needs Java 17 and Maven
 	mvn -q -B -f tools/owl/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/owl

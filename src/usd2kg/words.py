@@ -4,17 +4,11 @@ import re
 import unicodedata
 from functools import lru_cache
 
+from usd2kg.knowledge import word_set
+
 __all__ = ["is_telling", "split_identifier", "words_of"]
 
-_PRODUCTION_TOKENS = frozenset(
-    """
-    sm sk skm geo geom geometry mesh msh mdl model obj object grp group xform prop props asset jnt joint low
-    high hi lo mid lod proxy render prx visual vis viz collision col coll lib link root ref rig final wip old
-    new copy copie copia inst instance default scene node prim shape polysurface ver version cm mm ctrl loc
-    locator temp tmp test static bp models meshes prefab prefabs assets objects nodes scenes instances uploads
-    """.split()
-)
-"""Tokens that pipelines put into names and that say nothing of what a thing is."""
+_PRODUCTION_TOKENS = word_set("identifiers", "production_tokens")
 
 _ASCII_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+")
 """The same rule as `_is_border`, many times faster: most names are ASCII."""

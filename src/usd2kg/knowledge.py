@@ -1,0 +1,57 @@
+"""Read the package data in `usd2kg/data`, which `make data` builds from the sources in `knowledge/`."""
+
+import csv
+import io
+import json
+from collections.abc import Mapping
+from functools import lru_cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from types import MappingProxyType
+
+__all__ = ["data_file", "read_bytes", "read_rows", "read_text", "word_map", "word_set"]
+
+
+def data_file(name: str) -> Traversable:
+    """Return the data file called `name`, for readers that need a stream or a path (`importlib.resources.as_file`)."""
+    return files("usd2kg") / "data" / name
+
+
+def read_text(name: str) -> str:
+    """Return the text of the data file called `name`."""
+    return data_file(name).read_text("utf-8")
+
+
+def read_bytes(name: str) -> bytes:
+    """Return the bytes of the data file called `name`."""
+    return data_file(name).read_bytes()
+
+
+def read_rows(name: str) -> list[dict[str, str]]:
+    """Return the rows of a CSV data file, each as column → text; an empty cell is an empty string."""
+    return list(csv.DictReader(io.StringIO(read_text(name), newline=""), strict=True))
+
+
+@lru_cache(maxsize=256)
+def word_set(component: str, name: str) -> frozenset[str]:
+    """Return the words of the list `name` in `knowledge/words/<component>.toml`.
+
+    >>> "lod" in word_set("identifiers", "production_tokens")
+    True
+    """
+    return frozenset(_read_word_lists(component)[name])
+
+
+@lru_cache(maxsize=256)
+def word_map(component: str, name: str) -> Mapping[str, str]:
+    """Return the map from word to word called `name` in `knowledge/words/<component>.toml`."""
+    words = _read_word_lists(component)[name]
+    if not isinstance(words, dict):
+        raise TypeError(f"{name} in knowledge/words/{component}.toml is a list; read it with word_set")
+    return MappingProxyType(words)
+
+
+@lru_cache(maxsize=64)
+def _read_word_lists(component: str) -> Mapping[str, list[str] | dict[str, str]]:
+    lists: dict[str, list[str] | dict[str, str]] = json.loads(read_text(f"words/{component}.json"))
+    return lists
