@@ -1,18 +1,17 @@
 """Reading German, Spanish, French and Italian names."""
 
-import csv
 import unicodedata
-from importlib.resources import files
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.knowledge import read_rows
 from usd2kg.languages import language_of, split_compound, translate
 from usd2kg.words import words_of
 
-ROWS = list(csv.DictReader((files("usd2kg") / "data" / "glosses.csv").read_text(encoding="utf-8").splitlines()))
+ROWS = read_rows("glosses.csv")
 
 # WordNet has these, but an object so named is far likelier to be what German, Spanish, French or Italian mean by it.
 UNMARKED = frozenset(

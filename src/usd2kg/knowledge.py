@@ -29,7 +29,8 @@ def read_bytes(name: str) -> bytes:
 
 def read_rows(name: str) -> list[dict[str, str]]:
     """Return the rows of a CSV data file, each as column → text; an empty cell is an empty string."""
-    return list(csv.DictReader(io.StringIO(read_text(name), newline=""), strict=True))
+    columns, *rows = csv.reader(io.StringIO(read_text(name), newline=""), strict=True)
+    return [dict(zip(columns, row, strict=True)) for row in rows]
 
 
 @lru_cache(maxsize=256)

@@ -1,13 +1,13 @@
 """Reading German, Spanish, French and Italian names: compounds into their parts, names into English."""
 
-import csv
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
-from importlib.resources import files
 from itertools import chain
 from typing import NamedTuple
+
+from usd2kg.knowledge import read_rows
 
 __all__ = ["language_of", "split_compound", "translate"]
 
@@ -118,10 +118,9 @@ def _without_accents(text: str) -> str:
 @lru_cache(maxsize=1)
 def _lexicons() -> dict[str, _Lexicon]:
     """Return the lexicon of every language, read once, in the vocabulary's order."""
-    text = (files("usd2kg") / "data" / "glosses.csv").read_text(encoding="utf-8")
     entries = [
         _Entry(row["language"], row["word"], tuple(row["english"].split()), row["homograph"] == "yes", row["role"])
-        for row in csv.DictReader(text.splitlines())
+        for row in read_rows("glosses.csv")
     ]
     lexicons = {entry.language: _Lexicon(entry.language) for entry in entries}
     for entry in sorted(entries, key=lambda entry: " " in entry.word):

@@ -1,16 +1,13 @@
 """Which runs of letters are English words."""
 
 import gzip
-from pathlib import Path
 
 import pytest
 
-import usd2kg
 from tests.grounding.records import ground_names, local, make_class, make_tbox
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_common_word, is_english_word
+from usd2kg.knowledge import read_bytes, read_text
 from usd2kg.ontology import TBox
-
-DATA = Path(usd2kg.__file__).parent / "data"
 
 
 @pytest.mark.parametrize("word", ["splash", "teaching", "exercise"])
@@ -37,7 +34,7 @@ def test_a_short_word_may_be_what_is_left_of_a_longer_one(word: str):
 
 
 def test_the_dictionary_has_each_word_once_and_none_that_is_common():
-    words = gzip.decompress((DATA / "english_words.txt.gz").read_bytes()).decode("ascii").split("\n")
+    words = gzip.decompress(read_bytes("english_words.txt.gz")).decode("ascii").split("\n")
     assert words.pop() == ""
     assert words == sorted(set(words))
     assert all(word.isalpha() and word.islower() and len(word) >= SHORTEST_WORD for word in words)
@@ -45,7 +42,7 @@ def test_the_dictionary_has_each_word_once_and_none_that_is_common():
 
 
 def test_the_notice_names_the_dictionary():
-    assert "english_words.txt.gz" in (DATA / "FREQUENCIES-LICENSE.txt").read_text("ascii")
+    assert "english_words.txt.gz" in read_text("FREQUENCIES-LICENSE.txt")
 
 
 def test_words_of_the_dictionary_are_neither_misspelt_nor_short_for_others():

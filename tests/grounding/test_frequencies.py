@@ -3,15 +3,13 @@
 import gzip
 import math
 import time
-from importlib.resources import files
 
 import pytest
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading import word_frequencies as frequencies
 from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY, thing_prior, word_frequency
-
-DATA = files("usd2kg") / "data"
+from usd2kg.knowledge import read_bytes, read_text
 
 COMMON_AND_RARE = """
     chair davenport, table tabor, cup chalice, lamp sconce, door wicket, window oriel, bottle demijohn, spoon skimmer,
@@ -23,7 +21,7 @@ PAIRS = [tuple(pair.split()) for pair in COMMON_AND_RARE.split(",")]
 
 
 def shipped_lines() -> list[list[str]]:
-    words, entries = gzip.decompress((DATA / "frequencies.txt.gz").read_bytes()).decode("ascii").splitlines()
+    words, entries = gzip.decompress(read_bytes("frequencies.txt.gz")).decode("ascii").splitlines()
     return [[word, *entry.split("/")] for word, entry in zip(words.split(), entries.split(), strict=True)]
 
 
@@ -135,7 +133,7 @@ def test_the_data_loads_within_50_milliseconds():
 
 
 def test_the_notice_stands_beside_the_data():
-    notice = (DATA / "FREQUENCIES-LICENSE.txt").read_text("ascii")
+    notice = read_text("FREQUENCIES-LICENSE.txt")
     assert "https://creativecommons.org/licenses/by/3.0/" in notice
     assert "Copyright 2000-2018 by Kevin Atkinson" in notice
-    assert len((DATA / "frequencies.txt.gz").read_bytes()) < 400 * 1024
+    assert len(read_bytes("frequencies.txt.gz")) < 400 * 1024

@@ -2,7 +2,6 @@
 
 import json
 import math
-from importlib.resources import files
 
 import pytest
 
@@ -10,9 +9,10 @@ from tests.grounding.records import ground_names, ground_view, local
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.reading.head_noun import Features, likelihood, propensity
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import TBox
 
-FITTED = json.loads((files("usd2kg") / "data" / "heads.json").read_text("utf-8"))
+FITTED = json.loads(read_text("heads.json"))
 
 
 def test_there_is_a_weight_for_each_feature():

@@ -1,20 +1,16 @@
 """The names of things in bulk: what the table promises, and what it comes to in the default grounder."""
 
-import csv
-import io
 import re
 import time
 from collections import Counter
-from importlib.resources import files
 
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier
 
-ROWS = list(csv.DictReader(io.StringIO((files("usd2kg") / "data" / "home_names.csv").read_text("utf-8")), strict=True))
-SHORT = list(
-    csv.DictReader(io.StringIO((files("usd2kg") / "data" / "abbreviations.csv").read_text("utf-8")), strict=True)
-)
+ROWS = read_rows("home_names.csv")
+SHORT = list(read_rows("abbreviations.csv"))
 
 
 def key_of(text: str) -> str:

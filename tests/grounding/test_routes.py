@@ -2,7 +2,6 @@
 
 import json
 import math
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -14,9 +13,10 @@ from usd2kg.grounding.lexical.alignment.routes import Features, Route, Routes, s
 from usd2kg.grounding.lexical.alignment.terms import Term
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import TBox
 
-FITTED = json.loads((files("usd2kg") / "data" / "routes.json").read_text("utf-8"))
+FITTED = json.loads(read_text("routes.json"))
 WEIGHTS = FITTED["weights"]
 KITCHEN = make_tbox(
     make_class("Artifact"),

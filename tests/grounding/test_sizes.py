@@ -1,10 +1,7 @@
 """Sizes of things: the table, a density worked by hand, and which things a box is likeliest to be."""
 
-import csv
-import io
 import math
 import time
-from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -12,9 +9,10 @@ import pytest
 from usd2kg.grounding.lexical.concepts import sizes
 from usd2kg.grounding.lexical.concepts.sizes import log_likelihoods, surprise, thing_nouns
 from usd2kg.grounding.lexical.grounder import _run_for
+from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 
-ROWS = list(csv.DictReader(io.StringIO((files("usd2kg") / "data" / "things.csv").read_text("utf-8"))))
+ROWS = read_rows("things.csv")
 BROAD = 0.02 * 6 / math.log(100 / 0.001) ** 3
 
 

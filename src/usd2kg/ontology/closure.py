@@ -2,12 +2,13 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from importlib.resources import as_file, files
+from importlib.resources import as_file
 from pathlib import Path
 from typing import Any
 
 import pyoxigraph as ox
 
+from usd2kg.knowledge import data_file
 from usd2kg.ontology.documents import Document, close_imports, find_document, parse_document, parse_import, read_triples
 from usd2kg.ontology.load import HOME
 from usd2kg.ontology.model import TBox
@@ -37,7 +38,7 @@ def read_closure(tbox: TBox, also: Iterable[str] = ()) -> Closure:
         OntologyError: a document cannot be read any more.
     """
     if tbox.source == HOME:
-        with as_file(files("usd2kg") / "data" / "home.ttl") as path:
+        with as_file(data_file("home.ttl")) as path:
             return _read(path, also)
     return _read(Path(tbox.source), also)
 

@@ -4,10 +4,11 @@ import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
-from importlib.resources import as_file, files
+from importlib.resources import as_file
 from pathlib import Path
 
 from usd2kg.errors import OntologyError
+from usd2kg.knowledge import data_file
 from usd2kg.ontology.axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.documents import Document, close_imports, parse_document
 from usd2kg.ontology.equivalence import all_equivalents, keep_one_of_each
@@ -51,7 +52,7 @@ def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
 
 @lru_cache(maxsize=4)
 def _load_home(roots: tuple[str, ...] | None) -> TBox:
-    with as_file(files("usd2kg") / "data" / "home.ttl") as path:
+    with as_file(data_file("home.ttl")) as path:
         # The classes are SOMA-HOME's own, so that is what a graph over them imports.
         return replace(_load(path, HOME, roots, None), ontology_iri=_SOMA_HOME)
 

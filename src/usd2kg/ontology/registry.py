@@ -4,11 +4,11 @@ import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import OntologyError
+from usd2kg.knowledge import data_file
 
 __all__ = ["CATALOG", "KnownDocument", "KnownOntology", "read_registry"]
 
@@ -52,7 +52,7 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
     """
     source = str(path) if path is not None else "registry.toml"
     try:
-        text = (path or files("usd2kg") / "data" / "registry.toml").read_text(encoding="utf-8")
+        text = (path or data_file("registry.toml")).read_text(encoding="utf-8")
         entries = tomllib.loads(text)["ontology"]
         known = [_ontology(source, entry) for entry in entries]
     except OSError as error:

@@ -5,11 +5,11 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from functools import lru_cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar
 
 from usd2kg.errors import GraphError
+from usd2kg.knowledge import read_text
 from usd2kg.relations.thresholds import Rules
 
 __all__ = ["load_rules"]
@@ -35,7 +35,7 @@ def load_rules(overrides: Path | str | None = None) -> Rules:
 
 @lru_cache(maxsize=1)
 def _shipped_rules() -> Rules:
-    table = tomllib.loads((files("usd2kg") / "data" / "spatial.toml").read_text("utf-8"))
+    table = tomllib.loads(read_text("spatial.toml"))
     made = {entry.name: entry.type(**_tuples(table[entry.name])) for entry in fields(Rules)}  # type: ignore[operator]
     return Rules(**made)
 

@@ -4,11 +4,11 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import GraphError
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import expand_curie
 from usd2kg.validation.finding import Severity
 
@@ -49,7 +49,7 @@ def read_rules(path: Path | str | None = None) -> Rules:
     Raises:
         GraphError: the file cannot be read, or has a table, a key or a value that no rule knows.
     """
-    tables = tomllib.loads((files("usd2kg") / "data" / "plausibility.toml").read_text("utf-8"))
+    tables = tomllib.loads(read_text("plausibility.toml"))
     if path is not None:
         _replace(tables, Path(path))
     return {

@@ -1,11 +1,9 @@
 """The usual size of things of a class: from our table of classes, else by the class's label from that of nouns."""
 
-import csv
-import io
 from functools import lru_cache
-from importlib.resources import files
 
 from usd2kg.grounding.lexical.concepts.sizes import typical_extents
+from usd2kg.knowledge import read_rows
 from usd2kg.ontology import expand_curie
 
 __all__ = ["usual_extent"]
@@ -15,8 +13,7 @@ _SIDES = ("width_m", "depth_m", "height_m")
 
 @lru_cache(maxsize=1)
 def _class_extents() -> dict[str, float]:
-    text = (files("usd2kg") / "data" / "class_sizes.csv").read_text("utf-8")
-    rows = csv.DictReader(io.StringIO(text, newline=""), strict=True)
+    rows = read_rows("class_sizes.csv")
     return {expand_curie(row["class"]): max(float(row[side]) for side in _SIDES) for row in rows}
 
 

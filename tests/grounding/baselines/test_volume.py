@@ -1,8 +1,6 @@
 """The volume baseline: nearest in log volume, worked by hand, and every way a table of sizes can be wrong."""
 
-import csv
 import math
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -11,6 +9,7 @@ from tests.grounding.records import LAB, SOMA, local, make_class, make_tbox
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Candidate, ObjectView, Prediction, Status
 from usd2kg.grounding.baselines.volume import SMALLEST_SIDE, VolumeGrounder
+from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 
 HEADER = "class,width_m,depth_m,height_m,origin\n"
@@ -28,8 +27,7 @@ def write(path: Path, text: str) -> Path:
 
 
 def read_built_in() -> list[dict[str, str]]:
-    text = (files("usd2kg") / "data" / "class_sizes.csv").read_text("utf-8")
-    return list(csv.DictReader(text.splitlines()))
+    return read_rows("class_sizes.csv")
 
 
 def test_a_box_worked_by_hand():

@@ -2,11 +2,11 @@
 
 import gzip
 import hashlib
-from importlib.resources import files
 
 import pytest
 
 from usd2kg.grounding.baselines.embedding.wordpiece import WordPieceTokenizer, load_tokenizer, split_words
+from usd2kg.knowledge import read_bytes, read_text
 
 # Written by the Rust tokenizer of PyPI's `tokenizers` with the published tokenizer.json of all-MiniLM-L6-v2,
 # padding off and truncation at 256.
@@ -109,10 +109,9 @@ def test_the_longest_piece_wins_and_a_rest_without_piece_makes_the_word_unknown(
 
 
 def test_the_vocabulary_is_berts_and_its_licence_is_beside_it():
-    data = files("usd2kg") / "data"
-    vocabulary = gzip.decompress((data / "bert_vocab.txt.gz").read_bytes())
+    vocabulary = gzip.decompress(read_bytes("bert_vocab.txt.gz"))
     digest = "07eced375cec144d27c900241f3e339478dec958f92fddbc551f295c992038a3"
     assert (vocabulary.count(b"\n"), hashlib.sha256(vocabulary).hexdigest()) == (30522, digest)
-    licence = (data / "BERT-LICENSE.txt").read_text("utf-8")
+    licence = read_text("BERT-LICENSE.txt")
     assert "Copyright 2018 The Google AI Language Team Authors" in licence
     assert "END OF TERMS AND CONDITIONS" in licence

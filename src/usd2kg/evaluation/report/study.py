@@ -1,10 +1,10 @@
 """The figures that the study published, to stand beside ours."""
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
+
+from usd2kg.knowledge import read_rows
 
 __all__ = ["AS_PUBLISHED", "StudyFigure", "study_ablation", "study_main"]
 
@@ -44,9 +44,8 @@ def study_ablation() -> Mapping[str, Mapping[str, StudyFigure]]:
 
 @lru_cache(maxsize=2)
 def _read(table: str) -> Mapping[str, Mapping[str, StudyFigure]]:
-    text = (files("usd2kg") / "data" / "study_results.csv").read_text("utf-8")
     found: dict[str, dict[str, StudyFigure]] = {}
-    for row in csv.DictReader(text.splitlines()):
+    for row in read_rows("study_results.csv"):
         if row["table"] == table:
             figure = StudyFigure(_number(row["ema"]), _number(row["hf1"]), row["note"])
             found.setdefault(row["method"], {})[row["condition"]] = figure

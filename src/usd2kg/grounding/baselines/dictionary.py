@@ -2,12 +2,12 @@
 
 import csv
 from collections.abc import Mapping, Sequence
-from importlib.resources import files
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.model import Candidate, Prediction, Status
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import TBox
 
 __all__ = ["DictionaryGrounder"]
@@ -42,7 +42,7 @@ class DictionaryGrounder:
     @classmethod
     def multiverse(cls) -> "DictionaryGrounder":
         """Return a grounder over the pairs that Multiverse-Knowledge ships, the study's baseline."""
-        text = (files("usd2kg") / "data" / "multiverse_dictionary.csv").read_text("utf-8")
+        text = read_text("multiverse_dictionary.csv")
         return cls(_read_pairs(text, "multiverse"), "multiverse")
 
     @property

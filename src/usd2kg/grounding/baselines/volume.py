@@ -4,12 +4,12 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
-from importlib.resources import files
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.model import Candidate, Prediction, Status
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.prefixes import expand_curie
 
@@ -42,7 +42,7 @@ class VolumeGrounder:
             GroundingError: a volume is not positive and finite.
         """
         if volumes is None:
-            text = (files("usd2kg") / "data" / "class_sizes.csv").read_text("utf-8")
+            text = read_text("class_sizes.csv")
             volumes, source = _read_volumes(text, "class_sizes.csv"), "built-in"
         for named, volume in volumes.items():
             if not (math.isfinite(volume) and volume > 0):

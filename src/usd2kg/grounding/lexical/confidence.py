@@ -7,11 +7,11 @@ import json
 import math
 from collections.abc import Container, Iterable, Mapping
 from functools import lru_cache
-from importlib.resources import files
 
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.concepts.object_likelihoods import Beliefs
 from usd2kg.grounding.model import Prediction
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["FEATURES", "features_of", "general_odds", "probability"]
@@ -126,6 +126,6 @@ def probability(features: Mapping[str, float]) -> float:
 
 @lru_cache(maxsize=1)
 def _weights() -> dict[str, float]:
-    text = (files("usd2kg") / "data" / "calibration.json").read_text(encoding="utf-8")
+    text = read_text("calibration.json")
     found: dict[str, float] = json.loads(text)["weights"]
     return found

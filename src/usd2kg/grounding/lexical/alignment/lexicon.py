@@ -1,12 +1,9 @@
 """The TBox's words: which terms name a class, and where each class lies in the noun taxonomy."""
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.class_labels import (
@@ -24,6 +21,7 @@ from usd2kg.grounding.lexical.alignment.terms import HEAD, LABEL, LENT, LESSER, 
 from usd2kg.grounding.lexical.concepts.categories import members_of
 from usd2kg.grounding.lexical.concepts.senses import sense_weight
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy
+from usd2kg.knowledge import read_rows
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 
 __all__ = [
@@ -101,10 +99,8 @@ def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
     home = load_home_tbox()
     names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
     by_local_name = {cls.local_name: cls.iri for cls in home.classes}
-    text = (files("usd2kg") / "data" / "home_names.csv").read_text(encoding="utf-8")
-    _columns, *rows = csv.reader(io.StringIO(text))
-    for cls, name in rows:
-        names[by_local_name[cls]].append(name)
+    for row in read_rows("home_names.csv"):
+        names[by_local_name[row["class"]]].append(row["name"])
     return {iri: tuple(found) for iri, found in names.items()}
 
 

@@ -11,13 +11,13 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, lru_cache
-from importlib.resources import files
 from operator import mul
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.terms import LABEL, Anchor, Term
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.knowledge import read_text
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["Features", "Route", "Routes", "shares_of", "strength"]
@@ -147,5 +147,5 @@ def strength(features: Features) -> float:
 
 @cache
 def _weights() -> Features:
-    text = (files("usd2kg") / "data" / "routes.json").read_text(encoding="utf-8")
+    text = read_text("routes.json")
     return Features(**json.loads(text)["weights"])

@@ -1,13 +1,11 @@
 """What people count among a general kind that the taxonomy has elsewhere: to an office, staplers are stationery."""
 
-import csv
-import io
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.knowledge import read_rows
 
 __all__ = ["Category", "members_of", "synset_of"]
 
@@ -39,10 +37,8 @@ def synset_of(name: str, taxonomy: Taxonomy) -> int | None:
 @lru_cache(maxsize=1)
 def _load_categories() -> Mapping[str, Category]:
     """Return the kinds of `data/categories.csv` by their names without spaces."""
-    text = (files("usd2kg") / "data" / "categories.csv").read_text(encoding="utf-8")
-    _columns, *rows = csv.reader(io.StringIO(text))
     return {
-        kind: Category(int(things), tuple(members.split("|")))
-        for kinds, things, members in rows
-        for kind in kinds.replace(" ", "").replace("-", "").split("|")
+        kind: Category(int(row["things"]), tuple(row["members"].split("|")))
+        for row in read_rows("categories.csv")
+        for kind in row["kinds"].replace(" ", "").replace("-", "").split("|")
     }

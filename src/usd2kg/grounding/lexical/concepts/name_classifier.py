@@ -7,7 +7,6 @@ container although nobody wrote it down, as other shakers are. The weights are i
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.concepts.senses import sense_weight
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.knowledge import data_file
 from usd2kg.ontology import ClassIRI
 
 __all__ = ["features_of", "likely_classes", "similar_name"]
@@ -179,7 +179,7 @@ def _heads() -> Iterator[tuple[str, ClassIRI, str]]:
 
 @lru_cache(maxsize=1)
 def _load_model() -> _Model:
-    with (files("usd2kg") / "data" / "likeness.npz").open("rb") as file, np.load(file) as arrays:
+    with data_file("likeness.npz").open("rb") as file, np.load(file) as arrays:
         features, classes = (bytes(arrays[name]).decode("utf-8").split("\n") for name in ("features", "classes"))
         return _Model(
             rows={name: row for row, name in enumerate(features)},

@@ -1,15 +1,14 @@
 """How well the size of an object fits each of a thousand everyday things: evidence where a name says nothing."""
 
-import csv
-import io
 import math
 from collections.abc import Mapping
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+
+from usd2kg.knowledge import read_rows
 
 __all__ = [
     "SMALLEST_EXTENT",
@@ -190,8 +189,7 @@ def _densities(logs: _Floats) -> _Floats:
 @lru_cache(maxsize=1)
 def thing_rows() -> tuple[Mapping[str, str], ...]:
     """Return the rows of `data/things.csv`, in the order of `log_likelihoods`."""
-    text = (files("usd2kg") / "data" / "things.csv").read_text("utf-8")
-    return tuple(csv.DictReader(io.StringIO(text, newline=""), strict=True))
+    return tuple(read_rows("things.csv"))
 
 
 @lru_cache(maxsize=1)

@@ -4,10 +4,11 @@ import gzip
 from array import array
 from collections.abc import Callable, Collection, Iterator
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
+
+from usd2kg.knowledge import read_bytes
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
 
@@ -200,5 +201,5 @@ class Taxonomy:
 @lru_cache(maxsize=1)
 def load_taxonomy() -> Taxonomy:
     """Return the taxonomy that ships with the package, read once."""
-    data = (files("usd2kg") / "data" / "wordnet.txt.gz").read_bytes()
+    data = read_bytes("wordnet.txt.gz")
     return Taxonomy(gzip.decompress(data).decode())

@@ -2,9 +2,9 @@
 
 import gzip
 from functools import lru_cache
-from importlib.resources import files
 
 from usd2kg.grounding.baselines.embedding.bert_vocabulary import load_pieces
+from usd2kg.knowledge import read_bytes
 
 __all__ = ["SHORTEST_WORD", "is_common_word", "is_english_word"]
 
@@ -37,7 +37,7 @@ def _common_words() -> frozenset[str]:
 @lru_cache(maxsize=1)
 def _dictionary() -> bytes:
     """Return the words in order, a line each: few are asked for, and a set would take ten times the memory."""
-    return gzip.decompress((files("usd2kg") / "data" / "english_words.txt.gz").read_bytes())
+    return gzip.decompress(read_bytes("english_words.txt.gz"))
 
 
 def _has_line(ordered: bytes, line: bytes) -> bool:

@@ -8,12 +8,12 @@ import json
 import math
 from collections import Counter
 from functools import lru_cache
-from importlib.resources import files
 from itertools import chain
 from operator import mul
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.knowledge import read_text
 
 __all__ = ["Features", "likelihood", "propensity"]
 
@@ -80,5 +80,5 @@ def _counts() -> tuple[Counter[str], Counter[str]]:
 
 @lru_cache(maxsize=1)
 def _weights() -> Features:
-    text = (files("usd2kg") / "data" / "heads.json").read_text(encoding="utf-8")
+    text = read_text("heads.json")
     return Features(**json.loads(text)["weights"])

@@ -8,8 +8,9 @@ import math
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
-from importlib.resources import files
 from itertools import pairwise
+
+from usd2kg.knowledge import read_text
 
 __all__ = ["WrittenNames", "load_written_names"]
 
@@ -62,4 +63,4 @@ class WrittenNames:
 @lru_cache(maxsize=1)
 def load_written_names() -> WrittenNames:
     """Return the names that ship with the package, read once."""
-    return WrittenNames((files("usd2kg") / "data" / "written_names.txt").read_text(encoding="utf-8"))
+    return WrittenNames(read_text("written_names.txt"))

@@ -1,13 +1,12 @@
 """The ways in which people shorten words: vowels dropped, cut short, or both; and the words behind a short form."""
 
-import csv
-import io
 import math
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from importlib.resources import files
 from typing import NamedTuple
+
+from usd2kg.knowledge import read_rows
 
 __all__ = [
     "Choice",
@@ -53,8 +52,7 @@ class Choice(NamedTuple):
 @lru_cache(maxsize=1)
 def usual_abbreviations() -> dict[str, str]:
     """Return short form → word of the abbreviations that people have agreed on: `kbd` is a keyboard."""
-    text = (files("usd2kg") / "data" / "abbreviations.csv").read_text(encoding="utf-8")
-    return {row["short"]: row["word"] for row in csv.DictReader(io.StringIO(text))}
+    return {row["short"]: row["word"] for row in read_rows("abbreviations.csv")}
 
 
 def may_be_short(word: str) -> bool:

@@ -3,9 +3,9 @@
 import gzip
 import math
 from functools import lru_cache
-from importlib.resources import files
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.knowledge import read_bytes
 
 __all__ = ["UNKNOWN_FREQUENCY", "thing_prior", "word_frequency"]
 
@@ -51,7 +51,7 @@ _UNLISTED = f"{10 * UNKNOWN_FREQUENCY:.0f}/"
 @lru_cache(maxsize=1)
 def _load_entries() -> dict[str, str]:
     """Return word → "tenths of Zipf/percent of uses as a common noun", taken apart only where asked for."""
-    data = (files("usd2kg") / "data" / "frequencies.txt.gz").read_bytes()
+    data = read_bytes("frequencies.txt.gz")
     words, entries = gzip.decompress(data).decode("ascii").splitlines()
     return dict(zip(words.split(), entries.split(), strict=True))
 
