@@ -20,7 +20,7 @@ _SANS_SERIF = (
 _SIZE = re.compile(r'<svg [^>]*?width="(\d+)" height="(\d+)"')
 
 
-def to_png(svg: str) -> bytes:
+def to_png(svg: str, scale: float = _SCALE) -> bytes:
     """Return a picture that this package drew, as PNG: two pixels for each unit, fewer where that were too many.
 
     Raises:
@@ -35,7 +35,7 @@ def to_png(svg: str) -> bytes:
     found = _SIZE.match(svg)
     assert found is not None, "pictures of this package state their size first"
     width, height = (int(side) for side in found.groups())
-    scale = min(_SCALE, (_MOST_PIXELS / max(width * height, 1)) ** 0.5)
+    scale = min(scale, (_MOST_PIXELS / max(width * height, 1)) ** 0.5)
     return _draw(svg, family, max(1, round(width * scale)))
 
 
