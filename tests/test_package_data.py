@@ -4,25 +4,90 @@ from pathlib import Path
 
 import pytest
 
-from tools.build_data import BuiltFile, build_files, find_differences
-from tools.source_error import SourceError
+from tools.build_data import BuiltFile, build_files, check_listed, find_differences
+from tools.data_files import KNOWLEDGE, SourceError
+from tools.source_schema import Column, Schema, Source, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
 
 def test_committed_data_is_what_the_sources_give():
-    assert find_differences(list(build_files())) == []
+    schema = read_schema(KNOWLEDGE / "schema.toml")
+    assert find_differences(list(build_files(schema)), schema.data) == []
 
 
 def test_reports_files_that_differ_or_have_no_source(tmp_path):
     (tmp_path / "words").mkdir()
     (tmp_path / "words/old.json").write_text("{}")
+    (tmp_path / "kept.txt").write_text("kept")
     (tmp_path / "words/edited.json").write_text('{"a": ["b"]}')
     built = [BuiltFile("words/edited.json", b"{}"), BuiltFile("words/new.json", b"{}")]
-    assert find_differences(built, tmp_path) == [
+    assert find_differences(built, {"kept.txt": {}, "fitted.json": {}}, tmp_path) == [
         "words/edited.json differs from its source",
         "words/new.json is missing",
-        "words/old.json has no source in knowledge/",
+        "fitted.json is missing; its command is in knowledge/schema.toml",
+        "words/old.json has no source and is not in knowledge/schema.toml",
     ]
+
+
+def test_rejects_a_source_that_the_schema_does_not_list(tmp_path):
+    (tmp_path / "colours.csv").write_text("name\nred\n")
+    with pytest.raises(SourceError, match=r"schema.toml: colours.csv is only in the schema or only in the folder"):
+        check_listed(Schema({}, {}), tmp_path)
+
+
+def test_every_source_and_data_file_has_a_description_an_origin_and_a_licence(tmp_path):
+    path = tmp_path / "schema.toml"
+    path.write_text('[source."colours.toml"]\ndescription = "Colours."\nlicence = "Apache-2.0"\n[data]\n')
+    with pytest.raises(SourceError, match=r"schema.toml: colours.toml: origin missing"):
+        read_schema(path)
+
+
+SIZES = Source(
+    "sizes.csv",
+    "sizes.csv",
+    ("noun",),
+    (
+        Column("noun", "text", "", pattern="[a-z ]+"),
+        Column("height_m", "number", "", above=0),
+        Column("stands", "names", "", allowed=("floor", "wall"), optional=True),
+    ),
+)
+
+
+def validate(folder: Path, rows: str) -> None:
+    path = folder / "sizes.csv"
+    path.write_text(rows, encoding="utf-8")
+    validate_source(path, SIZES)
+
+
+def test_accepts_rows_that_match_the_schema(tmp_path):
+    validate(tmp_path, "noun,height_m,stands\ncup,0.1,\nfloor lamp,1.5,floor|wall\n")
+
+
+@pytest.mark.parametrize(
+    ("rows", "problem"),
+    [
+        ("noun,height\n", ":1: header is noun,height; expected noun,height_m,stands"),
+        ("noun,height_m,stands\ncup,0.1\n", ":2: 2 cells; expected 3"),
+        ("noun,height_m,stands\n,0.1,\n", ":2: column noun: is empty"),
+        ("noun,height_m,stands\nCup,0.1,\n", ":2: column noun: 'Cup'; expected a match of [a-z ]+"),
+        (
+            "noun,height_m,stands\ncup ,1,\n",
+            ":2: column noun: 'cup ' is empty or has spaces at an end, or two in a row",
+        ),
+        ("noun,height_m,stands\ncup,tall,\n", ":2: column height_m: 'tall' is no number"),
+        ("noun,height_m,stands\ncup,0,\n", ":2: column height_m: '0'; expected a number above 0"),
+        ("noun,height_m,stands\ncup,nan,\n", ":2: column height_m: 'nan'; expected a number above 0"),
+        ("noun,height_m,stands\ncup,1,desk\n", ":2: column stands: 'desk'; expected one of floor, wall"),
+        ("noun,height_m,stands\ncup,1,wall|wall\n", ":2: column stands: 'wall|wall' repeats a name"),
+        ("noun,height_m,stands\ncup,1,\ncup,2,\n", ":3: noun ('cup',) is in line 2 already"),
+        ('noun,height_m,stands\n"cup,1,\n', ": unexpected end of data"),
+    ],
+)
+def test_rejects_rows_that_do_not_match_the_schema(tmp_path, rows, problem):
+    with pytest.raises(SourceError) as caught:
+        validate(tmp_path, rows)
+    assert str(caught.value) == f"{tmp_path / 'sizes.csv'}{problem}"
 
 
 def write_list(folder: Path, text: str) -> Path:

@@ -1,100 +1,110 @@
-"""Write the data file of general kinds and what people count among them.
+"""Build the data file of general kinds and their members from `knowledge/categories.csv`.
 
-Usage: python -m tools.build_categories
-
-`categories.csv` beside this file, which the authors of this project wrote, has a row for each general kind that
-ontologies have classes for: its names, parted by `|`, and what belongs to it though the taxonomy has it elsewhere, each
-member as high up as all that is below it belongs too. `#2` behind a name is its second meaning in the taxonomy.
-
-Left out are members that have the kind, by each of its names, or another member above them, and kinds of so many
-things that they tell nothing.
-Run it again after `build_wordnet.py`.
+Left out are members that are below the kind, by each of its names, or below another member, and kinds with too many
+objects to be evidence. The noun taxonomy is the package's; run `make data` after `python -m tools.build_wordnet`.
 """
 
-import csv
-from pathlib import Path
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
-from tools.build_wordnet import count_below
+from tools.data_files import KNOWLEDGE, SourceError, csv_bytes, read_source_rows
 from usd2kg.grounding.lexical.concepts.categories import synset_of
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/categories.csv"
-CATEGORIES = Path(__file__).parent / "categories.csv"
-MOST_THINGS = 3000
+MOST_OBJECTS = 3000
+"""Chosen: kinds of more synsets (artifact, equipment) say nothing about what an object is."""
 
 
-def read_categories() -> list[tuple[list[str], list[str]]]:
-    """Return (names of a kind, names of what belongs to it) of each row."""
-    with CATEGORIES.open(encoding="utf-8", newline="") as file:
-        return [(row["kinds"].split("|"), row["members"].split("|")) for row in csv.DictReader(file)]
+class Row(NamedTuple):
+    """One row of the source."""
+
+    kinds: list[str]
+    """Names of the kind."""
+    members: list[str]
+    """Nouns that belong to it."""
 
 
-def united(rows: list[tuple[list[str], list[str]]], taxonomy: Taxonomy) -> list[tuple[list[str], list[str]]]:
-    """Return the rows with all names of one meaning that the taxonomy has for their kinds, rows of a kind in one.
+def build_categories() -> bytes:
+    """Return the CSV file `kinds,things,members`; `things` is the number of synsets of the kind."""
+    taxonomy = load_taxonomy()
+    below: list[list[int]] = [[] for _ in range(taxonomy.synset_count)]
+    for synset in range(taxonomy.synset_count):
+        for hypernym in taxonomy.above(synset):
+            below[hypernym].append(synset)
+    source = [Row(row["kinds"].split("|"), row["members"].split("|")) for row in read_source_rows("categories.csv")]
+    rows = []
+    for kinds, members in merge_synonymous_kinds(source, taxonomy):
+        kept = find_informative_members(kinds, members, taxonomy)
+        named = (synset_of(name, taxonomy) for name in (*kinds, *members))
+        count = count_hyponyms([synset for synset in named if synset is not None], below)
+        if kept and count <= MOST_OBJECTS:
+            rows.append(("|".join(kinds), count, "|".join(kept)))
+    return csv_bytes(("kinds", "things", "members"), rows)
 
-    What people count among luminaires they count among lighting fixtures, whichever word a row has.
+
+def merge_synonymous_kinds(rows: Iterable[Row], taxonomy: Taxonomy) -> list[Row]:
+    """Return the rows with all lemmas that mean their kind alone, and rows of one kind merged.
+
+    What people count among luminaires they count among lighting fixtures, whichever of the two words a row has.
     """
+    rows = list(rows)
     lemmas: dict[int, list[str]] = {}
     for lemma in sorted(taxonomy.lemmas):
         if len(taxonomy.senses(lemma)) == 1:
             lemmas.setdefault(taxonomy.senses(lemma)[0].synset, []).append(lemma)
     written = {kind.replace(" ", "").replace("-", "") for kinds, _ in rows for kind in kinds}
-    of_synset: dict[int, tuple[list[str], list[str]]] = {}
-    found = []
+    by_synset: dict[int, Row] = {}
+    merged = []
     for kinds, members in rows:
-        meant = [synset for kind in kinds if (synset := synset_of(kind, taxonomy)) is not None]
-        row = next((of_synset[synset] for synset in meant if synset in of_synset), None)
+        synsets = [synset for kind in kinds if (synset := synset_of(kind, taxonomy)) is not None]
+        row = next((by_synset[synset] for synset in synsets if synset in by_synset), None)
         if row is None:
-            row = [], []
-            found.append(row)
-        of_synset.update({synset: of_synset.get(synset, row) for synset in meant})
-        others = [lemma for synset in meant for lemma in lemmas.get(synset, ()) if lemma not in written]
-        row[0].extend(name for name in dict.fromkeys([*kinds, *others]) if name not in row[0])
-        row[1].extend(member for member in members if member not in row[1])
-    return found
+            row = Row([], [])
+            merged.append(row)
+        for synset in synsets:
+            by_synset.setdefault(synset, row)
+        others = [lemma for synset in synsets for lemma in lemmas.get(synset, ()) if lemma not in written]
+        row.kinds.extend(name for name in dict.fromkeys([*kinds, *others]) if name not in row.kinds)
+        row.members.extend(member for member in members if member not in row.members)
+    return merged
 
 
-def telling_members(kinds: list[str], members: list[str], taxonomy: Taxonomy) -> list[str]:
-    """Return the members that the taxonomy does not have below the kind by each of its names, nor below another member.
+def find_informative_members(kinds: Sequence[str], members: Sequence[str], taxonomy: Taxonomy) -> list[str]:
+    """Return the members that the taxonomy has neither below the kind, by each of its names, nor below another member.
 
     Raises:
-        ValueError: a member is no noun of the taxonomy.
+        SourceError: a member is no noun of the taxonomy.
     """
     synsets: dict[int, str] = {}
     for member in members:
         synset = synset_of(member, taxonomy)
         if synset is None:
-            raise ValueError(
-                f"{CATEGORIES.name}: {'|'.join(kinds)}: {member!r} is no noun of the taxonomy, or has fewer meanings"
+            raise SourceError(
+                KNOWLEDGE / "categories.csv",
+                f"{'|'.join(kinds)}: {member!r} is no noun of the taxonomy, or has fewer senses",
             )
         synsets.setdefault(synset, member)
-    known = {synset_of(kind, taxonomy) for kind in kinds}
-    above = {synset: {up for up, _ in taxonomy.walk_up(synset)} for synset in synsets}
+    kind_synsets = {synset_of(kind, taxonomy) for kind in kinds}
+    hypernyms = {synset: {up for up, _ in taxonomy.walk_up(synset)} for synset in synsets}
     return [
         member
         for synset, member in synsets.items()
-        if not known <= above[synset] and above[synset].isdisjoint(synsets.keys() - {synset})
+        if not kind_synsets <= hypernyms[synset] and hypernyms[synset].isdisjoint(synsets.keys() - {synset})
     ]
 
 
-def main() -> None:
-    """Write the data file."""
-    taxonomy = load_taxonomy()
-    below: list[list[int]] = [[] for _ in range(taxonomy.synset_count)]
-    for synset in range(taxonomy.synset_count):
-        for up in taxonomy.above(synset):
-            below[up].append(synset)
-    rows = []
-    for kinds, members in united(read_categories(), taxonomy):
-        telling = telling_members(kinds, members, taxonomy)
-        named = (synset_of(name, taxonomy) for name in (*kinds, *members))
-        things = count_below([synset for synset in named if synset is not None], below)
-        if telling and things <= MOST_THINGS:
-            rows.append(("|".join(kinds), things, "|".join(telling)))
-    with OUTPUT.open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([("kinds", "things", "members"), *rows])
-    print(f"{OUTPUT}: {len(rows)} kinds, {OUTPUT.stat().st_size} bytes")
+def count_hyponyms(chosen: Iterable[int], below: Sequence[Sequence[int]]) -> int:
+    """Return the number of synsets that are among the chosen or below one of them.
 
-
-if __name__ == "__main__":
-    main()
+    Args:
+        chosen: numbers of synsets.
+        below: for each synset, its direct hyponyms.
+    """
+    found: set[int] = set()
+    pending = list(chosen)
+    while pending:
+        synset = pending.pop()
+        if synset not in found:
+            found.add(synset)
+            pending += below[synset]
+    return len(found)

@@ -2,20 +2,23 @@
 
 Usage: python -m tools.build_data [--check]
 
-With --check nothing is written; the command fails if a file differs from what would be written.
+Validates each source against `knowledge/schema.toml`. With --check nothing is written; the command fails if a file
+differs from what would be written. Data of third parties is not built here: `[data]` in the schema names its commands.
 """
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from tools.source_error import SourceError
+from tools.build_categories import build_categories
+from tools.build_home_tbox import build_home_tbox
+from tools.data_files import DATA, KNOWLEDGE, ROOT, SourceError, write_data_file
+from tools.source_schema import Schema, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
-ROOT = Path(__file__).parents[1]
-KNOWLEDGE = ROOT / "knowledge"
-DATA = ROOT / "src/usd2kg/data"
+BUILDERS: Mapping[str, Callable[[], bytes]] = {"categories.csv": build_categories, "home.ttl": build_home_tbox}
+"""Data file → function that returns its content; all other sources are copied, or are the input of a command."""
 
 
 class BuiltFile(NamedTuple):
@@ -26,18 +29,43 @@ class BuiltFile(NamedTuple):
     content: bytes
 
 
-def build_files(knowledge: Path = KNOWLEDGE) -> Iterator[BuiltFile]:
-    """Yield the data files that the sources in `knowledge` give.
+def build_files(schema: Schema) -> Iterator[BuiltFile]:
+    """Yield the data files that the sources give.
 
     Raises:
-        SourceError: a source does not match its schema.
+        SourceError: a source does not match its schema, is missing, or is not in the schema.
     """
-    for path in sorted((knowledge / "words").glob("*.toml")):
+    check_listed(schema)
+    for source in schema.sources.values():
+        path = KNOWLEDGE / source.name
+        validate_source(path, source)
+        if source.builds in BUILDERS:
+            yield BuiltFile(source.builds, BUILDERS[source.builds]())
+        elif source.builds not in schema.data:
+            yield BuiltFile(source.builds, path.read_bytes())
+    for path in sorted((KNOWLEDGE / "words").glob("*.toml")):
         yield BuiltFile(f"words/{path.stem}.json", convert_word_lists(path))
 
 
-def find_differences(built: list[BuiltFile], data: Path = DATA) -> list[str]:
-    """Return one line for each data file that is missing, differs from what was built, or has no source."""
+def check_listed(schema: Schema, knowledge: Path = KNOWLEDGE) -> None:
+    """Check that the schema lists the files of `knowledge` and no others.
+
+    Raises:
+        SourceError: a file is missing, or not listed.
+    """
+    found = {path.name for path in knowledge.iterdir() if path.is_file()} - {"README.md", "schema.toml"}
+    if odd := sorted(found ^ set(schema.sources)):
+        raise SourceError(knowledge / "schema.toml", f"{odd[0]} is only in the schema or only in the folder")
+
+
+def find_differences(built: list[BuiltFile], others: Mapping[str, object], data: Path = DATA) -> list[str]:
+    """Return one line for each data file that is missing, differs from what was built, or is unknown.
+
+    Args:
+        built: what the data files should be.
+        others: names of the data files that commands write.
+        data: the folder of the data files.
+    """
     problems = []
     for name, content in built:
         path = data / name
@@ -45,28 +73,28 @@ def find_differences(built: list[BuiltFile], data: Path = DATA) -> list[str]:
             problems.append(f"{name} is missing")
         elif path.read_bytes() != content:
             problems.append(f"{name} differs from its source")
-    expected = {name for name, _ in built}
-    found = {path.relative_to(data).as_posix() for path in data.glob("words/*")}
-    problems.extend(f"{name} has no source in knowledge/" for name in sorted(found - expected))
+    found = {path.relative_to(data).as_posix() for path in data.rglob("*") if path.is_file()}
+    problems.extend(f"{name} is missing; its command is in knowledge/schema.toml" for name in sorted({*others} - found))
+    unknown = sorted(found - {name for name, _ in built} - {*others})
+    problems.extend(f"{name} has no source and is not in knowledge/schema.toml" for name in unknown)
     return problems
 
 
 def main() -> None:
     """Write the data files, or check them."""
     try:
-        built = list(build_files())
+        schema = read_schema(KNOWLEDGE / "schema.toml")
+        built = list(build_files(schema))
     except SourceError as error:
         raise SystemExit(str(error)) from error
     if "--check" in sys.argv[1:]:
-        if problems := find_differences(built):
+        if problems := find_differences(built, schema.data):
             raise SystemExit("\n".join(["src/usd2kg/data is not what knowledge/ gives; run make data:", *problems]))
         return
     for name, content in built:
         path = DATA / name
-        path.parent.mkdir(parents=True, exist_ok=True)
         if not path.is_file() or path.read_bytes() != content:
-            path.write_bytes(content)
-            print(f"wrote {path.relative_to(ROOT)}")
+            print(f"wrote {write_data_file(name, content).relative_to(ROOT)}")
 
 
 if __name__ == "__main__":

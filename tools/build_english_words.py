@@ -1,18 +1,18 @@
 """Pack the English words that BERT's vocabulary does not have whole into the data file that the grounder reads.
 
-Usage: python tools/build_english_words.py SCOWL
+Usage: python -m tools.build_english_words SCOWL
 
 SCOWL is the folder `usr/share/dict/scowl` of Debian's package `scowl`, as for `build_word_frequencies.py`. BERT's
 vocabulary is read from the package.
 """
 
-import gzip
 import sys
 from pathlib import Path
 
+from tools.data_files import gzip_bytes, write_data_file
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_common_word
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/english_words.txt.gz"
+OUTPUT = "english_words.txt.gz"
 # Class 70 has what few people know, and among it what looks like a misspelling.
 CLASSES = (10, 20, 35, 40, 50, 55, 60)
 
@@ -25,9 +25,8 @@ def main() -> None:
     if "mossy" not in words:
         raise SystemExit(f"{folder}: found {len(paths)} lists of words; expected those of Debian's scowl")
     kept = sorted(word for word in words if is_dictionary_entry(word) and not is_common_word(word))
-    # No time in the gzip header: the same input gives the same bytes.
-    OUTPUT.write_bytes(gzip.compress("".join(f"{word}\n" for word in kept).encode("ascii"), compresslevel=9, mtime=0))
-    print(f"{OUTPUT}: {len(kept)} words, {OUTPUT.stat().st_size} bytes")
+    path = write_data_file(OUTPUT, gzip_bytes("".join(f"{word}\n" for word in kept).encode("ascii")))
+    print(f"{path}: {len(kept)} words, {path.stat().st_size} bytes")
 
 
 def is_dictionary_entry(word: str) -> bool:

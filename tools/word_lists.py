@@ -6,7 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from tools.source_error import SourceError
+from tools.data_files import SourceError
 
 KEYS = ("description", "origin", "words")
 

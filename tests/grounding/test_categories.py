@@ -1,8 +1,6 @@
 """What people count among general kinds, though the taxonomy has it elsewhere."""
 
-import csv
 import re
-from pathlib import Path
 
 import pytest
 
@@ -13,6 +11,7 @@ from usd2kg.grounding.lexical.alignment.class_labels import wordings
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
 from usd2kg.grounding.lexical.concepts.categories import members_of, synset_of
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 
 OFFICE = make_tbox(
@@ -55,36 +54,29 @@ class TestFile:
 
     def test_members_below_the_kind_or_below_another_member_say_nothing(self):
         # A knife is a cutter, so a tool; a bun is food.
-        assert build_categories.telling_members(["tool"], ["cutter", "bun#2"], TINY) == ["bun#2"]
-        assert build_categories.telling_members(["kit"], ["knife", "tool", "roll"], TINY) == ["tool", "roll"]
-        assert build_categories.telling_members(["kit"], ["roll", "bun#2"], TINY) == ["roll"]
+        assert build_categories.find_informative_members(["tool"], ["cutter", "bun#2"], TINY) == ["bun#2"]
+        assert build_categories.find_informative_members(["kit"], ["knife", "tool", "roll"], TINY) == ["tool", "roll"]
+        assert build_categories.find_informative_members(["kit"], ["roll", "bun#2"], TINY) == ["roll"]
 
     def test_a_member_that_the_taxonomy_lacks_is_an_error(self):
         with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is no noun of the taxonomy"):
-            build_categories.telling_members(["kit", "set"], ["tool", "ghost"], TINY)
+            build_categories.find_informative_members(["kit", "set"], ["tool", "ghost"], TINY)
 
     def test_rows_of_one_kind_are_united_under_all_of_its_names(self):
         # A flower-pot is a knife in the tiny taxonomy, and so is a bun, first of all; but that has another meaning.
         rows = [(["flower-pot", "pot"], ["roll", "food"]), (["cutter"], ["bun"]), (["knife"], ["food", "tool"])]
-        assert build_categories.united(rows, TINY) == [
+        assert build_categories.merge_synonymous_kinds(rows, TINY) == [
             (["flower-pot", "pot", "xray", "knife"], ["roll", "food", "tool"]),
             (["cutter"], ["bun"]),
         ]
 
     def test_things_are_counted_once(self):
         below = [[1, 3], [2, 6], [4], [5], [6], [], []]
-        assert build_categories.count_below([1], below) == 4
-        assert build_categories.count_below([2, 4, 5], below) == 4
-
-    def test_what_ships_is_what_the_tool_writes(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-        shipped = build_categories.OUTPUT.read_bytes()
-        monkeypatch.setattr(build_categories, "OUTPUT", tmp_path / "categories.csv")
-        build_categories.main()
-        assert (tmp_path / "categories.csv").read_bytes() == shipped
+        assert build_categories.count_hyponyms([1], below) == 4
+        assert build_categories.count_hyponyms([2, 4, 5], below) == 4
 
     def test_no_kind_has_two_rows(self):
-        with build_categories.OUTPUT.open(encoding="utf-8", newline="") as file:
-            kinds = [kind.replace("-", " ") for row in csv.DictReader(file) for kind in row["kinds"].split("|")]
+        kinds = [kind.replace("-", " ") for row in read_rows("categories.csv") for kind in row["kinds"].split("|")]
         joined = [kind.replace(" ", "") for kind in kinds]
         assert [kind for kind in kinds if not re.fullmatch(r"[a-z0-9][a-z0-9 '/&.()]*", kind)] == []
         assert len(joined) == len(set(joined))

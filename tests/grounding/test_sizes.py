@@ -12,7 +12,7 @@ from usd2kg.grounding.lexical.grounder import _run_for
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 
-ROWS = read_rows("things.csv")
+ROWS = read_rows("everyday_objects.csv")
 BROAD = 0.02 * 6 / math.log(100 / 0.001) ** 3
 
 

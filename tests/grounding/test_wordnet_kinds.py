@@ -1,10 +1,9 @@
 """What is added to WordNet: new meanings, further kinds, and another order of meanings."""
 
-import csv
-
 import pytest
 
-from tools.build_wordnet import KINDS, Kinds, Synset, format_taxonomy
+from tools.build_wordnet import Kinds, Synset, format_taxonomy
+from tools.data_files import read_source_rows
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
 
@@ -140,9 +139,7 @@ def test_its_kinds_are_meant_as_they_are_for_such_a_thing(lemma: str, kind: str,
 
 
 def test_every_row_is_in_the_shipped_taxonomy():
-    with KINDS.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    names = [row["name"] for row in rows]
+    names = [row["name"] for row in read_source_rows("wordnet_additions.csv")]
     assert names == sorted(set(names))
     taxonomy = load_taxonomy()
     assert [name for name in names if name.replace(" ", "").replace("-", "") not in taxonomy] == []

@@ -1,6 +1,6 @@
 """Where everyday things are usually found and how they stand there: evidence where a name says nothing.
 
-The columns `places`, `stands` and `up` of `data/things.csv` are common sense, written down by hand.
+The columns `places`, `stands` and `up` of `data/everyday_objects.csv` are common sense, written down by hand.
 """
 
 import math

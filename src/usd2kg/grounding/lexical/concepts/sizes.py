@@ -49,7 +49,7 @@ _Floats = npt.NDArray[np.float64]
 
 
 class _Table(NamedTuple):
-    """The rows of `things.csv`, ready for `log_likelihoods`."""
+    """The rows of `everyday_objects.csv`, ready for `log_likelihoods`."""
 
     nouns: tuple[str, ...]
     half_rates: _Floats
@@ -188,8 +188,8 @@ def _densities(logs: _Floats) -> _Floats:
 
 @lru_cache(maxsize=1)
 def thing_rows() -> tuple[Mapping[str, str], ...]:
-    """Return the rows of `data/things.csv`, in the order of `log_likelihoods`."""
-    return tuple(read_rows("things.csv"))
+    """Return the rows of `data/everyday_objects.csv`, in the order of `log_likelihoods`."""
+    return tuple(read_rows("everyday_objects.csv"))
 
 
 @lru_cache(maxsize=1)

@@ -1,0 +1,46 @@
+"""Paths and formats that the scripts which write package data share."""
+
+import csv
+import gzip
+import io
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+KNOWLEDGE = ROOT / "knowledge"
+DATA = ROOT / "src/usd2kg/data"
+
+
+class SourceError(ValueError):
+    """A source file, or a line of it, is not what its schema says."""
+
+    def __init__(self, path: Path, problem: str, line: int | None = None) -> None:
+        """Say where the problem is: file, line, what was found and what was expected."""
+        shown = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path
+        super().__init__(f"{shown}: {problem}" if line is None else f"{shown}:{line}: {problem}")
+
+
+def read_source_rows(name: str) -> list[dict[str, str]]:
+    """Return the rows of a CSV file in `knowledge/`, each as column → text."""
+    with (KNOWLEDGE / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file, strict=True))
+
+
+def csv_bytes(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> bytes:
+    """Return a CSV file with a header row and Unix line ends."""
+    text = io.StringIO(newline="")
+    csv.writer(text, lineterminator="\n").writerows([columns, *rows])
+    return text.getvalue().encode()
+
+
+def gzip_bytes(content: bytes) -> bytes:
+    """Return compressed bytes without a time stamp: the same input gives the same bytes."""
+    return gzip.compress(content, compresslevel=9, mtime=0)
+
+
+def write_data_file(name: str, content: bytes) -> Path:
+    """Write a file of the package data and return its path."""
+    path = DATA / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+    return path
