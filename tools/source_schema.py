@@ -51,7 +51,7 @@ class Column:
 
     def _find_text_problem(self, text: str) -> str | None:
         if text != " ".join(text.split()) or not text:
-            return f"{text!r} is empty or has spaces at an end, or two in a row"
+            return f"{text!r} has stray spaces"
         if self.allowed and text not in self.allowed:
             return f"{text!r}; expected one of {', '.join(self.allowed)}"
         if self.pattern and re.fullmatch(self.pattern, text) is None:
