@@ -1,18 +1,18 @@
-"""The exceptions that usd2kg raises on purpose.
+"""The exceptions of usd2kg.
 
 ::
 
     Usd2kgError
-    ├── SceneError        the stage cannot be read, or holds no object
+    ├── SceneError        the stage cannot be read, or has no objects
     ├── OntologyError     the ontology cannot be read, or no class is in scope
     ├── GroundingError    the grounder is unknown or its settings are wrong
     ├── EvaluationError   gold labels, a matrix or stored results cannot be used
-    ├── GraphError        the graph cannot be read, or a question cannot be understood
-    ├── StoreError        a store of graphs is out of reach, refuses, or is held by another process
+    ├── GraphError        the graph cannot be read, or a question cannot be answered
+    ├── StoreError        a graph store is unreachable, refuses a request, or is locked by another process
     └── OutputError       a result cannot be written
 
 Each message says where, what was found, what was expected and what to do, in one line.
-Bugs of our own are never wrapped: they pass through as they are.
+Other exceptions are bugs, and are never wrapped.
 """
 
 __all__ = [
@@ -28,15 +28,15 @@ __all__ = [
 
 
 class Usd2kgError(Exception):
-    """Base of all errors that a user can mend."""
+    """Base class of all errors that a user can fix."""
 
 
 class SceneError(Usd2kgError):
-    """The stage cannot be opened, or no object was found on it."""
+    """The stage cannot be opened, or has no objects."""
 
 
 class OntologyError(Usd2kgError):
-    """The ontology cannot be read or places no class in the scope."""
+    """The ontology cannot be read, or has no class in scope."""
 
 
 class GroundingError(Usd2kgError):
@@ -44,7 +44,7 @@ class GroundingError(Usd2kgError):
 
 
 class EvaluationError(Usd2kgError):
-    """Gold labels, a matrix of runs or stored results cannot be read or do not fit together."""
+    """Gold labels, a run matrix or stored results cannot be read or do not match."""
 
 
 class GraphError(Usd2kgError):
@@ -52,8 +52,8 @@ class GraphError(Usd2kgError):
 
 
 class StoreError(Usd2kgError):
-    """A store of graphs cannot be reached or opened, refuses what is asked, or is held by another process."""
+    """A graph store is unreachable, refuses a request, or is locked by another process."""
 
 
 class OutputError(Usd2kgError):
-    """A result cannot be written where the user wants it."""
+    """A result cannot be written."""

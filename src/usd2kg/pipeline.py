@@ -1,4 +1,4 @@
-"""build: the whole chain, from a scene and an ontology to a knowledge graph."""
+"""build: the whole chain, scene + ontology → knowledge graph."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ __all__ = ["BuildResult", "build", "open_tbox"]
 
 @dataclass(frozen=True)
 class BuildResult:
-    """What each step of the chain gave."""
+    """The record of each step."""
 
     scene: Scene
     tbox: TBox
@@ -40,27 +40,26 @@ def build(
     relations: RelationOptions | None = None,
     merges_imports: bool = False,
 ) -> BuildResult:
-    """Return the knowledge graph of a USD scene, and everything on the way to it.
+    """Return the knowledge graph of a USD scene, with the records of all steps.
 
     Args:
-        scene: the stage's root layer, or a scene that was read before.
-        ontology: an OWL file, or a TBox that was loaded before; by default the built-in home TBox.
-        grounder: a grounder, or the name of one.
-        regime: how names are masked; for evaluation.
-        evidence: the evidence groups that may be used, all by default.
-        paths: prims that are objects whatever the rules of selection say; of a scene that is still to be read.
-        decisions: prim path → class for what a person has decided.
-        carried: prim path → where its decision comes from, of decisions that were made about another path.
-        base: IRI under which individuals lie.
-        profile: how objects are written: auto, soma or plain.
-        options: what is to be read differently from what the stage says; of a scene that is still to be read.
-        graph_options: how the graph is written, where that is not as usual.
-        relations: which spatial relations are found, and how; default: the default set by the rules that ship.
-        merges_imports: whether the graph holds the ontology, all that it imports and our vocabulary, and so imports
-            nothing.
+        scene: root layer of a stage, or a scene that is already read.
+        ontology: an OWL file, or a loaded TBox; default: the built-in home TBox.
+        grounder: a grounder or its name.
+        regime: naming regime, for evaluation.
+        evidence: names of the evidence groups to use; default: all.
+        paths: prims to treat as objects, regardless of the selection rules; only if the scene is read here.
+        decisions: prim path → class that a person chose.
+        carried: prim path → origin of a decision that was made for another path.
+        base: base IRI of individuals.
+        profile: auto, soma or plain.
+        options: overrides for reading the stage; only if the scene is read here.
+        graph_options: options for writing the graph.
+        relations: kinds, rules and viewpoint of spatial relations; default: the default kinds with the built-in rules.
+        merges_imports: include the ontology, its imports and the usd2kg vocabulary in the graph.
 
     Raises:
-        Usd2kgError: an input cannot be read; the message says which, and what to do.
+        Usd2kgError: an input cannot be read.
     """
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
@@ -73,7 +72,7 @@ def build(
 
 
 def open_tbox(ontology: Path | str | None) -> TBox:
-    """Return the TBox of an OWL file, or the built-in one if none is named.
+    """Return the TBox of an OWL file, or the built-in home TBox for None.
 
     Raises:
         OntologyError: the file cannot be read or has no class in scope.

@@ -1,4 +1,4 @@
-"""to_tables: what a build found, as tables of pandas or Polars."""
+"""to_tables: a build result as pandas or Polars data frames."""
 
 import importlib
 from collections.abc import Mapping, Sequence
@@ -22,17 +22,17 @@ _AXES = "xyz"
 
 
 class Tables(NamedTuple):
-    """Data frames with a row for each object, relation, candidate and joint.
+    """Data frames with one row per object, relation, candidate and joint.
 
-    Lengths are metres, masses kilograms, angles radians, in the z-up world frame. What is unknown is missing: NaN in
-    pandas, null in Polars.
+    Lengths are metres, masses kilograms, angles radians, in the z-up world frame. Unknown values are NaN in pandas and
+    null in Polars.
     """
 
     objects: Any
     """`path`, `iri`, `name`, `class_iri`, `class_name`, `confidence`, `status`, `grounder`, `explanation`, `parent`,
-    `center_x` … `size_z` of the box with all that is below, `position_x` … `position_z`, `qx` … `qw`, `mass_kg`."""
+    `center_x` … `size_z` of the box with all descendants, `position_x` … `position_z`, `qx` … `qw`, `mass_kg`."""
     relations: Any
-    """`kind`, `target`, `anchor`, `other_anchor`, `rule`, `confidence`, and what was measured, in a column each."""
+    """`kind`, `target`, `anchor`, `other_anchor`, `rule`, `confidence`, and one column per measured number."""
     candidates: Any
     """`path`, `rank` from 1, `class_iri`, `class_name`, `score`."""
     joints: Any
@@ -43,14 +43,14 @@ def to_tables(result: BuildResult, library: Literal["pandas", "polars"] = "panda
     """Return the objects, relations, candidates and joints of a build as data frames.
 
     Args:
-        result: what `usd2kg.build` gave.
-        library: whose data frames: pandas (the extra `tables`) or Polars.
+        result: the result of `usd2kg.build`.
+        library: pandas (extra `tables`) or Polars.
 
     Raises:
-        GraphError: the library is another one, or is not installed.
+        GraphError: the library is unknown or not installed.
     """
     if library not in {"pandas", "polars"}:
-        raise GraphError(f"tables: {library!r} is no library of data frames that is known; expected pandas or polars")
+        raise GraphError(f"tables: unknown library {library!r}; expected pandas or polars")
     try:
         frames = importlib.import_module(library)
     except ModuleNotFoundError as error:

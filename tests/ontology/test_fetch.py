@@ -114,8 +114,8 @@ def test_what_is_there_is_not_fetched_again(tmp_path: Path):
         fetch_ontology(known, tmp_path)
     lines: list[str] = []
     with pytest.raises(OntologyError, match=r"things: cannot be reached .*is this machine online\?"):
-        fetch_ontology(known, tmp_path, tell=lines.append)
-    assert lines == [f"{tmp_path / 'lab.ttl'}: is there already"]
+        fetch_ontology(known, tmp_path, report=lines.append)
+    assert lines == [f"{tmp_path / 'lab.ttl'}: up to date"]
 
 
 def test_another_version_is_refused_and_taken_on_request(tmp_path: Path):
@@ -124,7 +124,7 @@ def test_another_version_is_refused_and_taken_on_request(tmp_path: Path):
         with pytest.raises(OntologyError, match=f"sha256 is {hashlib.sha256(LAB).hexdigest()}, expected 0000"):
             fetch_ontology(known, tmp_path / "new")
         assert not (tmp_path / "new").exists()
-        assert fetch_ontology(known, tmp_path / "new", takes_changed=True).read_bytes() == LAB
+        assert fetch_ontology(known, tmp_path / "new", accepts_changed=True).read_bytes() == LAB
 
 
 @pytest.mark.parametrize(
@@ -141,7 +141,7 @@ def test_what_is_no_ontology_is_refused(tmp_path: Path, page: str, message: str)
 
 def test_only_web_addresses_are_fetched(tmp_path: Path):
     known = read_registry(registry(tmp_path, "file:///etc"))["lab"]
-    with pytest.raises(OntologyError, match="is no web address"):
+    with pytest.raises(OntologyError, match="is not a web address"):
         fetch_ontology(known, tmp_path / "new")
 
 
@@ -149,17 +149,17 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path):
     (tmp_path / "taken").write_text("a file")
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address))["lab"]
-        with pytest.raises(OutputError, match="taken: cannot be made"):
+        with pytest.raises(OutputError, match="taken: cannot be created"):
             fetch_ontology(known, tmp_path / "taken")
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("not toml", "is no registry"),
-        ("[[ontology]]\nname = 'x'", "is no registry"),
-        ("ontology = 3", "is no registry"),
-        ("ontology = " + "[" * 100_000, "is no registry"),
+        ("not toml", "is not a registry"),
+        ("[[ontology]]\nname = 'x'", "is not a registry"),
+        ("ontology = 3", "is not a registry"),
+        ("ontology = " + "[" * 100_000, "is not a registry"),
     ],
 )
 def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):
@@ -173,7 +173,7 @@ def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):
 def test_a_file_name_that_leads_elsewhere_is_refused(tmp_path: Path, file: str):
     path = registry(tmp_path, "http://127.0.0.1:1")
     path.write_text(path.read_text().replace('file = "lab.ttl"', f'file = "{file}"'))
-    with pytest.raises(OntologyError, match="is no plain file name"):
+    with pytest.raises(OntologyError, match="is not a plain file name"):
         read_registry(path)
 
 
@@ -194,10 +194,10 @@ def test_our_registry_knows_soma_as_it_is():
     ("page", "message"),
     [
         ("/to-file", "the server answered 302"),
-        ("/to-ftp", r"redirects to ftp://127\.0\.0\.1:9/x, which is no web address"),
-        ("/to-nowhere", "is no address that can be asked"),
+        ("/to-ftp", r"redirects to ftp://127\.0\.0\.1:9/x, which is not a web address"),
+        ("/to-nowhere", "is not a valid address"),
         ("/to-itself", "the server answered 302"),
-        ("/garbage", r"the server's answer is no HTTP \(BadStatusLine\)"),
+        ("/garbage", r"the server did not answer in HTTP \(BadStatusLine\)"),
         ("/short", f"ended after {len(LAB)} of 9,999 bytes"),
     ],
 )
@@ -212,7 +212,7 @@ def test_a_server_that_misleads_is_refused(tmp_path: Path, page: str, message: s
 @pytest.mark.parametrize("address", ["http://[x", "http://a b", "http://127.0.0.1:abc", "http://", "https:"])
 def test_an_address_that_cannot_be_asked_is_told(tmp_path: Path, address: str):
     known = read_registry(registry(tmp_path, address, lab="/"))["lab"]
-    with pytest.raises(OntologyError, match=r"is no address that can be asked|cannot be reached"):
+    with pytest.raises(OntologyError, match=r"is not a valid address|cannot be reached"):
         fetch_ontology(known, tmp_path / "new")
 
 
@@ -220,7 +220,7 @@ def test_secrets_of_an_address_are_not_printed(tmp_path: Path):
     lines: list[str] = []
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address, lab="/lab?key=hidden"))["lab"]
-        fetch_ontology(known, tmp_path / "new", tell=lines.append)
+        fetch_ontology(known, tmp_path / "new", report=lines.append)
         gone = read_registry(registry(tmp_path, address, lab="/gone?key=hidden"))["lab"]
         with pytest.raises(OntologyError, match=r"/gone: the server answered 404"):
             fetch_ontology(gone, tmp_path / "gone")
@@ -228,7 +228,7 @@ def test_secrets_of_an_address_are_not_printed(tmp_path: Path):
     known = read_registry(registry(tmp_path, "http://me:hidden@127.0.0.1:abc"))["lab"]
     with pytest.raises(OntologyError) as caught:
         fetch_ontology(known, tmp_path / "secret")
-    assert str(caught.value).startswith("http://127.0.0.1:abc/lab: is no address")
+    assert str(caught.value).startswith("http://127.0.0.1:abc/lab: is not a valid address")
     assert "hidden" not in str(caught.value)
 
 
@@ -236,7 +236,7 @@ def test_secrets_of_an_address_are_not_printed(tmp_path: Path):
 def test_a_document_called_as_the_catalog_is_refused(tmp_path: Path, file: str):
     path = registry(tmp_path, "http://127.0.0.1:1")
     path.write_text(path.read_text().replace('file = "lab.ttl"', f'file = "{file}"'))
-    with pytest.raises(OntologyError, match="is kept for the catalog"):
+    with pytest.raises(OntologyError, match="is reserved for the catalog"):
         read_registry(path)
 
 

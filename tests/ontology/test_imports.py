@@ -87,7 +87,7 @@ def test_missing_import_is_told_and_not_fatal(write_turtle):
         (
             "missing-import",
             f"{path}: imports <http://example.com/upper>, which is neither in catalog-v001.xml nor in the folder; "
-            "classes are placed without it",
+            "the hierarchy is built without it",
         )
     ]
 
@@ -135,7 +135,7 @@ def test_malformed_catalog_is_refused(write_turtle, tmp_path, text):
         load_tbox(path)
     message = str(caught.value)
     assert message.startswith(f"{tmp_path / 'catalog-v001.xml'}: the catalog is not well-formed XML (")
-    assert message.endswith("; mend or remove it")
+    assert message.endswith("; fix or remove it")
     assert "\n" not in message
 
 

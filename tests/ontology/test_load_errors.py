@@ -86,7 +86,7 @@ def test_long_texts_are_quoted_in_part(write):
 def test_malformed_documents_are_named_by_syntax(write, content, syntax):
     message = refusal(write(content))
     assert message.startswith(f"looks like {syntax} but does not parse (")
-    assert message.endswith("); mend or re-export it")
+    assert message.endswith("); fix or re-export it")
     assert len(message) < 300
 
 

@@ -126,7 +126,7 @@ def fetch(
     ontologies = read_registry(registry)
     if name not in ontologies:
         raise OntologyError(f"ontology {name!r} is not known; expected one of {', '.join(ontologies)}")
-    path = fetch_ontology(ontologies[name], into or Path(name), takes_changed=changed, tell=talk)
+    path = fetch_ontology(ontologies[name], into or Path(name), accepts_changed=changed, report=talk)
     emit(f"{path}\n", None)
 
 
@@ -195,6 +195,6 @@ def _as_json(tbox: "TBox") -> dict[str, Any]:
             }
             for cls in tbox.classes
         ],
-        "standing_alone": list(tbox.standing_alone),
+        "standing_alone": list(tbox.isolated),
         "notes": [{"code": note.code, "message": note.message} for note in tbox.notes],
     }

@@ -1,4 +1,4 @@
-"""The demo kitchen: a scene authored for this project, with gold labels and the relations that hold in it."""
+"""The demo kitchen: a scene authored for this project, with gold labels and true relations."""
 
 from importlib.resources import files
 from pathlib import Path
@@ -16,15 +16,15 @@ def demo_scene() -> Path:
 
 
 def demo_gold() -> Path:
-    """Return its gold labels: CSV with the columns path, class, also."""
+    """Return the gold labels: CSV with the columns path, class, also."""
     return _file("gold.csv")
 
 
 def demo_relations() -> Path:
-    """Return what is on and inside what by construction: CSV with the columns subject, relation, object."""
+    """Return the true `on` and `inside` relations: CSV with the columns subject, relation, object."""
     return _file("relations.csv")
 
 
 def _file(name: str) -> Path:
-    # The stage refers to its assets by relative paths, so that it must lie in a real folder.
+    # The stage references its assets by relative paths, so it must be in a real folder.
     return Path(str(files("usd2kg.demo") / "kitchen" / name))

@@ -1,4 +1,4 @@
-"""From OWL files to a TBox: the classes in scope with labels, comments and hierarchy."""
+"""OWL files → TBox: the classes in scope with labels, comments and hierarchy."""
 
 from usd2kg.ontology.axioms import LABELS
 from usd2kg.ontology.closure import Closure, read_closure, without_header

@@ -1,4 +1,4 @@
-"""What an ontology says about its named classes, in plain dictionaries, whatever syntax it came in."""
+"""Class axioms of an ontology as plain dictionaries, independent of its syntax."""
 
 from collections import defaultdict
 from collections.abc import Iterable
@@ -47,22 +47,22 @@ _NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
 
 @dataclass
 class Annotations:
-    """Texts of one class, as (language or empty, text), by property IRI."""
+    """Annotations of one class: property IRI → (language or empty, text)."""
 
     texts: dict[str, set[tuple[str, str]]] = field(default_factory=lambda: defaultdict(set))
     items: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
-    """Wikidata items, by property IRI."""
+    """Property IRI → Wikidata items."""
     is_deprecated: bool = False
 
     def pick(self, properties: Iterable[str]) -> str:
-        """Return the text of the first property that has one: English, else untagged, else any."""
+        """Return the text of the first property that has one: English first, then untagged, then any language."""
         for name in properties:
             if self.texts.get(name):
                 return min(self.texts[name], key=_language_rank)[1]
         return ""
 
     def all(self, properties: Iterable[str]) -> set[str]:
-        """Return the texts of all the properties, of every language."""
+        """Return the texts of the properties in all languages."""
         return {text for name in properties for _, text in self.texts.get(name, ())}
 
 
@@ -77,33 +77,33 @@ class ClassAxioms:
     """Axioms over named classes."""
 
     parents: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
-    """Class → stated superclasses that are named; complex expressions give their named conjuncts."""
+    """Class → stated named superclasses; class expressions contribute their named conjuncts."""
     equivalents: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
-    """Class → other named classes stated to be equivalent to it; symmetric, not closed."""
+    """Class → named classes stated to be equivalent; symmetric, not transitively closed."""
     annotations: dict[str, Annotations] = field(default_factory=lambda: defaultdict(Annotations))
     dispositions: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
     classes: set[str] = field(default_factory=set)
-    """Every declared or used named class."""
+    """All named classes, declared or used."""
     declared: set[str] = field(default_factory=set)
-    """Those of them that are declared as classes."""
+    """The declared ones among them."""
     ontology_iri: str | None = None
     version_iri: str | None = None
     imports: set[str] = field(default_factory=set)
 
     def declare(self, iri: str) -> None:
-        """State that `iri` is a class."""
+        """Add a class declaration."""
         self.classes.add(iri)
         self.declared.add(iri)
 
     def add_parent(self, child: str, parent: str) -> None:
-        """State that `child` is a subclass of `parent`."""
+        """Add a subclass axiom."""
         self.classes.update({child, parent} - TOP_CLASSES)
         if child != parent and parent not in TOP_CLASSES:
             self.parents[child].add(parent)
 
     def add_equivalents(self, names: Iterable[str]) -> None:
-        """State that all `names` are the same class."""
-        # Classes that are stated to be everything or empty would else all be one.
+        """Add an equivalence axiom over named classes."""
+        # Equivalence to owl:Thing or owl:Nothing would merge unrelated classes.
         same = set(names) - TOP_CLASSES - {_NOTHING}
         self.classes |= same
         for name in same:
@@ -111,7 +111,7 @@ class ClassAxioms:
                 self.equivalents[name] |= same - {name}
 
     def linked(self) -> set[str]:
-        """Return the classes that are stated to be a subclass or a superclass of another."""
+        """Return the classes that occur in a subclass axiom."""
         return {iri for child, parents in self.parents.items() for iri in (child, *parents)}
 
     def superclasses(self) -> dict[str, set[str]]:
@@ -125,7 +125,7 @@ class ClassAxioms:
         return edges
 
     def annotate(self, subject: str, name: str, text: str, language: str) -> None:
-        """State a text about `subject`; white space is folded."""
+        """Add an annotation; white space is collapsed."""
         notes = self.annotations[subject]
         if name == DEPRECATED:
             notes.is_deprecated = text.strip().lower() in {"true", "1"}
@@ -134,14 +134,14 @@ class ClassAxioms:
             self.link(subject, name, text)
 
     def link(self, subject: str, name: str, target: str) -> None:
-        """State that `subject` refers to an IRI; kept where that is a Wikidata item which may be the same."""
+        """Add a link to an IRI; it is kept if it is a Wikidata item that may denote the same class."""
         item = item_in(target)
         if item is not None and is_mapping(name):
             self.annotations[subject].items[name].add(item)
 
 
 def merge_axioms(several: Iterable[ClassAxioms]) -> ClassAxioms:
-    """Return the axioms of several documents together."""
+    """Return the union of the axioms of several documents."""
     merged = ClassAxioms()
     for axioms in several:
         merged.classes |= axioms.classes

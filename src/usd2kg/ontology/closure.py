@@ -1,4 +1,4 @@
-"""read_closure: an ontology with all that it imports, as triples, for files that need no other."""
+"""read_closure: an ontology with its imports closure as triples, for self-contained graphs."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -21,21 +21,21 @@ _ONTOLOGY = ox.NamedNode("http://www.w3.org/2002/07/owl#Ontology")
 
 @dataclass(frozen=True)
 class Closure:
-    """What an ontology and its imports state, without their headers."""
+    """The triples of an ontology and its imports, without ontology headers."""
 
     triples: tuple[ox.Triple, ...]
-    """In the order of the documents; blank nodes of different documents have different names."""
+    """In document order; blank nodes are renamed so that those of different documents differ."""
     documents: tuple[str, ...]
-    """IRIs of the documents that were read, the ontology's own first."""
+    """IRIs of the documents, the ontology itself first."""
     missing: tuple[str, ...]
-    """IRIs of imports that are not at hand, sorted."""
+    """IRIs of imports that were not found, sorted."""
 
 
 def read_closure(tbox: TBox, also: Iterable[str] = ()) -> Closure:
-    """Return the documents that a TBox was read from, and those of `also` that lie beside them, as triples.
+    """Return the documents of a TBox, and those of `also` that are in its folder, as triples.
 
     Raises:
-        OntologyError: a document cannot be read any more.
+        OntologyError: a document can no longer be read.
     """
     if tbox.source == HOME:
         with as_file(data_file("home.ttl")) as path:
@@ -59,7 +59,7 @@ def _read(path: Path, also: Iterable[str]) -> Closure:
             found.setdefault(part.digest, part)
     documents = list(found.values())
     known = {iri for document in documents for iri in (document.iri, document.version_iri)}
-    # A document may call itself by another IRI than it is imported by.
+    # A document may declare another IRI than the one it is imported by.
     missing |= {
         iri
         for document in documents
@@ -73,7 +73,7 @@ def _read(path: Path, also: Iterable[str]) -> Closure:
 
 
 def without_header(triples: Iterable[ox.Triple], prefix: str) -> Iterator[ox.Triple]:
-    """Yield what an ontology document states but its header, blank nodes named `prefix` and a number."""
+    """Yield the triples except the ontology header, with blank nodes renamed to `prefix` and a number."""
     triples = list(triples)
     headers = {triple.subject for triple in triples if triple.predicate == _TYPE and triple.object == _ONTOLOGY}
     names: dict[ox.BlankNode, ox.BlankNode] = {}

@@ -1,4 +1,4 @@
-"""Ontology documents: parsing them, closing over local imports."""
+"""Ontology documents: parse them and resolve their imports locally."""
 
 import hashlib
 from collections.abc import Iterator
@@ -42,10 +42,10 @@ class Document:
     iri: str
     version_iri: str | None
     imports: tuple[str, ...]
-    """IRIs that it imports, sorted."""
+    """Imported IRIs, sorted."""
     axioms: ClassAxioms
     digest: str
-    """SHA-256 of the bytes."""
+    """SHA-256 of the bytes, hexadecimal."""
 
 
 def parse_document(path: Path, *, quotes: bool = True) -> Document:
@@ -53,10 +53,10 @@ def parse_document(path: Path, *, quotes: bool = True) -> Document:
 
     Args:
         path: the file.
-        quotes: whether the message about a file that is no ontology may quote it.
+        quotes: whether error messages may quote the content of the file.
 
     Raises:
-        OntologyError: the file is missing, of no known syntax, or malformed.
+        OntologyError: the file is missing, malformed, or in an unknown syntax.
     """
     data = _read(path)
     text = _decode(path, data)
@@ -71,7 +71,7 @@ def parse_document(path: Path, *, quotes: bool = True) -> Document:
     except (ValueError, SyntaxError, MemoryError) as error:
         found = f" ({_shorten(str(error))})" if quotes else ""
         raise OntologyError(
-            f"{path}: looks like {_SYNTAXES[syntax]} but does not parse{found}; mend or re-export it"
+            f"{path}: looks like {_SYNTAXES[syntax]} but does not parse{found}; fix or re-export it"
         ) from error
     return Document(
         source=str(path),
@@ -84,10 +84,10 @@ def parse_document(path: Path, *, quotes: bool = True) -> Document:
 
 
 def read_triples(path: Path) -> list[ox.Triple]:
-    """Return the document at `path` as RDF triples, whatever its syntax (OWL 2 Mapping to RDF Graphs).
+    """Return the document at `path` as RDF triples (OWL 2 Mapping to RDF Graphs), in any syntax.
 
     Raises:
-        OntologyError: the file is missing, of no known syntax, or malformed.
+        OntologyError: the file is missing, malformed, or in an unknown syntax.
     """
     text = _decode(path, _read(path))
     syntax = sniff_syntax(text)
@@ -96,7 +96,7 @@ def read_triples(path: Path) -> list[ox.Triple]:
         quads = parse_rdf(owl_as_rdf(text, owl_syntax), "rdf") if owl_syntax else parse_rdf(text, syntax or "ttl")
         return [quad.triple for quad in quads]
     except (ValueError, SyntaxError, MemoryError) as error:
-        raise OntologyError(f"{path}: cannot be read as RDF ({_shorten(str(error))}); mend or re-export it") from error
+        raise OntologyError(f"{path}: cannot be read as RDF ({_shorten(str(error))}); fix or re-export it") from error
 
 
 def _read(path: Path) -> bytes:
@@ -125,9 +125,9 @@ def _shorten(message: str, limit: int = 200) -> str:
 
 
 def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[OntologyNote, ...]]:
-    """Return `document` with everything it imports, found locally, and notes on what was not found.
+    """Return `document` with its transitive imports, and a note for each import that is missing.
 
-    Imports are looked up in the OASIS catalog (`catalog-v001.xml`) of the document's folder, then by file
+    Imports are resolved by the OASIS catalog (`catalog-v001.xml`) in the folder of the importing document, then by file
     name in that folder. Nothing is fetched from the network.
     """
     found = {document.iri: document}
@@ -147,7 +147,7 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
                 notes.append(OntologyNote("missing-import", _missing_import(iri, current)))
                 continue
             imported = parse_import(path, Path(current.source).parent)
-            # An import may resolve to a document that calls itself by another IRI: keep it under both.
+            # An import may resolve to a document that declares another ontology IRI: register it under both.
             found[iri] = imported
             if imported.iri not in found or imported.iri == iri:
                 pending.append(imported)
@@ -160,8 +160,8 @@ def parse_import(path: Path, folder: Path) -> Document:
     """Return the parsed ontology that a document in `folder` imports.
 
     Raises:
-        OntologyError: as `parse_document`; of a file outside the folder, whose place a stranger's catalog may have
-            chosen, nothing is quoted.
+        OntologyError: as `parse_document`. A file outside the folder is never quoted: an untrusted catalog may have
+            chosen it.
     """
     return parse_document(path, quotes=path.resolve().is_relative_to(folder.resolve()))
 
@@ -169,18 +169,18 @@ def parse_import(path: Path, folder: Path) -> Document:
 def _missing_import(iri: str, document: Document) -> str:
     return (
         f"{document.source}: imports <{iri}>, which is neither in {_CATALOG} nor in the folder; "
-        "classes are placed without it"
+        "the hierarchy is built without it"
     )
 
 
 def find_document(iri: str, folder: Path) -> Path | None:
-    """Return the local file of an ontology, by the folder's catalog or by its name; None if there is none."""
+    """Return the local file of an ontology, by the catalog of `folder` or by file name; None if there is none."""
     catalog = _read_catalog(folder / _CATALOG)
     if iri in catalog:
         return catalog[iri] if _is_file(catalog[iri]) else None
     name = iri.rstrip("#/").rpartition("/")[2]
     names = [name, *(Path(name).stem + ending for ending in sorted(_ENDINGS))]
-    # Only a plain file name is looked up: an IRI must not walk to other folders.
+    # Look up plain file names only: an IRI must not reach other folders.
     return next((folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n)), None)
 
 
@@ -188,7 +188,7 @@ def _is_file(path: Path) -> bool:
     try:
         return path.is_file()
     except OSError:
-        # No file system takes a name of 400 letters.
+        # A name may be too long for the file system.
         return False
 
 
@@ -200,9 +200,9 @@ def _read_catalog(path: Path) -> dict[str, Path]:
         refuse_entity_bomb(text)
         root = ElementTree.fromstring(text)
     except (SyntaxError, ValueError) as error:
-        raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); mend or remove it") from error
+        raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); fix or remove it") from error
     places = {entry.attrib["name"]: unquote(entry.attrib["uri"]) for entry in _entries(root)}
-    # Catalogs come with ontologies of strangers: they may name what lies beside them, not any file of this machine.
+    # Catalogs are untrusted: accept relative paths, not any file of this machine.
     return {iri: path.parent / place for iri, place in places.items() if not _is_absolute(place)}
 
 

@@ -1,7 +1,7 @@
-"""XML entities, refused where what they stand for grows out of bounds ("billion laughs").
+"""Protection against XML entity expansion attacks ("billion laughs").
 
-Ontologies declare entities for their namespaces, each a short text without references; parsers replace them without a
-limit, so that a kilobyte may become many gigabytes.
+Ontologies declare entities for namespaces, each a short text without references. Parsers expand entities without a
+limit, so a kilobyte may become many gigabytes.
 """
 
 import re
@@ -12,38 +12,38 @@ from typing import BinaryIO, NamedTuple
 __all__ = ["refuse_entity_bomb", "refuse_entity_bomb_in_file"]
 
 _LONGEST = 10_000
-"""Characters that one entity may stand for."""
+"""Characters to which one entity may expand."""
 _DEEPEST = 5
-"""How many entities may be within each other."""
+"""Nesting depth of entities."""
 _MOST_GROWTH = 100
-"""How many times its own length a document may become by its entities…"""
+"""Expansion factor of a document…"""
 _SMALL = 8_000_000
-"""…if they come to more characters than these."""
+"""…above this number of characters."""
 _MOST_BYTES = 200_000_000
-"""Of a file that declares entities."""
+"""Size of a file that declares entities."""
 _CHUNK = 1 << 20
 _START = b"<!ENTITY"
-# Looser than XML, as parsers are. The value is not consumed: what looks like one in a comment must hide no other.
+# As lenient as parsers are. The value is a lookahead, so that text in a comment cannot hide a declaration.
 _DECLARATION = re.compile(
     r"""<!ENTITY\s*(?:%\s*)?([^\s<]+)\s+"""
     rf"""(?="([^"]{{0,{_LONGEST + 1}}})|'([^']{{0,{_LONGEST + 1}}}))"""
 )
 _REFERENCE = re.compile(r"[&%]([^\s;&%<]+);")
-# Written so in a value, the sign begins a reference when the entity is used (XML 1.0, appendix D).
+# In a value, an escaped ampersand starts a reference on expansion (XML 1.0, appendix D).
 _AMPERSAND = re.compile(r"&#(?:0*38|[xX]0*26);")
 
 
 class _Size(NamedTuple):
     characters: int
     depth: int
-    """How many entities are within each other, itself counted."""
+    """Nesting depth, itself included."""
 
 
 def refuse_entity_bomb(text: str) -> None:
-    """Raise SyntaxError if the entities that an XML document declares expand beyond what an ontology needs.
+    """Raise SyntaxError if the entities of an XML document expand beyond what an ontology needs.
 
-    Refused are an entity of more than 10,000 characters, references within each other more than 5 deep or in a
-    circle, and a document that its entities make more than 100 times as long and more than 8 million characters.
+    The limits are 10,000 characters per entity, 5 levels of nesting, and, above 8 million characters, 100 times the
+    length of the document. Cyclic references exceed the nesting limit.
     """
     values: dict[str, list[str]] = defaultdict(list)
     for declared in _DECLARATION.finditer(text):
@@ -65,7 +65,7 @@ def refuse_entity_bomb(text: str) -> None:
 
 
 def _measure(name: str, values: Mapping[str, list[str]], sizes: dict[str, _Size], level: int) -> _Size:
-    """Return the size of an entity; of the largest, where it is declared more than once."""
+    """Return the expanded size of an entity; the largest if it is declared more than once."""
     if level > _DEEPEST:
         raise _too_deep(name)
     if name not in sizes:
@@ -86,15 +86,15 @@ def _expand(value: str, values: Mapping[str, list[str]], sizes: dict[str, _Size]
 
 
 def _too_long(name: str) -> SyntaxError:
-    return SyntaxError(f"its XML entity {name!r} stands for more than {_LONGEST:,} characters, expected a short text")
+    return SyntaxError(f"its XML entity {name!r} expands to more than {_LONGEST:,} characters; expected a short text")
 
 
 def _too_deep(name: str) -> SyntaxError:
-    return SyntaxError(f"its XML entities, {name!r} among them, are more than {_DEEPEST} deep within each other")
+    return SyntaxError(f"its XML entities, {name!r} among them, are nested more than {_DEEPEST} deep")
 
 
 def refuse_entity_bomb_in_file(file: BinaryIO) -> None:
-    """Do the same for an open file of RDF/XML, which is read from where it stands.
+    """Apply `refuse_entity_bomb` to an open RDF/XML file, from its current position.
 
     Raises:
         SyntaxError: as `refuse_entity_bomb`; or it declares entities and is longer than 200 million bytes.

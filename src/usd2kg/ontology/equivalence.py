@@ -1,29 +1,29 @@
-"""Named classes that are stated to be the same, of which one is the candidate.
+"""Equivalent named classes: one represents the group.
 
-The others give it their labels and synonyms, and their IRIs lead to it.
+The representative takes over the labels and synonyms of the others, and their IRIs resolve to it.
 """
 
 from usd2kg.ontology.axioms import LABELS, ClassAxioms
 from usd2kg.ontology.scope import ancestors
 
-__all__ = ["all_equivalents", "keep_one_of_each"]
+__all__ = ["all_equivalents", "choose_representatives"]
 
 
 def all_equivalents(iri: str, closure: ClassAxioms) -> set[str]:
-    """Return the other named classes that are equivalent to a class, over any number of statements."""
+    """Return the other named classes that are equivalent to a class, transitively."""
     return ancestors(closure.equivalents, iri)
 
 
-def keep_one_of_each(scope: set[str], ontology_iri: str, own: ClassAxioms, closure: ClassAxioms) -> set[str]:
-    """Return `scope` with one class of each group of equivalents.
+def choose_representatives(scope: set[str], ontology_iri: str, own: ClassAxioms, closure: ClassAxioms) -> set[str]:
+    """Return `scope` with one representative per group of equivalent classes.
 
-    It is chosen by the first of these that tells them apart: it is in the namespace of the named ontology, the named
-    file declares it, the file makes it a subclass or superclass, it has a label, its IRI is the smallest.
+    The first criterion that distinguishes them decides: in the namespace of the ontology, declared in the file, used in
+    a subclass axiom of the file, labelled, smallest IRI.
 
     Args:
-        scope: classes, equivalent ones among them.
-        ontology_iri: of the named ontology; what begins with it and `#` or `/` is in its namespace.
-        own: axioms of the named file.
+        scope: classes, possibly equivalent ones among them.
+        ontology_iri: IRI of the ontology; followed by `#` or `/`, it is the namespace.
+        own: axioms of the file.
         closure: axioms of the file with its imports.
     """
     stem = ontology_iri.rstrip("#/")

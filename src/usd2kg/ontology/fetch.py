@@ -1,4 +1,4 @@
-"""fetch_ontology: the documents of a known ontology, from the network, into a folder that can be used offline.
+"""fetch_ontology: download the documents of a known ontology into a folder for offline use.
 
 Nothing else in this package uses the network.
 """
@@ -31,67 +31,67 @@ def fetch_ontology(
     ontology: KnownOntology,
     folder: Path,
     *,
-    takes_changed: bool = False,
-    tell: Callable[[str], None] = lambda line: None,
+    accepts_changed: bool = False,
+    report: Callable[[str], None] = lambda line: None,
 ) -> Path:
-    """Fetch an ontology's documents with a catalog for them, and return the file to load.
+    """Download the documents of an ontology with a catalog, and return the file to load.
 
-    Documents that are in the folder already, with the right hash, are not fetched. All are fetched before any is
-    written, so that a folder never holds a part of a new version.
+    Documents that exist with the right hash are not downloaded. All are downloaded before any is written, so that the
+    folder never holds half of a new version.
 
     Args:
-        ontology: what is fetched.
-        folder: where to; made if it is not there.
-        takes_changed: whether a document is taken though its hash is not the known one.
-        tell: told a line for each document.
+        ontology: the registry entry.
+        folder: destination, created if it does not exist.
+        accepts_changed: accept documents whose hash differs from the registry.
+        report: called with one line per document.
 
     Raises:
-        OntologyError: a document cannot be fetched, is no ontology, or is another one than known.
+        OntologyError: a document cannot be downloaded, is not an ontology, or differs from the registry.
         OutputError: the folder cannot be written to.
     """
     fetched = {}
     for document in ontology.documents:
         path = folder / document.file
         if document.sha256 and path.is_file() and _digest(path.read_bytes()) == document.sha256:
-            tell(f"{path}: is there already")
+            report(f"{path}: up to date")
             continue
-        fetched[path] = _fetch(document, takes_changed=takes_changed)
+        fetched[path] = _fetch(document, accepts_changed=accepts_changed)
         length, source = len(fetched[path]), shown_address(document.address)
-        tell(f"{path}: {length:,} bytes from {source}, sha256 {_digest(fetched[path])}")
+        report(f"{path}: {length:,} bytes from {source}, sha256 {_digest(fetched[path])}")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"{folder}: cannot be made ({error.strerror}); choose another folder") from error
+        raise OutputError(f"{folder}: cannot be created ({error.strerror}); choose another folder") from error
     for path, data in fetched.items():
         write_whole(path, data)
     write_whole(folder / CATALOG, _catalog(ontology.documents).encode())
     return folder / ontology.documents[0].file
 
 
-def _fetch(document: KnownDocument, *, takes_changed: bool) -> bytes:
+def _fetch(document: KnownDocument, *, accepts_changed: bool) -> bytes:
     data, shown = _download(document.address), shown_address(document.address)
     try:
         is_ontology = sniff_syntax(data.decode("utf-8-sig")) is not None
     except UnicodeDecodeError:
         is_ontology = False
     if not is_ontology:
-        raise OntologyError(f"{shown}: gave {data[:40]!r}, expected an ontology; has <{document.iri}> moved?")
+        raise OntologyError(f"{shown}: returned {data[:40]!r}; expected an ontology; has <{document.iri}> moved?")
     found = _digest(data)
-    if document.sha256 and found != document.sha256 and not takes_changed:
+    if document.sha256 and found != document.sha256 and not accepts_changed:
         raise OntologyError(
-            f"{shown}: sha256 is {found}, expected {document.sha256}: it is another version; look at it, "
-            "and take it with --changed if it is right"
+            f"{shown}: sha256 is {found}, expected {document.sha256}: this is another version; "
+            "inspect it, and accept it with --changed"
         )
     return data
 
 
 class _WebOnly(urllib.request.HTTPRedirectHandler):
-    """Follows redirects to web addresses only: ftp: and file: are no places of an ontology."""
+    """Follows redirects to http and https only."""
 
     def redirect_request(self, *args: Any) -> urllib.request.Request | None:
         address = args[-1]
         if urlsplit(address).scheme not in _SCHEMES:
-            raise urllib.error.URLError(f"it redirects to {shown_address(address)}, which is no web address")
+            raise urllib.error.URLError(f"it redirects to {shown_address(address)}, which is not a web address")
         return super().redirect_request(*args)
 
 
@@ -110,7 +110,7 @@ def _opener() -> urllib.request.OpenerDirector:
 
 
 def shown_address(address: str) -> str:
-    """Return a web address as it may be printed: without user, password, query and fragment, which may be secret.
+    """Return a web address without user, password, query and fragment, which may be secret, for printing.
 
     >>> shown_address("https://me:secret@lab.example/onto.ttl?key=1")
     'https://lab.example/onto.ttl'
@@ -121,9 +121,9 @@ def shown_address(address: str) -> str:
 
 def _download(address: str) -> bytes:
     shown = shown_address(address)
-    # Plain http is for what only http offers; the hash then vouches for the bytes.
+    # Plain http is accepted because some ontologies have nothing else; the hash protects the content.
     if address.partition(":")[0].lower() not in _SCHEMES:
-        raise OntologyError(f"{shown}: is no web address; expected https://… or http://…")
+        raise OntologyError(f"{shown}: is not a web address; expected https://… or http://…")
     try:
         request = urllib.request.Request(address, headers={"Accept": _ACCEPT, "User-Agent": "usd2kg"})
         with _opener().open(request, timeout=_TIMEOUT_S) as answer:
@@ -133,15 +133,17 @@ def _download(address: str) -> bytes:
         error.close()
         raise OntologyError(f"{shown}: the server answered {error.code}; expected 200") from error
     except (ValueError, InvalidURL) as error:
-        raise OntologyError(f"{shown}: is no address that can be asked; mend it in the registry") from error
+        raise OntologyError(f"{shown}: is not a valid address; fix it in the registry") from error
     except HTTPException as error:
-        raise OntologyError(f"{shown}: the server's answer is no HTTP ({type(error).__name__}); try again") from error
+        raise OntologyError(
+            f"{shown}: the server did not answer in HTTP ({type(error).__name__}); try again"
+        ) from error
     except OSError as error:
         reason = getattr(error, "reason", error)
         raise OntologyError(f"{shown}: cannot be reached ({reason}); is this machine online?") from error
     if len(data) > _MOST_BYTES:
         raise OntologyError(f"{shown}: is longer than {_MOST_BYTES:,} bytes; expected an ontology")
-    # Asked for a number of bytes, a read tells nothing of a connection that ended before.
+    # A sized read does not report a connection that ended early.
     if promised.isascii() and promised.isdigit() and len(data) < int(promised):
         raise OntologyError(f"{shown}: ended after {len(data):,} of {int(promised):,} bytes; try again")
     return data
@@ -152,7 +154,7 @@ def _digest(data: bytes) -> str:
 
 
 def _catalog(documents: Sequence[KnownDocument]) -> str:
-    """Return an OASIS XML catalog that leads from IRIs to the files beside it."""
+    """Return an OASIS XML catalog that maps IRIs to files in its folder."""
     lines = [f"  <uri name={quoteattr(document.iri)} uri={quoteattr(document.file)}/>" for document in documents]
     return "\n".join(
         [

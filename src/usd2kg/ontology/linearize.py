@@ -1,4 +1,4 @@
-"""The TBox as text: the study's flat list, and a tree that keeps the hierarchy."""
+"""Linearise a TBox: the flat list of the study, and an indented tree."""
 
 from collections.abc import Iterable
 
@@ -8,9 +8,9 @@ __all__ = ["linearize_flat", "linearize_tree"]
 
 
 def linearize_flat(tbox: TBox) -> str:
-    """Return one class a line, alphabetical: `Bowl (subClassOf: Crockery) -- A dish for…`.
+    """Return one class per line, sorted by name: `Bowl (subClassOf: Crockery) -- A dish for…`.
 
-    A class whose IRI ends in a number is called by its label, with the number: `coffee cup [OBO_0001234]`.
+    A class whose IRI ends in a number is shown with its label: `coffee cup [OBO_0001234]`.
     """
     lines = [_flat_line(cls, tbox) for cls in sorted(tbox.classes, key=lambda cls: (cls.readable_name, cls.iri))]
     return "\n".join(lines) + "\n"
@@ -30,8 +30,8 @@ def _title(cls: OntologyClass) -> str:
 def linearize_tree(tbox: TBox, *, with_comments: bool = False) -> str:
     """Return the classes indented below their superclasses.
 
-    A class with several superclasses stands under each; what is below it is written out once, and later
-    occurrences end in `(see above)`.
+    A class with several superclasses appears below each; its subclasses are written once, and later occurrences end in
+    `(see above)`.
     """
 
     def by_name(iris: Iterable[str]) -> list[tuple[str, str]]:

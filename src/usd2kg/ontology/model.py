@@ -1,4 +1,4 @@
-"""The TBox: the classes that objects can be grounded to, and the hierarchy between them."""
+"""TBox: the candidate classes for objects, and their hierarchy."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -14,7 +14,7 @@ ClassIRI = str
 """An absolute IRI that names a class."""
 
 _NUMBERED = re.compile(r"[A-Za-z]{1,8}[_:-]?\d{3,}")
-"""A local name that says nothing: `OBI_0000968`, `ont00000995`."""
+"""Local names without meaning: `OBI_0000968`, `ont00000995`."""
 
 
 def local_name(iri: str) -> str:
@@ -28,23 +28,23 @@ def local_name(iri: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class OntologyClass:
-    """One class as the ontology describes it."""
+    """One class of an ontology."""
 
     iri: ClassIRI
     label: str
     """The preferred label, else the local name."""
     alt_labels: tuple[str, ...]
-    """Further labels and synonyms, sorted; all those of its equivalents too."""
+    """Further labels and synonyms, including those of equivalent classes, sorted."""
     comment: str
-    """The definition or comment, else that of an equivalent, empty if none."""
+    """Definition or comment, else that of an equivalent class; empty if there is none."""
     parents: tuple[ClassIRI, ...]
-    """Nearest superclasses inside the scope, sorted; none for a root."""
+    """Nearest superclasses in the scope, sorted; empty for a root."""
     dispositions: tuple[str, ...] = ()
-    """IRIs of the dispositions stated for it or for a superclass (SOMA's `hasDisposition some …`)."""
+    """IRIs of the dispositions of the class, inherited ones included (SOMA's `hasDisposition some …`)."""
     equivalents: tuple[ClassIRI, ...] = ()
-    """IRIs of the other named classes that are stated to be the same, sorted; none of them is in the scope."""
+    """IRIs of equivalent named classes, sorted; none of them is in the scope."""
     wikidata: tuple[str, ...] = ()
-    """Wikidata items that the ontology maps it or an equivalent to, by the surest of its statements, by number."""
+    """Wikidata items that the ontology maps the class to, by its strongest mapping property, sorted by number."""
 
     @property
     def local_name(self) -> str:
@@ -53,13 +53,13 @@ class OntologyClass:
 
     @property
     def readable_name(self) -> str:
-        """The local name, or the label where that is but a number."""
+        """The local name, or the label if the local name is a number."""
         return self.label if _NUMBERED.fullmatch(self.local_name) else self.local_name
 
 
 @dataclass(frozen=True, slots=True)
 class OntologyNote:
-    """Something about the ontology that a user should know; loading went on."""
+    """A problem of an ontology that did not stop loading."""
 
     code: str
     """`missing-import`, `cycle`, `deprecated`…"""
@@ -68,24 +68,24 @@ class OntologyNote:
 
 @dataclass(frozen=True)
 class TBox:
-    """The classes in scope, sorted by IRI, with their hierarchy."""
+    """The classes in scope, sorted by IRI, and their hierarchy."""
 
     source: str
-    """The file as the user named it, or `built-in home TBox`."""
+    """File as the user named it, or `built-in home TBox`."""
     ontology_iri: str
-    """IRI of the ontology that a graph over these classes imports."""
+    """IRI that a graph over these classes imports."""
     version_iri: str | None
     content_hash: str
-    """`sha256:` over all documents of the imports closure."""
+    """`sha256:` and a hash over all documents of the imports closure."""
     classes: tuple[OntologyClass, ...]
     imports: tuple[str, ...] = ()
-    """IRIs of the other documents of the closure, sorted."""
+    """IRIs of the other documents of the imports closure, sorted."""
     notes: tuple[OntologyNote, ...] = ()
-    standing_alone: tuple[ClassIRI, ...] = ()
-    """Classes of the file that the default scope leaves out, being neither below nor above another, sorted."""
+    isolated: tuple[ClassIRI, ...] = ()
+    """Classes of the file without any subclass axiom, sorted; the default scope excludes them."""
 
     def __hash__(self) -> int:
-        # What is made for a TBox is kept by it, and asked for often; hashing every class would take a millisecond.
+        # TBoxes are cache keys; hashing every class would take a millisecond.
         return hash((self.source, self.content_hash, len(self.classes)))
 
     @cached_property
@@ -110,7 +110,7 @@ class TBox:
     @cached_property
     def _closures(self) -> Mapping[ClassIRI, frozenset[ClassIRI]]:
         closures: dict[ClassIRI, frozenset[ClassIRI]] = {}
-        # Not recursive: a hierarchy may be deeper than Python's stack.
+        # Iterative: a hierarchy may be deeper than Python's stack.
         for cls in self.classes:
             pending = [cls.iri]
             while pending:
@@ -124,23 +124,23 @@ class TBox:
         return closures
 
     def closure(self, iri: ClassIRI) -> frozenset[ClassIRI]:
-        """Return a class with all its superclasses in the scope (the ↑c of hierarchical measures)."""
+        """Return a class and all its superclasses in the scope (↑c in hierarchical measures)."""
         return self._closures[iri]
 
     def is_subclass(self, iri: ClassIRI, ancestor: ClassIRI) -> bool:
-        """Return whether `iri` is `ancestor` or below it."""
+        """Return whether `iri` is `ancestor` or a subclass of it."""
         return ancestor in self._closures[iri]
 
     @cached_property
     def depths(self) -> Mapping[ClassIRI, int]:
-        """IRI → longest way up to a root, 0 for a root."""
+        """IRI → length of the longest path to a root, 0 for a root."""
         depths: dict[ClassIRI, int] = {}
         for iri in sorted(self._closures, key=lambda key: len(self._closures[key])):
             depths[iri] = max((depths[parent] + 1 for parent in self.by_iri[iri].parents), default=0)
         return depths
 
     def lowest_common_ancestors(self, iris: Iterable[ClassIRI]) -> tuple[ClassIRI, ...]:
-        """Return the deepest classes that are above (or equal to) all of `iris`, sorted; maybe none."""
+        """Return the lowest common superclasses of `iris`, sorted; empty if there is none."""
         common = frozenset.intersection(*(self._closures[iri] for iri in iris))
         return tuple(sorted(iri for iri in common if not any(iri in self._closures[other] for other in common - {iri})))
 
@@ -156,16 +156,16 @@ class TBox:
         others: dict[str, set[ClassIRI]] = {}
         for equivalent, iri in self._iri_by_equivalent.items():
             others.setdefault(local_name(equivalent), set()).add(iri)
-        # A class's own name goes before one that it has by an equivalent.
+        # The local name of a class has priority over that of an equivalent class.
         return {name: tuple(sorted(iris)) for name, iris in (others | found).items()}
 
     def resolve(self, name: str) -> ClassIRI:
-        """Return the class that a person means by an IRI, a CURIE, or a local name unique in the scope.
+        """Return the class with an IRI, a CURIE, or a local name that is unique in the scope.
 
-        The names of an equivalent mean the class that stands for it.
+        The name of an equivalent class resolves to its representative.
 
         Raises:
-            OntologyError: no class of the scope, or several, go by that name.
+            OntologyError: no class in scope has that name, or several have.
         """
         name = name.strip().removeprefix("<").removesuffix(">")
         for candidate in (name, expand_curie(name)):

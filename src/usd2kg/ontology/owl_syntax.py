@@ -1,4 +1,4 @@
-"""Class axioms from OWL's own syntaxes (functional, Manchester, OWL/XML), by py-horned-owl."""
+"""Class axioms from OWL syntaxes (functional, Manchester, OWL/XML), by py-horned-owl."""
 
 from collections.abc import Iterator
 from typing import Any, Literal
@@ -38,7 +38,7 @@ def owl_as_rdf(text: str, syntax: Literal["ofn", "omn", "owx"]) -> str:
 def _open(text: str, syntax: Literal["ofn", "omn", "owx"]) -> Any:
     if syntax == "owx":
         refuse_entity_bomb(text)
-        # The parser never returns from a document that ends within a literal.
+        # py-horned-owl does not return from a document that ends inside a literal.
         ElementTree.fromstring(text)
     return pyhornedowl.open_ontology_from_string(text, serialization=syntax)
 

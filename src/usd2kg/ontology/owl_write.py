@@ -1,4 +1,4 @@
-"""OWL 2 functional syntax, written from RDF."""
+"""write_functional_syntax: RDF → OWL 2 functional syntax."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,19 +11,17 @@ __all__ = ["write_functional_syntax"]
 
 
 def write_functional_syntax(n_triples: str, prefixes: Mapping[str, str], source: str) -> str:
-    """Return an ontology in OWL 2 functional syntax; annotations of axioms stay with their axioms.
-
-    Axioms stand in an order that depends on the ontology alone.
+    """Return an ontology in OWL 2 functional syntax, axiom annotations included, in a deterministic order.
 
     Args:
         n_triples: the ontology as N-Triples (OWL 2 Mapping to RDF Graphs).
-        prefixes: name → namespace, for namespaces whose terms have plain names.
-        source: where the ontology comes from, for messages.
+        prefixes: name → namespace.
+        source: name of the input, for messages.
 
     Raises:
-        OntologyError: the triples are no ontology.
+        OntologyError: the triples are not an ontology.
     """
-    # Its type hints leave out the RDF syntaxes that it reads.
+    # Its type hints omit the RDF syntaxes.
     turtle: Any = "ttl"
     try:
         ontology = pyhornedowl.open_ontology_from_string(n_triples, turtle)

@@ -1,4 +1,4 @@
-"""Prefixes that people use for well-known namespaces; IRIs are exact, mind http and https."""
+"""Well-known prefixes. IRIs are exact: http and https differ."""
 
 __all__ = ["PREFIXES", "compact_iri", "expand_curie"]
 
@@ -19,7 +19,7 @@ PREFIXES = {
 
 
 def expand_curie(curie: str) -> str:
-    """Return the IRI behind a CURIE; what has no known prefix comes back as it is.
+    """Return the IRI of a CURIE; text without a known prefix is returned unchanged.
 
     >>> expand_curie("soma:Cup")
     'http://www.ease-crc.org/ont/SOMA.owl#Cup'

@@ -1,7 +1,7 @@
 """Class axioms from RDF syntaxes (RDF/XML, Turtle, N-Triples, JSON-LD), by pyoxigraph.
 
-Read from the triples and not by an OWL parser: much published RDF is not quite OWL (plain `rdfs:Class`,
-undeclared annotation properties, SHACL shapes as classes), and its hierarchy is as good.
+The triples are read directly, without an OWL parser: much published RDF is not valid OWL (plain `rdfs:Class`,
+undeclared annotation properties, SHACL shapes as classes), but has a usable hierarchy.
 """
 
 from collections import defaultdict
@@ -34,12 +34,11 @@ def parse_rdf(text: str, syntax: str) -> Iterator[ox.Quad]:
     """Return the statements of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
 
     Raises:
-        SyntaxError: the text does not parse, maybe not before the statements are taken; or its XML entities expand
-            out of bounds.
+        SyntaxError: the text does not parse (raised while the quads are consumed), or its XML entities expand too far.
     """
     if syntax == "rdf":
         refuse_entity_bomb(text)
-    # A base makes documents readable that use relative IRIs without declaring one.
+    # Some documents use relative IRIs without declaring a base.
     return ox.parse(text, format=_FORMATS[syntax], base_iri="http://example.org/")
 
 
@@ -98,7 +97,7 @@ def _add_superclass(child: str, expression: Any, triples: _Triples, axioms: Clas
 
 
 def _is_datatype(types: set[str], other: ox.NamedNode, triples: _Triples) -> bool:
-    # RDF defines a datatype by the predicate that makes two classes equivalent.
+    # owl:equivalentClass also defines datatypes.
     datatype = ox.NamedNode(f"{_RDFS}Datatype")
     is_other = other.value.startswith(_XSD) or datatype in triples.get(other, {}).get(f"{_RDF}type", ())
     return datatype.value in types or is_other

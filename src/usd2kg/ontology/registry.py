@@ -1,4 +1,4 @@
-"""Ontologies that are known by name: where their documents are, of which version, with which hash."""
+"""Registry of published ontologies: addresses, versions and hashes of their documents."""
 
 import re
 import tomllib
@@ -13,7 +13,7 @@ from usd2kg.knowledge import data_file
 __all__ = ["CATALOG", "KnownDocument", "KnownOntology", "read_registry"]
 
 CATALOG = "catalog-v001.xml"
-"""Name of the OASIS catalog that is written beside the documents."""
+"""File name of the OASIS catalog written next to the documents."""
 _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}")
 _SHA256 = re.compile(r"[0-9a-f]{64}|")
 
@@ -23,18 +23,18 @@ class KnownDocument:
     """One document of an ontology."""
 
     iri: str
-    """By which other documents import it."""
+    """IRI by which other documents import it."""
     file: str
-    """Name of the file that it becomes; no path."""
+    """Name of the local file, without a path."""
     address: str
-    """URL that it is fetched from."""
+    """URL to fetch it from."""
     sha256: str
-    """Of its bytes, as hexadecimal digits; empty if any bytes will do."""
+    """Hexadecimal SHA-256 of the bytes; empty to accept any."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnownOntology:
-    """An ontology with the documents that it needs."""
+    """An ontology and the documents it needs."""
 
     name: str
     title: str
@@ -45,7 +45,7 @@ class KnownOntology:
 
 
 def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
-    """Return the known ontologies by name, those of our own registry, or of a file of the same form.
+    """Return name → ontology, from the built-in registry or from a file of the same form.
 
     Raises:
         OntologyError: the file cannot be read, or an entry is malformed.
@@ -56,10 +56,12 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
         entries = tomllib.loads(text)["ontology"]
         known = [_ontology(source, entry) for entry in entries]
     except OSError as error:
-        raise OntologyError(f"{source}: cannot be read ({error.strerror}); name a registry of ontologies") from error
+        raise OntologyError(
+            f"{source}: cannot be read ({error.strerror}); expected a registry of ontologies"
+        ) from error
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise OntologyError(
-            f"{source}: is no registry ({error!r}); expected [[ontology]] tables with name, title, version, licence "
+            f"{source}: is not a registry ({error!r}); expected [[ontology]] tables with name, title, version, licence "
             "and [[ontology.document]] with iri, file, address, sha256"
         ) from error
     return {ontology.name: ontology for ontology in known}
@@ -76,10 +78,12 @@ def _ontology(source: str, entry: Mapping[str, Any]) -> KnownOntology:
 def _document(source: str, entry: Mapping[str, Any]) -> KnownDocument:
     document = KnownDocument(*(str(entry[key]) for key in ("iri", "file", "address", "sha256")))
     if not _FILE_NAME.fullmatch(document.file):
-        raise OntologyError(f"{source}: the file {document.file!r} is no plain file name; expected one without a path")
-    # The name is compared as file systems do that know no upper case.
+        raise OntologyError(
+            f"{source}: the file {document.file!r} is not a plain file name; expected one without a path"
+        )
+    # Some file systems ignore case.
     if document.file.lower() == CATALOG:
-        raise OntologyError(f"{source}: the file {document.file!r} is kept for the catalog; choose another name")
+        raise OntologyError(f"{source}: the file {document.file!r} is reserved for the catalog; choose another name")
     if not _SHA256.fullmatch(document.sha256):
-        raise OntologyError(f"{source}: {document.file}: sha256 is no 64 hexadecimal digits; leave it empty or mend it")
+        raise OntologyError(f"{source}: {document.file}: sha256 is not 64 hexadecimal digits; fix it or leave it empty")
     return document

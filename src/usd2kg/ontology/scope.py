@@ -1,8 +1,8 @@
-"""Which classes are candidates for objects.
+"""Scope: the classes that are candidates for objects.
 
-By default: every class that the named file itself places in the hierarchy, as child, as parent or as the
-equivalent of another, and that is a physical thing. "The file's own classes" would be wrong: SOMA-HOME uses
-Appliance, Room and the Designed… classes that SOMA declares.
+The default scope holds every class that the given file itself places in the hierarchy (as subclass, superclass or
+equivalent) and that is a physical object. The classes declared in the file would be the wrong set: SOMA-HOME uses
+Appliance, Room and the Designed… classes, which SOMA declares.
 """
 
 from collections import defaultdict
@@ -10,54 +10,54 @@ from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import OntologyError
 from usd2kg.ontology.axioms import TOP_CLASSES, ClassAxioms
-from usd2kg.ontology.levels import level, reachable
+from usd2kg.ontology.components import find_components, reachable
 
-__all__ = ["ancestors", "default_scope", "nearest_parents", "rooted_scope", "standing_alone"]
+__all__ = ["ancestors", "default_scope", "isolated_classes", "nearest_parents", "rooted_scope"]
 
 PHYSICAL_ROOTS = (
     "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#PhysicalObject",
     "http://purl.obolibrary.org/obo/BFO_0000040",  # material entity
     "https://spec.industrialontologies.org/ontology/core/Core/MaterialArtifact",
 )
-"""Upper-level classes below which physical things lie."""
+"""Upper-level classes of physical objects."""
 
 
 def ancestors(superclasses: Mapping[str, set[str]], iri: str) -> set[str]:
-    """Return all superclasses of a class, itself left out; cycles do no harm."""
+    """Return all proper superclasses of a class; the hierarchy may be cyclic."""
     return reachable(superclasses, [iri]) - {iri}
 
 
 def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
-    """Return the classes that `own` places in the hierarchy and that `closure` says are physical.
+    """Return the classes that `own` places in the hierarchy and that `closure` classifies as physical objects.
 
-    Where nothing that the file places lies below a known upper-level class of physical things, all are kept.
+    If none is below a known upper-level class of physical objects, all are kept.
     """
-    # A flat list of classes has no hierarchy to place them in.
+    # A flat list of classes has no subclass axioms.
     placed = (own.linked() or own.classes) | set(own.equivalents)
     placed = {iri for iri in placed if not closure.annotations[iri].is_deprecated}
     superclasses = closure.superclasses()
-    subclasses = _turned(superclasses)
+    subclasses = _invert(superclasses)
     physical: set[str] = set()
     for root in PHYSICAL_ROOTS:
-        # What is the same as an upper-level class is as general as that, and no more a candidate.
+        # Equivalents of an upper-level class are as general as that class, and not candidates.
         physical |= reachable(subclasses, [root]) - {root, *ancestors(superclasses, root)}
     return placed & physical or placed
 
 
-def standing_alone(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
-    """Return the classes that `default_scope` leaves out because no document of the closure says where they belong.
+def isolated_classes(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
+    """Return the classes that `default_scope` excludes because no document of the closure places them.
 
-    Those that are said to be dispositions belong to the things that have them.
+    Dispositions are not reported: they belong to the objects that have them.
     """
     if not own.linked():
         return set()
     placed = own.linked().union(own.equivalents, closure.superclasses(), *closure.dispositions.values())
-    unplaced = own.classes - placed - TOP_CLASSES
-    return {iri for iri in unplaced if not closure.annotations[iri].is_deprecated}
+    isolated = own.classes - placed - TOP_CLASSES
+    return {iri for iri in isolated if not closure.annotations[iri].is_deprecated}
 
 
-def _turned(superclasses: Mapping[str, set[str]]) -> dict[str, set[str]]:
-    """Return class → its direct subclasses."""
+def _invert(superclasses: Mapping[str, set[str]]) -> dict[str, set[str]]:
+    """Return class → direct subclasses."""
     subclasses: dict[str, set[str]] = defaultdict(set)
     for iri, parents in superclasses.items():
         for parent in parents:
@@ -66,37 +66,37 @@ def _turned(superclasses: Mapping[str, set[str]]) -> dict[str, set[str]]:
 
 
 def rooted_scope(roots: Iterable[str], closure: ClassAxioms) -> set[str]:
-    """Return the given classes with everything below them.
+    """Return the given classes and all their subclasses.
 
     Raises:
-        OntologyError: a root is no class of the ontology.
+        OntologyError: a root is not a class of the ontology.
     """
     wanted = set(roots)
     unknown = sorted(wanted - closure.classes)
     if unknown:
         raise OntologyError(
-            f"scope: <{unknown[0]}> is no class of the ontology; expected the IRI or CURIE of one of its "
+            f"scope: <{unknown[0]}> is not a class of the ontology; expected the IRI or CURIE of one of its "
             "classes, as `usd2kg ontology scope FILE` lists them"
         )
-    below = reachable(_turned(closure.superclasses()), wanted) & closure.classes
+    below = reachable(_invert(closure.superclasses()), wanted) & closure.classes
     return wanted | {iri for iri in below if not closure.annotations[iri].is_deprecated}
 
 
 def nearest_parents(scope: set[str], superclasses: Mapping[str, set[str]]) -> dict[str, tuple[str, ...]]:
     """Return for each class in scope its nearest superclasses in scope, sorted.
 
-    Superclasses outside the scope are passed through. Edges of a cycle are dropped, so the result is acyclic.
+    Superclasses outside the scope are skipped. Edges within a cycle are dropped, so the result is acyclic.
     """
-    levels = level({**dict.fromkeys(scope, ()), **superclasses})
-    inside = [tuple(iri for iri in group if iri in scope) for group in levels.groups]
+    components = find_components({**dict.fromkeys(scope, ()), **superclasses})
+    inside = [tuple(iri for iri in members if iri in scope) for members in components.members]
     nearest: dict[int, set[int]] = {}
-    for group, above in enumerate(levels.above):
-        # Those above come first, so what lies nearest to a group outside the scope is known.
+    for component, above in enumerate(components.above):
+        # Components are sorted top-down, so the nearest ones above are known.
         found: set[int] = set().union(*({up} if inside[up] else nearest[up] for up in above))
         higher = reachable(nearest, found) if len(found) > 1 else set()
-        nearest[group] = found - higher
+        nearest[component] = found - higher
     return {
-        iri: tuple(sorted(up for near in nearest[group] for up in inside[near]))
-        for group, members in enumerate(inside)
+        iri: tuple(sorted(up for near in nearest[component] for up in inside[near]))
+        for component, members in enumerate(inside)
         for iri in members
     }

@@ -1,4 +1,4 @@
-"""Telling the syntax of an ontology document by its first words, in one pass over it."""
+"""sniff_syntax: the syntax of an ontology document, detected by its content."""
 
 import json
 import re
@@ -12,9 +12,9 @@ _IN_SUBSET = re.compile(r"<!--|\]\s*>")
 
 
 def sniff_syntax(text: str) -> str | None:
-    """Return a key of the known syntaxes by looking at the content; None if it looks like none.
+    """Return the syntax of a document, `ofn`, `omn`, `owx`, `rdf`, `ttl` or `jsonld`; None if it is unknown.
 
-    File endings are not looked at: `.owl` is used for at least three of them.
+    File endings are ignored: `.owl` is used for at least three syntaxes.
 
     >>> sniff_syntax("# a comment\\nPrefix(:=<http://x#>)")
     'ofn'
@@ -34,7 +34,7 @@ def sniff_syntax(text: str) -> str | None:
 
 
 def _root_name(text: str) -> str:
-    """Return the local name of the first element of an XML document; empty if there is none."""
+    """Return the local name of the root element of an XML document; empty if there is none."""
     at = text.find("<")
     while at >= 0:
         if text.startswith("<!--", at):
@@ -57,7 +57,7 @@ def _after(text: str, end: str, start: int) -> int:
 
 
 def _after_subset(text: str, start: int) -> int:
-    """Return where a DOCTYPE ends, whose internal subset, if it has one, holds what looks like elements."""
+    """Return the end of a DOCTYPE; its internal subset may contain text that looks like elements."""
     if not text.startswith("[", start):
         return start
     at = start
@@ -76,6 +76,6 @@ def _is_json(text: str) -> bool:
     except ValueError:
         return False
     except RecursionError:
-        # It is JSON as far as that was read; the parser of JSON-LD says how deep it may be.
+        # The JSON-LD parser reports the nesting limit.
         return True
     return True

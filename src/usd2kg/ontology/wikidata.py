@@ -1,4 +1,4 @@
-"""Wikidata items that an ontology maps its classes to."""
+"""Wikidata items to which an ontology maps its classes."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -11,16 +11,16 @@ _RDFS = "http://www.w3.org/2000/01/rdf-schema#"
 _SKOS = "http://www.w3.org/2004/02/skos/core#"
 EQUIVALENT_CLASS = f"{_OWL}equivalentClass"
 _SAME = (f"{_SKOS}exactMatch", EQUIVALENT_CLASS, f"{_OWL}sameAs", f"{_SKOS}closeMatch", f"{_RDFS}seeAlso")
-"""Properties that map a class to an item, the surest first; any other annotation comes after them."""
+"""Mapping properties, strongest first; other annotations rank last."""
 _OTHER_ITEMS = tuple(f"{_SKOS}{name}" for name in ("broadMatch", "narrowMatch", "relatedMatch", "mappingRelation"))
-"""Properties whose item is another thing than the class."""
+"""Properties whose item is not equivalent to the class."""
 _ITEM = re.compile(
     r"(?:https?://(?:www\.)?wikidata\.org/(?:entity|wiki)/|(?:wd|wikidata):)(Q[1-9][0-9]*)", re.IGNORECASE
 )
 
 
 def item_in(text: str) -> str | None:
-    """Return the Wikidata item that an IRI or a text is the address of, else None.
+    """Return the Wikidata item that an IRI or a text denotes, else None.
 
     >>> item_in("http://www.wikidata.org/entity/Q81727")
     'Q81727'
@@ -33,14 +33,14 @@ def item_in(text: str) -> str | None:
 
 
 def is_mapping(property_iri: str) -> bool:
-    """Return whether an item that a class has by this property may be the class itself."""
+    """Return whether this property may map a class to an equivalent item."""
     if property_iri in _SAME:
         return True
     return not property_iri.startswith((_OWL, _RDF, _RDFS)) and property_iri not in _OTHER_ITEMS
 
 
 def pick_items(found: Mapping[str, Iterable[str]]) -> tuple[str, ...]:
-    """Return the items of the surest property, by number; none if there is none.
+    """Return the items of the strongest property, sorted by number.
 
     Args:
         found: property IRI → items.

@@ -1,4 +1,4 @@
-"""How well an ontology will ground, and what to add to it."""
+"""Readiness of an ontology for grounding: what it lacks, and what to add."""
 
 from usd2kg.readiness.check import OntologyReport, check_ontology
 

@@ -9,7 +9,7 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS
 from usd2kg.ontology import compact_iri
-from usd2kg.ontology.levels import Levels, level
+from usd2kg.ontology.components import Components, find_components
 
 __all__ = ["Alternatives", "Axioms", "Disjointness"]
 
@@ -118,23 +118,23 @@ class Axioms:
 
     def closure(self, iri: str) -> frozenset[str]:
         """Return a class with all its named superclasses."""
-        group = self._levels.group_of.get(iri)
+        group = self._components.component_of.get(iri)
         if group is None:
             return frozenset({iri})
         pending = [group]
         while pending:
-            waiting = [up for up in self._levels.above[pending[-1]] if up not in self._closures]
+            waiting = [up for up in self._components.above[pending[-1]] if up not in self._closures]
             if waiting:
                 pending.extend(waiting)
                 continue
             done = pending.pop()
-            ups = (self._closures[up] for up in self._levels.above[done])
-            self._closures[done] = frozenset(self._levels.groups[done]).union(*ups)
+            ups = (self._closures[up] for up in self._components.above[done])
+            self._closures[done] = frozenset(self._components.members[done]).union(*ups)
         return self._closures[group]
 
     @cached_property
-    def _levels(self) -> Levels:
-        return level(self.parents)
+    def _components(self) -> Components:
+        return find_components(self.parents)
 
     def clash(self, first: str, second: str) -> Disjointness | None:
         """Return why two classes cannot have a member in common: of the axioms that say so the most special one."""

@@ -1,45 +1,45 @@
-"""Levels of a hierarchy: its classes in groups that are below each other, so that a walk meets no cycle."""
+"""Strongly connected components of a class hierarchy, so that traversals meet no cycle."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-__all__ = ["Levels", "level", "reachable"]
+__all__ = ["Components", "find_components", "reachable"]
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Levels:
-    """The strongly connected components of a hierarchy."""
+class Components:
+    """The strongly connected components of a hierarchy, superclasses first."""
 
-    groups: tuple[tuple[str, ...], ...]
-    """Classes that are all below each other, mostly one; each group comes after those above it."""
-    group_of: Mapping[str, int]
-    """Class → index of its group."""
+    members: tuple[tuple[str, ...], ...]
+    """Classes of each component: one, unless the hierarchy is cyclic."""
+    component_of: Mapping[str, int]
+    """Class → index of its component."""
     above: tuple[frozenset[int], ...]
-    """For each group the groups directly above it."""
+    """Indices of the components directly above each component."""
 
 
-def level(superclasses: Mapping[str, Iterable[str]]) -> Levels:
-    """Return the levels of a hierarchy given as class → its direct superclasses.
-
-    It takes time in proportion to classes and edges, and no recursion: a hierarchy may be deeper than Python's stack.
-    """
-    groups: list[tuple[str, ...]] = []
-    group_of: dict[str, int] = {}
+def find_components(superclasses: Mapping[str, Iterable[str]]) -> Components:
+    """Return the components of a hierarchy given as class → direct superclasses, in linear time."""
+    members: list[tuple[str, ...]] = []
+    component_of: dict[str, int] = {}
     for group in _components(superclasses):
-        group_of.update(dict.fromkeys(group, len(groups)))
-        groups.append(group)
+        component_of.update(dict.fromkeys(group, len(members)))
+        members.append(group)
     above = (
-        {group_of[up] for iri in group for up in superclasses.get(iri, ())} - {number}
-        for number, group in enumerate(groups)
+        {component_of[up] for iri in group for up in superclasses.get(iri, ())} - {number}
+        for number, group in enumerate(members)
     )
-    return Levels(tuple(groups), group_of, tuple(frozenset(numbers) for numbers in above))
+    return Components(tuple(members), component_of, tuple(frozenset(numbers) for numbers in above))
 
 
 def _components(superclasses: Mapping[str, Iterable[str]]) -> Iterator[tuple[str, ...]]:
-    """Yield the strongly connected components, those above first (Tarjan 1972, without recursion)."""
+    """Yield the strongly connected components, superclasses first.
+
+    Tarjan's algorithm (1972), iterative: a hierarchy may be deeper than Python's stack.
+    """
     order: dict[str, int] = {}
     low: dict[str, int] = {}
     waiting: dict[str, None] = {}
@@ -72,7 +72,7 @@ def _taken_until(iri: str, waiting: dict[str, None]) -> Iterator[str]:
 
 
 def reachable(edges: Mapping[T, Iterable[T]], starts: Iterable[T]) -> set[T]:
-    """Return everything that edges lead to from `starts`, those themselves only if an edge leads back."""
+    """Return all nodes reachable from `starts`; a start is included only if a cycle leads back to it."""
     found: set[T] = set()
     pending = list(starts)
     while pending:

@@ -1,4 +1,4 @@
-"""Classes that the default grounder does not understand, or confuses."""
+"""Faults of senses: classes that the default grounder does not understand or confuses."""
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
@@ -9,15 +9,15 @@ from usd2kg.grounding.lexical.alignment.terms import HEAD, Term, term_key
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
-from usd2kg.readiness.texts import about
+from usd2kg.readiness.labels import class_finding
 from usd2kg.validation import Finding, Severity
 from usd2kg.words import words_of
 
-__all__ = ["Meaning", "find_unmeant"]
+__all__ = ["ClassSenses", "find_sense_faults"]
 
 
-class Meaning:
-    """What the default grounder makes of the classes of a TBox."""
+class ClassSenses:
+    """The senses that the default grounder aligns with the classes of a TBox."""
 
     def __init__(self, tbox: TBox) -> None:
         self._tbox = tbox
@@ -33,16 +33,16 @@ class Meaning:
 
     @property
     def default(self) -> ClassIRI | None:
-        """The class that a thing gets of which nothing is known."""
+        """The residual class, which an object without evidence gets."""
         return self._lexicon.default
 
     def is_known(self, iri: ClassIRI) -> bool:
-        """Return whether a class is aligned with a sense of a noun, or what it is of is known by its name."""
+        """Return whether a class is aligned with a synset or with a list of names."""
         return iri in self._anchored or iri in self._counted or iri in self._lexicon.listed
 
     @cached_property
     def names(self) -> Mapping[ClassIRI, str]:
-        """Class → its best term as the name of a prim; classes that no thing belongs to (activities…) have none."""
+        """Class → best term as a prim name; classes that are not physical objects (activities…) have none."""
         best: dict[ClassIRI, Term] = {}
         for term in self._lexicon.terms.values():
             known = best.get(term.class_iri)
@@ -52,17 +52,17 @@ class Meaning:
 
     @cached_property
     def answers(self) -> Mapping[ClassIRI, ClassIRI | None]:
-        """Class with a term → the class of an object that bears nothing but that name."""
+        """Class with a term → class of an object whose only evidence is that name."""
         views = [(iri, ObjectView(name=name)) for iri, name in self.names.items()]
         found = LexicalGrounder().ground_views(views, self._tbox)
         return {prediction.prim_path: prediction.class_iri for prediction in found}
 
     def rival(self, cls: OntologyClass) -> Term | None:
-        """Return the term of another class that has taken a class's name; None if it has one, or nobody took it."""
+        """Return the term of another class that claims the label of a class; None if there is no such term."""
         return None if cls.iri in self.names else self._lexicon.terms.get(term_key(cls.label, self._taxonomy))
 
     def common_noun(self, cls: OntologyClass) -> str:
-        """Return a noun of the taxonomy that may say what the class is; empty if none is at hand."""
+        """Return a noun of the taxonomy among the words of a class; empty if there is none."""
         for text in (cls.label, *cls.alt_labels):
             for word in reversed(words_of(text)):
                 if (noun := self._taxonomy.singular(word)) in self._taxonomy:
@@ -74,53 +74,53 @@ def _as_name(text: str) -> str:
     return "".join(word.capitalize() for word in text.split())
 
 
-def find_unmeant(tbox: TBox, meaning: Meaning) -> Iterator[Finding]:
-    """Yield the classes that nothing is grounded to, that are known by their exact words alone, or lose their name."""
-    yield from _never_asked(tbox)
+def find_sense_faults(tbox: TBox, senses: ClassSenses) -> Iterator[Finding]:
+    """Yield the classes that are never an answer, that match only their exact words, or that lose their name."""
+    yield from _non_objects(tbox)
     for cls in tbox.classes:
-        answer = meaning.answers.get(cls.iri, cls.iri)
-        if taken := meaning.rival(cls):
+        answer = senses.answers.get(cls.iri, cls.iri)
+        if taken := senses.rival(cls):
             yield _lost(cls, _as_name(taken.text), tbox.by_iri[taken.class_iri])
         elif answer is not None and answer != cls.iri:
-            yield _lost(cls, meaning.names[cls.iri], tbox.by_iri[answer])
-        elif cls.iri in meaning.names and not meaning.is_known(cls.iri):
-            yield _unmeant(cls, meaning.common_noun(cls))
+            yield _lost(cls, senses.names[cls.iri], tbox.by_iri[answer])
+        elif cls.iri in senses.names and not senses.is_known(cls.iri):
+            yield _no_sense(cls, senses.common_noun(cls))
 
 
-def _never_asked(tbox: TBox) -> Iterator[Finding]:
-    """Yield the topmost of the classes that no thing belongs to: one finding for all below them."""
+def _non_objects(tbox: TBox) -> Iterator[Finding]:
+    """Yield the topmost classes that are not physical objects: one finding per subtree."""
     things = {cls.iri for cls in things_of(tbox)}
     for cls in tbox.classes:
         if cls.iri not in things and things.issuperset(cls.parents):
             below = sum(tbox.is_subclass(other.iri, cls.iri) for other in tbox.classes) - 1
-            yield about(
+            yield class_finding(
                 cls,
                 Severity.NOTE,
                 "no-things",
-                f"no kind of object, by its name; nothing is grounded to it nor to the {below} classes below",
-                "a scope of things",
-                "Nothing, if that is so; otherwise give it labels with the nouns that people use.",
+                f"not a class of objects, by its name; nothing is grounded to it or to its {below} subclasses",
+                "a scope of physical objects",
+                "None, if that is correct; otherwise add labels with common nouns.",
             )
 
 
 def _lost(cls: OntologyClass, name: str, won: OntologyClass) -> Finding:
-    return about(
+    return class_finding(
         cls,
         Severity.WARNING,
         "lost-name",
         f"an object called {name} is grounded to “{won.label}” ({compact_iri(won.iri)})",
         "its own class",
-        "Give it a label or a skos:altLabel that tells it from the other.",
+        "Give it a label or a skos:altLabel that distinguishes it from the other class.",
     )
 
 
-def _unmeant(cls: OntologyClass, noun: str) -> Finding:
+def _no_sense(cls: OntologyClass, noun: str) -> Finding:
     hint = f", such as “{noun}”" if noun else ""
-    return about(
+    return class_finding(
         cls,
         Severity.NOTE,
         "no-sense",
-        "no name of it is a noun that the taxonomy knows: only its exact words lead to it",
+        "no name is a noun in the taxonomy: only exact matches are grounded to it",
         "a common noun among its labels",
-        f"Add as skos:altLabel what people call such a thing in a word{hint}, if that is true of all of them.",
+        f"Add a skos:altLabel with a common noun{hint}, if it fits all instances.",
     )

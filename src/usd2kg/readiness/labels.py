@@ -1,4 +1,4 @@
-"""Labels, synonyms and definitions that are missing, say nothing, or are shared."""
+"""Faults of labels, synonyms and definitions: missing, meaningless or shared."""
 
 from collections.abc import Iterable, Iterator
 
@@ -8,11 +8,11 @@ from usd2kg.ontology import LABELS, OntologyClass, TBox, compact_iri
 from usd2kg.validation import Finding, Severity
 from usd2kg.words import split_identifier
 
-__all__ = ["Texts", "about", "find_text_faults"]
+__all__ = ["LabelIndex", "class_finding", "find_label_faults"]
 
 
-class Texts:
-    """Which classes have a label of their own: a TBox takes the end of the IRI where there is none."""
+class LabelIndex:
+    """The classes with a label of their own; a TBox falls back to the local name."""
 
     def __init__(self, triples: Iterable[ox.Triple]) -> None:
         self._labelled = {
@@ -26,24 +26,24 @@ class Texts:
         return not self._labelled.isdisjoint((cls.iri, *cls.equivalents))
 
 
-def about(cls: OntologyClass, severity: Severity, rule: str, found: str, expected: str, advice: str) -> Finding:
+def class_finding(cls: OntologyClass, severity: Severity, rule: str, found: str, expected: str, advice: str) -> Finding:
     """Return a finding about a class."""
     return Finding(severity, rule, f"“{cls.label}” ({compact_iri(cls.iri)})", "", cls.iri, found, expected, advice)
 
 
-def find_text_faults(tbox: TBox, texts: Texts) -> Iterator[Finding]:
-    """Yield what is wrong with the texts of classes."""
+def find_label_faults(tbox: TBox, labels: LabelIndex) -> Iterator[Finding]:
+    """Yield the faults of labels and definitions."""
     for cls in tbox.classes:
-        if not texts.has_label(cls):
+        if not labels.has_label(cls):
             yield _unlabelled(cls)
         if not cls.comment:
-            yield about(
+            yield class_finding(
                 cls,
                 Severity.NOTE,
                 "no-definition",
                 "no definition or comment",
-                "a sentence that says what the class holds",
-                "Add a skos:definition or an rdfs:comment: it tells grounders which sense of a word is meant.",
+                "a sentence that defines the class",
+                "Add a skos:definition or an rdfs:comment: it disambiguates the labels.",
             )
     yield from _shared(tbox)
 
@@ -54,20 +54,20 @@ def _unlabelled(cls: OntologyClass) -> Finding:
     is_number = len(letters) < len(parts) and all(len(part) == 1 or part.isupper() for part in letters)
     if parts and not is_number:
         found = f"no label; its IRI is read as “{' '.join(parts).lower()}”"
-        advice = "Add an rdfs:label, with the words that people use for the thing."
-        return about(cls, Severity.NOTE, "no-label", found, "an rdfs:label or a skos:prefLabel", advice)
-    return about(
+        advice = "Add an rdfs:label with the common name."
+        return class_finding(cls, Severity.NOTE, "no-label", found, "an rdfs:label or a skos:prefLabel", advice)
+    return class_finding(
         cls,
         Severity.ERROR,
         "no-name",
-        f"no label, and the IRI ends in “{cls.local_name}”, which says nothing",
+        f"no label, and the IRI ends in “{cls.local_name}”, which is meaningless",
         "an rdfs:label or a skos:prefLabel",
-        "Add a label; if the labels are in another document, put it beside this one, or name it in catalog-v001.xml.",
+        "Add a label; if the labels are in another document, put it next to this one, or list it in catalog-v001.xml.",
     )
 
 
 def _shared(tbox: TBox) -> Iterator[Finding]:
-    """Yield the names that several classes have, none of which is above the others."""
+    """Yield the names that several classes share."""
     named: dict[str, list[OntologyClass]] = {}
     for cls in tbox.classes:
         for text in dict.fromkeys(" ".join(split_identifier(name)).lower() for name in (cls.label, *cls.alt_labels)):
@@ -77,11 +77,11 @@ def _shared(tbox: TBox) -> Iterator[Finding]:
         first, *others = classes
         if others:
             names = ", ".join(f"“{cls.label}” ({compact_iri(cls.iri)})" for cls in others)
-            yield about(
+            yield class_finding(
                 first,
                 Severity.WARNING,
                 "shared-name",
-                f"“{text}” is a name of {names} too",
-                "names of its own",
-                "Keep it for one of them, or state that they are equivalent: objects called so go to one of them.",
+                f"“{text}” is also a name of {names}",
+                "unique names",
+                "Keep it for one class, or state their equivalence: objects of this name get one of them.",
             )
