@@ -28,6 +28,7 @@ from typing import NamedTuple
 
 from tools.build_categories import count_hyponyms
 from tools.data_files import gzip_bytes, read_source_rows, write_data_file
+from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, format_taxonomy
 
 OUTPUT = "wordnet.txt.gz"
 ADDITIONS = "wordnet_additions.csv"
@@ -268,7 +269,7 @@ def _key(lemma: str) -> str:
     return lemma.replace(" ", "").replace("-", "")
 
 
-def sizes_of(synsets: list[Synset]) -> list[int]:
+def count_all_hyponyms(synsets: Sequence[Synset]) -> list[int]:
     """Return for each synset how many there are below it, itself included."""
     below: list[list[int]] = [[] for _ in synsets]
     for at, synset in enumerate(synsets):
@@ -277,8 +278,8 @@ def sizes_of(synsets: list[Synset]) -> list[int]:
     return [count_hyponyms([at], below) for at in range(len(synsets))]
 
 
-def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
-    """Return the lines that `Taxonomy` reads."""
+def build_columns(adjectives: Iterable[str], synsets: Sequence[Synset]) -> TaxonomyColumns:
+    """Return the columns of the taxonomy file."""
     letters = {domain: chr(ord("a") + at) for at, domain in enumerate(DOMAINS)}
     senses: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for at, synset in enumerate(synsets):
@@ -287,19 +288,19 @@ def format_taxonomy(adjectives: list[str], synsets: list[Synset]) -> str:
                 senses[_key(lemma)].append((rank, at))
     single = {lemma for synset in synsets for lemma, _ in synset.lemmas}
     ordered = {lemma: sorted(found) for lemma, found in senses.items()}
-    lines = [
-        " ".join(adjectives),
-        " ".join(letters),
-        "".join(letters[synset.domain] for synset in synsets),
-        "\t".join(" ".join(map(str, synset.above)) for synset in synsets),
-        "\t".join(synset.lemmas[0][0] for synset in synsets),
-        "\t".join(ordered),
-        "\t".join(" ".join(f"{letters[synsets[at].domain]}{rank}" for rank, at in found) for found in ordered.values()),
-        "\t".join(" ".join(str(at) for _, at in found) for found in ordered.values()),
-        "".join("1" if lemma in single else "0" for lemma in ordered),
-        "\t".join(map(str, sizes_of(synsets))),
-    ]
-    return "\n".join(lines) + "\n"
+    kinds = (" ".join(f"{letters[synsets[at].domain]}{rank}" for rank, at in found) for found in ordered.values())
+    columns = {
+        "adjectives": "\t".join(adjectives),
+        "domains": "\t".join(letters),
+        "synset_names": "\t".join(synset.lemmas[0][0] for synset in synsets),
+        "synset_hypernyms": "\t".join(" ".join(map(str, synset.above)) for synset in synsets),
+        "synset_hyponym_counts": "\t".join(map(str, count_all_hyponyms(synsets))),
+        "lemmas": "\t".join(ordered),
+        "lemma_kinds": "\t".join(kinds),
+        "lemma_synsets": "\t".join(" ".join(str(at) for _, at in found) for found in ordered.values()),
+        "lemma_is_one_word": "".join("1" if lemma in single else "0" for lemma in ordered),
+    }
+    return TaxonomyColumns(**{name: text.encode() for name, text in columns.items()})
 
 
 def main() -> None:
@@ -327,8 +328,8 @@ def main() -> None:
     of_wordnet = len(numbered)
     kinds = Kinds(numbered)
     kinds.add_all([(row["name"], row["kind"].split("|")) for row in read_source_rows(ADDITIONS)])
-    text = format_taxonomy(adjectives, numbered)
-    path = write_data_file(OUTPUT, gzip_bytes(text.encode()))
+    text = format_taxonomy(build_columns(adjectives, numbered))
+    path = write_data_file(OUTPUT, gzip_bytes(text))
     print(
         f"{path}: {of_wordnet} of {len(synsets)} synsets, {len(numbered) - of_wordnet} added, "
         f"{len(adjectives)} adjectives, {path.stat().st_size} bytes"

@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tools.build_wordnet import Synset, format_taxonomy
+from tools.build_wordnet import Synset, build_columns
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy, load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy_file import format_taxonomy, parse_taxonomy
 
 # Synsets by number; the rank of a meaning stands after its lemma.
 #
@@ -23,22 +24,38 @@ SYNSETS = [
     Synset("food", [3], [("bun", 2), ("roll", 2)]),
     Synset("artifact", [4, 1], [("knife", 1), ("flower pot", 1), ("x-ray", 3), ("bun", 1)]),
 ]
-TINY = Taxonomy(format_taxonomy(["red", "wooden"], SYNSETS))
+TINY = Taxonomy(build_columns(["red", "wooden"], SYNSETS))
 
 
-def test_the_file_as_the_reader_describes_it():
-    *lines, is_single, sizes, end = format_taxonomy(["red", "wooden"], SYNSETS).split("\n")
-    assert [line.split("\t") for line in lines] == [
-        ["red wooden"],
-        ["top animal artifact body communication food group object phenomenon plant shape substance person"],
-        ["accfcfc"],
-        ["", "0", "1", "0", "2", "3", "4 1"],
-        ["entity", "artifact", "tool", "food", "cutter", "bun", "knife"],
-        ["entity", "artifact", "tool", "food", "cutter", "bun", "roll", "knife", "flowerpot", "xray"],
-        ["a1", "c1", "c1", "f1", "c1", "c1 f2", "f2", "c1", "c1", "c3"],
-        ["0", "1", "2", "3", "4", "6 5", "5", "6", "6", "6"],
-    ]
-    assert (is_single, sizes, end) == ("1111111100", "7\t4\t3\t2\t2\t1\t1", "")
+def test_columns_of_the_file():
+    columns = build_columns(["red", "wooden"], SYNSETS)
+    assert {name: cells.decode().split("\t") for name, cells in columns._asdict().items()} == {
+        "adjectives": ["red", "wooden"],
+        "domains": "top animal artifact body communication food group object phenomenon plant shape substance "
+        "person".split(),
+        "synset_names": ["entity", "artifact", "tool", "food", "cutter", "bun", "knife"],
+        "synset_hypernyms": ["", "0", "1", "0", "2", "3", "4 1"],
+        "synset_hyponym_counts": ["7", "4", "3", "2", "2", "1", "1"],
+        "lemmas": ["entity", "artifact", "tool", "food", "cutter", "bun", "roll", "knife", "flowerpot", "xray"],
+        "lemma_kinds": ["a1", "c1", "c1", "f1", "c1", "c1 f2", "f2", "c1", "c1", "c3"],
+        "lemma_synsets": ["0", "1", "2", "3", "4", "6 5", "5", "6", "6", "6"],
+        "lemma_is_one_word": ["1111111100"],
+    }
+
+
+def test_a_file_is_read_as_it_was_written():
+    columns = build_columns(["red", "wooden"], SYNSETS)
+    text = format_taxonomy(columns)
+    assert text.startswith(b"usd2kg noun taxonomy, format 2\n[adjectives]\nred\twooden\n[domains]\ntop\t")
+    assert parse_taxonomy(text) == columns
+
+
+@pytest.mark.parametrize(
+    "text", [b"", b"usd2kg noun taxonomy, format 1\n", b"usd2kg noun taxonomy, format 2\n[lemmas]\n"]
+)
+def test_rejects_a_file_of_another_format(text):
+    with pytest.raises(ValueError, match="expected 'usd2kg noun taxonomy, format 2' and its sections"):
+        parse_taxonomy(text)
 
 
 def test_the_meaning_used_most_comes_first_whatever_the_order_of_the_file():

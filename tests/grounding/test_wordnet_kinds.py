@@ -2,7 +2,7 @@
 
 import pytest
 
-from tools.build_wordnet import Kinds, Synset, format_taxonomy
+from tools.build_wordnet import Kinds, Synset, build_columns
 from tools.data_files import read_source_rows
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
@@ -20,7 +20,7 @@ def taxonomy_of(rows: dict[str, str]) -> Taxonomy:
         Synset("substance", [], [("clay", 1)]),
     ]
     Kinds(synsets).add_all([(name, kind.split("|")) for name, kind in rows.items()])
-    return Taxonomy(format_taxonomy([], synsets))
+    return Taxonomy(build_columns([], synsets))
 
 
 def chains(taxonomy: Taxonomy, lemma: str) -> list[list[str]]:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, parse_taxonomy
 from usd2kg.knowledge import read_bytes
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
@@ -28,52 +29,44 @@ class Sense(NamedTuple):
 
 
 class _Cells:
-    """The cells of a line, parted by tabs: a hundred thousand strings by themselves would take ten times its memory."""
+    """The cells of a column: a hundred thousand strings of their own would take ten times its memory."""
 
-    def __init__(self, line: str) -> None:
-        self._line = line.encode()
-        tabs = np.flatnonzero(np.frombuffer(self._line, np.uint8) == ord("\t")) + 1
-        self._starts = array("i", [0, *tabs.tolist(), len(self._line) + 1])
+    def __init__(self, column: bytes) -> None:
+        self._column = column
+        tabs = np.flatnonzero(np.frombuffer(column, np.uint8) == ord("\t")) + 1
+        self._starts = array("i", [0])
+        self._starts.frombytes(tabs.astype(np.intc).tobytes())
+        self._starts.append(len(column) + 1)
 
     def __getitem__(self, at: int) -> str:
-        return self._line[self._starts[at] : self._starts[at + 1] - 1].decode()
+        return self._column[self._starts[at] : self._starts[at + 1] - 1].decode()
 
     def __len__(self) -> int:
         return len(self._starts) - 1
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._line.decode().split("\t"))
+        return iter(self._column.decode().split("\t"))
 
 
 class Taxonomy:
     """A noun hierarchy. Synsets are numbers; lemmas are lower case, compounds without space or hyphen.
 
-    What a lemma or synset holds is taken apart when it is first asked for: no scene speaks of all of them.
+    Cells are parsed when they are first asked for: a scene needs few of them.
     """
 
-    def __init__(self, text: str) -> None:
-        """Read the lines that `tools/build_wordnet.py` writes.
-
-        1. adjectives, parted by spaces;
-        2. domains, parted by spaces, the first called `a` below, the next `b`…;
-        3. the domain of each synset, a letter each;
-        4. what is above each synset: numbers of synsets parted by spaces; tabs part synsets;
-        5. the name of each synset; tabs;
-        6. lemmas; tabs;
-        7. for each lemma the domain and rank of its meanings, those used most first: `c1 f2`; tabs;
-        8. for each lemma the synsets of its meanings, in that order; tabs.
-        9. for each lemma 1 if people write it as one word, 0 if only as several; no tabs;
-        10. for each synset the number of those below it, itself included; tabs.
-        """
-        adjectives, domains, _, above, names, lemmas, kinds, senses, self._is_one_word, sizes = text.split("\n")[:10]
-        self.adjectives = frozenset(adjectives.split())
-        self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains.split())}
-        self._above_texts = _Cells(above)
-        self._names = _Cells(names)
-        self._sizes = _Cells(sizes)
-        self._places = {lemma: at for at, lemma in enumerate(lemmas.split("\t"))}
-        self._kinds = _Cells(kinds)
-        self._synsets = _Cells(senses)
+    def __init__(self, columns: TaxonomyColumns) -> None:
+        """Index the columns of a taxonomy file."""
+        self.adjectives = frozenset(columns.adjectives.decode().split("\t"))
+        domains = columns.domains.decode().split("\t")
+        self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains)}
+        self._above_texts = _Cells(columns.synset_hypernyms)
+        self._names = _Cells(columns.synset_names)
+        self._sizes = _Cells(columns.synset_hyponym_counts)
+        lemmas = columns.lemmas.decode().split("\t")
+        self._places = dict(zip(lemmas, range(len(lemmas)), strict=True))
+        self._kinds = _Cells(columns.lemma_kinds)
+        self._synsets = _Cells(columns.lemma_synsets)
+        self._is_one_word = columns.lemma_is_one_word.decode()
         self._senses: dict[str, tuple[Sense, ...]] = {}
         self._above: dict[int, tuple[int, ...]] = {}
         self._singular = lru_cache(maxsize=16384)(self._find_singular)
@@ -201,5 +194,4 @@ class Taxonomy:
 @lru_cache(maxsize=1)
 def load_taxonomy() -> Taxonomy:
     """Return the taxonomy that ships with the package, read once."""
-    data = read_bytes("wordnet.txt.gz")
-    return Taxonomy(gzip.decompress(data).decode())
+    return Taxonomy(parse_taxonomy(gzip.decompress(read_bytes("wordnet.txt.gz"))))
