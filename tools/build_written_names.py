@@ -2,18 +2,16 @@
 
 Usage: python -m tools.build_written_names
 
-Reads the names of the lists of `benchmarks/names` and `benchmarks/ontologies` that the authors of this project wrote
-and improved the grounder on; lists that are tests, and names that others gave, are left out. A line is a run of words
+Reads the names of `benchmarks/names` and `benchmarks/ontologies` that the authors of this project made up, split
+`train` only. A line is a run of words
 that are known: what is misspelt, abbreviated or a brand parts a name. Run it again after adding a list.
 """
 
-import csv
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import groupby
 
-from benchmarks.names import run as home
-from benchmarks.ontologies import run as other
+from benchmarks.names.lists import AUTHORS, HOME_TABLE, ONTOLOGY_TABLE, PUBLIC_ONTOLOGIES, read_names
 from tools.data_files import write_data_file
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
@@ -24,7 +22,6 @@ from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
 OUTPUT = "written_names.txt"
-OF_OTHERS = frozenset(["found", "outdoors", "bedside", "factory"])
 SHORTEST = 3
 """Shorter words are mostly codes."""
 
@@ -42,13 +39,11 @@ def build_written_names() -> str:
 
 
 def names() -> Iterator[str]:
-    """Yield the names of all lists."""
-    own = [name for name, split in other.OWN.items() if split == "train"]
-    paths = [*(home.HERE / f"{name}.csv" for name in home.TRAIN), *(other.HERE / f"{name}.csv" for name in own)]
-    for path in paths:
-        if path.stem not in OF_OTHERS:
-            with path.open(encoding="utf-8", newline="") as file:
-                yield from (row["name"] for row in csv.DictReader(file))
+    """Yield the names of the training lists by the authors."""
+    for names in (*read_names(HOME_TABLE), *read_names(ONTOLOGY_TABLE)):
+        # Lists with public ontologies repeat names of the home table.
+        if names.split == "train" and names.ontology not in PUBLIC_ONTOLOGIES:
+            yield from (row["name"] for row in names.rows if row["source"] == AUTHORS)
 
 
 def known_runs(name: str) -> Iterator[str]:

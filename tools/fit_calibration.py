@@ -34,8 +34,12 @@ OUTPUT = ROOT / "src/usd2kg/data/calibration.json"
 sys.path.insert(0, str(ROOT))
 
 from benchmarks.bare import bare_scene  # noqa: E402  (scripts are no packages of the product)
-from benchmarks.names.run import TRAIN, Thing, load  # noqa: E402
-from benchmarks.ontologies import run as ontologies  # noqa: E402
+from benchmarks.names.lists import (  # noqa: E402
+    LabelledName,
+    iter_ontology_lists,
+    resolve_home_lists,
+    resolve_list,
+)
 from tools import build_written_names  # noqa: E402
 
 LISTED = 0.5
@@ -68,9 +72,11 @@ def main() -> None:
         if path.exists() and "test" not in re.findall(r"\w+", scene["name"]):
             scenes[scene["name"]] = sample(scene)
     home = open_tbox(None)
-    lists = [sample_of_list(load(ROOT / f"benchmarks/names/{listed}.csv", home), home) for listed in TRAIN]
-    lists += [sample_of_list(things, tbox) for things, tbox in ontologies.public_to_learn_from()]
-    lists += [sample_of_list(things, tbox, UNLEARNED) for things, tbox in ontologies.to_be_sure_by()]
+    lists = [sample_of_list(names, home) for names in resolve_home_lists("train", home)]
+    for names, tbox in iter_ontology_lists(("train",), public=True):
+        lists.append(sample_of_list(resolve_list(names, tbox), tbox))
+    for names, tbox in iter_ontology_lists(("calibration",)):
+        lists.append(sample_of_list(resolve_list(names, tbox), tbox, UNLEARNED))
     report = {left_out: check(left_out, scenes, lists) for left_out in scenes}
     weights = fit([*scenes.values(), *lists])
     text = {
@@ -97,7 +103,7 @@ def sample(scene: dict[str, Any]) -> Sample:
     return joined(samples)
 
 
-def sample_of_list(things: list[Thing], tbox: TBox, share: float = LISTED) -> Sample:
+def sample_of_list(things: list[LabelledName], tbox: TBox, share: float = LISTED) -> Sample:
     """Return the answers of a list of names, spelled out and abbreviated.
 
     Those that the reader of abbreviations learned from do not tell how well it reads others.

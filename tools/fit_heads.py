@@ -34,7 +34,7 @@ MATRIX = ROOT / "benchmarks/accuracy/matrix.toml"
 OUTPUT = ROOT / "src/usd2kg/data/heads.json"
 sys.path.insert(0, str(ROOT))
 
-from benchmarks.names.run import TRAIN, load  # noqa: E402  (scripts are no packages of the product)
+from benchmarks.names.lists import resolve_home_lists  # noqa: E402  (scripts are no packages of the product)
 
 RIDGE = 2.0
 """Strength of the pull of the weights to zero."""
@@ -86,8 +86,8 @@ def names_of_lists() -> Iterator[Name]:
     """Yield the names of the lists that may be learned from."""
     tbox = open_tbox(None)
     readers = readers_of(tbox)
-    for listed in TRAIN:
-        for thing in load(ROOT / f"benchmarks/names/{listed}.csv", tbox):
+    for names in resolve_home_lists("train", tbox):
+        for thing in names:
             parents = tuple(thing.obj.prim_path.split("/")[1:-1])
             assert thing.obj.box
             yield from ends(readers, thing.obj.name, parents, thing.obj.box.size, thing.accepted)

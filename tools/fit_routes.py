@@ -28,8 +28,12 @@ ROOT = Path(__file__).parents[1]
 OUTPUT = ROOT / "src/usd2kg/data/routes.json"
 sys.path.insert(0, str(ROOT))
 
-from benchmarks.names.run import Thing  # noqa: E402  (scripts are no packages of the product)
-from benchmarks.ontologies.run import ONTOLOGIES, to_learn_from  # noqa: E402
+from benchmarks.names.lists import (  # noqa: E402  (scripts are no packages of the product)
+    SHARED_ONTOLOGIES,
+    LabelledName,
+    iter_ontology_lists,
+    resolve_list,
+)
 
 RIDGE = 1.0
 """Strength of the pull of the weights, for features of spread 1, to zero."""
@@ -57,11 +61,11 @@ class Noun(NamedTuple):
 
 def main() -> None:
     """Fit, check, write."""
-    if not ONTOLOGIES.is_dir():
-        raise SystemExit(f"{ONTOLOGIES} is missing; with three ontologies less the weights would be others")
+    if not SHARED_ONTOLOGIES.is_dir():
+        raise SystemExit(f"{SHARED_ONTOLOGIES} is missing; with three ontologies less the weights would be others")
     nouns: dict[TBox, list[Noun]] = {}
-    for things, tbox in to_learn_from():
-        nouns.setdefault(tbox, []).extend(nouns_of(things, tbox))
+    for names, tbox in iter_ontology_lists(("train",)):
+        nouns.setdefault(tbox, []).extend(nouns_of(resolve_list(names, tbox), tbox))
     nouns = {tbox: found for tbox, found in nouns.items() if found}
     told = [count for tbox, own in nouns.items() for count in right_of(own, fit_others(nouns, tbox))]
     weights = fit([noun for found in nouns.values() for noun in found])
@@ -77,7 +81,7 @@ def main() -> None:
     print(OUTPUT.read_text(encoding="utf-8"))
 
 
-def nouns_of(things: Sequence[Thing], tbox: TBox) -> Iterator[Noun]:
+def nouns_of(things: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
     """Yield the routes for the likeliest end of each name that has any; none with classes of the home vocabulary."""
     taxonomy = load_taxonomy()
     lexicon = build_lexicon(tbox, taxonomy, home_names())

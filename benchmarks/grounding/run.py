@@ -9,7 +9,6 @@ core, of which the least counts; times are of the processor, memory is the peak.
 that the same run measures.
 """
 
-import csv
 import os
 import random
 import resource
@@ -18,9 +17,9 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from itertools import islice
-from pathlib import Path
 
 from benchmarks.bare import bare_object, bare_scene
+from benchmarks.names.lists import HOME_TABLE, read_names
 from usd2kg.grounding import NamingRegime, ground
 from usd2kg.grounding.context.views import abbreviate
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
@@ -79,10 +78,7 @@ def written_names(write: Callable[[list[str]], str]) -> Iterator[str]:
 
 def listed_names() -> Iterator[str]:
     """Yield the different names of all lists, shuffled."""
-    names: dict[str, None] = {}
-    for path in sorted((Path(__file__).parents[1] / "names").glob("*.csv")):
-        with path.open(encoding="utf-8", newline="") as file:
-            names.update((row["name"], None) for row in csv.DictReader(file))
+    names = {row["name"]: None for listed in read_names(HOME_TABLE) for row in listed.rows}
     yield from random.Random(2).sample(list(names), len(names))
 
 

@@ -1,6 +1,6 @@
 """Hold the spatial relations that are found against those that were judged by eye.
 
-Usage: python benchmarks/relations/judged.py [SCENE...] (default: all)
+Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
 The lists are in `judged`; that of the demo kitchen is what it was built with. The two real scenes are read from the
 folder that the variable USD2KG_SHARED names, `../shared` by default; one that is absent is left out.
@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import usd2kg
+from benchmarks.intervals import wilson
 from usd2kg.demo import demo_relations, demo_scene
 from usd2kg.relations import Relation
 
@@ -24,8 +25,6 @@ ROOT = HERE.parents[1]
 SHARED = Path(os.environ.get("USD2KG_SHARED", ROOT.parent / "shared")) / "scenes"
 KINDS = ("on", "inside", "part-of", "room", "touching")
 ANY = "*"
-_Z = 1.959964
-"""97.5 % point of the standard normal distribution."""
 
 
 class Sources(NamedTuple):
@@ -130,14 +129,6 @@ class _Known:
         tries = [(fact.subject, kind, anchor) for kind in fact.kinds for anchor in fact.objects]
         turned = [(o, kind, s) for s, kind, o in tries if kind == "touching"]
         return any(link in self._links for link in (*tries, *turned))
-
-
-def wilson(right: int, count: int) -> tuple[float, float]:
-    """Return the 95 % score interval of a share (Wilson, 1927); it is honest near 0 and 1, and for small counts."""
-    share, spread = right / count, _Z**2 / count
-    middle = (share + spread / 2) / (1 + spread)
-    half = _Z * math.sqrt(share * (1 - share) / count + spread / (4 * count)) / (1 + spread)
-    return max(0.0, middle - half), min(1.0, middle + half)
 
 
 def table(name: str, tallies: Mapping[str, Tally]) -> list[str]:

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 import usd2kg
-from benchmarks.relations.judged import SCENES, Fact, compare, errors, read_judged, table, wilson
+from benchmarks.intervals import wilson
+from benchmarks.relations.judged import SCENES, Fact, compare, errors, read_judged, table
 from tests.conftest import shared_file
 from usd2kg.relations import Relation
 
