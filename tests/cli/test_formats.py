@@ -1,6 +1,5 @@
 """Formats on the command line: mapping files, graphs in other formats, property graphs."""
 
-import json
 from pathlib import Path
 
 import networkx as nx
@@ -70,11 +69,8 @@ class TestConvert:
         assert Path("again.ttl").read_bytes() == graph.read_bytes()
 
     @pytest.mark.filterwarnings("ignore:ConjunctiveGraph is deprecated:DeprecationWarning")
-    def test_json_ld_for_developers(self, run: Run, graph: Path):
+    def test_json_ld_has_every_triple(self, run: Run, graph: Path):
         assert run("graph", "convert", graph, "-o", "g.jsonld").code == 0
-        data = json.loads(Path("g.jsonld").read_text("utf-8"))
-        mug = next(thing for thing in data["@graph"] if thing["id"] == "Room.coffee_mug")
-        assert (mug["type"][0], mug["on"]) == ("Cup", ["Room.Table_1"])
         triples = len(rdflib.Graph().parse(graph, format="turtle"))
         assert len(rdflib.Graph().parse("g.jsonld", format="json-ld")) == triples
 
@@ -92,11 +88,6 @@ class TestConvert:
         assert done.code == 2
         assert message in done.err
         assert done.err.count("\n") == 1
-
-    def test_the_context_is_printed(self, run: Run):
-        done = run("graph", "context", "--profile", "plain")
-        assert json.loads(done.out)["@context"]["on"]["@id"] == "u2k:on"
-        assert run("graph", "context", "--profile", "obo").code == 2
 
 
 class TestExport:

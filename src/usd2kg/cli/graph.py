@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from usd2kg.cli.options import GraphPlace, SceneName
-from usd2kg.cli.output import emit, talk
+from usd2kg.cli.output import talk
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.files import check_apart, check_writable, write_whole
 
@@ -101,13 +101,3 @@ def export(
     write_neo4j(found, folder)
     counts = f"{len(found.nodes)} nodes and {len(found.edges)} relationships"
     talk(f"{counts} written to {folder}; load.cypher says how to load them")
-
-
-@app.command("context")
-def context(
-    profile: Annotated[str, typer.Option("--profile", help="Whose graphs: soma (default) or plain.")] = "soma",
-) -> None:
-    """Print the JSON-LD context that graphs are written with: what each short key means."""
-    from usd2kg.graph import context_text  # noqa: PLC0415
-
-    emit(context_text(profile), None)

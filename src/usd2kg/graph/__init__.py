@@ -4,7 +4,6 @@ from usd2kg.graph.export.neo4j import write_neo4j
 from usd2kg.graph.export.property_graph import PropertyEdge, PropertyGraph, PropertyNode, read_property_graph
 from usd2kg.graph.export.sssom import UNSPECIFIED_LICENSE, format_sssom
 from usd2kg.graph.formats.document import RDF_FORMATS, GraphDocument, GraphPart, document_of, rdf_format, read_document
-from usd2kg.graph.formats.json_ld import CONTEXTS, context_text
 from usd2kg.graph.formats.serialize import GRAPH_FORMATS, GraphFormat, graph_format, serialize_graph, write_graph
 from usd2kg.graph.instantiate import PROFILES, KnowledgeGraph, instantiate
 from usd2kg.graph.iris import individual_iri, prim_path_of
@@ -15,7 +14,6 @@ from usd2kg.graph.terms import VOCABULARY_IRI, vocabulary_text
 __all__ = [
     "ANNOTATIONS",
     "COLORS",
-    "CONTEXTS",
     "GRAPH_FORMATS",
     "PROFILES",
     "RDF_FORMATS",
@@ -29,7 +27,6 @@ __all__ = [
     "PropertyEdge",
     "PropertyGraph",
     "PropertyNode",
-    "context_text",
     "document_of",
     "format_sssom",
     "graph_format",

@@ -4,7 +4,6 @@ import csv
 import gzip
 import json
 import math
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +27,6 @@ from usd2kg.graph import (
     GraphOptions,
     GraphPart,
     KnowledgeGraph,
-    context_text,
     document_of,
     read_document,
     read_property_graph,
@@ -99,7 +97,7 @@ class TestRdf:
         document = read_document(path)
         assert list(document.triples) == list(graph.triples)
         assert [part.iri for part in document.parts] == [graph.iri]
-        assert document.base == graph.base
+        assert document.prefixes[""] == graph.base
         write_graph(document, tmp_path / f"again{ending}{packed}")
         assert (tmp_path / f"again{ending}{packed}").read_bytes() == path.read_bytes()
 
@@ -186,67 +184,18 @@ class TestRdf12:
 
 
 class TestJsonLd:
-    def test_two_processors_expand_it_to_the_same_triples(self, graph: KnowledgeGraph):
+    def test_pyoxigraph_and_rdflib_read_the_same_triples(self, graph: KnowledgeGraph):
         data = serialize_graph(graph, ox.RdfFormat.JSON_LD)
+        assert [quad.triple for quad in ox.parse(data, format=ox.RdfFormat.JSON_LD)] == list(graph.triples)
         expected = rdflib.Graph().parse(data=serialize_graph(graph, ox.RdfFormat.N_TRIPLES), format="nt")
-        by_oxigraph = ox.serialize(
-            (q.triple for q in ox.parse(data, format=ox.RdfFormat.JSON_LD)), format=ox.RdfFormat.N_TRIPLES
-        )
-        assert by_oxigraph is not None
-        for candidate in (by_oxigraph, data):
-            syntax = "nt" if candidate is by_oxigraph else "json-ld"
-            read = rdflib.Graph().parse(data=candidate, format=syntax)
-            assert to_isomorphic(spelt_alike(read)) == to_isomorphic(spelt_alike(expected))
+        assert to_isomorphic(rdflib.Graph().parse(data=data, format="json-ld")) == to_isomorphic(expected)
 
-    def test_it_reads_well(self, home_tbox: TBox):
-        data = json.loads(serialize_graph(hostile_graph(home_tbox, "plain"), ox.RdfFormat.JSON_LD))
-        things = {thing["id"]: thing for thing in data["@graph"]}
-        cup = things["Room.Table.Cup%2D1%2Eb"]
-        assert list(cup)[:4] == ["id", "type", "name", "path"]
-        assert cup["type"] == ["Cup", "Object", "NamedIndividual"]
-        assert (cup["width"], cup["depth"], cup["mass"]) == (0.1, 0.12, 0.25)
-        assert cup["partOf"] == ["Room.Table"]
-        bowl = things["Room.Bowl"]
-        assert bowl["on"] == ["Room.Table"]
-        why = next(note for note in cup["annotations"] if note["predicate"] == "rdf:type")
-        assert (why["object"], why["confidence"], why["status"]) == ("soma:Cup", 0.75, "grounded")
-        on = next(note for note in bowl["annotations"] if note["predicate"] == "on")
-        assert (on["object"], on["rule"]) == ("Room.Table", "on/1")
-        assert things["Room.Table"]["name"] == HOSTILE
-
-    def test_parts_are_nested_and_part_of_points_up(self, home_tbox: TBox):
-        data = json.loads(serialize_graph(hostile_graph(home_tbox), ox.RdfFormat.JSON_LD))
-        things = {thing["id"]: thing for thing in data["@graph"]}
-        cup = things["Room.Table.Cup%2D1%2Eb"]
-        box = cup["shape"]["region"][0]
-        # KnowRob reads depth along x and width along y.
-        assert (box["depth"], box["width"], box["height"]) == (0.1, 0.12, 0.09)
-        assert cup["massAttribute"]["mass"] == 0.25
-        assert not [iri for iri in things if iri.endswith(("-shape", "-box", "-pose", "-mass"))]
-
-    def test_every_property_that_we_write_has_a_short_key(self, graph: KnowledgeGraph):
-        data = json.loads(serialize_graph(graph, ox.RdfFormat.JSON_LD))
-        assert {key for thing in data["@graph"] for key in all_keys(thing) if ":" in key} == set()
-
-    def test_parts_that_run_in_a_circle_are_all_written(self):
-        first, second = (ox.NamedNode(f"https://my.lab/k/a-{name}") for name in "xy")
-        near = ox.NamedNode("https://x.org/near")
-        triples = [ox.Triple(first, near, second), ox.Triple(second, near, first)]
-        data = serialize_graph(document(*triples), ox.RdfFormat.JSON_LD)
-        assert [quad.triple for quad in ox.parse(data, format=ox.RdfFormat.JSON_LD)] == triples
-
-    @pytest.mark.parametrize("profile", PROFILES)
-    def test_the_published_context_is_what_files_hold(self, home_tbox: TBox, profile: str):
-        data = json.loads(serialize_graph(hostile_graph(home_tbox, profile), ox.RdfFormat.JSON_LD))
-        published, own = data["@context"]
-        assert published == json.loads(context_text(profile))["@context"]
-        assert {name: published[name] for name in PREFIXES} == PREFIXES
-        assert own["@base"] == "https://my.lab/k/"
-        assert own["Cup"] == "soma:Cup"
-
-    def test_a_profile_without_a_context_is_an_error(self):
-        with pytest.raises(GraphError, match="expected one of soma, plain"):
-            context_text("obo")
+    def test_is_deterministic_standard_json_ld(self, home_tbox: TBox):
+        first, second = (serialize_graph(hostile_graph(home_tbox), ox.RdfFormat.JSON_LD) for _ in range(2))
+        assert first == second
+        nodes = {node["@id"]: node for node in json.loads(first)}
+        bowl = nodes["https://my.lab/k/Room.Bowl"]
+        assert bowl["http://www.ease-crc.org/ont/SOMA.owl#isOntopOf"] == [{"@id": "https://my.lab/k/Room.Table"}]
 
     @settings(deadline=None, max_examples=60)
     @given(
@@ -268,41 +217,10 @@ class TestJsonLd:
             max_size=8,
         )
     )
-    def test_any_values_come_back(self, said: list[tuple[str, Any]]):
+    def test_any_literal_survives_a_round_trip(self, said: list[tuple[str, Any]]):
         triples = tuple(dict.fromkeys(say(predicate, value) for predicate, value in said))
-        if any(t.object == ox.NamedNode("u2k:z") for t in triples):
-            with pytest.raises(GraphError, match="would be read as the prefix 'u2k'"):
-                serialize_graph(document(*triples), ox.RdfFormat.JSON_LD)
-            return
         data = serialize_graph(document(*triples), ox.RdfFormat.JSON_LD)
-        found = {exact(q.triple) for q in ox.parse(data, format=ox.RdfFormat.JSON_LD)}
-        assert found == {exact(t) for t in triples}
-
-
-def all_keys(thing: Any) -> Iterator[str]:
-    """Yield the keys of an object and of all within it."""
-    for key, value in thing.items():
-        yield key
-        for item in value if isinstance(value, list) else [value]:
-            if isinstance(item, dict):
-                yield from all_keys(item)
-
-
-def exact(triple: ox.Triple) -> tuple[Any, ...]:
-    value = triple.object
-    if isinstance(value, ox.Literal) and value.datatype in {XSD.double, XSD["float"]}:
-        return triple.subject, triple.predicate, float(value.value), value.datatype
-    return triple.subject, triple.predicate, value
-
-
-def spelt_alike(graph: rdflib.Graph) -> rdflib.Graph:
-    """Return a graph with all real numbers spelt one way."""
-    found = rdflib.Graph()
-    for subject, predicate, value in graph:
-        is_real = isinstance(value, rdflib.Literal) and str(value.datatype).endswith(("#double", "#float"))
-        spelt = rdflib.Literal(repr(float(value)), datatype=value.datatype, normalize=False) if is_real else value
-        found.add((subject, predicate, spelt))
-    return found
+        assert [quad.triple for quad in ox.parse(data, format=ox.RdfFormat.JSON_LD)] == list(triples)
 
 
 class TestFunctionalSyntax:

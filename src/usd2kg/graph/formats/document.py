@@ -72,11 +72,6 @@ class GraphDocument:
             return self.parts[0].triples
         return tuple(dict.fromkeys(triple for part in self.parts for triple in part.triples))
 
-    @property
-    def base(self) -> str:
-        """The namespace of the empty prefix, where our graphs have their individuals; empty if there is none."""
-        return self.prefixes.get("", "")
-
 
 def document_of(graph: KnowledgeGraph) -> GraphDocument:
     """Return a graph that was just made: one named graph, called as its ontology is."""

@@ -12,7 +12,6 @@ from usd2kg.files import write_whole
 from usd2kg.graph.export.graphml import graphml_pieces
 from usd2kg.graph.export.property_graph import read_property_graph
 from usd2kg.graph.formats.document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
-from usd2kg.graph.formats.json_ld import json_ld_pieces
 from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import PREFIXES
@@ -158,7 +157,9 @@ def _rdf_xml(document: GraphDocument) -> Pieces:
 
 
 def _json_ld(document: GraphDocument) -> Pieces:
-    return json_ld_pieces(document.triples, document.base, document.source)
+    for triple in document.triples:
+        refuse_rdf12(triple, "JSON-LD", document.source)
+    yield _bytes(ox.serialize(document.triples, format=ox.RdfFormat.JSON_LD))
 
 
 def _functional(document: GraphDocument) -> Pieces:
