@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.graph.terms import vocabulary_triples
+from usd2kg.graph.declarations import vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, SKOS, U2K
 
 OUTPUT = Path(__file__).parent.parent / "docs/vocabulary.md"

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rdflib.compare import isomorphic
 
 from tests.graph.records import build_graph, thing
-from tests.graph.test_articulation import make_joint
+from tests.graph.test_joint_patterns import make_joint
 from usd2kg.diff import make_update
 from usd2kg.errors import GraphError
 from usd2kg.graph import GraphOptions, KnowledgeGraph, merge_imports

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pyoxigraph as ox
 
 from tests.graph.records import build_graph, thing
-from tests.graph.test_articulation import make_joint
+from tests.graph.test_joint_patterns import make_joint
 from usd2kg.graph import KnowledgeGraph, serialize_graph
 from usd2kg.ontology import TBox
 from usd2kg.scene import Label, ObjectLabels, SceneObject

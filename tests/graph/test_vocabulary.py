@@ -7,10 +7,10 @@ import pyoxigraph as ox
 import pytest
 
 from tests.graph.records import BASE, box_at, ground_as
-from tests.graph.test_articulation import make_joint
+from tests.graph.test_joint_patterns import make_joint
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
 from usd2kg.graph import VOCABULARY_IRI, GraphOptions, KnowledgeGraph, instantiate, vocabulary_text
-from usd2kg.graph.terms import declare_terms, vocabulary_triples
+from usd2kg.graph.declarations import declare_terms, vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, QUDT, RDF, RDFS, SKOS, SOMA, U2K
 from usd2kg.grounding import Candidate
 from usd2kg.relations import Relation

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.graph.records import related, thing
-from tests.relations.rooms import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, relate
+from tests.relations.room_builder import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, relate
 
 ABOVE = RULES.above
 BOTH = ("above", "below")

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.graph.records import thing
-from tests.relations.rooms import FLOOR, RULES, TABLE, artifact, cup, relate
+from tests.relations.room_builder import FLOOR, RULES, TABLE, artifact, cup, relate
 
 
 def between(*placed):

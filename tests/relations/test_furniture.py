@@ -6,8 +6,8 @@ Lengths are metres; the cases are those that were found wrong by eye in real sce
 import pytest
 
 from tests.graph.records import box_at, related, thing
-from tests.relations.rooms import FLOOR, HAIR, RULES, artifact, relate
-from tests.relations.test_parts import joint
+from tests.relations.room_builder import FLOOR, HAIR, RULES, artifact, relate
+from tests.relations.test_part_of import joint
 from usd2kg.scene import Box
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.graph.records import box_at, related, thing
 from tests.grounding.records import make_object
-from tests.relations.rooms import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, home, relate
+from tests.relations.room_builder import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, home, relate
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
 

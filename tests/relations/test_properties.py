@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.graph.records import Corner, thing
-from tests.relations.rooms import RULES, Placed, relate
+from tests.relations.room_builder import RULES, Placed, relate
 from usd2kg.relations import ALL_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Relation, Viewpoint
 from usd2kg.scene import Box, SceneObject
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from pxr import Usd
 
 from tests.graph.records import ground_as, related, thing
-from tests.relations.rooms import Placed, home, relate
-from tests.relations.test_parts import joint
+from tests.relations.room_builder import Placed, home, relate
+from tests.relations.test_part_of import joint
 from tests.relations.test_properties import GRID, everything, moved, rooms, told, turned
 from usd2kg.relations import find_relations
 from usd2kg.scene import Box, SceneObject, read_scene

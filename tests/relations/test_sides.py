@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.relations.rooms import RULES, artifact, relate
+from tests.relations.room_builder import RULES, artifact, relate
 from usd2kg.errors import GraphError
 from usd2kg.relations import (
     ALL_KINDS,

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import pyoxigraph as ox
 
 from tests.graph.records import BASE, build_graph, reread, thing
-from tests.graph.test_articulation import make_joint
+from tests.graph.test_joint_patterns import make_joint
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore

@@ -196,7 +196,7 @@ RelationKinds = Annotated[
         "part-of (these by default), between, or all.",
     ),
 ]
-RelationRules = Annotated[
+RelationRulesOption = Annotated[
     Path | None,
     typer.Option(
         "--relations", help="TOML file of thresholds and class lists in place of our own, see docs/relations.md."
@@ -234,7 +234,7 @@ class RelatingOptions:
     """Which spatial relations are found, and how."""
 
     relation_kinds: RelationKinds = None
-    relation_rules: RelationRules = None
+    relation_rules: RelationRulesOption = None
     viewpoint: ViewpointOption = None
 
     def relation_options(self) -> "RelationOptions":

@@ -10,7 +10,7 @@ __all__ = ["to_png"]
 
 _SCALE = 2.0
 """Pixels for one unit of the drawing: letters of 13 units are sharp on today's screens and in print."""
-_MOST_PIXELS = 60e6
+_MAX_PIXELS = 60e6
 """A larger picture is drawn at a smaller scale: programs refuse it, and it takes a gigabyte to draw."""
 _SANS_SERIF = (
     "Arial", "DejaVu Sans", "Liberation Sans", "Noto Sans", "Open Sans", "Roboto", "Ubuntu", "Cantarell", "FreeSans",
@@ -35,7 +35,7 @@ def to_png(svg: str, scale: float = _SCALE) -> bytes:
     found = _SIZE.match(svg)
     assert found is not None, "pictures of this package state their size first"
     width, height = (int(side) for side in found.groups())
-    scale = min(scale, (_MOST_PIXELS / max(width * height, 1)) ** 0.5)
+    scale = min(scale, (_MAX_PIXELS / max(width * height, 1)) ** 0.5)
     return _draw(svg, family, max(1, round(width * scale)))
 
 

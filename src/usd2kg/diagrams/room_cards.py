@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from usd2kg.diagrams.object_tree import CardLine, TreeObject, group_similar, read_object_tree
 from usd2kg.diagrams.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
-from usd2kg.diagrams.things import Line, Thing, collapse, read_things
 from usd2kg.query.graph_store import GraphStore
 
 __all__ = ["draw_room"]
@@ -16,11 +16,11 @@ _PAD = 14.0
 _GAP = 16.0
 _CARRIES = "; carries the cards whose heads are marked “on”"
 _GROUND_SHARE = 0.3
-"""Share of all things below one of them that makes it the ground of the room."""
+"""Share of all objects below one of them that makes it the ground of the room."""
 
 
 class _Card(NamedTuple):
-    lines: tuple[Line, ...]
+    lines: tuple[CardLine, ...]
     width: float
     height: float
 
@@ -28,28 +28,28 @@ class _Card(NamedTuple):
 def draw_room(store: GraphStore, title: str) -> str:
     """Return a picture of all objects of a graph, as SVG.
 
-    The thing that carries most, the floor, is the head; what stands on it has a card each, and so has what stands on
+    The obj that carries most, the floor, is the head; what stands on it has a card each, and so has what stands on
     nothing but carries something. Things that are alike share a line.
     """
-    things = read_things(store)
-    roots = [thing for thing in things.values() if thing.parent is None]
+    objects = read_object_tree(store)
+    roots = [obj for obj in objects.values() if obj.parent is None]
     ground = max(roots, key=_count, default=None)
-    if ground is not None and _count(ground) < _GROUND_SHARE * len(things):
+    if ground is not None and _count(ground) < _GROUND_SHARE * len(objects):
         ground = None
-    _tell_apart([thing for thing in (*roots, *(ground.children if ground else ())) if thing.children])
+    _qualify_shared_labels([obj for obj in (*roots, *(ground.children if ground else ())) if obj.children])
     cards = sorted((_card(lines) for lines in _groups(roots, ground)), key=lambda card: -card.height)
     width = max([card.width for card in cards], default=200.0)
     columns = _columns(cards, width)
-    heads = [(shorten(title, 90) + f"  {len(things)} objects", 18.0)]
+    heads = [(shorten(title, 90) + f"  {len(objects)} objects", 18.0)]
     if ground is not None:
         heads.append((shorten(ground.label) + ground.class_label + _CARRIES, 13.0))
     widest = max(text_width(text, size) for text, size in heads) + 80
     total = max(len(columns) * (width + _GAP) + _GAP, widest)
     canvas = Canvas()
-    colors = colors_of(thing.family for thing in things.values())
-    used = sorted({thing.family for thing in things.values()}, key=lambda name: (name == "other", name))
-    canvas.text(_GAP, 32, shorten(title, 90), f"{len(things)} objects", size=18, bold=True)
-    note = "Indented: on what is above it; “in”, “part”, “joint” where so. × counts alike things. Number: confidence."
+    colors = colors_of(obj.family for obj in objects.values())
+    used = sorted({obj.family for obj in objects.values()}, key=lambda name: (name == "other", name))
+    canvas.text(_GAP, 32, shorten(title, 90), f"{len(objects)} objects", size=18, bold=True)
+    note = "Indented: on what is above it; “in”, “part”, “joint” where so. × counts alike objects. Number: confidence."
     canvas.text(_GAP, 54, note if text_width(note, 12) < total else "", size=12, fill=PALE_INK)
     top = 66 + canvas.legend(_GAP, 66, [(name, colors[name]) for name in used], total - 2 * _GAP) + 6
     if ground is not None:
@@ -73,49 +73,49 @@ def draw_room(store: GraphStore, title: str) -> str:
     return canvas.document(total, bottom, title)
 
 
-def _tell_apart(heads: list[Thing]) -> None:
-    """Put the prim above before the label of each of some things that share theirs: cab_01/carcass."""
-    shared = {label for label, count in Counter(thing.label for thing in heads).items() if count > 1}
-    for thing in heads:
-        above = thing.path.rpartition("/")[0].rpartition("/")[2]
-        if thing.label in shared and above:
-            thing.label = f"{above}/{thing.label}"
+def _qualify_shared_labels(heads: list[TreeObject]) -> None:
+    """Put the prim above before the label of each of some objects that share theirs: cab_01/carcass."""
+    shared = {label for label, count in Counter(obj.label for obj in heads).items() if count > 1}
+    for obj in heads:
+        above = obj.path.rpartition("/")[0].rpartition("/")[2]
+        if obj.label in shared and above:
+            obj.label = f"{above}/{obj.label}"
 
 
-def _count(thing: Thing) -> int:
-    return 1 + sum(_count(child) for child in thing.children)
+def _count(obj: TreeObject) -> int:
+    return 1 + sum(_count(child) for child in obj.children)
 
 
-def _groups(roots: Iterable[Thing], ground: Thing | None) -> Iterator[tuple[Line, ...]]:
+def _groups(roots: Iterable[TreeObject], ground: TreeObject | None) -> Iterator[tuple[CardLine, ...]]:
     """Yield the lines of each card: one tree each, the largest first, then what carries nothing."""
     standing = ground.children if ground else []
-    free = [thing for thing in roots if thing is not ground]
-    trees = [line for line in (*collapse(standing), *collapse(free)) if line.children]
+    free = [obj for obj in roots if obj is not ground]
+    trees = [line for line in (*group_similar(standing), *group_similar(free)) if line.children]
     yield from ((line,) for line in sorted(trees, key=lambda line: (-_rows((line,)), line.text)))
     for head, group in (
         (f"also on {ground.label}" if ground else "", standing),
         ("on and in nothing that is known", free),
     ):
-        lines = tuple(line for line in collapse(group) if not line.children)
+        lines = tuple(line for line in group_similar(group) if not line.children)
         if lines:
-            yield (Line(head, "", "", "", "", lines),)
+            yield (CardLine(head, "", "", "", "", lines),)
 
 
-def _rows(lines: Iterable[Line]) -> int:
+def _rows(lines: Iterable[CardLine]) -> int:
     return sum(1 + _rows(line.children) for line in lines)
 
 
-def _card(lines: tuple[Line, ...]) -> _Card:
+def _card(lines: tuple[CardLine, ...]) -> _Card:
     return _Card(lines, max(_widths(lines, 0)) + 2 * _PAD, _rows(lines) * _ROW + 2 * _PAD - 4)
 
 
-def _widths(lines: Iterable[Line], depth: int) -> Iterator[float]:
+def _widths(lines: Iterable[CardLine], depth: int) -> Iterator[float]:
     for line in lines:
         yield depth * _INDENT + 16 + text_width(shorten(line.text), 13.5) + 9 + text_width(_detail(line, depth), 11.5)
         yield from _widths(line.children, depth + 1)
 
 
-def _detail(line: Line, depth: int) -> str:
+def _detail(line: CardLine, depth: int) -> str:
     # Within a card the indent says "on"; its head hangs on what is not in the card.
     tie = line.tie if depth == 0 or line.tie != "on" else ""
     return shorten(" · ".join(part for part in (tie, line.detail) if part))
@@ -137,7 +137,7 @@ def _draw_card(canvas: Canvas, card: _Card, x: float, y: float, width: float, co
 
 
 def _draw_lines(
-    canvas: Canvas, lines: tuple[Line, ...], x: float, y: float, depth: int, colors: dict[str, str]
+    canvas: Canvas, lines: tuple[CardLine, ...], x: float, y: float, depth: int, colors: dict[str, str]
 ) -> float:
     """Draw lines from a height on, each below the one before; return the height after them."""
     for line in lines:

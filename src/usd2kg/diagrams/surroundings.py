@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from usd2kg.diagrams.object_tree import CardLine, TreeObject, group_similar, read_object_tree
 from usd2kg.diagrams.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
-from usd2kg.diagrams.things import Line, Thing, collapse, read_things
 from usd2kg.errors import GraphError
 from usd2kg.query.graph_store import GraphStore
 
@@ -15,14 +15,14 @@ _PAD = 14.0
 _GAP = 46.0
 _MARGIN = 20.0
 _HEAD = 58.0
-_MOST = 14
+_MAX_LINES = 14
 """Lines of a panel."""
 _NEAR = "0.5 m"
 
 
 class _Panel(NamedTuple):
     head: str
-    lines: tuple[Line, ...]
+    lines: tuple[CardLine, ...]
 
     @property
     def width(self) -> float:
@@ -40,57 +40,59 @@ def draw_surroundings(store: GraphStore, iri: str, title: str) -> str:
     Raises:
         GraphError: there is no object with that IRI.
     """
-    things = read_things(store)
-    if iri not in things:
+    objects = read_object_tree(store)
+    if iri not in objects:
         raise GraphError(f"{title}: <{iri}> is the group of a room; expected an object, or none for the room")
-    thing = things[iri]
-    below = _chain(thing, things)
-    left = [_panel("in it", [c for c in thing.children if c.tie == "in"])]
-    left.append(_panel("parts of it", [c for c in thing.children if c.tie in {"part", "joint"}]))
-    above = _panel("on it", [c for c in thing.children if c.tie == "on"])
+    obj = objects[iri]
+    below = _chain(obj, objects)
+    left = [_panel("in it", [c for c in obj.children if c.tie == "in"])]
+    left.append(_panel("parts of it", [c for c in obj.children if c.tie in {"part", "joint"}]))
+    above = _panel("on it", [c for c in obj.children if c.tie == "on"])
     under = _Panel("what carries it, down to the floor", tuple(_plain(t, t.tie) for t in below))
-    near = _Panel(f"within {_NEAR}", _near(store, thing, things, {t.iri for t in below}))
-    shown = [thing, *below, *thing.children, *things.values()]
+    near = _Panel(f"within {_NEAR}", _near(store, obj, objects, {t.iri for t in below}))
+    shown = [obj, *below, *obj.children, *objects.values()]
     return _compose(
-        thing, above, under, [panel for panel in left if panel.lines], near, colors_of(t.family for t in shown), title
+        obj, above, under, [panel for panel in left if panel.lines], near, colors_of(t.family for t in shown), title
     )
 
 
-def _chain(thing: Thing, things: dict[str, Thing]) -> list[Thing]:
+def _chain(obj: TreeObject, objects: dict[str, TreeObject]) -> list[TreeObject]:
     chain = []
-    while thing.parent is not None:
-        thing = things[thing.parent]
-        chain.append(thing)
+    while obj.parent is not None:
+        obj = objects[obj.parent]
+        chain.append(obj)
     return chain
 
 
-def _panel(head: str, things: Sequence[Thing]) -> _Panel:
-    lines = collapse(things)
-    return _Panel(f"{head}: {len(things)}" if things else head, _cut(lines))
+def _panel(head: str, objects: Sequence[TreeObject]) -> _Panel:
+    lines = group_similar(objects)
+    return _Panel(f"{head}: {len(objects)}" if objects else head, _cut(lines))
 
 
-def _cut(lines: Sequence[Line]) -> tuple[Line, ...]:
+def _cut(lines: Sequence[CardLine]) -> tuple[CardLine, ...]:
     """Return the first lines, and one that counts the others."""
-    more = len(lines) - _MOST
-    return (*lines[:_MOST], Line(f"… {more} more lines", "", "", "", "")) if more > 0 else tuple(lines)
+    more = len(lines) - _MAX_LINES
+    return (*lines[:_MAX_LINES], CardLine(f"… {more} more lines", "", "", "", "")) if more > 0 else tuple(lines)
 
 
-def _plain(thing: Thing, tie: str) -> Line:
-    sure = "" if thing.confidence is None else f" {thing.confidence:.2f}"
-    return Line(thing.label, f"{thing.class_label}{sure}", tie, thing.family, f"{thing.path} {thing.size}")
+def _plain(obj: TreeObject, tie: str) -> CardLine:
+    sure = "" if obj.confidence is None else f" {obj.confidence:.2f}"
+    return CardLine(obj.label, f"{obj.class_label}{sure}", tie, obj.family, f"{obj.path} {obj.size}")
 
 
-def _near(store: GraphStore, thing: Thing, things: dict[str, Thing], left_out: set[str]) -> tuple[Line, ...]:
-    """Return the nearest things that are neither on, in nor under it, each with its distance."""
-    answer = store.answer("close-to", {"thing": thing.path, "distance": _NEAR})
-    by_path = {t.path: t for t in things.values()}
-    lines: list[Line] = []
+def _near(
+    store: GraphStore, obj: TreeObject, objects: dict[str, TreeObject], left_out: set[str]
+) -> tuple[CardLine, ...]:
+    """Return the nearest objects that are neither on, in nor under it, each with its distance."""
+    answer = store.answer("close-to", {"thing": obj.path, "distance": _NEAR})
+    by_path = {t.path: t for t in objects.values()}
+    lines: list[CardLine] = []
     for row in answer.values:
         values = dict(zip(answer.columns, row, strict=True))
         other = by_path[str(values["path"])]
-        if other.iri not in left_out and thing.iri not in {t.iri for t in _chain(other, things)}:
+        if other.iri not in left_out and obj.iri not in {t.iri for t in _chain(other, objects)}:
             lines.append(
-                Line(
+                CardLine(
                     other.label,
                     f"{other.class_label}, {float(values['gap_m'] or 0) * 100:.0f} cm",
                     "near",
@@ -102,10 +104,10 @@ def _near(store: GraphStore, thing: Thing, things: dict[str, Thing], left_out: s
 
 
 def _compose(
-    thing: Thing, above: _Panel, under: _Panel, left: list[_Panel], near: _Panel, colors: dict[str, str], title: str
+    obj: TreeObject, above: _Panel, under: _Panel, left: list[_Panel], near: _Panel, colors: dict[str, str], title: str
 ) -> str:
-    sure = "" if thing.confidence is None else f", confidence {thing.confidence:.2f}"
-    words = (shorten(thing.label), shorten(f"{thing.class_label}{sure}", 60), thing.size)
+    sure = "" if obj.confidence is None else f", confidence {obj.confidence:.2f}"
+    words = (shorten(obj.label), shorten(f"{obj.class_label}{sure}", 60), obj.size)
     own_width = max(text_width(words[0], 17), *(text_width(word, 12.5) for word in words[1:])) + 50
     middle = max(own_width, *(panel.width for panel in (above, under) if panel.lines or panel is under))
     left_width = max([panel.width for panel in left], default=0.0)
@@ -142,11 +144,9 @@ def _compose(
     if near.lines:
         canvas.path([(spine + own_width / 2, center), (x + middle + _GAP, center)], dashed=True)
         _draw(canvas, near, x + middle + _GAP, center - near.height / 2, colors)
-    _draw_own(canvas, thing, words, (spine, center), (own_width, own_height), colors[thing.family])
+    _draw_own(canvas, obj, words, (spine, center), (own_width, own_height), colors[obj.family])
     bottom = center + max(own_height / 2 + under_height, left_height / 2, near.height / 2 if near.lines else 0) + 16
-    used = {line.family for panel in (above, under, near, *left) for line in panel.lines if line.family} | {
-        thing.family
-    }
+    used = {line.family for panel in (above, under, near, *left) for line in panel.lines if line.family} | {obj.family}
     names = sorted(used, key=lambda name: (name == "other", name))
     bottom += canvas.legend(_MARGIN, bottom, [(name, colors[name]) for name in names], width - 2 * _MARGIN)
     return canvas.document(width, bottom + 12, title)
@@ -154,7 +154,7 @@ def _compose(
 
 def _draw_own(
     canvas: Canvas,
-    thing: Thing,
+    obj: TreeObject,
     words: tuple[str, str, str],
     middle: tuple[float, float],
     size: tuple[float, float],
@@ -163,7 +163,7 @@ def _draw_own(
     (x, y), (width, height) = middle, size
     canvas.rectangle(x - width / 2, y - height / 2, width, height, color, radius=12)
     canvas.rectangle(x - width / 2 + 8, y - height / 2 + 1.5, width - 9.5, height - 3, PAPER, radius=10)
-    canvas.text(x, y - 12, words[0], size=17, bold=True, title=thing.path, middle=True)
+    canvas.text(x, y - 12, words[0], size=17, bold=True, title=obj.path, middle=True)
     canvas.text(x, y + 9, words[1], size=12.5, fill=PALE_INK, middle=True)
     canvas.text(x, y + 27, words[2], size=12.5, fill=PALE_INK, middle=True)
 

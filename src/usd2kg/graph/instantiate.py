@@ -9,16 +9,16 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
-from usd2kg.graph.annotate import annotate_owl, annotate_rdf12
-from usd2kg.graph.articulation import link_joints
-from usd2kg.graph.facts import annotated_facts, object_facts
+from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
+from usd2kg.graph.declarations import declare_terms
 from usd2kg.graph.iris import check_base, default_base, individual_iri
+from usd2kg.graph.joint_patterns import resolve_joints
 from usd2kg.graph.justification import justify_class, justify_refusal
 from usd2kg.graph.options import GraphOptions
 from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, uses_soma
 from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
-from usd2kg.graph.relation_terms import describe_between, describe_room, measures
-from usd2kg.graph.terms import declare_terms
+from usd2kg.graph.relation_patterns import describe_between, describe_room, relation_annotations
+from usd2kg.graph.stage_metadata import describe_labels_and_texts, describe_metadata
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
@@ -148,7 +148,7 @@ class _Writer:
         self.relations: dict[str, list[Relation]] = {}
         for relation in relations:
             self.relations.setdefault(relation.target, []).append(relation)
-        self.joints = list(link_joints(scene, base))
+        self.joints = list(resolve_joints(scene, base))
         self.joints_inside: dict[ox.NamedNode, list[ox.NamedNode]] = {}
         for linked in self.joints:
             if linked.whole is not None:
@@ -221,13 +221,13 @@ class _Writer:
         prediction = self.grounding.by_path.get(obj.prim_path)
         about: list[Triple] = []
         block: list[Triple] = list(self._type(node, prediction, about))
-        block.extend(object_facts(obj, node))
+        block.extend(describe_metadata(obj, node))
         block.extend(self._relations(obj.prim_path, node, about))
         block.extend((node, self.profile.has_joint, joint) for joint in self.joints_inside.get(node, ()))
         block.extend(self.profile.describe(obj, node))
         own = [triple for triple in block if triple[0] == node]
         others = [triple for triple in block if triple[0] != node]
-        return [*own, *others, *about, *annotated_facts(obj, node, self.annotate)]
+        return [*own, *others, *about, *describe_labels_and_texts(obj, node, self.annotate)]
 
     def _node(self, prim_path: str) -> ox.NamedNode:
         node = self.nodes.get(prim_path)
@@ -255,7 +255,7 @@ class _Writer:
                 continue
             triples = self.profile.relate(relation, target, self._node(relation.anchor))
             yield from triples
-            about.extend(self.annotate(triples[0], measures(relation)))
+            about.extend(self.annotate(triples[0], relation_annotations(relation)))
 
     def _rooms(self) -> Iterator[Triple]:
         """Yield the rooms that are no objects: groups that are called rooms."""

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pyoxigraph as ox
 
-from usd2kg.graph.annotate import Annotation
+from usd2kg.graph.axiom_annotation import Annotation
 from usd2kg.graph.vocabulary import SEMAPV, SSSOM, U2K, named_node, number, text
 from usd2kg.grounding import PERSON, Prediction, Review
 

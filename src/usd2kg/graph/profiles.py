@@ -9,10 +9,10 @@ from typing import ClassVar, Protocol
 
 import pyoxigraph as ox
 
-from usd2kg.graph.appearance import knowrob_color, plain_color, usd_color
-from usd2kg.graph.articulation import LinkedJoint, plain_joint, soma_joint
-from usd2kg.graph.body import common_body, plain_body, soma_body, typed
-from usd2kg.graph.relation_terms import plain_relation, soma_relation
+from usd2kg.graph.color import knowrob_color, plain_color, usd_color
+from usd2kg.graph.joint_patterns import JointIndividual, plain_joint, soma_joint
+from usd2kg.graph.physical_properties import declare_individual, plain_properties, shared_properties, soma_properties
+from usd2kg.graph.relation_patterns import plain_relation, soma_relation
 from usd2kg.graph.vocabulary import DUL, SOMA, U2K, USD, Namespace, Triple
 from usd2kg.relations import Relation
 from usd2kg.scene import SceneObject
@@ -35,7 +35,7 @@ class Profile(Protocol):
         """Yield an object's size, place, mass and colour."""
         ...
 
-    def join(self, linked: LinkedJoint) -> Iterator[Triple]:
+    def join(self, linked: JointIndividual) -> Iterator[Triple]:
         """Yield a joint."""
         ...
 
@@ -69,17 +69,17 @@ class SomaProfile:
 
     def describe(self, obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
         """Yield an object's size, place, mass and colour."""
-        yield from soma_body(obj, node)
-        yield from common_body(obj, node)
+        yield from soma_properties(obj, node)
+        yield from shared_properties(obj, node)
         yield from self._color(obj, node)
 
-    def join(self, linked: LinkedJoint) -> Iterator[Triple]:
+    def join(self, linked: JointIndividual) -> Iterator[Triple]:
         """Yield a joint."""
         return soma_joint(linked)
 
     def stage(self, node: ox.NamedNode) -> Iterator[Triple]:
         """Yield what the stage is."""
-        yield from typed(node, USD.Stage)
+        yield from declare_individual(node, USD.Stage)
 
     def member(self, stage: ox.NamedNode, obj: ox.NamedNode) -> Triple:
         """Return the object's membership; `hasPart` would make the stage inconsistent."""
@@ -100,17 +100,17 @@ class PlainProfile:
 
     def describe(self, obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
         """Yield an object's size, place, mass and colour."""
-        yield from plain_body(obj, node)
-        yield from common_body(obj, node)
+        yield from plain_properties(obj, node)
+        yield from shared_properties(obj, node)
         yield from plain_color(obj, node)
 
-    def join(self, linked: LinkedJoint) -> Iterator[Triple]:
+    def join(self, linked: JointIndividual) -> Iterator[Triple]:
         """Yield a joint."""
         return plain_joint(linked)
 
     def stage(self, node: ox.NamedNode) -> Iterator[Triple]:
         """Yield what the stage is."""
-        yield from typed(node, U2K.Stage)
+        yield from declare_individual(node, U2K.Stage)
 
     def member(self, stage: ox.NamedNode, obj: ox.NamedNode) -> Triple:
         """Return the object's membership."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.graph.body import typed
+from usd2kg.graph.physical_properties import declare_individual
 from usd2kg.graph.vocabulary import PROV, RDF, RDFS, U2K, XSD, Triple, named_node, number, text
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox
@@ -23,7 +23,7 @@ def describe_run(
     time: datetime | None,
 ) -> Iterator[Triple]:
     """Yield the activity: what it used, by which software, with which settings of the grounder."""
-    yield from typed(run, PROV.Activity)
+    yield from declare_individual(run, PROV.Activity)
     yield run, RDFS.label, text(f"Grounding of {Path(grounding.scene).name}")
     for entity in used:
         yield run, PROV.used, entity
@@ -39,14 +39,14 @@ def describe_run(
 
 def describe_software(software: ox.NamedNode, version: str) -> Iterator[Triple]:
     """Yield the software agent."""
-    yield from typed(software, PROV.SoftwareAgent)
+    yield from declare_individual(software, PROV.SoftwareAgent)
     yield software, RDFS.label, text("usd2kg")
     yield software, U2K.version, text(version)
 
 
 def describe_ontology(ontology: ox.NamedNode, tbox: TBox) -> Iterator[Triple]:
     """Yield the ontology as it was read."""
-    yield from typed(ontology, PROV.Entity)
+    yield from declare_individual(ontology, PROV.Entity)
     yield ontology, RDFS.label, text(tbox.source if tbox.ontology_iri.startswith("file:") else tbox.ontology_iri)
     for name, iri in (("ontologyIri", tbox.ontology_iri), ("ontologyVersionIri", tbox.version_iri)):
         node = named_node(iri) if iri and not iri.startswith("file:") else None

@@ -16,8 +16,8 @@ from usd2kg.relations.model import (
     parse_viewpoint,
 )
 from usd2kg.relations.options import RelationOptions
-from usd2kg.relations.rules import load_rules
-from usd2kg.relations.thresholds import Rules
+from usd2kg.relations.rule_file import load_rules
+from usd2kg.relations.thresholds import RelationRules
 
 __all__ = [
     "ALL_KINDS",
@@ -26,7 +26,7 @@ __all__ = [
     "VIEWPOINT_KINDS",
     "Relation",
     "RelationOptions",
-    "Rules",
+    "RelationRules",
     "Viewpoint",
     "find_relations",
     "load_rules",

@@ -3,13 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.columns import first_of_each, joined, taken
-from usd2kg.relations.footprints import box_gaps, distances
-from usd2kg.relations.implied import Told
-from usd2kg.relations.model import Links, clearness, share_above
-from usd2kg.relations.neighbours import Pairs
-from usd2kg.relations.objects import Bodies, overlap_areas
-from usd2kg.relations.thresholds import Between
+from usd2kg.relations.adjacency import NearbyPairs
+from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, select_rows
+from usd2kg.relations.boxed_objects import BoxedObjects, overlap_areas
+from usd2kg.relations.distances import box_gaps, distances
+from usd2kg.relations.model import Links, margin_above, margin_score
+from usd2kg.relations.stronger import StrongerRelations
+from usd2kg.relations.thresholds import BetweenRule
 from usd2kg.shapes import overlapping_pairs
 
 __all__ = ["find_between"]
@@ -18,58 +18,61 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_POINTS = 10
+_SAMPLES = 10
 """Along each side of a footprint: of so many points it is asked whether they are between."""
-_PORTION = 1 << 13
+_BATCH = 1 << 13
+_ROUNDING = 1e-9
 
 
-def find_between(bodies: Bodies, is_chosen: Mask, told: Told, rule: Between) -> Links:
+def find_between(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelations, rule: BetweenRule) -> Links:
     """Return which things are between which two others: for each the two that are closest, if any.
 
     More than half of its footprint is in the convex hull of theirs, as far as 10 × 10 points of it tell.
     """
-    target, anchor, distance = _anchors(bodies, is_chosen, told, rule)
-    starts = np.searchsorted(target, np.arange(len(bodies) + 1))
-    one, other = _two_of_each(starts)
+    target, anchor, distance = _anchors(boxed, is_chosen, stronger, rule)
+    starts = np.searchsorted(target, np.arange(len(boxed) + 1))
+    one, other = _pairs_in_groups(starts)
     reach = distance[one] + distance[other]
-    ratio = _hull_ratios(bodies, target[one], anchor[one], anchor[other])
+    ratio = _hull_ratios(boxed, target[one], anchor[one], anchor[other])
     is_good = np.flatnonzero(ratio > rule.min_hull_ratio)
     one, other, reach, ratio = one[is_good], other[is_good], reach[is_good], ratio[is_good]
-    ranks = bodies.rank[anchor[one]], bodies.rank[anchor[other]]
-    best = first_of_each(target[one], (*ranks, -ratio.round(6), reach.round(6)))
-    clear = share_above(ratio[best], rule.min_hull_ratio)
+    ranks = boxed.rank[anchor[one]], boxed.rank[anchor[other]]
+    best = first_of_each_group(target[one], (*ranks, -ratio.round(6), reach.round(6)))
+    clear = margin_above(ratio[best], rule.min_hull_ratio)
     first, second = anchor[one[best]], anchor[other[best]]
-    is_swapped = bodies.rank[first] > bodies.rank[second]
+    is_swapped = boxed.rank[first] > boxed.rank[second]
     first, second = np.where(is_swapped, second, first), np.where(is_swapped, first, second)
     numbers = {"betweenRatio": ratio[best]}
-    return Links("between", rule.rule, target[one[best]], first, numbers, clearness(clear), second)
+    return Links("between", rule.rule, target[one[best]], first, numbers, margin_score(clear), second)
 
 
-def _anchors(bodies: Bodies, is_chosen: Mask, told: Told, rule: Between) -> Pairs:
+def _anchors(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelations, rule: BetweenRule) -> NearbyPairs:
     """Return pairs of a target and something beside it, the nearest few of each, sorted by target."""
-    reach = np.clip(rule.gap_share * bodies.size[:, :2].mean(axis=1), rule.min_gap, rule.max_gap)
+    reach = np.clip(rule.gap_share * boxed.size[:, :2].mean(axis=1), rule.min_gap, rule.max_gap)
     chosen = np.flatnonzero(is_chosen)
     grown = reach[chosen, None]
-    wide = bodies.lower[chosen, :2] - grown, bodies.upper[chosen, :2] + grown
-    found = [Pairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
-    for i, j in overlapping_pairs(*wide, (bodies.lower[chosen, :2], bodies.upper[chosen, :2])):
-        pairs = taken(Pairs(chosen[i], chosen[j], np.zeros(len(i))), i != j)
-        pairs = told.unrelated(told.together(taken(pairs, _are_beside(bodies, pairs, rule))))
-        pairs = pairs._replace(distance=distances(bodies, pairs.one, pairs.other))
-        found.append(taken(pairs, pairs.distance <= reach[pairs.one]))
-    pairs = joined(found)
-    return taken(pairs, first_of_each(pairs.one, (bodies.rank[pairs.other], pairs.distance.round(6)), rule.most))
+    wide = boxed.lower[chosen, :2] - grown, boxed.upper[chosen, :2] + grown
+    found = [NearbyPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
+    for i, j in overlapping_pairs(*wide, (boxed.lower[chosen, :2], boxed.upper[chosen, :2])):
+        pairs = select_rows(NearbyPairs(chosen[i], chosen[j], np.zeros(len(i))), i != j)
+        pairs = stronger.drop_related(stronger.in_same_frame(select_rows(pairs, _are_beside(boxed, pairs, rule))))
+        pairs = pairs._replace(distance=distances(boxed, pairs.one, pairs.other))
+        found.append(select_rows(pairs, pairs.distance <= reach[pairs.one]))
+    pairs = concatenate_rows(found)
+    return select_rows(
+        pairs, first_of_each_group(pairs.one, (boxed.rank[pairs.other], pairs.distance.round(6)), rule.most)
+    )
 
 
-def _are_beside(bodies: Bodies, pairs: Pairs, rule: Between) -> Mask:
+def _are_beside(boxed: BoxedObjects, pairs: NearbyPairs, rule: BetweenRule) -> Mask:
     target, anchor, _ = pairs
-    beside = -box_gaps(bodies, target, anchor)[:, 2] / np.maximum(bodies.size[target, 2], 1e-12)
-    shared = overlap_areas(bodies.lower[target], bodies.upper[target], bodies.lower[anchor], bodies.upper[anchor])
-    is_apart = shared <= rule.max_overlap_ratio * bodies.area[target]
+    beside = -box_gaps(boxed, target, anchor)[:, 2] / np.maximum(boxed.size[target, 2], 1e-12)
+    shared = overlap_areas(boxed.lower[target], boxed.upper[target], boxed.lower[anchor], boxed.upper[anchor])
+    is_apart = shared <= rule.max_overlap_ratio * boxed.area[target]
     return np.asarray((beside >= rule.min_height_share) & is_apart)
 
 
-def _two_of_each(starts: Indices) -> tuple[Indices, Indices]:
+def _pairs_in_groups(starts: Indices) -> tuple[Indices, Indices]:
     """Return all pairs of places within each group, whose first places are `starts`."""
     counts = np.diff(starts)
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
@@ -81,29 +84,31 @@ def _two_of_each(starts: Indices) -> tuple[Indices, Indices]:
     return first, second
 
 
-def _hull_ratios(bodies: Bodies, target: Indices, one: Indices, other: Indices) -> Array:
+def _hull_ratios(boxed: BoxedObjects, target: Indices, one: Indices, other: Indices) -> Array:
     """Return the share of each target's footprint that is in the convex hull of two others' footprints."""
-    shares = (np.arange(_POINTS) + 0.5) / _POINTS
+    shares = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     found = np.zeros(len(target))
-    for start in range(0, len(target), _PORTION):
-        part = slice(start, start + _PORTION)
-        low, size = bodies.lower[target[part]], bodies.size[target[part]]
+    for start in range(0, len(target), _BATCH):
+        part = slice(start, start + _BATCH)
+        low, size = boxed.lower[target[part]], boxed.size[target[part]]
         x = low[:, 0, None] + size[:, 0, None] * shares
         y = low[:, 1, None] + size[:, 1, None] * shares
-        from_x, to_x = _ways(x, bodies, one[part], other[part], 0)
-        from_y, to_y = _ways(y, bodies, one[part], other[part], 1)
-        is_in = np.maximum(from_x[:, :, None], from_y[:, None]) <= np.minimum(to_x[:, :, None], to_y[:, None])
+        from_x, to_x = _hull_range(x, boxed, one[part], other[part], 0)
+        from_y, to_y = _hull_range(y, boxed, one[part], other[part], 1)
+        first, last = np.maximum(from_x[:, :, None], from_y[:, None]), np.minimum(to_x[:, :, None], to_y[:, None])
+        # A sample on the boundary of the hull counts, whichever way its coordinates are rounded.
+        is_in = first <= last + _ROUNDING
         found[part] = is_in.mean(axis=(1, 2))
     return found
 
 
-def _ways(points: Array, bodies: Bodies, one: Indices, other: Indices, axis: int) -> tuple[Array, Array]:
+def _hull_range(points: Array, boxed: BoxedObjects, one: Indices, other: Indices, axis: int) -> tuple[Array, Array]:
     """Return from where to where, on the way t from 0 to 1 from one box to the other, points are between its sides.
 
     The hull of two boxes is all boxes (1 - t) A + t B: a point is in there where lower(t) <= p <= upper(t).
     """
-    low_from, low_to = _solve(points, bodies.lower[one, axis], bodies.lower[other, axis], sign=1.0)
-    high_from, high_to = _solve(points, bodies.upper[one, axis], bodies.upper[other, axis], sign=-1.0)
+    low_from, low_to = _solve(points, boxed.lower[one, axis], boxed.lower[other, axis], sign=1.0)
+    high_from, high_to = _solve(points, boxed.upper[one, axis], boxed.upper[other, axis], sign=-1.0)
     return np.maximum(low_from, high_from), np.minimum(low_to, high_to)
 
 

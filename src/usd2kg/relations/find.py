@@ -8,19 +8,19 @@ from numpy.typing import NDArray
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox
+from usd2kg.relations.above_below import find_above, reverse_links
+from usd2kg.relations.adjacency import NearbyPairs, find_near, find_nearby_pairs, find_next_to, find_touching
+from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.between import find_between
-from usd2kg.relations.columns import taken
-from usd2kg.relations.containment import find_containment
-from usd2kg.relations.implied import Told
+from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.containment import find_inside
 from usd2kg.relations.model import ALL_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
-from usd2kg.relations.neighbours import Pairs, find_near, find_neighbours, find_next_to, find_touching
-from usd2kg.relations.objects import Bodies, Classes
 from usd2kg.relations.options import RelationOptions
-from usd2kg.relations.parts import Parts, find_parts, wholes_of
-from usd2kg.relations.rooms import find_rooms
+from usd2kg.relations.part_of import PartLinks, find_parts, wholes_of
+from usd2kg.relations.room_membership import find_rooms
 from usd2kg.relations.sides import find_sides
+from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.support import find_support
-from usd2kg.relations.vertical import find_above, reversed_links
 from usd2kg.scene import Scene
 
 __all__ = ["find_relations"]
@@ -47,7 +47,7 @@ def find_relations(
     finder = _Finder(scene, tbox, grounding, options)
     with paused_collection():
         links = [found for found in finder.find(kinds) if found.kind in kinds]
-        return _assembled([*(obj.prim_path for obj in scene.objects), *finder.groups], links)
+        return _sorted_relations([*(obj.prim_path for obj in scene.objects), *finder.groups], links)
 
 
 class _Finder:
@@ -57,71 +57,73 @@ class _Finder:
         self.scene = scene
         self.rules = options.chosen_rules
         self.viewpoint = options.viewpoint
-        self.classes = Classes(self.rules.classes, tbox, grounding, scene.objects)
-        self.bodies = Bodies(scene.objects)
+        self.classes = ClassMembership(self.rules.classes, tbox, grounding, scene.objects)
+        self.boxed = BoxedObjects(scene.objects)
         self.groups: list[str] = []
         """Paths of group prims that are rooms."""
 
     def find(self, kinds: frozenset[str]) -> Iterator[Links]:
         """Yield the links of some kinds, and maybe of others; they count all objects of the scene, then the groups."""
-        parts = find_parts(self.scene, self.bodies, self.classes, self.rules.part_of)
+        parts = find_parts(self.scene, self.boxed, self.classes, self.rules.part_of)
         yield from parts
-        if len(self.bodies) and kinds - {"part-of"}:
-            for links in self._of_bodies(kinds, parts):
-                yield self._renumbered(links)
+        if len(self.boxed) and kinds - {"part-of"}:
+            for links in self._of_boxed(kinds, parts):
+                yield self._to_scene_indices(links)
 
-    def _of_bodies(self, kinds: frozenset[str], parts: Parts) -> Iterator[Links]:
-        wholes = wholes_of(self.bodies, parts)
-        containment = find_containment(self.bodies, self.classes, wholes, self.rules)
+    def _of_boxed(self, kinds: frozenset[str], parts: PartLinks) -> Iterator[Links]:
+        wholes = wholes_of(self.boxed, parts)
+        containment = find_inside(self.boxed, self.classes, wholes, self.rules)
         yield from containment.links
-        told = Told(self.bodies, containment, parts)
-        support = told.carry(find_support(self.bodies, self.classes, told.is_loose, containment.container, self.rules))
+        stronger = StrongerRelations(self.boxed, containment, parts)
+        support = stronger.add_support(
+            find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
+        )
         yield from support
         if "room" in kinds:
-            found = find_rooms(self.scene.objects, self.bodies, self.classes, self.rules.room)
+            found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
             self.groups = found.groups
             yield found.links
-        takes_part = ~self.classes.are_in("not_neighbours")[self.bodies.number]
+        takes_part = ~self.classes.are_in("not_neighbours")[self.boxed.number]
         if kinds & {"above", "below"}:
-            above = find_above(self.bodies, takes_part, told.frame, told.supporter, self.rules.above)
-            above = told.without(above)
+            above = find_above(self.boxed, takes_part, stronger.frame, stronger.supporter, self.rules.above)
+            above = stronger.drop_implied(above)
             yield above
-            yield reversed_links("below", above)
-        yield from self._of_neighbours(kinds, takes_part, told)
+            yield reverse_links("below", above)
+        yield from self._adjacent(kinds, takes_part, stronger)
 
-    def _of_neighbours(self, kinds: frozenset[str], takes_part: Mask, told: Told) -> Iterator[Links]:
+    def _adjacent(self, kinds: frozenset[str], takes_part: Mask, stronger: StrongerRelations) -> Iterator[Links]:
         sides = kinds & frozenset(VIEWPOINT_KINDS)
         if kinds & SYMMETRIC_KINDS or sides:
-            walls = self.classes.are_in("walls")[self.bodies.number]
-            around = told.together(find_neighbours(self.bodies, takes_part | walls, self.rules))
-            pairs = told.unrelated(taken(around, takes_part[around.one] & takes_part[around.other]))
-            yield from self._of_pairs(kinds, pairs, around)
+            walls = self.classes.are_in("walls")[self.boxed.number]
+            around = stronger.in_same_frame(find_nearby_pairs(self.boxed, takes_part | walls, self.rules))
+            pairs = stronger.drop_related(select_rows(around, takes_part[around.one] & takes_part[around.other]))
+            yield from self._symmetric(kinds, pairs, around)
             if sides and self.viewpoint is not None:
-                yield from find_sides(self.bodies, pairs, self.viewpoint, self.rules.side)
+                yield from find_sides(self.boxed, pairs, self.viewpoint, self.rules.side)
         if "between" in kinds:
-            yield find_between(self.bodies, takes_part, told, self.rules.between)
+            yield find_between(self.boxed, takes_part, stronger, self.rules.between)
 
-    def _of_pairs(self, kinds: frozenset[str], pairs: Pairs, around: Pairs) -> Iterator[Links]:
-        is_told = np.zeros(len(pairs.one), np.bool_)
+    def _symmetric(self, kinds: frozenset[str], pairs: NearbyPairs, around: NearbyPairs) -> Iterator[Links]:
+        is_implied = np.zeros(len(pairs.one), np.bool_)
         if "touching" in kinds:
-            links, found = find_touching(self.bodies, pairs, self.rules)
-            is_told |= found
+            links, found = find_touching(self.boxed, pairs, self.rules)
+            is_implied |= found
             yield links
         if "next-to" in kinds:
-            links, found = find_next_to(self.bodies, pairs, around, self.rules.next_to)
-            is_told |= found
+            links, found = find_next_to(self.boxed, pairs, around, self.rules.next_to)
+            is_implied |= found
             yield links
         if "near" in kinds:
-            yield find_near(self.bodies, taken(pairs, ~is_told), around, self.rules.near)
+            yield find_near(self.boxed, select_rows(pairs, ~is_implied), around, self.rules.near)
 
-    def _renumbered(self, links: Links) -> Links:
+    def _to_scene_indices(self, links: Links) -> Links:
         """Return links that count all objects of the scene instead of those with a box."""
-        number = np.concatenate([self.bodies.number, len(self.scene.objects) + np.arange(len(self.groups))])
+        number = np.concatenate([self.boxed.number, len(self.scene.objects) + np.arange(len(self.groups))])
         other = None if links.other is None else number[links.other]
         return links._replace(target=number[links.target], anchor=number[links.anchor], other=other)
 
 
-def _assembled(paths: Sequence[str], links: list[Links]) -> tuple[Relation, ...]:
+def _sorted_relations(paths: Sequence[str], links: list[Links]) -> tuple[Relation, ...]:
     """Return the links as relations, sorted by target, kind and anchor."""
     if not links:
         return ()

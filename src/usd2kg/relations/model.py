@@ -18,11 +18,11 @@ __all__ = [
     "Relation",
     "Viewpoint",
     "check_kinds",
-    "clearness",
+    "margin_above",
+    "margin_below",
+    "margin_score",
     "parse_kinds",
     "parse_viewpoint",
-    "share_above",
-    "share_below",
 ]
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Relation(NamedTuple):
     numbers: Mapping[str, float]
     """What was measured: metres for `gap`, `distance` and `margin`, degrees for `angle`, no unit for ratios."""
     confidence: float | None = None
-    """How far inside its thresholds the geometry lies, from 0 (it just passes) to 1, see `clearness`. Not a
+    """How far inside its thresholds the geometry lies, from 0 (it just passes) to 1, see `margin_score`. Not a
     probability. None where nothing is measured: the stage says so."""
     other_anchor: str | None = None
     """For `between`, the second anchor."""
@@ -81,34 +81,34 @@ class Links(NamedTuple):
         )
 
 
-def clearness(*shares: Array | float) -> Array:
+def margin_score(*shares: Array | float) -> Array:
     """Return how far inside all of its thresholds a thing lies: 0 at one of them, 1 where it is clear of them all.
 
     Each share is the margin that is used, 0 at the threshold and 1 where the criterion is met ideally (a gap of
     nothing, an overlap of all), both linear. The smallest share s counts, smoothed at both ends: s² (3 - 2 s). So 0.5
     is half way between just passing and ideal.
 
-    >>> clearness(np.array([0.0, 0.5, 1.0]), 0.75).round(3).tolist()
+    >>> margin_score(np.array([0.0, 0.5, 1.0]), 0.75).round(3).tolist()
     [0.0, 0.5, 0.844]
     """
     least = np.clip(np.minimum.reduce(np.broadcast_arrays(*[np.asarray(share, np.float64) for share in shares])), 0, 1)
     return np.asarray(least * least * (3 - 2 * least))
 
 
-def share_above(value: Array, least: Array | float, ideal: float = 1.0) -> Array:
+def margin_above(value: Array, least: Array | float, ideal: float = 1.0) -> Array:
     """Return which share of the way from the threshold to the ideal a value has gone; 1 where there is no way.
 
-    >>> share_above(np.array([0.3, 0.65, 1.0]), 0.3).round(3).tolist()
+    >>> margin_above(np.array([0.3, 0.65, 1.0]), 0.3).round(3).tolist()
     [0.0, 0.5, 1.0]
     """
     way = np.asarray(ideal - np.asarray(least, np.float64))
     return np.where(way > 0, (value - least) / np.where(way > 0, way, 1.0), 1.0)
 
 
-def share_below(value: Array, most: Array | float) -> Array:
+def margin_below(value: Array, most: Array | float) -> Array:
     """Return which share of what is allowed a value leaves over, whichever way it is off; 1 where nothing is allowed.
 
-    >>> share_below(np.array([0.0, -0.01, 0.02]), 0.02).tolist()
+    >>> margin_below(np.array([0.0, -0.01, 0.02]), 0.02).tolist()
     [1.0, 0.5, 0.0]
     """
     allowed = np.asarray(most, np.float64)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from usd2kg.relations.model import DEFAULT_KINDS, VIEWPOINT_KINDS, Viewpoint, check_kinds
-from usd2kg.relations.rules import load_rules
-from usd2kg.relations.thresholds import Rules
+from usd2kg.relations.rule_file import load_rules
+from usd2kg.relations.thresholds import RelationRules
 
 __all__ = ["RelationOptions"]
 
@@ -20,8 +20,8 @@ class RelationOptions:
     kinds: tuple[str, ...] | None = None
     """Of `ALL_KINDS`; by default `DEFAULT_KINDS`, with a viewpoint the sides too."""
     viewpoint: Viewpoint | None = None
-    """From where left, right, front and behind are told."""
-    rules: Rules | None = None
+    """From where left, right, front and behind are stronger."""
+    rules: RelationRules | None = None
     """Thresholds and class lists, see `load_rules`."""
 
     def __post_init__(self) -> None:
@@ -35,6 +35,6 @@ class RelationOptions:
         return frozenset((*DEFAULT_KINDS, *(VIEWPOINT_KINDS if self.viewpoint is not None else ())))
 
     @property
-    def chosen_rules(self) -> Rules:
+    def chosen_rules(self) -> RelationRules:
         """The rules that they are found by."""
         return self.rules or load_rules()

@@ -3,28 +3,28 @@
 from dataclasses import dataclass, field
 
 __all__ = [
-    "Above",
-    "Between",
-    "ClassNames",
-    "Hovering",
-    "Inside",
-    "Near",
-    "NextTo",
-    "On",
-    "OnSeveral",
-    "PartOf",
-    "RoomRules",
-    "Rules",
-    "Side",
-    "StandingIn",
-    "Touching",
+    "AboveRule",
+    "BetweenRule",
+    "ClassLists",
+    "HoveringRule",
+    "InsideRule",
+    "NearRule",
+    "NextToRule",
+    "OnRule",
+    "OnSeveralRule",
+    "PartOfRule",
+    "RelationRules",
+    "RoomRule",
+    "SideRule",
+    "StandingInRule",
+    "TouchingRule",
 ]
 
 # The fields are described in data/spatial.toml, beside the values.
 
 
 @dataclass(frozen=True, slots=True)
-class On:
+class OnRule:
     """Resting on one thing."""
 
     rule: str
@@ -38,7 +38,7 @@ class On:
 
 
 @dataclass(frozen=True, slots=True)
-class OnSeveral:
+class OnSeveralRule:
     """Resting on several things."""
 
     rule: str
@@ -47,7 +47,7 @@ class OnSeveral:
 
 
 @dataclass(frozen=True, slots=True)
-class Hovering:
+class HoveringRule:
     """Resting on nothing, but close over something."""
 
     rule: str
@@ -58,7 +58,7 @@ class Hovering:
 
 
 @dataclass(frozen=True, slots=True)
-class Inside:
+class InsideRule:
     """Being enclosed."""
 
     rule: str
@@ -67,7 +67,7 @@ class Inside:
 
 
 @dataclass(frozen=True, slots=True)
-class StandingIn:
+class StandingInRule:
     """Being in something open and sticking out."""
 
     rule: str
@@ -79,7 +79,7 @@ class StandingIn:
 
 
 @dataclass(frozen=True, slots=True)
-class Above:
+class AboveRule:
     """Being above something."""
 
     rule: str
@@ -89,7 +89,7 @@ class Above:
 
 
 @dataclass(frozen=True, slots=True)
-class Touching:
+class TouchingRule:
     """Meeting in a face."""
 
     rule: str
@@ -100,7 +100,7 @@ class Touching:
 
 
 @dataclass(frozen=True, slots=True)
-class NextTo:
+class NextToRule:
     """Being side by side."""
 
     rule: str
@@ -112,7 +112,7 @@ class NextTo:
 
 
 @dataclass(frozen=True, slots=True)
-class Near:
+class NearRule:
     """Being close in any direction."""
 
     rule: str
@@ -123,7 +123,7 @@ class Near:
 
 
 @dataclass(frozen=True, slots=True)
-class Between:
+class BetweenRule:
     """Being between two things."""
 
     rule: str
@@ -137,7 +137,7 @@ class Between:
 
 
 @dataclass(frozen=True, slots=True)
-class Side:
+class SideRule:
     """Left, right, front and behind."""
 
     rule: str
@@ -147,7 +147,7 @@ class Side:
 
 
 @dataclass(frozen=True, slots=True)
-class RoomRules:
+class RoomRule:
     """Which room a thing is in."""
 
     rule: str
@@ -159,7 +159,7 @@ class RoomRules:
 
 
 @dataclass(frozen=True, slots=True)
-class PartOf:
+class PartOfRule:
     """Being a part."""
 
     stated_rule: str
@@ -169,7 +169,7 @@ class PartOf:
 
 
 @dataclass(frozen=True, slots=True)
-class ClassNames:
+class ClassLists:
     """Lists of IRIs or CURIEs of classes; `=` before one leaves its subclasses out."""
 
     not_placed: tuple[str, ...]
@@ -192,20 +192,20 @@ class ClassNames:
 
 
 @dataclass(frozen=True, slots=True)
-class Rules:
+class RelationRules:
     """All thresholds and lists, a section of `data/spatial.toml` each."""
 
-    on: On
-    on_several: OnSeveral
-    hovering: Hovering
-    inside: Inside
-    standing_in: StandingIn
-    above: Above
-    touching: Touching
-    next_to: NextTo
-    near: Near
-    between: Between
-    side: Side
-    room: RoomRules
-    part_of: PartOf
-    classes: ClassNames = field(repr=False)
+    on: OnRule
+    on_several: OnSeveralRule
+    hovering: HoveringRule
+    inside: InsideRule
+    standing_in: StandingInRule
+    above: AboveRule
+    touching: TouchingRule
+    next_to: NextToRule
+    near: NearRule
+    between: BetweenRule
+    side: SideRule
+    room: RoomRule
+    part_of: PartOfRule
+    classes: ClassLists = field(repr=False)

@@ -11,8 +11,8 @@ from urllib.parse import unquote
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
 from usd2kg.graph.instantiate import KnowledgeGraph
-from usd2kg.graph.terms import VOCABULARY_IRI, vocabulary_triples
 from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, named_node
 from usd2kg.ontology import Closure, TBox, without_header
 from usd2kg.query.load import load_graph

@@ -10,7 +10,7 @@ from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.graph.terms import vocabulary_triples
+from usd2kg.graph.declarations import vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, RDF
 from usd2kg.ontology import Closure, compact_iri
 from usd2kg.validation.axioms import Axioms, Disjointness

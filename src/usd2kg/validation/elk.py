@@ -16,7 +16,7 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
-from usd2kg.graph.terms import vocabulary_triples
+from usd2kg.graph.declarations import vocabulary_triples
 from usd2kg.graph.vocabulary import OWL
 from usd2kg.ontology import Closure, compact_iri, without_header
 from usd2kg.query.graph_store import GraphStore

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from rdflib.compare import to_isomorphic
 
 from tests.graph.records import build_graph, thing
-from tests.graph.test_articulation import make_joint
+from tests.graph.test_joint_patterns import make_joint
 from usd2kg.diff.graph_things import read_statements
 from usd2kg.errors import GraphError
 from usd2kg.graph import (

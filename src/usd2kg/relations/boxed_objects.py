@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox, expand_curie
-from usd2kg.relations.thresholds import ClassNames
+from usd2kg.relations.thresholds import ClassLists
 from usd2kg.scene import Box, SceneObject
 
-__all__ = ["Bodies", "Classes", "corners_of", "overlap_areas"]
+__all__ = ["BoxedObjects", "ClassMembership", "corners_of", "overlap_areas"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -25,10 +25,10 @@ _FITS = 0.01
 """How far, relative to its sides, the box around a turned footprint may differ from the measured one."""
 
 
-class Classes:
+class ClassMembership:
     """Which objects are in which list of classes, by their grounded class; an object without one is in none."""
 
-    def __init__(self, names: ClassNames, tbox: TBox, grounding: Grounding, objects: Sequence[SceneObject]) -> None:
+    def __init__(self, names: ClassLists, tbox: TBox, grounding: Grounding, objects: Sequence[SceneObject]) -> None:
         self._names = names
         self._tbox = tbox
         found = (grounding.by_path.get(obj.prim_path) for obj in objects)
@@ -59,7 +59,7 @@ class Classes:
         return np.asarray(can & ~self.are_in("not_containers"))
 
 
-class Bodies:
+class BoxedObjects:
     """The objects that have a box of their own, as arrays: metres, z-up world frame, one row for each."""
 
     def __init__(self, objects: Sequence[SceneObject]) -> None:

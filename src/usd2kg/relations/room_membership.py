@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.columns import first_of_each
-from usd2kg.relations.model import Links, clearness, share_above
-from usd2kg.relations.objects import Bodies, Classes
-from usd2kg.relations.thresholds import RoomRules
+from usd2kg.relations.array_records import first_of_each_group
+from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.model import Links, margin_above, margin_score
+from usd2kg.relations.thresholds import RoomRule
 from usd2kg.scene import Box, SceneObject
 from usd2kg.shapes import overlapping_pairs
 from usd2kg.words import words_of
@@ -35,32 +35,34 @@ class _Room(NamedTuple):
     upper: Array
 
 
-def find_rooms(objects: Sequence[SceneObject], bodies: Bodies, classes: Classes, rule: RoomRules) -> RoomLinks:
+def find_rooms(
+    objects: Sequence[SceneObject], boxed: BoxedObjects, classes: ClassMembership, rule: RoomRule
+) -> RoomLinks:
     """Return the smallest room that the middle of each thing is in.
 
     A room's box is that of all below it: floor and walls are often objects of their own in there.
     """
-    boxes = [objects[number].box for number in bodies.number.tolist()]
-    named = np.flatnonzero(classes.are_in("rooms")[bodies.number]).tolist()
+    boxes = [objects[number].box for number in boxed.number.tolist()]
+    named = np.flatnonzero(classes.are_in("rooms")[boxed.number]).tolist()
     rooms = [room for index in named if (room := _room(index, boxes[index], rule))]
     groups: list[str] = []
     if not rooms:
         found = _group_boxes(objects, rule)
-        made = [_room(len(bodies) + place, box, rule) for place, box in enumerate(found.values())]
+        made = [_room(len(boxed) + place, box, rule) for place, box in enumerate(found.values())]
         rooms, groups = [room for room in made if room], list(found)
     rule_id = rule.group_rule if groups else rule.rule
     is_placed = ~classes.are_in("not_neighbours") | classes.are_in("handles")
-    links = _members(bodies, rooms, np.flatnonzero(is_placed[bodies.number]), rule)
+    links = _members(boxed, rooms, np.flatnonzero(is_placed[boxed.number]), rule)
     return RoomLinks(links._replace(rule=rule_id), groups)
 
 
-def _room(number: int, box: Box | None, rule: RoomRules) -> _Room | None:
+def _room(number: int, box: Box | None, rule: RoomRule) -> _Room | None:
     if box is None or min(box.size[:2]) < rule.min_side or box.size[2] < rule.min_height:
         return None
     return _Room(number, np.array(box.lower), np.array(box.upper))
 
 
-def _group_boxes(objects: Sequence[SceneObject], rule: RoomRules) -> dict[str, Box]:
+def _group_boxes(objects: Sequence[SceneObject], rule: RoomRule) -> dict[str, Box]:
     """Return the box around all objects below each prim that is no object and is called after a room, by path."""
     paths = {obj.prim_path for obj in objects}
     words = frozenset(rule.words)
@@ -75,27 +77,27 @@ def _group_boxes(objects: Sequence[SceneObject], rule: RoomRules) -> dict[str, B
             if is_room[above]:
                 below.setdefault(above, []).append(obj.box)
             above = above.rpartition("/")[0]
-    return {path: _around(boxes) for path, boxes in sorted(below.items())}
+    return {path: _union(boxes) for path, boxes in sorted(below.items())}
 
 
-def _around(boxes: list[Box]) -> Box:
+def _union(boxes: list[Box]) -> Box:
     lower = np.array([box.lower for box in boxes]).min(axis=0).tolist()
     upper = np.array([box.upper for box in boxes]).max(axis=0).tolist()
     return Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
 
 
-def _members(bodies: Bodies, rooms: list[_Room], placed: Indices, rule: RoomRules) -> Links:
+def _members(boxed: BoxedObjects, rooms: list[_Room], placed: Indices, rule: RoomRule) -> Links:
     number = np.array([room.number for room in rooms], np.int64)
     lower = np.array([room.lower for room in rooms]).reshape(-1, 3)
     upper = np.array([room.upper for room in rooms]).reshape(-1, 3)
     volume = (upper - lower).prod(axis=1)
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
-    at = bodies.middle[placed, :2]
+    at = boxed.middle[placed, :2]
     for i, j in overlapping_pairs(at, at, (lower[:, :2], upper[:, :2])):
-        inner = np.minimum(bodies.middle[placed[i]] - lower[j], upper[j] - bodies.middle[placed[i]])
+        inner = np.minimum(boxed.middle[placed[i]] - lower[j], upper[j] - boxed.middle[placed[i]])
         is_in = (inner.min(axis=1) >= 0) & (placed[i] != number[j])
         found.append((placed[i[is_in]], j[is_in], inner[is_in, :2].min(axis=1)))
     target, room, margin = (np.concatenate(column) for column in zip(*found, strict=True))
-    best = first_of_each(target, (number[room], volume[room]))
-    clear = clearness(share_above(margin[best], 0.0, rule.clear_margin))
+    best = first_of_each_group(target, (number[room], volume[room]))
+    clear = margin_score(margin_above(margin[best], 0.0, rule.clear_margin))
     return Links("room", rule.rule, target[best], number[room[best]], {"margin": margin[best]}, clear)

@@ -10,14 +10,14 @@ from typing import Any, TypeVar
 
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import read_text
-from usd2kg.relations.thresholds import Rules
+from usd2kg.relations.thresholds import RelationRules
 
 __all__ = ["load_rules"]
 
 _EXTEND = "extend"
 
 
-def load_rules(overrides: Path | str | None = None) -> Rules:
+def load_rules(overrides: Path | str | None = None) -> RelationRules:
     """Return the rules that ship with the package, with the values of a TOML file in place of theirs.
 
     Args:
@@ -30,17 +30,17 @@ def load_rules(overrides: Path | str | None = None) -> Rules:
     rules = _shipped_rules()
     if overrides is None:
         return rules
-    return _changed(rules, _parse(Path(overrides)), str(overrides))
+    return _with_overrides(rules, _parse(Path(overrides)), str(overrides))
 
 
 @lru_cache(maxsize=1)
-def _shipped_rules() -> Rules:
+def _shipped_rules() -> RelationRules:
     table = tomllib.loads(read_text("spatial.toml"))
-    made = {entry.name: entry.type(**_tuples(table[entry.name])) for entry in fields(Rules)}  # type: ignore[operator]
-    return Rules(**made)
+    made = {entry.name: entry.type(**_lists_to_tuples(table[entry.name])) for entry in fields(RelationRules)}  # type: ignore[operator]
+    return RelationRules(**made)
 
 
-def _tuples(section: Mapping[str, Any]) -> dict[str, Any]:
+def _lists_to_tuples(section: Mapping[str, Any]) -> dict[str, Any]:
     return {key: tuple(value) if isinstance(value, list) else value for key, value in section.items()}
 
 
@@ -53,35 +53,35 @@ def _parse(path: Path) -> dict[str, Any]:
         raise GraphError(f"{path}: not valid TOML ({error}); see docs/relations.md for an example") from error
 
 
-def _changed(rules: Rules, table: dict[str, Any], source: str) -> Rules:
+def _with_overrides(rules: RelationRules, table: dict[str, Any], source: str) -> RelationRules:
     sections = {}
     for name, values in table.items():
-        known = [entry.name for entry in fields(Rules)]
+        known = [entry.name for entry in fields(RelationRules)]
         if name not in known:
             raise GraphError(f"{source}: section [{name}] is unknown; expected one of {', '.join(known)}")
         if not isinstance(values, dict):
             raise GraphError(f"{source}: {name} is {values!r}; expected a section [{name}] with keys and values")
         section = getattr(rules, name)
         extended = values.pop(_EXTEND, {}) if name == "classes" else {}
-        section = _replaced(section, values, f"{source}: [{name}]")
-        sections[name] = _extended(section, extended, f"{source}: [{name}.{_EXTEND}]")
+        section = _with_values(section, values, f"{source}: [{name}]")
+        sections[name] = _with_extensions(section, extended, f"{source}: [{name}.{_EXTEND}]")
     return replace(rules, **sections)
 
 
 _Section = TypeVar("_Section")
 
 
-def _replaced(section: _Section, values: Mapping[str, Any], where: str) -> _Section:
+def _with_values(section: _Section, values: Mapping[str, Any], where: str) -> _Section:
     known = [entry.name for entry in fields(section)]  # type: ignore[arg-type]
     for key, value in values.items():
         if key not in known:
             raise GraphError(f"{where}: key {key!r} is unknown; expected one of {', '.join(known)}")
         _check(getattr(section, key), value, f"{where} {key}")
-    changed: _Section = replace(section, **_tuples(values))  # type: ignore[type-var]
+    changed: _Section = replace(section, **_lists_to_tuples(values))  # type: ignore[type-var]
     return changed
 
 
-def _extended(section: _Section, values: Any, where: str) -> _Section:
+def _with_extensions(section: _Section, values: Any, where: str) -> _Section:
     if not isinstance(values, dict):
         raise GraphError(f'{where} is {values!r}; expected lists of classes, like containers = ["soma:Table"]')
     lists = {key: old for entry in fields(section) if isinstance(old := getattr(section, key := entry.name), tuple)}  # type: ignore[arg-type]

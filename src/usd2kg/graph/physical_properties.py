@@ -11,23 +11,23 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, SOMA, U2K, Triple, number, text, vector_text
 from usd2kg.scene import Box, SceneObject
 
-__all__ = ["common_body", "part_node", "plain_body", "soma_body", "typed"]
+__all__ = ["aspect_node", "declare_individual", "plain_properties", "shared_properties", "soma_properties"]
 
 _REFERENCE_FRAME = "world"
 
 
-def part_node(node: ox.NamedNode, part: str) -> ox.NamedNode:
+def aspect_node(node: ox.NamedNode, part: str) -> ox.NamedNode:
     """Return the node of what belongs to an object: its shape, box, pose…"""
     return ox.NamedNode(f"{node.value}-{part}")
 
 
-def typed(node: ox.NamedNode, cls: ox.NamedNode) -> Iterator[Triple]:
+def declare_individual(node: ox.NamedNode, cls: ox.NamedNode) -> Iterator[Triple]:
     """Yield that a node is an individual of a class."""
     yield node, RDF.type, OWL.NamedIndividual
     yield node, RDF.type, cls
 
 
-def common_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+def shared_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """Yield what is written alike in all profiles: centre of mass, oriented size, number of copies."""
     if obj.center_of_mass is not None:
         yield node, U2K.centerOfMass, text(vector_text(obj.center_of_mass))
@@ -37,7 +37,7 @@ def common_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
         yield node, U2K.copies, number(obj.instances.count, "integer")
 
 
-def plain_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+def plain_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """Yield size, place and mass straight on the object."""
     if obj.box is not None:
         width, depth, height = obj.box.size
@@ -55,38 +55,38 @@ def plain_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
         yield node, U2K.mass, number(obj.mass_kg)
 
 
-def soma_body(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+def soma_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """Yield size, place and mass as qualities and attributes."""
     if obj.box is not None or obj.geometry_file:
         yield from _shape(node, obj.box, obj.geometry_file)
     if obj.position is not None and obj.orientation is not None:
         yield from _pose(node, (*obj.position, *obj.orientation))
     if obj.mass_kg is not None:
-        mass = part_node(node, "mass")
+        mass = aspect_node(node, "mass")
         yield node, SOMA.hasMassAttribute, mass
-        yield from typed(mass, SOMA.MassAttribute)
+        yield from declare_individual(mass, SOMA.MassAttribute)
         yield mass, SOMA.hasMassValue, number(obj.mass_kg)
 
 
 def _shape(node: ox.NamedNode, box: Box | None, file: str) -> Iterator[Triple]:
-    shape = part_node(node, "shape")
+    shape = aspect_node(node, "shape")
     yield node, SOMA.hasShape, shape
-    yield from typed(shape, SOMA.Shape)
+    yield from declare_individual(shape, SOMA.Shape)
     regions = [name for name, is_known in (("box", box is not None), ("mesh", bool(file))) if is_known]
     for name in regions:
-        yield shape, DUL.hasRegion, part_node(node, name)
+        yield shape, DUL.hasRegion, aspect_node(node, name)
     if box is not None:
-        yield from _box(part_node(node, "box"), box)
+        yield from _box(aspect_node(node, "box"), box)
     if file:
-        mesh = part_node(node, "mesh")
-        yield from typed(mesh, SOMA.MeshShape)
+        mesh = aspect_node(node, "mesh")
+        yield from declare_individual(mesh, SOMA.MeshShape)
         yield mesh, SOMA.hasFilePath, text(file)
 
 
 def _box(region: ox.NamedNode, box: Box) -> Iterator[Triple]:
     # As KnowRob's object_dimensions has it, by ROS's REP 103: x goes forward, y to the left.
     along_x, along_y, along_z = box.size
-    yield from typed(region, SOMA.BoxShape)
+    yield from declare_individual(region, SOMA.BoxShape)
     yield region, SOMA.hasWidth, number(along_y, "float")
     yield region, SOMA.hasLength, number(along_x, "float")
     yield region, SOMA.hasDepth, number(along_x, "float")
@@ -95,10 +95,10 @@ def _box(region: ox.NamedNode, box: Box) -> Iterator[Triple]:
 
 
 def _pose(node: ox.NamedNode, pose: tuple[float, ...]) -> Iterator[Triple]:
-    place, region = part_node(node, "place"), part_node(node, "pose")
+    place, region = aspect_node(node, "place"), aspect_node(node, "pose")
     yield node, SOMA.hasLocalization, place
-    yield from typed(place, SOMA.Localization)
+    yield from declare_individual(place, SOMA.Localization)
     yield place, DUL.hasRegion, region
-    yield from typed(region, SOMA["6DPose"])
+    yield from declare_individual(region, SOMA["6DPose"])
     yield region, SOMA.hasPositionData, text(vector_text(pose))
     yield region, SOMA.hasReferenceFrame, text(_REFERENCE_FRAME)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.graph.body import part_node, typed
+from usd2kg.graph.physical_properties import aspect_node, declare_individual
 from usd2kg.graph.vocabulary import DUL, SOMA, U2K, USD, Triple, text, vector_text
 from usd2kg.scene import SceneObject
 
@@ -41,9 +41,9 @@ def usd_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """
     color = _color(obj)
     if color is not None:
-        quality = part_node(node, "color")
+        quality = aspect_node(node, "color")
         yield node, USD.hasColor, quality
-        yield from typed(quality, USD.Color)
+        yield from declare_individual(quality, USD.Color)
         yield quality, USD.primvars_displayColor, text(f"[[{', '.join(vector_text(color.rgb).split())}]]")
         yield quality, U2K.colorSource, text(color.source)
 
@@ -55,10 +55,10 @@ def knowrob_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """
     color = _color(obj)
     if color is not None:
-        quality, region = part_node(node, "color"), part_node(node, "rgb")
+        quality, region = aspect_node(node, "color"), aspect_node(node, "rgb")
         yield node, SOMA.hasColor, quality
-        yield from typed(quality, SOMA.Color)
+        yield from declare_individual(quality, SOMA.Color)
         yield quality, DUL.hasRegion, region
-        yield from typed(region, SOMA.ColorRegion)
+        yield from declare_individual(region, SOMA.ColorRegion)
         yield region, SOMA.hasRGBValue, text(vector_text(color.rgb))
         yield region, U2K.colorSource, text(color.source)

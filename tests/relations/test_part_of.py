@@ -6,7 +6,7 @@ import pytest
 
 from tests.graph.records import related, thing
 from tests.grounding.records import make_object
-from tests.relations.rooms import RULES, Placed, relate
+from tests.relations.room_builder import RULES, Placed, relate
 from usd2kg.scene import Joint
 
 PART = RULES.part_of

@@ -3,26 +3,26 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.objects import Bodies
-from usd2kg.relations.thresholds import Rules
+from usd2kg.relations.boxed_objects import BoxedObjects
+from usd2kg.relations.thresholds import RelationRules
 from usd2kg.scene import SceneObject
 
-__all__ = ["rise_over_tops"]
+__all__ = ["has_protrusion"]
 
 _BROAD = 0.5
 """Share of the footprint from which on a level is the top of a thing, whatever rises over it."""
 
 
-def rise_over_tops(bodies: Bodies, rules: Rules) -> NDArray[np.bool_]:
+def has_protrusion(boxed: BoxedObjects, rules: RelationRules) -> NDArray[np.bool_]:
     """Return for each body whether something thin rises over its broad top, as a tap or an upstand does over a worktop.
 
     Nothing stands on the top of its box then, nor meets it from above. The broad top is high up: the rim of a pot rises
     over its bottom, and carries a lid all the same.
     """
-    return np.array([_rises_over_its_top(obj, rules) for obj in bodies.objects], np.bool_)
+    return np.array([_has_protrusion(obj, rules) for obj in boxed.objects], np.bool_)
 
 
-def _rises_over_its_top(obj: SceneObject, rules: Rules) -> bool:
+def _has_protrusion(obj: SceneObject, rules: RelationRules) -> bool:
     if obj.own_box is None or obj.part_boxes or not obj.support_levels:
         return False
     width, depth, height = obj.own_box.size

@@ -1,11 +1,11 @@
-"""Records of columns: chosen from, put together, and taken apart by group."""
+"""Records of columns: chosen from, put together, and select_rows apart by group."""
 
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["closes_a_circle", "first_of_each", "joined", "place_in_group", "taken"]
+__all__ = ["concatenate_rows", "first_of_each_group", "is_on_cycle", "rank_in_group", "select_rows"]
 
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
@@ -13,33 +13,33 @@ _Columns = TypeVar("_Columns", bound=tuple[Any, ...])
 """A NamedTuple of arrays of the same length."""
 
 
-def taken(columns: _Columns, chosen: Mask | Indices) -> _Columns:
+def select_rows(columns: _Columns, chosen: Mask | Indices) -> _Columns:
     """Return the chosen rows of a record of columns."""
-    return _made(columns, [column[chosen] for column in columns])
+    return _same_type(columns, [column[chosen] for column in columns])
 
 
-def joined(portions: list[_Columns]) -> _Columns:
+def concatenate_rows(portions: list[_Columns]) -> _Columns:
     """Return the rows of all portions, of which there is at least one, in one record of columns."""
-    return _made(portions[0], [np.concatenate(column) for column in zip(*portions, strict=True)])
+    return _same_type(portions[0], [np.concatenate(column) for column in zip(*portions, strict=True)])
 
 
-def _made(like: _Columns, columns: list[NDArray[Any]]) -> _Columns:
+def _same_type(like: _Columns, columns: list[NDArray[Any]]) -> _Columns:
     record: Any = type(like)
     made: _Columns = record(*columns)
     return made
 
 
-def place_in_group(groups: Indices) -> Indices:
+def rank_in_group(groups: Indices) -> Indices:
     """Return the place of each item among those of its group, of items sorted by group.
 
-    >>> place_in_group(np.array([3, 3, 7, 7, 7])).tolist()
+    >>> rank_in_group(np.array([3, 3, 7, 7, 7])).tolist()
     [0, 1, 0, 1, 2]
     """
     starts = np.flatnonzero(np.diff(groups, prepend=-1))
     return np.asarray(np.arange(len(groups)) - np.repeat(starts, np.diff(np.append(starts, len(groups)))))
 
 
-def first_of_each(groups: Indices, keys: tuple[NDArray[np.generic], ...], most: int = 1) -> Indices:
+def first_of_each_group(groups: Indices, keys: tuple[NDArray[np.generic], ...], most: int = 1) -> Indices:
     """Return where the first items of each group are, group by group, in the order of the keys.
 
     Args:
@@ -48,13 +48,13 @@ def first_of_each(groups: Indices, keys: tuple[NDArray[np.generic], ...], most: 
         most: how many of each group.
     """
     order = np.lexsort((*keys, groups))
-    return np.asarray(order[place_in_group(groups[order]) < most])
+    return np.asarray(order[rank_in_group(groups[order]) < most])
 
 
-def closes_a_circle(after: Indices, starts: Indices) -> Mask:
+def is_on_cycle(after: Indices, starts: Indices) -> Mask:
     """Return for each start whether the way from one item to the one after it, -1 for the end, leads back to it.
 
-    >>> closes_a_circle(np.array([1, 0, 1]), np.array([0, 1, 2])).tolist()
+    >>> is_on_cycle(np.array([1, 0, 1]), np.array([0, 1, 2])).tolist()
     [True, True, False]
     """
     # By strides that double: after n of them, every way has come to its end or runs in a circle.

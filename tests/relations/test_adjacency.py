@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tests.graph.records import box_at, thing
-from tests.relations.rooms import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, pairs, relate
+from tests.relations.room_builder import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, pairs, relate
 
 CLOSE = ("touching", "next-to", "near")
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.graph.records import related, thing
-from tests.relations.rooms import TABLE, artifact, cup, relate
+from tests.relations.room_builder import TABLE, artifact, cup, relate
 from usd2kg.errors import GraphError
 from usd2kg.ontology import expand_curie, load_home_tbox
 from usd2kg.relations import ALL_KINDS, Viewpoint, load_rules

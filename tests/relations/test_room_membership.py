@@ -3,7 +3,7 @@
 import pytest
 
 from tests.graph.records import box_at, related, thing
-from tests.relations.rooms import RULES, artifact, cup, relate
+from tests.relations.room_builder import RULES, artifact, cup, relate
 
 KITCHEN = (thing("/kitchen", (0, 0, 0), (4, 3, 2.5)), "Kitchen")
 HALL = (thing("/hall", (4, 0, 0), (6, 3, 2.5)), "Room")

@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.graph.body import part_node, typed
 from usd2kg.graph.iris import individual_iri
+from usd2kg.graph.physical_properties import aspect_node, declare_individual
 from usd2kg.graph.vocabulary import RDF, RDFS, SOMA, U2K, XSD, Triple, number, text, vector_text
 from usd2kg.scene import Joint, Scene
 
-__all__ = ["LinkedJoint", "link_joints", "plain_joint", "soma_joint"]
+__all__ = ["JointIndividual", "plain_joint", "resolve_joints", "soma_joint"]
 
 _OWN_CLASSES = {
     "revolute": U2K.RevoluteJoint,
@@ -26,7 +26,7 @@ _OWN_CLASSES = {
 }
 
 
-class LinkedJoint(NamedTuple):
+class JointIndividual(NamedTuple):
     """A joint and the objects that it belongs to."""
 
     joint: Joint
@@ -39,7 +39,7 @@ class LinkedJoint(NamedTuple):
     """The object that both its bodies belong to, such as a robot."""
 
 
-def link_joints(scene: Scene, base: str) -> Iterator[LinkedJoint]:
+def resolve_joints(scene: Scene, base: str) -> Iterator[JointIndividual]:
     """Yield the joints of a scene, in its order; a body belongs to the nearest object at or above it."""
     for joint in scene.joints:
         parent, child = (_owner(body, scene) for body in (joint.body0, joint.body1))
@@ -47,7 +47,7 @@ def link_joints(scene: Scene, base: str) -> Iterator[LinkedJoint]:
         if whole is not None:
             parent = child = None
         nodes = (ox.NamedNode(individual_iri(base, path)) if path else None for path in (parent, child, whole))
-        yield LinkedJoint(joint, ox.NamedNode(individual_iri(base, joint.prim_path, "joint")), *nodes)
+        yield JointIndividual(joint, ox.NamedNode(individual_iri(base, joint.prim_path, "joint")), *nodes)
 
 
 def _owner(body: str | None, scene: Scene) -> str | None:
@@ -56,10 +56,10 @@ def _owner(body: str | None, scene: Scene) -> str | None:
     return body or None
 
 
-def plain_joint(linked: LinkedJoint) -> Iterator[Triple]:
+def plain_joint(linked: JointIndividual) -> Iterator[Triple]:
     """Yield a joint in our own terms."""
     joint, node = linked.joint, linked.node
-    yield from typed(node, _OWN_CLASSES[joint.type])
+    yield from declare_individual(node, _OWN_CLASSES[joint.type])
     yield from _common(linked)
     for name, other in (("parentObject", linked.parent), ("childObject", linked.child)):
         if other is not None:
@@ -69,11 +69,11 @@ def plain_joint(linked: LinkedJoint) -> Iterator[Triple]:
             yield node, U2K[name], number(value)
 
 
-def soma_joint(linked: LinkedJoint) -> Iterator[Triple]:
+def soma_joint(linked: JointIndividual) -> Iterator[Triple]:
     """Yield a joint in SOMA's terms, with ours where it has none."""
     joint, node = linked.joint, linked.node
     first, *others = _soma_classes(joint)
-    yield from typed(node, first)
+    yield from declare_individual(node, first)
     for cls in others:
         yield node, RDF.type, cls
     yield from _common(linked)
@@ -109,14 +109,14 @@ def _region(
 ) -> Iterator[Triple]:
     known = [(name, value) for name, value in values if value is not None]
     if known:
-        region = part_node(node, part)
+        region = aspect_node(node, part)
         yield node, has, region
-        yield from typed(region, cls)
+        yield from declare_individual(region, cls)
         for name, value in known:
             yield region, SOMA[name], number(value)
 
 
-def _common(linked: LinkedJoint) -> Iterator[Triple]:
+def _common(linked: JointIndividual) -> Iterator[Triple]:
     joint, node = linked.joint, linked.node
     yield node, RDFS.label, text(joint.prim_path.rpartition("/")[2])
     yield node, U2K.definingPrim, text(joint.prim_path)

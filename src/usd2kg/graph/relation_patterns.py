@@ -13,8 +13,8 @@ __all__ = [
     "KIND_OF_PROPERTY",
     "describe_between",
     "describe_room",
-    "measures",
     "plain_relation",
+    "relation_annotations",
     "soma_relation",
 ]
 
@@ -74,7 +74,7 @@ def _returned(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, anch
     return [(anchor, name, target)] if relation.kind in SYMMETRIC_KINDS else []
 
 
-def measures(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
+def relation_annotations(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
     """Return the rule, the numbers and the confidence of a relation, as annotations."""
     numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
     confidence = [] if relation.confidence is None else [(SSSOM.confidence, number(relation.confidence))]
@@ -90,7 +90,7 @@ def describe_between(relation: Relation, base: str) -> Iterator[Triple]:
     yield node, U2K.target, ox.NamedNode(individual_iri(base, relation.target))
     for path in (relation.anchor, relation.other_anchor):
         yield node, U2K.anchor, ox.NamedNode(individual_iri(base, path))
-    for name, value in measures(relation):
+    for name, value in relation_annotations(relation):
         yield node, name, value
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 
 from usd2kg.query.graph_store import GraphStore
 
-__all__ = ["Line", "Thing", "class_families", "collapse", "read_things"]
+__all__ = ["CardLine", "TreeObject", "class_families", "group_similar", "read_object_tree"]
 
-_THINGS = """
+_OBJECTS = """
 SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WHERE {
   ?o u2k:primPath ?path ; rdfs:label ?label .
   FILTER NOT EXISTS { ?o a u2k:RoomGroup }
@@ -26,7 +26,7 @@ SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WH
   }
 } ORDER BY ?path ?on ?in ?whole ?jointed"""
 
-_ABOVE = """
+_CLASSES = """
 SELECT DISTINCT ?c ?label ?parent WHERE {
   ?c a owl:Class ; rdfs:label ?label .
   OPTIONAL { ?c rdfs:subClassOf ?parent }
@@ -35,12 +35,12 @@ SELECT DISTINCT ?c ?label ?parent WHERE {
 _FAMILIES = 8
 """Colours that a person still tells apart."""
 _OTHER = "other"
-_MOST_LETTERS = 24
-"""Of the labels of things that share a line."""
+_MAX_GROUP_LETTERS = 24
+"""Of the labels of objects that share a line."""
 
 
 @dataclass
-class Thing:
+class TreeObject:
     """An object, and what it hangs on in the tree: what it is in, else on, else part of, else jointed to."""
 
     iri: str
@@ -55,12 +55,12 @@ class Thing:
     tie: str
     """How it hangs on its parent: in, on, part, joint; empty without a parent."""
     family: str = _OTHER
-    children: list["Thing"] = field(default_factory=list)
+    children: list["TreeObject"] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
-class Line:
-    """One line of a picture: a thing, or several alike."""
+class CardLine:
+    """One line of a picture: a obj, or several alike."""
 
     text: str
     detail: str
@@ -68,13 +68,13 @@ class Line:
     family: str
     names: str
     """For the tooltip."""
-    children: tuple["Line", ...] = ()
+    children: tuple["CardLine", ...] = ()
 
 
-def read_things(store: GraphStore) -> dict[str, Thing]:
+def read_object_tree(store: GraphStore) -> dict[str, TreeObject]:
     """Return the objects of a graph by IRI, in the order of their paths, each below its parent."""
-    things: dict[str, Thing] = {}
-    for values in store.sparql(_THINGS).values:
+    objects: dict[str, TreeObject] = {}
+    for values in store.sparql(_OBJECTS).values:
         row = dict(
             zip(
                 ("o", "path", "label", "c", "class", "confidence", "on", "in", "whole", "jointed", "w", "d", "h"),
@@ -82,26 +82,26 @@ def read_things(store: GraphStore) -> dict[str, Thing]:
                 strict=True,
             )
         )
-        if str(row["o"]) not in things:
-            things[str(row["o"])] = _thing(row)
-    families = class_families(store, [thing.class_iri for thing in things.values() if thing.class_iri])
-    for thing in things.values():
-        thing.family = families.get(thing.class_iri or "", _OTHER)
-        if thing.parent not in things or _is_below(thing, things):
-            thing.parent, thing.tie = None, ""
-    for thing in things.values():
-        if thing.parent is not None:
-            things[thing.parent].children.append(thing)
-    return things
+        if str(row["o"]) not in objects:
+            objects[str(row["o"])] = _tree_object(row)
+    families = class_families(store, [obj.class_iri for obj in objects.values() if obj.class_iri])
+    for obj in objects.values():
+        obj.family = families.get(obj.class_iri or "", _OTHER)
+        if obj.parent not in objects or _is_own_ancestor(obj, objects):
+            obj.parent, obj.tie = None, ""
+    for obj in objects.values():
+        if obj.parent is not None:
+            objects[obj.parent].children.append(obj)
+    return objects
 
 
-def _thing(row: Mapping[str, str | float | int | bool | None]) -> Thing:
+def _tree_object(row: Mapping[str, str | float | int | bool | None]) -> TreeObject:
     ties = (("in", row["in"]), ("on", row["on"]), ("part", row["whole"]), ("joint", row["jointed"]))
     tie, parent = next(((name, str(iri)) for name, iri in ties if iri), ("", None))
     sides = [row[name] for name in ("w", "d", "h")]
     size = " × ".join(f"{float(side) * 100:.3g}" for side in sides if side is not None)
     confidence = row["confidence"]
-    return Thing(
+    return TreeObject(
         iri=str(row["o"]),
         path=str(row["path"]),
         label=str(row["label"]),
@@ -114,15 +114,15 @@ def _thing(row: Mapping[str, str | float | int | bool | None]) -> Thing:
     )
 
 
-def _is_below(thing: Thing, things: Mapping[str, Thing]) -> bool:
-    """Return whether a thing would hang below itself, since the ties of a graph may run in a circle."""
-    seen = {thing.iri}
-    above = thing.parent
-    while above is not None and above in things:
+def _is_own_ancestor(obj: TreeObject, objects: Mapping[str, TreeObject]) -> bool:
+    """Return whether a obj would hang below itself, since the ties of a graph may run in a circle."""
+    seen = {obj.iri}
+    above = obj.parent
+    while above is not None and above in objects:
         if above in seen:
             return True
         seen.add(above)
-        above = things[above].parent
+        above = objects[above].parent
     return False
 
 
@@ -133,7 +133,7 @@ def class_families(store: GraphStore, used: Iterable[str]) -> dict[str, str]:
     """
     labels: dict[str, str] = {}
     parent_of: dict[str, str] = {}
-    for iri, label, parent in sorted(store.sparql(_ABOVE).rows, key=str):
+    for iri, label, parent in sorted(store.sparql(_CLASSES).rows, key=str):
         labels.setdefault(iri or "", label or "")
         if parent and iri not in parent_of:
             parent_of[iri or ""] = parent
@@ -164,21 +164,21 @@ def _chain(iri: str, parent_of: Mapping[str, str], labels: Mapping[str, str]) ->
     return chain
 
 
-def collapse(things: Iterable[Thing]) -> tuple[Line, ...]:
-    """Return things as lines; those that carry nothing and are of one class and tie share a line."""
-    single: list[tuple[str, Line]] = []
-    alike: dict[tuple[str, str], list[Thing]] = {}
-    for thing in things:
-        if thing.children:
-            single.append((thing.path, _line(thing)))
+def group_similar(objects: Iterable[TreeObject]) -> tuple[CardLine, ...]:
+    """Return objects as lines; those that carry nothing and are of one class and tie share a line."""
+    single: list[tuple[str, CardLine]] = []
+    alike: dict[tuple[str, str], list[TreeObject]] = {}
+    for obj in objects:
+        if obj.children:
+            single.append((obj.path, _line(obj)))
         else:
-            alike.setdefault((thing.class_label, thing.tie), []).append(thing)
+            alike.setdefault((obj.class_label, obj.tie), []).append(obj)
     for (class_label, tie), group in alike.items():
         if len(group) == 1:
             single.append((group[0].path, _line(group[0])))
         else:
-            labels = [thing.label for thing in group]
-            line = Line(f"{len(group)} × {class_label}", _some(labels), tie, group[0].family, ", ".join(labels))
+            labels = [obj.label for obj in group]
+            line = CardLine(f"{len(group)} × {class_label}", _some(labels), tie, group[0].family, ", ".join(labels))
             single.append((group[0].path, line))
     return tuple(line for _, line in sorted(single, key=lambda pair: (not pair[1].children, pair[0])))
 
@@ -187,13 +187,13 @@ def _some(labels: list[str]) -> str:
     """Return the first labels, as many as a line has room for, and an ellipsis for the others."""
     shown = labels[:1]
     for label in labels[1:]:
-        if len(", ".join((*shown, label))) > _MOST_LETTERS:
+        if len(", ".join((*shown, label))) > _MAX_GROUP_LETTERS:
             return f"{', '.join(shown)}, …"
         shown.append(label)
     return ", ".join(shown)
 
 
-def _line(thing: Thing) -> Line:
-    sure = "" if thing.confidence is None else f" {thing.confidence:.2f}"
-    names = f"{thing.path} {thing.size}".strip()
-    return Line(thing.label, f"{thing.class_label}{sure}", thing.tie, thing.family, names, collapse(thing.children))
+def _line(obj: TreeObject) -> CardLine:
+    sure = "" if obj.confidence is None else f" {obj.confidence:.2f}"
+    names = f"{obj.path} {obj.size}".strip()
+    return CardLine(obj.label, f"{obj.class_label}{sure}", obj.tie, obj.family, names, group_similar(obj.children))

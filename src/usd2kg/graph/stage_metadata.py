@@ -5,17 +5,17 @@ from collections.abc import Iterator, Sequence
 
 import pyoxigraph as ox
 
-from usd2kg.graph.annotate import Annotate
+from usd2kg.graph.axiom_annotation import Annotate
 from usd2kg.graph.vocabulary import RDFS, SKOS, U2K, Triple, named_node, text
 from usd2kg.scene import Label, SceneObject
 
-__all__ = ["annotated_facts", "object_facts"]
+__all__ = ["describe_labels_and_texts", "describe_metadata"]
 
 _WIKIDATA_ITEM = re.compile("Q[0-9]+")
 _WIKIDATA = "http://www.wikidata.org/entity/"
 
 
-def object_facts(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
+def describe_metadata(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """Yield an object's names, prim path, documentation, assets, materials and variants."""
     yield node, RDFS.label, text(obj.display_name or obj.name)
     if obj.display_name and obj.display_name != obj.name:
@@ -31,7 +31,7 @@ def object_facts(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
         yield node, U2K.variant, text(f"{name}={variant}")
 
 
-def annotated_facts(obj: SceneObject, node: ox.NamedNode, annotate: Annotate) -> Iterator[Triple]:
+def describe_labels_and_texts(obj: SceneObject, node: ox.NamedNode, annotate: Annotate) -> Iterator[Triple]:
     """Yield an object's labels and texts, each with where it stands; reports of labels, which are guesses, are not."""
     for label in (*obj.labels.own, *obj.labels.inherited):
         yield from _label(node, U2K.sceneLabel, label, obj.prim_path, annotate)

@@ -6,15 +6,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.columns import first_of_each
-from usd2kg.relations.footprints import box_gaps
-from usd2kg.relations.model import Links, clearness, share_below
-from usd2kg.relations.objects import Bodies, Classes
-from usd2kg.relations.thresholds import PartOf
+from usd2kg.relations.array_records import first_of_each_group
+from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.distances import box_gaps
+from usd2kg.relations.model import Links, margin_below, margin_score
+from usd2kg.relations.thresholds import PartOfRule
 from usd2kg.scene import Joint, Scene
 from usd2kg.shapes import overlapping_pairs
 
-__all__ = ["Parts", "bodies_of", "find_parts", "wholes_of"]
+__all__ = ["PartLinks", "boxed_ends", "find_parts", "wholes_of"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -25,7 +25,7 @@ _MOVING = frozenset({"revolute", "prismatic", "spherical"})
 _PART_KIND = "subcomponent"
 
 
-class Parts(NamedTuple):
+class PartLinks(NamedTuple):
     """What is a part of what, by how that is known; links count all objects of the scene."""
 
     stated: Links
@@ -36,7 +36,7 @@ class Parts(NamedTuple):
     """A front or a handle at what stands beside it under the same prim."""
 
 
-def find_parts(scene: Scene, bodies: Bodies, classes: Classes, rule: PartOf) -> Parts:
+def find_parts(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, rule: PartOfRule) -> PartLinks:
     """Return what is a part of what, each thing of one whole at most.
 
     The stage says it, by a joint that moves or by the kind subcomponent below another object; or a thing whose class is
@@ -47,7 +47,7 @@ def find_parts(scene: Scene, bodies: Bodies, classes: Classes, rule: PartOf) -> 
     stated: dict[int, int] = {}
     tree: dict[int, int] = {}
     is_component = classes.are_in("components")
-    for part, whole in _jointed(scene, number, is_component):
+    for part, whole in _iter_jointed(scene, number, is_component):
         if is_whole[whole]:
             stated.setdefault(part, whole)
     for part, obj in enumerate(scene.objects):
@@ -60,24 +60,24 @@ def find_parts(scene: Scene, bodies: Bodies, classes: Classes, rule: PartOf) -> 
             tree[part] = above
     is_free = np.ones(len(scene.objects), np.bool_)
     is_free[[*stated, *tree]] = False
-    fitted = _fitted(scene, bodies, classes, is_free, rule)
-    return Parts(_links(rule.stated_rule, stated), _links(rule.tree_rule, tree), fitted)
+    fitted = _fitted(scene, boxed, classes, is_free, rule)
+    return PartLinks(_links(rule.stated_rule, stated), _links(rule.tree_rule, tree), fitted)
 
 
-def wholes_of(bodies: Bodies, parts: Parts) -> Indices:
+def wholes_of(boxed: BoxedObjects, parts: PartLinks) -> Indices:
     """Return for each body the one that it is a part of, -1 for none."""
-    wholes = np.full(len(bodies), -1)
+    wholes = np.full(len(boxed), -1)
     for links in parts:
-        part, whole = bodies_of(bodies, links)
+        part, whole = boxed_ends(boxed, links)
         known = (part >= 0) & (whole >= 0)
         wholes[part[known]] = whole[known]
     return wholes
 
 
-def bodies_of(bodies: Bodies, links: Links) -> tuple[Indices, Indices]:
-    """Return targets and anchors of links that count all objects as places among the bodies, -1 without a box."""
-    place = np.full(int(bodies.number.max(initial=-1)) + 2, -1)
-    place[bodies.number] = np.arange(len(bodies))
+def boxed_ends(boxed: BoxedObjects, links: Links) -> tuple[Indices, Indices]:
+    """Return targets and anchors of links that count all objects as places among the boxed, -1 without a box."""
+    place = np.full(int(boxed.number.max(initial=-1)) + 2, -1)
+    place[boxed.number] = np.arange(len(boxed))
     return place[np.minimum(links.target, len(place) - 1)], place[np.minimum(links.anchor, len(place) - 1)]
 
 
@@ -87,22 +87,22 @@ def _links(rule: str, found: dict[int, int]) -> Links:
     return Links("part-of", rule, part, whole, {}, None)
 
 
-def _jointed(scene: Scene, number: dict[str, int], is_component: Mask) -> Iterator[tuple[int, int]]:
+def _iter_jointed(scene: Scene, number: dict[str, int], is_component: Mask) -> Iterator[tuple[int, int]]:
     """Yield (part, whole) of objects that a joint moves against each other."""
     for joint in scene.joints:
-        ends = _ends(joint, number)
+        ends = _joint_ends(joint, number)
         if ends is None:
             continue
         hung, moved = ends
         hung_path, moved_path = scene.objects[hung].prim_path, scene.objects[moved].prim_path
-        # Some exporters write the two bodies the other way round.
+        # Some exporters write the two boxed the other way round.
         is_reversed = hung_path.startswith(moved_path + "/") or (
             not moved_path.startswith(hung_path + "/") and is_component[hung] and not is_component[moved]
         )
         yield (hung, moved) if is_reversed else (moved, hung)
 
 
-def _ends(joint: Joint, number: dict[str, int]) -> tuple[int, int] | None:
+def _joint_ends(joint: Joint, number: dict[str, int]) -> tuple[int, int] | None:
     if joint.type not in _MOVING or joint.body0 is None or joint.body1 is None:
         return None
     hung, moved = _object_at(joint.body0, number), _object_at(joint.body1, number)
@@ -116,34 +116,39 @@ def _object_at(path: str, number: dict[str, int]) -> int | None:
     return number.get(path)
 
 
-def _fitted(scene: Scene, bodies: Bodies, classes: Classes, is_free: Mask, rule: PartOf) -> Links:
-    is_front, is_handle = classes.are_in("fronts")[bodies.number], classes.are_in("handles")[bodies.number]
-    is_body = classes.are_in("bodies")[bodies.number] & ~is_front & ~is_handle
-    parts = np.flatnonzero((is_front | is_handle) & is_free[bodies.number])
+def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free: Mask, rule: PartOfRule) -> Links:
+    is_front, is_handle = classes.are_in("fronts")[boxed.number], classes.are_in("handles")[boxed.number]
+    is_body = classes.are_in("bodies")[boxed.number] & ~is_front & ~is_handle
+    parts = np.flatnonzero((is_front | is_handle) & is_free[boxed.number])
     wholes = np.flatnonzero(is_body | is_front)
-    above = [obj.prim_path.rpartition("/")[0] for obj in bodies.objects]
+    above = [obj.prim_path.rpartition("/")[0] for obj in boxed.objects]
     group = {path: index for index, path in enumerate(dict.fromkeys(above))}
     family = np.array([group[path] for path in above], np.int64)
-    lower, upper = bodies.lower[parts, :2] - rule.max_gap, bodies.upper[parts, :2] + rule.max_gap
+    lower, upper = boxed.lower[parts, :2] - rule.max_gap, boxed.upper[parts, :2] + rule.max_gap
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
-    for i, j in overlapping_pairs(lower, upper, (bodies.lower[wholes, :2], bodies.upper[wholes, :2])):
+    for i, j in overlapping_pairs(lower, upper, (boxed.lower[wholes, :2], boxed.upper[wholes, :2])):
         part, whole = parts[i], wholes[j]
         is_good = (part != whole) & (family[part] == family[whole]) & (is_handle[part] | is_body[whole])
-        is_good &= bodies.volume[part] < bodies.volume[whole]
+        is_good &= boxed.volume[part] < boxed.volume[whole]
         part, whole = part[is_good], whole[is_good]
-        is_met = (box_gaps(bodies, part, whole) <= rule.max_gap).all(axis=1)
+        is_met = (box_gaps(boxed, part, whole) <= rule.max_gap).all(axis=1)
         found.append((part[is_met], whole[is_met]))
     part, whole = (np.concatenate(column) for column in zip(*found, strict=True))
-    return _best_fit(bodies, part, whole, is_front, rule)
+    return _best_fit(boxed, part, whole, is_front, rule)
 
 
-def _best_fit(bodies: Bodies, part: Indices, whole: Indices, is_front: Mask, rule: PartOf) -> Links:
+def _best_fit(boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask, rule: PartOfRule) -> Links:
     """Return of each part the whole that it meets most: a handle's is a front where there is one."""
-    gaps = box_gaps(bodies, part, whole)
-    met = np.clip((rule.max_gap - gaps) / (bodies.size[part] + rule.max_gap), 0, 1).prod(axis=1)
-    best = first_of_each(part, (bodies.rank[whole], -met.round(6), ~is_front[whole]))
+    gaps = box_gaps(boxed, part, whole)
+    met = np.clip((rule.max_gap - gaps) / (boxed.size[part] + rule.max_gap), 0, 1).prod(axis=1)
+    best = first_of_each_group(part, (boxed.rank[whole], -met.round(6), ~is_front[whole]))
     gap = np.clip(gaps[best].max(axis=1, initial=0), 0, None)
     links = Links(
-        "part-of", rule.fitted_rule, part[best], whole[best], {"gap": gap}, clearness(share_below(gap, rule.max_gap))
+        "part-of",
+        rule.fitted_rule,
+        part[best],
+        whole[best],
+        {"gap": gap},
+        margin_score(margin_below(gap, rule.max_gap)),
     )
-    return links._replace(target=bodies.number[links.target], anchor=bodies.number[links.anchor])
+    return links._replace(target=boxed.number[links.target], anchor=boxed.number[links.anchor])

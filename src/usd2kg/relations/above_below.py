@@ -1,0 +1,116 @@
+"""`above` and `below`: what is over what, with nothing between."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, rank_in_group, select_rows
+from usd2kg.relations.boxed_objects import BoxedObjects, overlap_areas
+from usd2kg.relations.model import Links, margin_above, margin_score
+from usd2kg.relations.thresholds import AboveRule
+from usd2kg.shapes import overlapping_pairs
+
+__all__ = ["find_above", "reverse_links"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_PREFIX = 4
+"""Of each target, this many times as many as are kept are looked at, the nearest: what is between is among them."""
+
+
+class _StackedPairs(NamedTuple):
+    """An upper thing, a lower one, the height between them, and the share of the smaller footprint that is shared."""
+
+    target: Indices
+    anchor: Indices
+    gap: Array
+    ratio: Array
+
+
+def find_above(boxed: BoxedObjects, is_chosen: Mask, frame: Indices, supporter: Indices, rule: AboveRule) -> Links:
+    """Return what is above what.
+
+    Left out is what something between says already: of a target above a tray on a table, that it is above the table;
+    of a book on a shelf, what the shelf is above. Both things are parts of the same whole or in the same container, or
+    neither is.
+
+    Args:
+        boxed: the objects.
+        is_chosen: which of them take part.
+        frame: what each is a part of or inside of, -1 for nothing.
+        supporter: what each is on, -1 for nothing.
+        rule: the thresholds.
+    """
+    pairs = _candidates(boxed, np.flatnonzero(is_chosen), frame, rule)
+    pairs = select_rows(pairs, ~_is_supported(pairs, supporter))
+    pairs = _nearest(boxed, pairs, _PREFIX * rule.most)
+    pairs = _nearest(boxed, select_rows(pairs, ~_has_intermediate(boxed, pairs, supporter, rule)), rule.most)
+    clear = margin_above(pairs.ratio, rule.min_overlap_ratio)
+    numbers = {"gap": pairs.gap, "overlapRatio": pairs.ratio}
+    return Links("above", rule.rule, pairs.target, pairs.anchor, numbers, margin_score(clear))
+
+
+def reverse_links(kind: str, links: Links) -> Links:
+    """Return the same relations, stronger from the anchors."""
+    return links._replace(kind=kind, target=links.anchor, anchor=links.target)
+
+
+def _candidates(boxed: BoxedObjects, chosen: Indices, frame: Indices, rule: AboveRule) -> _StackedPairs:
+    found = [_StackedPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))]
+    for i, j in overlapping_pairs(boxed.lower[chosen, :2], boxed.upper[chosen, :2]):
+        one, other = chosen[i], chosen[j]
+        is_upper = boxed.lower[one, 2] >= boxed.upper[other, 2] + rule.min_gap
+        is_lower = boxed.lower[other, 2] >= boxed.upper[one, 2] + rule.min_gap
+        # Of two flat things at one height, neither is above the other.
+        is_good = (is_upper != is_lower) & (frame[one] == frame[other])
+        target, anchor = np.where(is_upper, one, other)[is_good], np.where(is_upper, other, one)[is_good]
+        gap, ratio = boxed.lower[target, 2] - boxed.upper[anchor, 2], _overlap_ratio(boxed, target, anchor)
+        found.append(select_rows(_StackedPairs(target, anchor, gap, ratio), ratio > rule.min_overlap_ratio))
+    return concatenate_rows(found)
+
+
+def _overlap_ratio(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
+    shared = overlap_areas(boxed.lower[one], boxed.upper[one], boxed.lower[other], boxed.upper[other])
+    smaller = np.minimum(boxed.area[one], boxed.area[other])
+    return np.asarray(np.minimum(shared / np.maximum(smaller, 1e-12), 1.0))
+
+
+def _is_supported(pairs: _StackedPairs, supporter: Indices) -> Mask:
+    """Return for each pair whether the target rests on the anchor, at first or at last."""
+    here, found = supporter[pairs.target], np.zeros(len(pairs.target), np.bool_)
+    for _ in range(len(supporter)):
+        found |= here == pairs.anchor
+        if not (here >= 0).any():
+            break
+        here = np.where(here >= 0, supporter[here], -1)
+    return found
+
+
+def _nearest(boxed: BoxedObjects, pairs: _StackedPairs, most: int) -> _StackedPairs:
+    """Return of each target the pairs with the smallest gap, nearest first."""
+    return select_rows(pairs, first_of_each_group(pairs.target, (boxed.rank[pairs.anchor], pairs.gap.round(6)), most))
+
+
+def _has_intermediate(boxed: BoxedObjects, pairs: _StackedPairs, supporter: Indices, rule: AboveRule) -> Mask:
+    """Return for each pair whether a third thing lies between: the target is above or on it, and it so to the anchor.
+
+    NearbyPairs are sorted by target and gap, so that what is between comes before.
+    """
+    stronger = np.zeros(len(pairs.target), np.bool_)
+    carrier = supporter[pairs.target]
+    has_carrier = np.flatnonzero(carrier >= 0)
+    stronger[has_carrier] = _is_over(boxed, carrier[has_carrier], pairs.anchor[has_carrier], supporter, rule)
+    place = rank_in_group(pairs.target)
+    for step in range(1, int(place.max(initial=0)) + 1):
+        later = np.flatnonzero(place >= step)
+        stronger[later] |= _is_over(boxed, pairs.anchor[later - step], pairs.anchor[later], supporter, rule)
+    return stronger
+
+
+def _is_over(boxed: BoxedObjects, upper: Indices, lower: Indices, supporter: Indices, rule: AboveRule) -> Mask:
+    is_higher = boxed.lower[upper, 2] >= boxed.upper[lower, 2] + rule.min_gap
+    is_above = is_higher & (_overlap_ratio(boxed, upper, lower) > rule.min_overlap_ratio) & (upper != lower)
+    return np.asarray(is_above | (supporter[upper] == lower))
