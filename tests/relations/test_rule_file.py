@@ -87,7 +87,10 @@ class TestClasses:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[onn]\n", r"section \[onn\] is unknown; expected one of on, on_several, hovering, inside"),
+        (
+            "[onn]\n",
+            r"section \[onn\] is unknown; expected one of geometry, blocking, on, on_several, hovering, inside",
+        ),
         ("[on]\ngap = 1\n", r"\[on\]: key 'gap' is unknown; expected one of rule, min_overlap_ratio"),
         ("on = 3\n", r"on is 3; expected a section \[on\] with keys and values"),
         ('[on]\nmin_gap = "much"\n', r"\[on\] min_gap is 'much'; expected a finite number, like 0.01"),

@@ -109,7 +109,7 @@ class TestWords:
             RelationOptions(kinds=("beside",))
 
     def test_sides_need_a_viewpoint(self):
-        with pytest.raises(GraphError, match="left depends on where one stands; give a viewpoint"):
+        with pytest.raises(GraphError, match="left depends on the viewer; give a viewpoint"):
             parse_kinds("left,on")
         with pytest.raises(GraphError, match="behind depends on where one stands"):
             RelationOptions(kinds=("behind",))

@@ -1,7 +1,7 @@
-"""Spatial relations between objects, from their boxes: what is on, in, above, beside, between and part of what.
+"""Spatial relations between objects, from their boxes and classes; no RDF.
 
-Each relation carries the numbers it rests on and the id of its rule. The thresholds are in `data/spatial.toml`;
-docs/relations.md tells what each kind means.
+Each relation carries its measurements and the id of its rule. `knowledge/spatial.toml` holds the thresholds;
+docs/relations.md defines each kind.
 """
 
 from usd2kg.relations.find import find_relations

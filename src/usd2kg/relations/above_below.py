@@ -1,4 +1,4 @@
-"""`above` and `below`: what is over what, with nothing between."""
+"""`above` and `below`, with nothing in between."""
 
 from typing import NamedTuple
 
@@ -18,11 +18,11 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _PREFIX = 4
-"""Of each target, this many times as many as are kept are looked at, the nearest: what is between is among them."""
+"""Candidates per kept anchor of a target: the intermediate objects are among the nearest."""
 
 
 class _StackedPairs(NamedTuple):
-    """An upper thing, a lower one, the height between them, and the share of the smaller footprint that is shared."""
+    """Pairs of an upper and a lower object, with gap and overlap as a share of the smaller footprint."""
 
     target: Indices
     anchor: Indices
@@ -31,17 +31,16 @@ class _StackedPairs(NamedTuple):
 
 
 def find_above(boxed: BoxedObjects, is_chosen: Mask, frame: Indices, supporter: Indices, rule: AboveRule) -> Links:
-    """Return what is above what.
+    """Return the `above` links between objects with the same whole or container, or without any.
 
-    Left out is what something between says already: of a target above a tray on a table, that it is above the table;
-    of a book on a shelf, what the shelf is above. Both things are parts of the same whole or in the same container, or
-    neither is.
+    Pairs that follow from an intermediate object are omitted: a lamp above a tray on a table is not linked to the
+    table, nor a book on a shelf to what the shelf is above.
 
     Args:
         boxed: the objects.
-        is_chosen: which of them take part.
-        frame: what each is a part of or inside of, -1 for nothing.
-        supporter: what each is on, -1 for nothing.
+        is_chosen: mask of the objects to relate.
+        frame: index of the whole or container of each object, -1 for none.
+        supporter: index of what each object is on, -1 for none.
         rule: the thresholds.
     """
     pairs = _candidates(boxed, np.flatnonzero(is_chosen), frame, rule)
@@ -54,7 +53,7 @@ def find_above(boxed: BoxedObjects, is_chosen: Mask, frame: Indices, supporter: 
 
 
 def reverse_links(kind: str, links: Links) -> Links:
-    """Return the same relations, stronger from the anchors."""
+    """Return the inverse links."""
     return links._replace(kind=kind, target=links.anchor, anchor=links.target)
 
 
@@ -64,7 +63,7 @@ def _candidates(boxed: BoxedObjects, chosen: Indices, frame: Indices, rule: Abov
         one, other = chosen[i], chosen[j]
         is_upper = boxed.lower[one, 2] >= boxed.upper[other, 2] + rule.min_gap
         is_lower = boxed.lower[other, 2] >= boxed.upper[one, 2] + rule.min_gap
-        # Of two flat things at one height, neither is above the other.
+        # Of two flat objects at one height, neither is above the other.
         is_good = (is_upper != is_lower) & (frame[one] == frame[other])
         target, anchor = np.where(is_upper, one, other)[is_good], np.where(is_upper, other, one)[is_good]
         gap, ratio = boxed.lower[target, 2] - boxed.upper[anchor, 2], _overlap_ratio(boxed, target, anchor)
@@ -79,7 +78,7 @@ def _overlap_ratio(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
 
 
 def _is_supported(pairs: _StackedPairs, supporter: Indices) -> Mask:
-    """Return for each pair whether the target rests on the anchor, at first or at last."""
+    """Return for each pair whether the target is on the anchor, directly or transitively."""
     here, found = supporter[pairs.target], np.zeros(len(pairs.target), np.bool_)
     for _ in range(len(supporter)):
         found |= here == pairs.anchor
@@ -90,24 +89,24 @@ def _is_supported(pairs: _StackedPairs, supporter: Indices) -> Mask:
 
 
 def _nearest(boxed: BoxedObjects, pairs: _StackedPairs, most: int) -> _StackedPairs:
-    """Return of each target the pairs with the smallest gap, nearest first."""
+    """Return the pairs with the smallest gaps of each target, nearest first."""
     return select_rows(pairs, first_of_each_group(pairs.target, (boxed.rank[pairs.anchor], pairs.gap.round(6)), most))
 
 
 def _has_intermediate(boxed: BoxedObjects, pairs: _StackedPairs, supporter: Indices, rule: AboveRule) -> Mask:
-    """Return for each pair whether a third thing lies between: the target is above or on it, and it so to the anchor.
+    """Return for each pair whether the target is above or on a third object that is above or on the anchor.
 
-    NearbyPairs are sorted by target and gap, so that what is between comes before.
+    Pairs are sorted by target and gap, so that intermediate objects come first.
     """
-    stronger = np.zeros(len(pairs.target), np.bool_)
-    carrier = supporter[pairs.target]
-    has_carrier = np.flatnonzero(carrier >= 0)
-    stronger[has_carrier] = _is_over(boxed, carrier[has_carrier], pairs.anchor[has_carrier], supporter, rule)
-    place = rank_in_group(pairs.target)
-    for step in range(1, int(place.max(initial=0)) + 1):
-        later = np.flatnonzero(place >= step)
-        stronger[later] |= _is_over(boxed, pairs.anchor[later - step], pairs.anchor[later], supporter, rule)
-    return stronger
+    found = np.zeros(len(pairs.target), np.bool_)
+    bearer = supporter[pairs.target]
+    has_bearer = np.flatnonzero(bearer >= 0)
+    found[has_bearer] = _is_over(boxed, bearer[has_bearer], pairs.anchor[has_bearer], supporter, rule)
+    rank = rank_in_group(pairs.target)
+    for step in range(1, int(rank.max(initial=0)) + 1):
+        later = np.flatnonzero(rank >= step)
+        found[later] |= _is_over(boxed, pairs.anchor[later - step], pairs.anchor[later], supporter, rule)
+    return found
 
 
 def _is_over(boxed: BoxedObjects, upper: Indices, lower: Indices, supporter: Indices, rule: AboveRule) -> Mask:

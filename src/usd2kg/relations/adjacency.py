@@ -1,4 +1,4 @@
-"""`touching`, `next-to` and `near`: what is close to what, each pair once."""
+"""`touching`, `next-to` and `near`; each pair is found once."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.distances import box_gaps, distances
 from usd2kg.relations.model import Links, margin_above, margin_below, margin_score
 from usd2kg.relations.protrusions import has_protrusion
-from usd2kg.relations.thresholds import NearRule, NextToRule, RelationRules
+from usd2kg.relations.thresholds import BlockingRule, NearRule, NextToRule, RelationRules
 from usd2kg.shapes import overlapping_pairs
 
 __all__ = [
@@ -27,18 +27,12 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_MAX_BLOCKERS = 8
-"""Of each thing, so many of the nearest are asked whether they stand between it and another."""
 _UP = 2
-"""The vertical axis."""
-_FREE = 0.01
-"""Metres: nothing stands between things that are closer."""
-_SHARED = 0.1
-"""The share of the smaller one's side by which two footprints may overlap and still lie beside each other."""
+"""Index of the vertical axis."""
 
 
 class NearbyPairs(NamedTuple):
-    """Two things, and the distance between them in metres."""
+    """Pairs of objects and their distances in metres."""
 
     one: Indices
     other: Indices
@@ -46,7 +40,7 @@ class NearbyPairs(NamedTuple):
 
 
 def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules) -> NearbyPairs:
-    """Return the pairs of chosen boxed that are no farther apart than the widest of the rules allows, each once."""
+    """Return the pairs of chosen objects within the widest limit of the rules, each once."""
     near = np.maximum(_limits(boxed, rules.near), _limits(boxed, rules.next_to))
     reach = np.maximum(near, rules.touching.max_gap)
     chosen = np.flatnonzero(is_chosen)
@@ -65,14 +59,14 @@ def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules
 
 
 def _limits(boxed: BoxedObjects, rule: NearRule | NextToRule) -> Array:
-    """Return how far from a thing something may be, by its size; of two things the smaller one decides."""
+    """Return the distance limit of each object by its size; the smaller object of a pair decides."""
     _, half, _ = boxed.turned
     size = 2 * half.mean(axis=1) if isinstance(rule, NextToRule) else (2 * half.sum(axis=1) + boxed.size[:, 2]) / 3
     return np.asarray(np.clip(rule.gap_share * size, rule.min_gap, rule.max_gap))
 
 
 def are_nearest(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Mask:
-    """Return for each pair whether it is among the nearest few of one of the two."""
+    """Return for each pair whether it is among the `most` nearest of either object."""
     count = len(pairs.one)
     is_kept = np.zeros(2 * count, np.bool_)
     is_kept[_nearest_of_each(boxed, pairs, most)] = True
@@ -80,19 +74,19 @@ def are_nearest(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Mask:
 
 
 def height_overlaps(boxed: BoxedObjects, pairs: NearbyPairs) -> Array:
-    """Return for each pair the share of the lower one's height that is beside the other, from 0 to 1."""
+    """Return for each pair the vertical overlap as a share of the shorter object's height."""
     lower_one = np.minimum(boxed.size[pairs.one, 2], boxed.size[pairs.other, 2])
     shared = -box_gaps(boxed, pairs.one, pairs.other)[:, 2]
     return np.asarray(np.clip(shared / np.maximum(lower_one, 1e-12), 0, 1))
 
 
 def find_touching(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules) -> tuple[Links, Mask]:
-    """Return the pairs whose boxes meet in a face, and which of the given pairs these are."""
+    """Return the pairs whose boxes meet in a face, as links and as a mask of the given pairs."""
     rule = rules.touching
     gaps = box_gaps(boxed, pairs.one, pairs.other)
     smaller = np.minimum(boxed.size[pairs.one], boxed.size[pairs.other])
     shares = -gaps / np.maximum(smaller, 1e-12)
-    # The axis along which they are apart; along the others their faces overlap.
+    # The boxes are apart along this axis; along the others their faces overlap.
     axis = gaps.argmax(axis=1)
     rows = np.arange(len(axis))
     gap = gaps[rows, axis]
@@ -103,7 +97,7 @@ def find_touching(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules)
     is_good &= ~((axis == _UP) & _meets_protrusion(boxed, pairs, rules))
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)
     slack = np.where(gap[is_good] >= 0, rule.max_gap, rule.max_sink)
-    # The faces of things that sink into each other by half of what may be still meet.
+    # Up to half the tolerated penetration costs no confidence.
     clear = margin_score(2 * margin_below(gap[is_good], slack), margin_above(face[is_good], rule.min_face_share))
     return _links(boxed, "touching", rule.rule, select_rows(pairs, is_good), {"gap": gap[is_good]}, clear), is_good
 
@@ -114,17 +108,20 @@ def _meets_protrusion(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRu
     return np.asarray(has_protrusion(boxed, rules)[below])
 
 
-def find_next_to(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rule: NextToRule) -> tuple[Links, Mask]:
-    """Return the pairs that are side by side with nothing between, and which of the given pairs these are."""
+def find_next_to(
+    boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rules: RelationRules
+) -> tuple[Links, Mask]:
+    """Return the unblocked pairs side by side, as links and as a mask of the given pairs."""
+    rule = rules.next_to
     limit = np.minimum(*(_limits(boxed, rule)[side] for side in (pairs.one, pairs.other)))
     gaps = box_gaps(boxed, pairs.one, pairs.other)
     beside = height_overlaps(boxed, pairs)
-    # Where the footprints overlap by more, one is over or in the other, as far as boxes tell.
+    # With a larger overlap of footprints, one object is over or in the other.
     smaller = np.minimum(boxed.size[pairs.one], boxed.size[pairs.other])
     is_turned = boxed.turned[0][pairs.one] | boxed.turned[0][pairs.other]
-    is_apart = (is_turned & (pairs.distance > 0)) | (gaps >= -_SHARED * smaller)[:, :2].any(axis=1)
+    is_apart = (is_turned & (pairs.distance > 0)) | (gaps >= -rule.max_overlap_ratio * smaller)[:, :2].any(axis=1)
     is_good = (pairs.distance <= limit) & (beside >= rule.min_height_share) & is_apart
-    is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around)
+    is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around, rules.blocking)
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)
     near = margin_below(pairs.distance[is_good], limit[is_good])
     clear = margin_score(near, margin_above(beside[is_good], rule.min_height_share))
@@ -132,11 +129,12 @@ def find_next_to(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, r
     return _links(boxed, "next-to", rule.rule, kept, {"distance": kept.distance}, clear), is_good
 
 
-def find_near(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rule: NearRule) -> Links:
-    """Return the pairs that are close in any direction, with nothing between."""
+def find_near(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rules: RelationRules) -> Links:
+    """Return the unblocked pairs that are close in any direction."""
+    rule = rules.near
     limit = np.minimum(*(_limits(boxed, rule)[side] for side in (pairs.one, pairs.other)))
     is_good = pairs.distance <= limit
-    is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around)
+    is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around, rules.blocking)
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)
     kept = select_rows(pairs, is_good)
     clear = margin_score(margin_below(kept.distance, limit[is_good]))
@@ -150,11 +148,11 @@ def _links(
     return Links(kind, rule, one, other, numbers, confidence)
 
 
-def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs) -> Mask:
-    """Return for each pair whether a third thing fills half of the space between the two."""
+def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rule: BlockingRule) -> Mask:
+    """Return for each pair whether a third object is between the two."""
     found = np.zeros(len(pairs.one), np.bool_)
-    wide = np.flatnonzero(pairs.distance > _FREE)
-    near = _nearest_of_each(boxed, around, _MAX_BLOCKERS)
+    wide = np.flatnonzero(pairs.distance > rule.min_distance)
+    near = _nearest_of_each(boxed, around, rule.most)
     neighbour = np.concatenate([around.other, around.one])[near]
     starts = np.searchsorted(np.concatenate([around.one, around.other])[near], np.arange(len(boxed) + 1))
     count = starts[pairs.one[wide] + 1] - starts[pairs.one[wide]]
@@ -164,7 +162,7 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs) ->
     is_other = third != pairs.other[pair]
     pair, third = pair[is_other], third[is_other]
     one, other = pairs.one[pair], pairs.other[pair]
-    # Along each axis, the space between the two, or what both share.
+    # Along each axis: the gap between the two, or their overlap.
     edges = np.stack(
         [np.maximum(boxed.lower[one], boxed.lower[other]), np.minimum(boxed.upper[one], boxed.upper[other])]
     )
@@ -172,17 +170,17 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs) ->
     filled = np.minimum(boxed.upper[third], high) - np.maximum(boxed.lower[third], low)
     shares = np.clip(filled, 0, None) / np.maximum(high - low, 1e-9)
     is_gap = edges[0] > edges[1]
-    # Along the gap anything blocks that is in it; across, it has to fill half.
-    blocks = np.where(is_gap, filled > 0, shares >= 0.5).all(axis=1)
-    # Walls that are one mesh are around the two, as far as boxes tell, and not between.
-    for thing in (one, other):
-        middle = boxed.middle[thing]
+    # A blocker reaches into the gap, and fills a share of it across.
+    blocks = np.where(is_gap, filled > 0, shares >= rule.min_fill_ratio).all(axis=1)
+    # The box around walls in one mesh contains the two; it is not between them.
+    for index in (one, other):
+        middle = boxed.middle[index]
         blocks &= ~((middle > boxed.lower[third]) & (middle < boxed.upper[third])).all(axis=1)
     found[pair[blocks]] = True
     return found
 
 
 def _nearest_of_each(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Indices:
-    """Return, body by body, which pairs its nearest neighbours are in; those where it comes second are counted on."""
+    """Return for each object the indices of its nearest pairs; pairs where it is second follow the others."""
     from_, to = np.concatenate([pairs.one, pairs.other]), np.concatenate([pairs.other, pairs.one])
     return first_of_each_group(from_, (boxed.rank[to], np.tile(pairs.distance.round(6), 2)), most)

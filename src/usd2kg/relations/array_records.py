@@ -1,4 +1,4 @@
-"""Records of columns: chosen from, put together, and select_rows apart by group."""
+"""Operations on records of arrays (structs of arrays), and on groups and chains of rows."""
 
 from typing import Any, TypeVar
 
@@ -14,12 +14,12 @@ _Columns = TypeVar("_Columns", bound=tuple[Any, ...])
 
 
 def select_rows(columns: _Columns, chosen: Mask | Indices) -> _Columns:
-    """Return the chosen rows of a record of columns."""
+    """Return the selected rows of a record of arrays."""
     return _same_type(columns, [column[chosen] for column in columns])
 
 
 def concatenate_rows(portions: list[_Columns]) -> _Columns:
-    """Return the rows of all portions, of which there is at least one, in one record of columns."""
+    """Return the concatenated rows of one or more records of arrays."""
     return _same_type(portions[0], [np.concatenate(column) for column in zip(*portions, strict=True)])
 
 
@@ -30,7 +30,7 @@ def _same_type(like: _Columns, columns: list[NDArray[Any]]) -> _Columns:
 
 
 def rank_in_group(groups: Indices) -> Indices:
-    """Return the place of each item among those of its group, of items sorted by group.
+    """Return the index of each item within its group; items are sorted by group.
 
     >>> rank_in_group(np.array([3, 3, 7, 7, 7])).tolist()
     [0, 1, 0, 1, 2]
@@ -40,34 +40,34 @@ def rank_in_group(groups: Indices) -> Indices:
 
 
 def first_of_each_group(groups: Indices, keys: tuple[NDArray[np.generic], ...], most: int = 1) -> Indices:
-    """Return where the first items of each group are, group by group, in the order of the keys.
+    """Return the indices of the first items of each group, group by group.
 
     Args:
-        groups: the group of each item, not negative.
-        keys: the last one counts most, as in `numpy.lexsort`.
-        most: how many of each group.
+        groups: group of each item, not negative.
+        keys: sort keys; the last is the primary one, as in `numpy.lexsort`.
+        most: number of items per group.
     """
     order = np.lexsort((*keys, groups))
     return np.asarray(order[rank_in_group(groups[order]) < most])
 
 
 def is_on_cycle(after: Indices, starts: Indices) -> Mask:
-    """Return for each start whether the way from one item to the one after it, -1 for the end, leads back to it.
+    """Return for each start whether following `after` (-1 ends a chain) leads back to it.
 
     >>> is_on_cycle(np.array([1, 0, 1]), np.array([0, 1, 2])).tolist()
     [True, True, False]
     """
-    # By strides that double: after n of them, every way has come to its end or runs in a circle.
+    # Pointer doubling: after log2(n) rounds every chain has ended or is cyclic.
     here = np.append(after, -1)
     ended = here.copy()
     for _ in range(len(after).bit_length()):
         ended = ended[ended]
     if not (ended[starts] >= 0).any():
         return np.zeros(len(starts), np.bool_)
-    on_circle = np.zeros(len(here), np.bool_)
-    # What is reached from far along a way that never ends lies on a circle, and so does all after it.
+    on_cycle = np.zeros(len(here), np.bool_)
+    # Items reached this far along an endless chain are on a cycle, and so are their successors.
     reached = np.unique(ended[ended >= 0])
-    while len(reached) and not on_circle[reached].all():
-        on_circle[reached] = True
+    while len(reached) and not on_cycle[reached].all():
+        on_cycle[reached] = True
         reached = here[reached]
-    return np.asarray(on_circle[starts])
+    return np.asarray(on_cycle[starts])

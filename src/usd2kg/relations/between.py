@@ -1,4 +1,4 @@
-"""`between`: what stands between two other things."""
+"""`between`: an object between two others."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,15 +19,15 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _SAMPLES = 10
-"""Along each side of a footprint: of so many points it is asked whether they are between."""
+"""Sample points along each side of a footprint; bounds the resolution of `betweenRatio`."""
 _BATCH = 1 << 13
 _ROUNDING = 1e-9
 
 
 def find_between(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelations, rule: BetweenRule) -> Links:
-    """Return which things are between which two others: for each the two that are closest, if any.
+    """Return for each object the closest pair of anchors that it is between, if any.
 
-    More than half of its footprint is in the convex hull of theirs, as far as 10 × 10 points of it tell.
+    Most of its footprint, sampled at 10 × 10 points, is in the convex hull of their footprints.
     """
     target, anchor, distance = _anchors(boxed, is_chosen, stronger, rule)
     starts = np.searchsorted(target, np.arange(len(boxed) + 1))
@@ -47,7 +47,7 @@ def find_between(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelatio
 
 
 def _anchors(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelations, rule: BetweenRule) -> NearbyPairs:
-    """Return pairs of a target and something beside it, the nearest few of each, sorted by target."""
+    """Return pairs of a target and an object beside it, the nearest of each target, sorted by target."""
     reach = np.clip(rule.gap_share * boxed.size[:, :2].mean(axis=1), rule.min_gap, rule.max_gap)
     chosen = np.flatnonzero(is_chosen)
     grown = reach[chosen, None]
@@ -73,7 +73,7 @@ def _are_beside(boxed: BoxedObjects, pairs: NearbyPairs, rule: BetweenRule) -> M
 
 
 def _pairs_in_groups(starts: Indices) -> tuple[Indices, Indices]:
-    """Return all pairs of places within each group, whose first places are `starts`."""
+    """Return all pairs of row indices within each group; `starts` are the first rows of the groups."""
     counts = np.diff(starts)
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
     for count in np.unique(counts[counts > 1]).tolist():
@@ -85,7 +85,7 @@ def _pairs_in_groups(starts: Indices) -> tuple[Indices, Indices]:
 
 
 def _hull_ratios(boxed: BoxedObjects, target: Indices, one: Indices, other: Indices) -> Array:
-    """Return the share of each target's footprint that is in the convex hull of two others' footprints."""
+    """Return the share of each target's footprint in the convex hull of two other footprints."""
     shares = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     found = np.zeros(len(target))
     for start in range(0, len(target), _BATCH):
@@ -103,9 +103,9 @@ def _hull_ratios(boxed: BoxedObjects, target: Indices, one: Indices, other: Indi
 
 
 def _hull_range(points: Array, boxed: BoxedObjects, one: Indices, other: Indices, axis: int) -> tuple[Array, Array]:
-    """Return from where to where, on the way t from 0 to 1 from one box to the other, points are between its sides.
+    """Return the range of t in [0, 1] for which points lie in the interpolated box (1 - t) A + t B, along an axis.
 
-    The hull of two boxes is all boxes (1 - t) A + t B: a point is in there where lower(t) <= p <= upper(t).
+    The convex hull of two boxes A and B is the union of these boxes.
     """
     low_from, low_to = _solve(points, boxed.lower[one, axis], boxed.lower[other, axis], sign=1.0)
     high_from, high_to = _solve(points, boxed.upper[one, axis], boxed.upper[other, axis], sign=-1.0)
@@ -113,7 +113,7 @@ def _hull_range(points: Array, boxed: BoxedObjects, one: Indices, other: Indices
 
 
 def _solve(points: Array, start: Array, end: Array, *, sign: float) -> tuple[Array, Array]:
-    """Return the range of t in 0 to 1 where sign · (start + t (end - start)) <= sign · p; an empty one is (1, 0)."""
+    """Return the range of t in [0, 1] with sign · (start + t (end - start)) <= sign · p; (1, 0) if empty."""
     slope = sign * (end - start)[:, None]
     room = sign * (points - start[:, None])
     with np.errstate(divide="ignore", invalid="ignore"):

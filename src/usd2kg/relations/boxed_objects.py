@@ -1,4 +1,4 @@
-"""The objects of a scene as arrays: boxes, footprints, and what their classes allow."""
+"""Objects as arrays: boxes, footprints, feet, parts, and membership in class lists."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox, expand_curie
-from usd2kg.relations.thresholds import ClassLists
+from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
 from usd2kg.scene import Box, SceneObject
 
 __all__ = ["BoxedObjects", "ClassMembership", "corners_of", "overlap_areas"]
@@ -17,16 +17,14 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_FOOT = 0.01
-"""Metres: parts that begin so little above the bottom are feet."""
 _UPRIGHT = 0.9999
-"""The least that the upright axis of a thing that is turned about the vertical rises."""
+"""Minimal z component of the vertical axis of an object rotated about z only."""
 _FITS = 0.01
-"""How far, relative to its sides, the box around a turned footprint may differ from the measured one."""
+"""Relative tolerance between the measured AABB and that of the rotated footprint."""
 
 
 class ClassMembership:
-    """Which objects are in which list of classes, by their grounded class; an object without one is in none."""
+    """Membership of objects in class lists, by their grounded class; ungrounded objects are in none."""
 
     def __init__(self, names: ClassLists, tbox: TBox, grounding: Grounding, objects: Sequence[SceneObject]) -> None:
         self._names = names
@@ -38,7 +36,7 @@ class ClassMembership:
         self._which = np.array([number[iri] for iri in iris], np.int64)
 
     def are_in(self, name: str) -> Mask:
-        """Return for each object whether its class is in the list `name`, or below a class that is."""
+        """Return for each object whether its class or a superclass is in the list `name`."""
         items: tuple[str, ...] = getattr(self._names, name)
         exact = {expand_curie(item[1:]) for item in items if item.startswith("=")}
         whole = {expand_curie(item) for item in items if not item.startswith("=")}
@@ -49,22 +47,22 @@ class ClassMembership:
 
     @cached_property
     def can_contain(self) -> Mask:
-        """For each object, whether things can be inside it: any object can where the ontology does not tell."""
+        """Whether each object is a container; all are if the ontology states no containment disposition."""
         disposition = expand_curie(self._names.containment_disposition)
-        tells = any(disposition in cls.dispositions for cls in self._tbox.classes)
-        if not tells:
+        if not any(disposition in cls.dispositions for cls in self._tbox.classes):
             return np.ones(len(self._which), np.bool_)
-        is_made_to = [iri is None or disposition in self._tbox.by_iri[iri].dispositions for iri in self._known]
-        can = np.array(is_made_to, np.bool_)[self._which] | self.are_in("containers")
+        has_disposition = [iri is None or disposition in self._tbox.by_iri[iri].dispositions for iri in self._known]
+        can = np.array(has_disposition, np.bool_)[self._which] | self.are_in("containers")
         return np.asarray(can & ~self.are_in("not_containers"))
 
 
 class BoxedObjects:
-    """The objects that have a box of their own, as arrays: metres, z-up world frame, one row for each."""
+    """Objects with a box of their own as arrays, one row each; metres, world frame, z-up."""
 
-    def __init__(self, objects: Sequence[SceneObject]) -> None:
+    def __init__(self, objects: Sequence[SceneObject], geometry: ObjectGeometry) -> None:
+        self.geometry = geometry
         self.number = np.array([index for index, obj in enumerate(objects) if obj.own_box is not None], np.int64)
-        """Place among all objects."""
+        """Index among all objects of the scene."""
         self.objects = [obj for obj in objects if obj.own_box is not None]
         boxes = [obj.own_box for obj in self.objects if obj.own_box is not None]
         self.lower = np.array([box.lower for box in boxes], np.float64).reshape(-1, 3)
@@ -79,7 +77,7 @@ class BoxedObjects:
 
     @cached_property
     def rank(self) -> Indices:
-        """The place of each in the order of prim paths: what decides between equals, whatever the scene's order."""
+        """Rank of each object by prim path; breaks ties independently of the order of the scene."""
         paths = [obj.prim_path for obj in self.objects]
         rank = np.empty(len(paths), np.int64)
         rank[sorted(range(len(paths)), key=paths.__getitem__)] = np.arange(len(paths))
@@ -87,14 +85,14 @@ class BoxedObjects:
 
     @cached_property
     def feet(self) -> tuple[Array, Array]:
-        """Lower and upper corners (n, 3) of the box around the parts that each stands on; of the whole where it is one.
+        """Lower and upper corners (n, 3) of the box around the feet of each object; its own box if it has no parts.
 
-        What a tap stands on is its foot, and not what is below its spout.
+        A tap stands on its foot, not on what is below its spout.
         """
         lower, upper = self.lower.copy(), self.upper.copy()
         for index, obj in enumerate(self.objects):
             if obj.part_boxes:
-                bottom = lower[index, 2] + _FOOT
+                bottom = lower[index, 2] + self.geometry.foot_height
                 feet = corners_of([box for box in obj.part_boxes if box.lower[2] <= bottom])
                 if len(feet[0]):
                     lower[index], upper[index] = feet[0].min(axis=0), feet[1].max(axis=0)
@@ -102,7 +100,7 @@ class BoxedObjects:
 
     @cached_property
     def parts(self) -> tuple[Indices, Array, Array]:
-        """Where the parts of each start (n + 1), and their lower and upper corners; the whole box where it is one."""
+        """Start index of the parts of each object (n + 1), and their corners; by default the own box."""
         own = [obj.part_boxes or (obj.own_box,) for obj in self.objects]
         starts = np.cumsum([0, *(len(boxes) for boxes in own)])
         lower, upper = corners_of([box for boxes in own for box in boxes if box is not None])
@@ -110,10 +108,10 @@ class BoxedObjects:
 
     @cached_property
     def turned(self) -> tuple[Mask, Array, Array]:
-        """Whether each footprint is a rectangle that is turned; its half sides (n, 2); the unit vector of the first.
+        """Whether each footprint is a rotated rectangle, its half sides (n, 2), and the unit vector of the first side.
 
-        It is one where the extents along the prim's own axes give just the box that was measured; else the box's own
-        footprint stands for it.
+        The rectangle is known if the extents along the prim's own axes reproduce the measured box; the footprint of
+        the box is the fallback.
         """
         is_turned = np.zeros(len(self), np.bool_)
         half, along = self.size[:, :2] / 2, np.tile([1.0, 0.0], (len(self), 1))
@@ -126,11 +124,11 @@ class BoxedObjects:
 
 
 def _turned_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
-    """Return half sides and the direction of the first side, for a thing that is turned about the vertical alone."""
+    """Return half sides and the direction of the first side of an object rotated about z only; None for others."""
     if obj.oriented_size is None or obj.orientation is None or obj.own_box is None or obj.own_box != obj.box:
         return None
     x, y, z, w = obj.orientation
-    # Rows are the prim's axes in the world.
+    # Rows are the prim's axes in the world frame.
     axes = np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
@@ -145,17 +143,17 @@ def _turned_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
     sides = np.array([obj.oriented_size[first], obj.oriented_size[second]])
     along = axes[first, :2] / np.hypot(*axes[first, :2])
     around = np.abs(along) * sides[0] + np.abs(along[::-1]) * sides[1]
-    is_that = np.abs(around - obj.own_box.size[:2]).max() <= _FITS * sides.max()
-    return (sides / 2, along) if is_that else None
+    fits = np.abs(around - obj.own_box.size[:2]).max() <= _FITS * sides.max()
+    return (sides / 2, along) if fits else None
 
 
 def corners_of(boxes: Sequence[Box]) -> tuple[Array, Array]:
-    """Return lower and upper corners (n, 3) of boxes."""
+    """Return the lower and upper corners of boxes, each (n, 3)."""
     lower = np.array([box.lower for box in boxes], np.float64).reshape(-1, 3)
     return lower, np.array([box.upper for box in boxes], np.float64).reshape(-1, 3)
 
 
 def overlap_areas(lower: Array, upper: Array, others_lower: Array, others_upper: Array) -> Array:
-    """Return the area that footprints share, pair by pair, in square metres."""
+    """Return the pairwise overlap areas of footprints in square metres."""
     sides = np.clip(np.minimum(upper, others_upper)[:, :2] - np.maximum(lower, others_lower)[:, :2], 0, None)
     return np.asarray(sides[:, 0] * sides[:, 1])

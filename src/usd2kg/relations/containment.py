@@ -1,4 +1,4 @@
-"""`inside`: what a thing is in, enclosed by it or standing in it."""
+"""`inside`: objects enclosed by a container, or standing in an open one."""
 
 from typing import NamedTuple
 
@@ -19,15 +19,15 @@ Mask = NDArray[np.bool_]
 
 
 class Containment(NamedTuple):
-    """What is inside what."""
+    """The `inside` links, and the container of each object."""
 
     links: list[Links]
     container: Indices
-    """For each body the one it is inside of, -1 for none."""
+    """Index of the container of each object, -1 for none."""
 
 
 class _ContainmentPairs(NamedTuple):
-    """Pairs of a target and what may contain it."""
+    """Pairs of a target and a possible container."""
 
     target: Indices
     anchor: Indices
@@ -37,15 +37,15 @@ class _ContainmentPairs(NamedTuple):
 
 
 def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, rules: RelationRules) -> Containment:
-    """Return what is inside what: each thing in one container at most, the smallest that encloses it or it stands in.
+    """Return the container of each object: the smallest that encloses it or that it stands in.
 
-    A container is a thing whose class can hold others: a chair under a table is in the table's box, and no more. What
-    has drawers holds them, whatever its class.
+    The class decides what is a container: a chair under a table is in the table's box but not inside the table. A
+    whole contains its drawers, of any class.
 
     Args:
         boxed: the objects.
-        classes: what their classes allow.
-        wholes: for each body the one that it is a part of, -1 for none.
+        classes: membership in class lists.
+        wholes: index of the whole of each object, -1 for none.
         rules: the thresholds.
     """
     can_contain = classes.can_contain[boxed.number]
@@ -74,7 +74,7 @@ def _no_pairs() -> _ContainmentPairs:
 
 
 def _overlap_as_parts(target: Indices, anchor: Indices, wholes: Indices, is_drawer: Mask) -> Mask:
-    """Return where boxes overlap as parts do: a cabinet in its drawer, a drawer behind the tall front of another."""
+    """Return whether boxes overlap as parts: a cabinet in its drawer, a drawer behind another's tall front."""
     are_beside = is_drawer[target] & is_drawer[anchor] & (wholes[target] >= 0) & (wholes[target] == wholes[anchor])
     return np.asarray((wholes[anchor] == target) | are_beside)
 
@@ -86,11 +86,11 @@ def _overlap_vertically(boxed: BoxedObjects, target: Indices, anchor: Indices) -
 
 
 def _shares(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Array:
-    """Return which share of the target's extent along each axis lies in the anchor's box (n, 3)."""
+    """Return the share of the target's extent in the anchor's box along each axis, (n, 3)."""
     low = np.maximum(boxed.lower[target], boxed.lower[anchor])
     high = np.minimum(boxed.upper[target], boxed.upper[anchor])
     size = boxed.size[target]
-    # Along an axis in which it is flat a thing is in there or not, so that a napkin can lie in a drawer.
+    # A flat extent is in or out, so that a napkin can be in a drawer.
     share = np.where(size > 0, np.clip(high - low, 0, None) / np.where(size > 0, size, 1.0), high >= low)
     return np.asarray(share, np.float64)
 
@@ -124,10 +124,10 @@ def _standing(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: Stand
 
 
 def _are_on_top(boxed: BoxedObjects, pairs: _ContainmentPairs, is_closed: Mask, rules: RelationRules) -> Mask:
-    """Return for each pair whether the target stands on top of the anchor, and is not in it.
+    """Return for each pair whether the target is on top of the anchor and thus not inside it.
 
-    It does on the highest broad level, high up: a worktop with an upstand is lower than its box, and what stands on it
-    is not inside the unit. And it does beside the top of something closed: on the ledge of a sideboard.
+    The top is the highest broad level, in the upper third: a worktop is lower than its box if it has an upstand. The
+    ledge beside the top of a closed object counts as well.
     """
     over = np.full(len(pairs.target), -np.inf)
     top = np.full(len(pairs.target), -np.inf)

@@ -1,4 +1,4 @@
-"""How far apart two things are: boxes upright in the world, or turned about the vertical."""
+"""Gaps and distances between pairs of objects: axis-aligned boxes, or footprints rotated about z."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,23 +11,23 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _MAX_PART_PAIRS = 256
-"""Things that have more parts, multiplied, are select_rows for their boxes."""
+"""Pairs of objects with more pairs of parts are compared by their boxes."""
 _BATCH = 1 << 20
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 def box_gaps(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
-    """Return the gap between two boxes along x, y and z (n, 3), pair by pair; negative where they overlap."""
+    """Return the gaps between pairs of boxes along x, y and z (n, 3), in metres; negative for an overlap."""
     return np.asarray(
         np.maximum(boxed.lower[one], boxed.lower[other]) - np.minimum(boxed.upper[one], boxed.upper[other])
     )
 
 
 def distances(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
-    """Return the shortest distance between two things in metres, pair by pair; 0 where they overlap.
+    """Return the distances between the nearest parts of pairs of objects in metres; 0 for an overlap.
 
-    It is that between their nearest parts; footprints that are known to be turned rectangles count as such, so that the
-    distance is the same however the scene is turned.
+    Rotated footprints are compared as rectangles, so that the distance does not depend on the orientation of the
+    scene.
     """
     gaps = np.clip(box_gaps(boxed, one, other), 0, None)
     level = np.hypot(gaps[:, 0], gaps[:, 1])
@@ -41,16 +41,18 @@ def distances(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
     return np.asarray(found)
 
 
-def _between_parts(boxed: BoxedObjects, one: Indices, other: Indices, between_boxes: Array) -> Array:
-    """Return the distance between the nearest parts; that between the boxes where each is one, or parts are many."""
+def _between_parts(boxed: BoxedObjects, one: Indices, other: Indices, box_distance: Array) -> Array:
+    """Return the distances between the nearest parts; `box_distance` for single parts and for too many."""
     starts, lower, upper = boxed.parts
     count = np.diff(starts)
-    ways = count[one] * count[other]
-    some = np.flatnonzero((ways > 1) & (ways <= _MAX_PART_PAIRS))
-    found = between_boxes.copy()
+    pair_count = count[one] * count[other]
+    some = np.flatnonzero((pair_count > 1) & (pair_count <= _MAX_PART_PAIRS))
+    found = box_distance.copy()
     for portion in np.array_split(some, len(some) * _MAX_PART_PAIRS // _BATCH + 1):
-        pair = np.repeat(portion, ways[portion])
-        nth = np.arange(len(pair)) - np.repeat(np.cumsum(ways[portion]) - ways[portion], ways[portion])
+        pair = np.repeat(portion, pair_count[portion])
+        nth = np.arange(len(pair)) - np.repeat(
+            np.cumsum(pair_count[portion]) - pair_count[portion], pair_count[portion]
+        )
         first = starts[one[pair]] + nth // count[other[pair]]
         second = starts[other[pair]] + nth % count[other[pair]]
         gaps = np.maximum(lower[first], lower[second]) - np.minimum(upper[first], upper[second])
@@ -61,14 +63,14 @@ def _between_parts(boxed: BoxedObjects, one: Indices, other: Indices, between_bo
 
 
 def _between_rectangles(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
-    """Return the distance between footprints: from a corner of one to the other, the nearest, or 0 if they overlap."""
+    """Return the distances between footprints, from the nearest corner of either; 0 for an overlap."""
     from_one, is_apart_one = _to_rectangle(boxed, one, other)
     from_other, is_apart_other = _to_rectangle(boxed, other, one)
     return np.where(is_apart_one | is_apart_other, np.minimum(from_one, from_other), 0.0)
 
 
 def _to_rectangle(boxed: BoxedObjects, one: Indices, other: Indices) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the distance from the nearest corner of one to the other, and whether an axis of the other parts them."""
+    """Return the distances from the corners of `one` to `other`, and whether an axis of `other` separates them."""
     _, half, along = boxed.turned
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     corners = (
@@ -80,7 +82,7 @@ def _to_rectangle(boxed: BoxedObjects, one: Indices, other: Indices) -> tuple[Ar
     local = np.stack(
         [np.einsum("ijk,ik->ij", away, along[other]), np.einsum("ijk,ik->ij", away, across[other])], axis=2
     )
-    beyond = np.clip(np.abs(local) - half[other][:, None], 0, None)
-    nearest = np.hypot(beyond[..., 0], beyond[..., 1]).min(axis=1)
+    excess = np.clip(np.abs(local) - half[other][:, None], 0, None)
+    nearest = np.hypot(excess[..., 0], excess[..., 1]).min(axis=1)
     is_apart = (local.min(axis=1) > half[other]) | (local.max(axis=1) < -half[other])
     return nearest, is_apart.any(axis=1)

@@ -1,4 +1,4 @@
-"""find_relations: all kinds of relations of a scene, in order."""
+"""Find the spatial relations of a scene, kind by kind."""
 
 from collections.abc import Iterator, Sequence
 
@@ -32,15 +32,9 @@ Mask = NDArray[np.bool_]
 def find_relations(
     scene: Scene, tbox: TBox, grounding: Grounding, options: RelationOptions | None = None
 ) -> tuple[Relation, ...]:
-    """Return the relations of all objects that have a box, by target in scene order, and kind by kind.
+    """Return the relations of all objects that have a box, sorted by target in scene order, then kind and anchor.
 
-    Boxes are each object's own, without the objects nested below it. Symmetric relations are there once.
-
-    Args:
-        scene: the objects.
-        tbox: the classes they were grounded to.
-        grounding: the class of each object.
-        options: which kinds are found, by which rules and from which viewpoint.
+    Boxes exclude the objects nested below. Symmetric relations are listed once.
     """
     options = options or RelationOptions()
     kinds = options.chosen_kinds
@@ -51,19 +45,19 @@ def find_relations(
 
 
 class _Finder:
-    """Finds kind after kind; what stands in what and on what is known first, since the others go by it."""
+    """Finds relations kind by kind: `part-of`, `inside` and `on` first, since they suppress weaker kinds."""
 
     def __init__(self, scene: Scene, tbox: TBox, grounding: Grounding, options: RelationOptions) -> None:
         self.scene = scene
         self.rules = options.chosen_rules
         self.viewpoint = options.viewpoint
         self.classes = ClassMembership(self.rules.classes, tbox, grounding, scene.objects)
-        self.boxed = BoxedObjects(scene.objects)
+        self.boxed = BoxedObjects(scene.objects, self.rules.geometry)
         self.groups: list[str] = []
-        """Paths of group prims that are rooms."""
+        """Paths of the group prims that are rooms."""
 
     def find(self, kinds: frozenset[str]) -> Iterator[Links]:
-        """Yield the links of some kinds, and maybe of others; they count all objects of the scene, then the groups."""
+        """Yield the links of the kinds, possibly of others too; indices count all objects, then the groups."""
         parts = find_parts(self.scene, self.boxed, self.classes, self.rules.part_of)
         yield from parts
         if len(self.boxed) and kinds - {"part-of"}:
@@ -110,14 +104,14 @@ class _Finder:
             is_implied |= found
             yield links
         if "next-to" in kinds:
-            links, found = find_next_to(self.boxed, pairs, around, self.rules.next_to)
+            links, found = find_next_to(self.boxed, pairs, around, self.rules)
             is_implied |= found
             yield links
         if "near" in kinds:
-            yield find_near(self.boxed, select_rows(pairs, ~is_implied), around, self.rules.near)
+            yield find_near(self.boxed, select_rows(pairs, ~is_implied), around, self.rules)
 
     def _to_scene_indices(self, links: Links) -> Links:
-        """Return links that count all objects of the scene instead of those with a box."""
+        """Return links with indices among all objects of the scene instead of those with a box."""
         number = np.concatenate([self.boxed.number, len(self.scene.objects) + np.arange(len(self.groups))])
         other = None if links.other is None else number[links.other]
         return links._replace(target=number[links.target], anchor=number[links.anchor], other=other)

@@ -1,4 +1,4 @@
-"""What the rules give: relations, and the columns they are found as."""
+"""Relations, their kinds and viewpoints, and the arrays that the rules produce."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -31,36 +31,36 @@ Mask = NDArray[np.bool_]
 Vector = tuple[float, float, float]
 
 DEFAULT_KINDS = ("on", "inside", "above", "below", "touching", "next-to", "near", "room", "part-of")
-"""The kinds of relations that are found where the user does not choose."""
+"""Kinds that are found by default."""
 VIEWPOINT_KINDS = ("left", "right", "front", "behind")
-"""Those that need a viewpoint, and are found where one is given."""
+"""Kinds that need a viewpoint; found by default if there is one."""
 ALL_KINDS = (*DEFAULT_KINDS, "between", *VIEWPOINT_KINDS)
 SYMMETRIC_KINDS = frozenset({"touching", "next-to", "near"})
-"""Those that hold both ways; the relation is there once, from the object that comes first in the scene."""
+"""Symmetric kinds; each relation is listed once, from the object that comes first in the scene."""
 
 
 class Relation(NamedTuple):
-    """One relation between two objects, or of one object to two for `between`."""
+    """A relation between a target and an anchor, or two anchors for `between`."""
 
     kind: str
-    """One of `ALL_KINDS`, read from the target to the anchor: the target is `on` the anchor, `part-of` it…"""
+    """One of `ALL_KINDS`, read from target to anchor: the target is `on` the anchor."""
     target: str
-    """Prim path of the thing that is on, inside, near…"""
+    """Prim path of the object that is on, inside, near…"""
     anchor: str
-    """Prim path of what it is on, inside of, near…; for `room` maybe that of a group prim, which is no object."""
+    """Prim path of the reference object; for `room` possibly a group prim, which is no object."""
     rule: str
-    """Id of the rule, as in `data/spatial.toml`."""
+    """Id of the rule in `knowledge/spatial.toml`."""
     numbers: Mapping[str, float]
-    """What was measured: metres for `gap`, `distance` and `margin`, degrees for `angle`, no unit for ratios."""
+    """Measurements: metres for `gap`, `distance` and `margin`, degrees for `angle`, no unit for ratios."""
     confidence: float | None = None
-    """How far inside its thresholds the geometry lies, from 0 (it just passes) to 1, see `margin_score`. Not a
-    probability. None where nothing is measured: the stage says so."""
+    """Normalised margin to the thresholds, see `margin_score`: 0 at a threshold, 1 at the ideal. Not a probability.
+    None for relations that the stage states, which have no measurement."""
     other_anchor: str | None = None
-    """For `between`, the second anchor."""
+    """Second anchor of `between`."""
 
 
 class Links(NamedTuple):
-    """Relations of one kind and rule as columns of the same length."""
+    """Relations of one kind and rule as arrays of the same length."""
 
     kind: str
     rule: str
@@ -71,7 +71,7 @@ class Links(NamedTuple):
     other: Indices | None = None
 
     def where(self, chosen: Mask) -> "Links":
-        """Return the chosen ones."""
+        """Return the links selected by a mask."""
         return self._replace(
             target=self.target[chosen],
             anchor=self.anchor[chosen],
@@ -81,32 +81,33 @@ class Links(NamedTuple):
         )
 
 
-def margin_score(*shares: Array | float) -> Array:
-    """Return how far inside all of its thresholds a thing lies: 0 at one of them, 1 where it is clear of them all.
+def margin_score(*margins: Array | float) -> Array:
+    """Return the smallest of several margins, smoothed: 0 at a threshold, 0.5 halfway to the ideal, 1 at the ideal.
 
-    Each share is the margin that is used, 0 at the threshold and 1 where the criterion is met ideally (a gap of
-    nothing, an overlap of all), both linear. The smallest share s counts, smoothed at both ends: s² (3 - 2 s). So 0.5
-    is half way between just passing and ideal.
+    Each margin is linear, 0 at its threshold and 1 at the ideal (no gap, full overlap). Smoothstep of the smallest
+    margin s: s² (3 - 2 s).
 
     >>> margin_score(np.array([0.0, 0.5, 1.0]), 0.75).round(3).tolist()
     [0.0, 0.5, 0.844]
     """
-    least = np.clip(np.minimum.reduce(np.broadcast_arrays(*[np.asarray(share, np.float64) for share in shares])), 0, 1)
+    least = np.clip(
+        np.minimum.reduce(np.broadcast_arrays(*[np.asarray(margin, np.float64) for margin in margins])), 0, 1
+    )
     return np.asarray(least * least * (3 - 2 * least))
 
 
 def margin_above(value: Array, least: Array | float, ideal: float = 1.0) -> Array:
-    """Return which share of the way from the threshold to the ideal a value has gone; 1 where there is no way.
+    """Return the normalised margin of values above a threshold; 1 if the threshold is the ideal.
 
     >>> margin_above(np.array([0.3, 0.65, 1.0]), 0.3).round(3).tolist()
     [0.0, 0.5, 1.0]
     """
-    way = np.asarray(ideal - np.asarray(least, np.float64))
-    return np.where(way > 0, (value - least) / np.where(way > 0, way, 1.0), 1.0)
+    span = np.asarray(ideal - np.asarray(least, np.float64))
+    return np.where(span > 0, (value - least) / np.where(span > 0, span, 1.0), 1.0)
 
 
 def margin_below(value: Array, most: Array | float) -> Array:
-    """Return which share of what is allowed a value leaves over, whichever way it is off; 1 where nothing is allowed.
+    """Return the normalised margin of absolute values below a limit; 1 for a limit of 0.
 
     >>> margin_below(np.array([0.0, -0.01, 0.02]), 0.02).tolist()
     [1.0, 0.5, 0.0]
@@ -117,12 +118,12 @@ def margin_below(value: Array, most: Array | float) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Viewpoint:
-    """Where someone stands who says left, right, in front of and behind."""
+    """Viewer's position and optional gaze for left, right, front and behind."""
 
     position: Vector
     """Metres, world frame, z-up."""
     direction: Vector | None = None
-    """Where they look; by default at each pair of things in turn. Its vertical part does not count."""
+    """Gaze direction, of which z is ignored; by default towards each pair of objects."""
 
     def __post_init__(self) -> None:
         numbers = (*self.position, *(self.direction or (1.0, 0.0, 0.0)))
@@ -133,10 +134,10 @@ class Viewpoint:
 
 
 def parse_viewpoint(text: str) -> Viewpoint:
-    """Return the viewpoint that a user writes: `x,y,z`, or `x,y,z,dx,dy,dz` to look in a direction.
+    """Return the viewpoint for `x,y,z`, or `x,y,z,dx,dy,dz` with a gaze direction.
 
     Raises:
-        GraphError: it is not three or six numbers, or the direction is vertical.
+        GraphError: the text is not three or six numbers, or the direction is vertical.
 
     >>> parse_viewpoint("0, -2, 1.6").position
     (0.0, -2.0, 1.6)
@@ -157,10 +158,10 @@ def parse_viewpoint(text: str) -> Viewpoint:
 def parse_kinds(text: str, viewpoint: Viewpoint | None = None) -> tuple[str, ...]:
     """Return the kinds of a comma-separated list, in the order of `ALL_KINDS`.
 
-    `all` stands for all, `default` for the default set, both with the sides where there is a viewpoint.
+    `all` and `default` name sets of kinds; both include the sides if there is a viewpoint.
 
     Raises:
-        GraphError: one of them is no kind or needs a viewpoint that is not there, or none is named.
+        GraphError: a kind is unknown, a side lacks a viewpoint, or the list is empty.
 
     >>> parse_kinds("inside,on")
     ('on', 'inside')
@@ -175,11 +176,11 @@ def parse_kinds(text: str, viewpoint: Viewpoint | None = None) -> tuple[str, ...
 
 
 def check_kinds(kinds: frozenset[str], viewpoint: Viewpoint | None) -> None:
-    """Raise GraphError where a kind is unknown or needs a viewpoint that is not there, or where there is no kind."""
+    """Raise GraphError for an unknown kind, a side without a viewpoint, or an empty set."""
     unknown = sorted(kinds - set(ALL_KINDS))
     if unknown or not kinds:
         found = f"kind {unknown[0]!r} is unknown" if unknown else "no kind is named"
         raise GraphError(f"relation kinds: {found}; expected a list of {', '.join(ALL_KINDS)}, all or default")
     sides = [kind for kind in VIEWPOINT_KINDS if kind in kinds]
     if sides and viewpoint is None:
-        raise GraphError(f"relation kinds: {sides[0]} depends on where one stands; give a viewpoint, x,y,z in metres")
+        raise GraphError(f"relation kinds: {sides[0]} depends on the viewer; give a viewpoint, x,y,z in metres")

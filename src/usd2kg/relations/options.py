@@ -1,4 +1,4 @@
-"""What a user can say about which relations are found, and how."""
+"""User options of relation finding."""
 
 from dataclasses import dataclass
 
@@ -11,30 +11,30 @@ __all__ = ["RelationOptions"]
 
 @dataclass(frozen=True, slots=True)
 class RelationOptions:
-    """Which relations are found, and by which rules; the defaults are those that ship with the package.
+    """Kinds, viewpoint and rules of relation finding.
 
     Raises:
-        GraphError: a kind is unknown, or needs a viewpoint and there is none.
+        GraphError: a kind is unknown, or a side lacks a viewpoint.
     """
 
     kinds: tuple[str, ...] | None = None
-    """Of `ALL_KINDS`; by default `DEFAULT_KINDS`, with a viewpoint the sides too."""
+    """Kinds to find; by default `DEFAULT_KINDS`, plus the sides if there is a viewpoint."""
     viewpoint: Viewpoint | None = None
-    """From where left, right, front and behind are stronger."""
+    """Viewer of left, right, front and behind."""
     rules: RelationRules | None = None
-    """Thresholds and class lists, see `load_rules`."""
+    """Thresholds and class lists; by default the packaged ones, see `load_rules`."""
 
     def __post_init__(self) -> None:
         check_kinds(self.chosen_kinds, self.viewpoint)
 
     @property
     def chosen_kinds(self) -> frozenset[str]:
-        """The kinds that are found."""
+        """Kinds to find, with defaults resolved."""
         if self.kinds is not None:
             return frozenset(self.kinds)
         return frozenset((*DEFAULT_KINDS, *(VIEWPOINT_KINDS if self.viewpoint is not None else ())))
 
     @property
     def chosen_rules(self) -> RelationRules:
-        """The rules that they are found by."""
+        """Rules, with the default resolved."""
         return self.rules or load_rules()

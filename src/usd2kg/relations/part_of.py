@@ -1,4 +1,4 @@
-"""`part-of`: what is a part of what. A group in the stage is no whole."""
+"""`part-of`: parthood from joints, kinds, classes and fit. A group prim is no whole."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -21,27 +21,23 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _MOVING = frozenset({"revolute", "prismatic", "spherical"})
-"""Joints that tie a part to its body; fixed ones tie whatever shall not fall over, a robot to the floor."""
+"""Joint types between a part and its body; a fixed joint may just anchor a robot to the floor."""
 _PART_KIND = "subcomponent"
 
 
 class PartLinks(NamedTuple):
-    """What is a part of what, by how that is known; links count all objects of the scene."""
+    """`part-of` links by their evidence; indices count all objects of the scene."""
 
     stated: Links
-    """A joint that moves, or the kind subcomponent below another object."""
+    """A movable joint, or the kind subcomponent below another object."""
     nested: Links
     """A component, by its class, below another object."""
     fitted: Links
-    """A front or a handle at what stands beside it under the same prim."""
+    """A front or a handle fitted to a sibling."""
 
 
 def find_parts(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, rule: PartOfRule) -> PartLinks:
-    """Return what is a part of what, each thing of one whole at most.
-
-    The stage says it, by a joint that moves or by the kind subcomponent below another object; or a thing whose class is
-    a component is below another object; or a front or a handle is fitted to what stands beside it under the same prim.
-    """
+    """Return the `part-of` links; each object has one whole at most."""
     is_whole = ~classes.are_in("not_wholes")
     number = {obj.prim_path: index for index, obj in enumerate(scene.objects)}
     stated: dict[int, int] = {}
@@ -65,7 +61,7 @@ def find_parts(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, rule
 
 
 def wholes_of(boxed: BoxedObjects, parts: PartLinks) -> Indices:
-    """Return for each body the one that it is a part of, -1 for none."""
+    """Return the index of the whole of each object, -1 for none."""
     wholes = np.full(len(boxed), -1)
     for links in parts:
         part, whole = boxed_ends(boxed, links)
@@ -75,7 +71,7 @@ def wholes_of(boxed: BoxedObjects, parts: PartLinks) -> Indices:
 
 
 def boxed_ends(boxed: BoxedObjects, links: Links) -> tuple[Indices, Indices]:
-    """Return targets and anchors of links that count all objects as places among the boxed, -1 without a box."""
+    """Return targets and anchors as indices among the boxed objects, -1 without a box."""
     place = np.full(int(boxed.number.max(initial=-1)) + 2, -1)
     place[boxed.number] = np.arange(len(boxed))
     return place[np.minimum(links.target, len(place) - 1)], place[np.minimum(links.anchor, len(place) - 1)]
@@ -88,14 +84,14 @@ def _links(rule: str, found: dict[int, int]) -> Links:
 
 
 def _iter_jointed(scene: Scene, number: dict[str, int], is_component: Mask) -> Iterator[tuple[int, int]]:
-    """Yield (part, whole) of objects that a joint moves against each other."""
+    """Yield (part, whole) for each movable joint between two objects."""
     for joint in scene.joints:
         ends = _joint_ends(joint, number)
         if ends is None:
             continue
         hung, moved = ends
         hung_path, moved_path = scene.objects[hung].prim_path, scene.objects[moved].prim_path
-        # Some exporters write the two boxed the other way round.
+        # Some exporters swap the two bodies.
         is_reversed = hung_path.startswith(moved_path + "/") or (
             not moved_path.startswith(hung_path + "/") and is_component[hung] and not is_component[moved]
         )
@@ -110,7 +106,7 @@ def _joint_ends(joint: Joint, number: dict[str, int]) -> tuple[int, int] | None:
 
 
 def _object_at(path: str, number: dict[str, int]) -> int | None:
-    """Return the object that a prim is or belongs to."""
+    """Return the index of the object at or above a prim."""
     while path and path not in number:
         path = path.rpartition("/")[0]
     return number.get(path)
@@ -138,7 +134,7 @@ def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free
 
 
 def _best_fit(boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask, rule: PartOfRule) -> Links:
-    """Return of each part the whole that it meets most: a handle's is a front where there is one."""
+    """Return the best-fitting whole of each part; fronts take precedence for handles."""
     gaps = box_gaps(boxed, part, whole)
     met = np.clip((rule.max_gap - gaps) / (boxed.size[part] + rule.max_gap), 0, 1).prod(axis=1)
     best = first_of_each_group(part, (boxed.rank[whole], -met.round(6), ~is_front[whole]))

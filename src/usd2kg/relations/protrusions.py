@@ -1,4 +1,4 @@
-"""Whether the top of a thing's box is a face of it, or only as high as something thin on it."""
+"""Objects whose box is higher than their broad top: a worktop with a tap or an upstand."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,15 +9,12 @@ from usd2kg.scene import SceneObject
 
 __all__ = ["has_protrusion"]
 
-_BROAD = 0.5
-"""Share of the footprint from which on a level is the top of a thing, whatever rises over it."""
-
 
 def has_protrusion(boxed: BoxedObjects, rules: RelationRules) -> NDArray[np.bool_]:
-    """Return for each body whether something thin rises over its broad top, as a tap or an upstand does over a worktop.
+    """Return for each object whether something thin protrudes above its broad top.
 
-    Nothing stands on the top of its box then, nor meets it from above. The broad top is high up: the rim of a pot rises
-    over its bottom, and carries a lid all the same.
+    Nothing rests on or touches the top of its box then. The broad top is in the upper third: the rim of a pot rises
+    above its bottom and still supports a lid.
     """
     return np.array([_has_protrusion(obj, rules) for obj in boxed.objects], np.bool_)
 
@@ -27,6 +24,6 @@ def _has_protrusion(obj: SceneObject, rules: RelationRules) -> bool:
         return False
     width, depth, height = obj.own_box.size
     top = max(obj.support_levels, key=lambda level: level.lower[2])
-    is_broad = top.size[0] * top.size[1] >= _BROAD * width * depth
+    is_broad = top.size[0] * top.size[1] >= rules.geometry.min_broad_ratio * width * depth
     is_high = top.lower[2] - obj.own_box.lower[2] > rules.inside.max_floor_share * height
     return is_broad and is_high and obj.own_box.upper[2] - top.lower[2] > rules.on.max_gap

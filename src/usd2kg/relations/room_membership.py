@@ -1,4 +1,4 @@
-"""`room`: which room a thing is in."""
+"""`room`: the room that an object is in."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -21,10 +21,10 @@ Indices = NDArray[np.int64]
 
 
 class RoomLinks(NamedTuple):
-    """Which object is in which room."""
+    """The `room` links, and the group prims that are rooms."""
 
     links: Links
-    """Anchors that are no objects are numbered on from the last body."""
+    """Anchors beyond the last object are indices into `groups`."""
     groups: list[str]
     """Paths of the group prims that are rooms."""
 
@@ -38,9 +38,9 @@ class _Room(NamedTuple):
 def find_rooms(
     objects: Sequence[SceneObject], boxed: BoxedObjects, classes: ClassMembership, rule: RoomRule
 ) -> RoomLinks:
-    """Return the smallest room that the middle of each thing is in.
+    """Return the smallest room that contains the centre of each object.
 
-    A room's box is that of all below it: floor and walls are often objects of their own in there.
+    The box of a room includes the objects below it, since floor and walls are often objects of their own.
     """
     boxes = [objects[number].box for number in boxed.number.tolist()]
     named = np.flatnonzero(classes.are_in("rooms")[boxed.number]).tolist()
@@ -63,7 +63,7 @@ def _room(number: int, box: Box | None, rule: RoomRule) -> _Room | None:
 
 
 def _group_boxes(objects: Sequence[SceneObject], rule: RoomRule) -> dict[str, Box]:
-    """Return the box around all objects below each prim that is no object and is called after a room, by path."""
+    """Return path → box of all objects below, for each group prim whose name ends in a word for a room."""
     paths = {obj.prim_path for obj in objects}
     words = frozenset(rule.words)
     is_room: dict[str, bool] = {}

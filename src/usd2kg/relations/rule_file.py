@@ -1,4 +1,4 @@
-"""Reading the rules: `data/spatial.toml`, and what a user replaces in it."""
+"""Read the packaged relation rules and a user's overrides."""
 
 import math
 import tomllib
@@ -18,14 +18,13 @@ _EXTEND = "extend"
 
 
 def load_rules(overrides: Path | str | None = None) -> RelationRules:
-    """Return the rules that ship with the package, with the values of a TOML file in place of theirs.
+    """Return the packaged rules with the values of a TOML file applied.
 
     Args:
-        overrides: sections and keys as in `data/spatial.toml`, just those that change; `[classes.extend]` adds to
-            lists of classes.
+        overrides: sections and keys of `knowledge/spatial.toml` to replace; `[classes.extend]` adds to class lists.
 
     Raises:
-        GraphError: the file cannot be read, or holds a key or a value that the rules do not know.
+        GraphError: the file cannot be read, or holds an unknown key or an invalid value.
     """
     rules = _shipped_rules()
     if overrides is None:
@@ -95,7 +94,7 @@ def _with_extensions(section: _Section, values: Any, where: str) -> _Section:
 
 
 def _check(shipped: Any, value: Any, where: str) -> None:
-    """Raise unless a value is of the kind that ships: a number, a whole number, a text, or a list of texts."""
+    """Raise GraphError unless a value has the type of the packaged one."""
     if isinstance(shipped, tuple):
         is_good, expected = isinstance(value, list) and all(isinstance(item, str) for item in value), "a list of texts"
     elif isinstance(shipped, str):

@@ -1,4 +1,4 @@
-"""`left`, `right`, `front` and `behind`: where things are to each other, as someone sees them from a viewpoint."""
+"""`left`, `right`, `front` and `behind`, relative to a viewer."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,16 +14,15 @@ __all__ = ["find_sides"]
 Array = NDArray[np.float64]
 
 _TURNS = {"behind": 0.0, "left": 90.0, "front": 180.0, "right": -90.0}
-"""Degrees from the direction of view to that from the anchor to the target, counter-clockwise seen from above."""
+"""Degrees from the gaze direction to the direction from anchor to target, counter-clockwise from above."""
 _OPPOSITE = {"behind": "front", "front": "behind", "left": "right", "right": "left"}
 
 
 def find_sides(boxed: BoxedObjects, pairs: NearbyPairs, viewpoint: Viewpoint, rule: SideRule) -> list[Links]:
-    """Return which of two things close together is left of, right of, in front of or behind the other.
+    """Return the links of all four sides and their inverses between nearby objects.
 
-    In the frame of the viewer (the relative frame of reference, Levinson 2003): what is in front of a thing is nearer
-    to the viewer. The direction of view is the one given, or that to the middle between the two. What is said of one
-    holds the other way round of the other.
+    Viewer's frame (relative frame of reference, Levinson 2003): the object in front is nearer to the viewer. The gaze
+    is the given direction, or towards the midpoint of the pair.
     """
     pairs = select_rows(pairs, height_overlaps(boxed, pairs) >= rule.min_height_share)
     pairs = select_rows(pairs, are_nearest(boxed, pairs, rule.most))

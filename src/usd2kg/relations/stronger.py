@@ -1,4 +1,4 @@
-"""What has been stronger of things already, and decides what else is said of them."""
+"""Relations that are stronger than adjacency and suppress weaker ones between the same objects."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +17,16 @@ Mask = NDArray[np.bool_]
 
 
 class StrongerRelations:
-    """What is on, in or part of what: stronger than being close, so that nothing weaker is said of the two."""
+    """The `on`, `inside` and `part-of` relations found so far."""
 
     def __init__(self, boxed: BoxedObjects, containment: Containment, parts: PartLinks) -> None:
         self._count = len(boxed)
         self.is_loose = np.ones(len(boxed), np.bool_)
-        """Whether each may rest on something: what moves on a joint does not."""
+        """Whether each object may rest on another; parts that move on a joint may not."""
         self.frame = containment.container.copy()
-        """The whole that each is a part of, or else what it is inside of; -1 for neither."""
+        """The whole of each object, else its container; -1 for neither."""
         self.supporter = np.full(len(boxed), -1)
-        """What each is on; one of several; -1 for nothing."""
+        """The supporter of each object, one of several; -1 for none."""
         self._part_keys = np.concatenate([self._keep_parts(*boxed_ends(boxed, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
         moved, _ = boxed_ends(boxed, parts.stated)
@@ -38,7 +38,7 @@ class StrongerRelations:
         return self._key(part[known], whole[known])
 
     def add_support(self, support: list[Links]) -> list[Links]:
-        """Return what is on what without parts on their own wholes, and remember it."""
+        """Record `on` links and return them without those from a part to its own whole."""
         kept = [links.where(~np.isin(self._key(links.target, links.anchor), self._part_keys)) for links in support]
         for links in reversed(kept):
             self.supporter[links.target] = links.anchor
@@ -49,15 +49,15 @@ class StrongerRelations:
         return np.asarray(np.minimum(one, other) * self._count + np.maximum(one, other))
 
     def drop_implied(self, links: Links) -> Links:
-        """Return the links of things of which nothing stronger is stronger."""
+        """Return the links between objects without a stronger relation."""
         return links.where(~self._are_related(links.target, links.anchor))
 
     def in_same_frame(self, pairs: NearbyPairs) -> NearbyPairs:
-        """Return the pairs of things that are parts of the same whole or in the same container, or in none."""
+        """Return the pairs with the same whole or container, or without any."""
         return select_rows(pairs, self.frame[pairs.one] == self.frame[pairs.other])
 
     def drop_related(self, pairs: NearbyPairs) -> NearbyPairs:
-        """Return the pairs of which nothing stronger is stronger."""
+        """Return the pairs without a stronger relation."""
         return select_rows(pairs, ~self._are_related(pairs.one, pairs.other))
 
     def _are_related(self, one: Indices, other: Indices) -> Mask:

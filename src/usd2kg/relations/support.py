@@ -1,4 +1,4 @@
-"""`on`: what a thing stands or lies on."""
+"""`on`: the surfaces that objects rest on."""
 
 from typing import NamedTuple
 
@@ -20,64 +20,64 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 
-_SHEET = 0.01
-"""Metres: thinner things are sheets: rugs, floors."""
-
-
 class _Surfaces(NamedTuple):
-    """What things may stand on: the tops of parts, and level faces."""
+    """Supporting surfaces: the tops of parts, and level faces of meshes."""
 
     owner: Indices
     lower: Array
     upper: Array
     thickness: Array
-    """Height of the part; 0 for a face."""
+    """Height of the part; 0 for a level face."""
     area: Array
 
 
 class _Contacts(NamedTuple):
-    """Pairs of a target and a top about the height of its bottom."""
+    """Pairs of a target and a surface near the height of its bottom."""
 
     target: Indices
-    top: Indices
+    surface: Indices
     gap: Array
     ratio: Array
-    """Share of what the target stands on that is over the top."""
+    """Share of the target's feet that is over the surface."""
     allowed: Array
-    """How large the gap may be, up or down, for the target to rest on the top."""
+    """Tolerated gap or penetration in metres."""
 
 
 def find_support(
     boxed: BoxedObjects, classes: ClassMembership, is_loose: Mask, container: Indices, rules: RelationRules
 ) -> list[Links]:
-    """Return what rests on what: on one thing each, on several where none carries it alone, or close over something.
+    """Return the `on` links: with one anchor, with several that bear the target jointly, or across a small gap.
 
-    Of all tops that can carry a target, the one that begins highest counts: a book on a tray on a table is on the tray.
-    What is inside something is on nothing that is not inside with it: what lies in a bowl on a table is not on the
-    table, and the bowl's own bottom adds nothing.
+    The surface that begins highest wins: a book on a tray on a table is on the tray. An object inside a container
+    only rests on objects in the same container, and not on the container itself.
 
     Args:
         boxed: the objects.
-        classes: what their classes allow.
-        is_loose: for each body, whether it may rest on anything.
-        container: for each, what it is inside of, or -1.
+        classes: membership in class lists.
+        is_loose: for each object, whether it may rest on another.
+        container: index of the container of each object, -1 for none.
         rules: the thresholds.
     """
     may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.number]
-    tops = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.number], rules)
-    near = _find_contacts(boxed, np.flatnonzero(may_rest), tops, container, rules)
-    rests = select_rows(near, np.abs(near.gap) <= near.allowed)
-    single = _on_single(boxed, tops, rests, rules.on)
+    surfaces = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.number], rules)
+    near = _find_contacts(boxed, np.flatnonzero(may_rest), surfaces, container, rules)
+    contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
+    single = _on_single(boxed, surfaces, contacts, rules.on)
     bears = ~classes.are_in("not_bearing")[boxed.number]
     is_left = np.ones(len(boxed), np.bool_)
     is_left[single.target] = False
-    several = _on_several(boxed, tops, select_rows(rests, is_left[rests.target] & bears[tops.owner[rests.top]]), rules)
+    several = _on_several(
+        boxed,
+        surfaces,
+        select_rows(contacts, is_left[contacts.target] & bears[surfaces.owner[contacts.surface]]),
+        rules,
+    )
     is_left[several.target] = False
     is_left &= container < 0
-    # The box around the walls of a whole house tells nothing of where they are.
+    # The box around all walls of a house says nothing about their places.
     is_wall = classes.are_in("walls")[boxed.number] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
     is_left[_near_walls(boxed, np.flatnonzero(is_left), is_wall, rules)] = False
-    return [single, several, _hovering(boxed, tops, select_rows(near, is_left[near.target]), rules)]
+    return [single, several, _hovering(boxed, surfaces, select_rows(near, is_left[near.target]), rules)]
 
 
 def _support_surfaces(boxed: BoxedObjects, can_support: Mask, rules: RelationRules) -> _Surfaces:
@@ -95,16 +95,16 @@ def _support_surfaces(boxed: BoxedObjects, can_support: Mask, rules: RelationRul
     lower, upper = corners_of(boxes)
     number, level = np.array(owner, np.int64), np.array(is_level, np.bool_)
     thickness = upper[:, 2] - lower[:, 2]
-    # A level may be of any thickness: what stands on it goes before, as it does before the whole object.
+    # A level has no thickness of its own: it begins where the object begins, below whatever is on it.
     lower[level, 2] = boxed.lower[number[level], 2]
-    # And a thing may sink into a floor that has no thickness to speak of.
-    is_sheet = ~level & (boxed.size[number, 2] < _SHEET)
+    # Objects may penetrate a sheet, such as a floor without thickness.
+    is_sheet = ~level & (boxed.size[number, 2] < rules.geometry.sheet_thickness)
     lower[is_sheet, 2] -= rules.on.min_gap
     return _Surfaces(number, lower, upper, np.where(level, 0, thickness), boxed.area[number])
 
 
 def _find_contacts(
-    boxed: BoxedObjects, targets: Indices, tops: _Surfaces, container: Indices, rules: RelationRules
+    boxed: BoxedObjects, targets: Indices, surfaces: _Surfaces, container: Indices, rules: RelationRules
 ) -> _Contacts:
     rule = rules.on
     gaps = np.clip(rule.gap_share * boxed.size[:, 2], rule.min_gap, rule.max_gap)
@@ -113,102 +113,109 @@ def _find_contacts(
     lower, upper = boxed.feet
     foot_area = (upper - lower)[:, :2].prod(axis=1)
     feet = lower[targets, :2], upper[targets, :2]
-    for chosen, number in overlapping_pairs(*feet, (tops.lower[:, :2], tops.upper[:, :2])):
-        target, owner = targets[chosen], tops.owner[number]
-        gap = boxed.lower[target, 2] - tops.upper[number, 2]
-        may_sink = np.maximum(gaps[target], np.minimum(rule.sink_share * tops.thickness[number], rule.max_sink))
+    for chosen, number in overlapping_pairs(*feet, (surfaces.lower[:, :2], surfaces.upper[:, :2])):
+        target, owner = targets[chosen], surfaces.owner[number]
+        gap = boxed.lower[target, 2] - surfaces.upper[number, 2]
+        may_sink = np.maximum(gaps[target], np.minimum(rule.sink_share * surfaces.thickness[number], rule.max_sink))
         is_good = (
             (owner != target)
             & (gap <= highest[target])
             & (-gap <= may_sink)
-            # What begins below the target's own bottom carries it; what hangs beside it does not.
-            & (tops.lower[number, 2] < boxed.lower[target, 2])
+            # A supporter begins below the target's bottom; objects beside it do not.
+            & (surfaces.lower[number, 2] < boxed.lower[target, 2])
             & (container[owner] == container[target])
         )
         allowed = np.where(gap < 0, may_sink, gaps[target])
-        rests = select_rows(_Contacts(target, number, gap, np.zeros(len(target)), allowed), is_good)
-        shared = overlap_areas(lower[rests.target], upper[rests.target], tops.lower[rests.top], tops.upper[rests.top])
-        ratio = np.minimum(shared / np.maximum(foot_area[rests.target], 1e-12), 1.0)
-        found.append(rests._replace(ratio=ratio))
+        contacts = select_rows(_Contacts(target, number, gap, np.zeros(len(target)), allowed), is_good)
+        shared = overlap_areas(
+            lower[contacts.target],
+            upper[contacts.target],
+            surfaces.lower[contacts.surface],
+            surfaces.upper[contacts.surface],
+        )
+        ratio = np.minimum(shared / np.maximum(foot_area[contacts.target], 1e-12), 1.0)
+        found.append(contacts._replace(ratio=ratio))
     return concatenate_rows(found)
 
 
-def _on_single(boxed: BoxedObjects, tops: _Surfaces, rests: _Contacts, rule: OnRule) -> Links:
-    fits = boxed.area[rests.target] < rule.max_area_ratio * tops.area[rests.top]
-    best = _best(boxed, tops, select_rows(rests, (rests.ratio > rule.min_overlap_ratio) & fits))
-    is_round = is_on_cycle(_pointers(boxed, tops, best), best.target)
+def _on_single(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts, rule: OnRule) -> Links:
+    fits = boxed.area[contacts.target] < rule.max_area_ratio * surfaces.area[contacts.surface]
+    best = _best(boxed, surfaces, select_rows(contacts, (contacts.ratio > rule.min_overlap_ratio) & fits))
+    is_round = is_on_cycle(_pointers(boxed, surfaces, best), best.target)
     # Of two sheets at one height, each sunk into the other, the larger one carries.
-    best = select_rows(best, ~is_round | (boxed.area[best.target] < tops.area[best.top]))
-    best = select_rows(best, ~is_on_cycle(_pointers(boxed, tops, best), best.target))
+    best = select_rows(best, ~is_round | (boxed.area[best.target] < surfaces.area[best.surface]))
+    best = select_rows(best, ~is_on_cycle(_pointers(boxed, surfaces, best), best.target))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
-    return _links(rule.rule, tops, best, margin_score(margin_below(best.gap, best.allowed), over))
+    return _links(rule.rule, surfaces, best, margin_score(margin_below(best.gap, best.allowed), over))
 
 
-def _pointers(boxed: BoxedObjects, tops: _Surfaces, rests: _Contacts) -> Indices:
+def _pointers(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> Indices:
     pointers = np.full(len(boxed), -1)
-    pointers[rests.target] = tops.owner[rests.top]
+    pointers[contacts.target] = surfaces.owner[contacts.surface]
     return pointers
 
 
-def _best(boxed: BoxedObjects, tops: _Surfaces, rests: _Contacts) -> _Contacts:
-    """Return of each target the top that begins highest. Rounded, so that where a scene stands decides nothing."""
-    owner, lowest = tops.owner[rests.top], tops.lower[rests.top, 2]
-    keys = (boxed.rank[owner], -rests.ratio.round(6), np.abs(rests.gap).round(6), -lowest.round(6))
-    return select_rows(rests, first_of_each_group(rests.target, keys))
+def _best(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> _Contacts:
+    """Return the surface of each target that begins highest; rounded, so that translations change nothing."""
+    owner, lowest = surfaces.owner[contacts.surface], surfaces.lower[contacts.surface, 2]
+    keys = (boxed.rank[owner], -contacts.ratio.round(6), np.abs(contacts.gap).round(6), -lowest.round(6))
+    return select_rows(contacts, first_of_each_group(contacts.target, keys))
 
 
-def _links(rule: str, tops: _Surfaces, rests: _Contacts, confidence: Array) -> Links:
-    numbers = {"gap": rests.gap, "overlapRatio": rests.ratio}
-    return Links("on", rule, rests.target, tops.owner[rests.top], numbers, confidence)
+def _links(rule: str, surfaces: _Surfaces, contacts: _Contacts, confidence: Array) -> Links:
+    numbers = {"gap": contacts.gap, "overlapRatio": contacts.ratio}
+    return Links("on", rule, contacts.target, surfaces.owner[contacts.surface], numbers, confidence)
 
 
-def _on_several(boxed: BoxedObjects, tops: _Surfaces, rests: _Contacts, rules: RelationRules) -> Links:
+def _on_several(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts, rules: RelationRules) -> Links:
     rule = rules.on_several
-    own = np.maximum((tops.upper - tops.lower)[rests.top, :2].prod(axis=1), 1e-12)
+    own = np.maximum((surfaces.upper - surfaces.lower)[contacts.surface, :2].prod(axis=1), 1e-12)
     lower, upper = boxed.feet
     foot_area = (upper - lower)[:, :2].prod(axis=1)
-    share = np.minimum(rests.ratio * foot_area[rests.target] / own, 1.0)
+    share = np.minimum(contacts.ratio * foot_area[contacts.target] / own, 1.0)
     bears = share >= rule.min_anchor_ratio
-    rests, share = select_rows(rests, bears), share[bears]
-    # Of the parts of one anchor the one that carries most.
-    anchors = rests.target * len(boxed) + tops.owner[rests.top]
-    best = first_of_each_group(anchors, (rests.top, -rests.ratio.round(6)))
-    rests, share = select_rows(rests, best), share[best]
-    count = np.bincount(rests.target, minlength=len(boxed))
-    is_good = (count >= rule.min_anchors)[rests.target] & _supports_center(boxed, tops, rests)[rests.target]
-    rests, share = select_rows(rests, is_good), share[is_good]
+    contacts, share = select_rows(contacts, bears), share[bears]
+    # Keep the part of each anchor with the largest share.
+    anchors = contacts.target * len(boxed) + surfaces.owner[contacts.surface]
+    best = first_of_each_group(anchors, (contacts.surface, -contacts.ratio.round(6)))
+    contacts, share = select_rows(contacts, best), share[best]
+    count = np.bincount(contacts.target, minlength=len(boxed))
+    is_good = (count >= rule.min_anchors)[contacts.target] & _supports_center(boxed, surfaces, contacts)[
+        contacts.target
+    ]
+    contacts, share = select_rows(contacts, is_good), share[is_good]
     clear = margin_above(share, rule.min_anchor_ratio)
-    return _links(rule.rule, tops, rests, margin_score(margin_below(rests.gap, rests.allowed), clear))
+    return _links(rule.rule, surfaces, contacts, margin_score(margin_below(contacts.gap, contacts.allowed), clear))
 
 
-def _supports_center(boxed: BoxedObjects, tops: _Surfaces, rests: _Contacts) -> Mask:
-    """Return for each body whether the box around all that bears it covers its middle: else it would tip over."""
+def _supports_center(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> Mask:
+    """Return whether the box around the supporters of each object covers its centre; else it would tip over."""
     low, high = np.full((len(boxed), 2), np.inf), np.full((len(boxed), 2), -np.inf)
-    np.minimum.at(low, rests.target, tops.lower[rests.top, :2])
-    np.maximum.at(high, rests.target, tops.upper[rests.top, :2])
+    np.minimum.at(low, contacts.target, surfaces.lower[contacts.surface, :2])
+    np.maximum.at(high, contacts.target, surfaces.upper[contacts.surface, :2])
     middle = boxed.middle[:, :2]
     return np.asarray(((low <= middle) & (high >= middle)).all(axis=1))
 
 
-def _hovering(boxed: BoxedObjects, tops: _Surfaces, near: _Contacts, rules: RelationRules) -> Links:
+def _hovering(boxed: BoxedObjects, surfaces: _Surfaces, near: _Contacts, rules: RelationRules) -> Links:
     rule = rules.hovering
-    fits = boxed.area[near.target] < rules.on.max_area_ratio * tops.area[near.top]
+    fits = boxed.area[near.target] < rules.on.max_area_ratio * surfaces.area[near.surface]
     is_good = fits & (near.gap >= 0) & (near.gap <= rule.max_gap) & (near.ratio >= rule.min_overlap_ratio)
     near = select_rows(near, is_good)
-    keys = (boxed.rank[tops.owner[near.top]], -near.ratio.round(6), near.gap.round(6))
+    keys = (boxed.rank[surfaces.owner[near.surface]], -near.ratio.round(6), near.gap.round(6))
     best = select_rows(near, first_of_each_group(near.target, keys))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
-    return _links(rule.rule, tops, best, margin_score(margin_below(best.gap, rule.max_gap), over))
+    return _links(rule.rule, surfaces, best, margin_score(margin_below(best.gap, rule.max_gap), over))
 
 
 def _thickness(boxed: BoxedObjects) -> Array:
-    """Return the shorter side of each footprint, metres."""
+    """Return the shorter side of each footprint in metres."""
     _, half, _ = boxed.turned
     return np.asarray(2 * half.min(axis=1))
 
 
 def _near_walls(boxed: BoxedObjects, chosen: Indices, is_wall: Mask, rules: RelationRules) -> Indices:
-    """Return those of the chosen boxed that are so close to a wall that they may hang on it; some more than once."""
+    """Return the chosen objects that are close enough to a wall to hang on it, with repetitions."""
     reach = rules.hovering.max_wall_gap
     lower, upper = boxed.lower[chosen] - reach, boxed.upper[chosen] + reach
     walls = boxed.lower[is_wall], boxed.upper[is_wall]

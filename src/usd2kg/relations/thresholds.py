@@ -1,15 +1,17 @@
-"""The thresholds and class lists of the rules, section by section as in `data/spatial.toml`."""
+"""Thresholds and class lists of the relation rules, one class per section of `knowledge/spatial.toml`."""
 
 from dataclasses import dataclass, field
 
 __all__ = [
     "AboveRule",
     "BetweenRule",
+    "BlockingRule",
     "ClassLists",
     "HoveringRule",
     "InsideRule",
     "NearRule",
     "NextToRule",
+    "ObjectGeometry",
     "OnRule",
     "OnSeveralRule",
     "PartOfRule",
@@ -20,12 +22,30 @@ __all__ = [
     "TouchingRule",
 ]
 
-# The fields are described in data/spatial.toml, beside the values.
+# knowledge/spatial.toml documents each field beside its value: unit, meaning and origin.
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectGeometry:
+    """Feet, sheets and broad tops of objects."""
+
+    foot_height: float
+    sheet_thickness: float
+    min_broad_ratio: float
+
+
+@dataclass(frozen=True, slots=True)
+class BlockingRule:
+    """When a third object is between two others."""
+
+    min_distance: float
+    min_fill_ratio: float
+    most: int
 
 
 @dataclass(frozen=True, slots=True)
 class OnRule:
-    """Resting on one thing."""
+    """`on` one anchor."""
 
     rule: str
     min_overlap_ratio: float
@@ -39,7 +59,7 @@ class OnRule:
 
 @dataclass(frozen=True, slots=True)
 class OnSeveralRule:
-    """Resting on several things."""
+    """`on` several anchors."""
 
     rule: str
     min_anchors: int
@@ -48,7 +68,7 @@ class OnSeveralRule:
 
 @dataclass(frozen=True, slots=True)
 class HoveringRule:
-    """Resting on nothing, but close over something."""
+    """`on` an anchor below a small gap."""
 
     rule: str
     max_gap: float
@@ -59,7 +79,7 @@ class HoveringRule:
 
 @dataclass(frozen=True, slots=True)
 class InsideRule:
-    """Being enclosed."""
+    """`inside` an enclosing anchor."""
 
     rule: str
     min_volume_ratio: float
@@ -68,7 +88,7 @@ class InsideRule:
 
 @dataclass(frozen=True, slots=True)
 class StandingInRule:
-    """Being in something open and sticking out."""
+    """`inside` an open container, protruding at its top."""
 
     rule: str
     min_depth_share: float
@@ -80,7 +100,7 @@ class StandingInRule:
 
 @dataclass(frozen=True, slots=True)
 class AboveRule:
-    """Being above something."""
+    """`above` and `below`."""
 
     rule: str
     min_gap: float
@@ -90,7 +110,7 @@ class AboveRule:
 
 @dataclass(frozen=True, slots=True)
 class TouchingRule:
-    """Meeting in a face."""
+    """`touching`."""
 
     rule: str
     max_gap: float
@@ -101,19 +121,20 @@ class TouchingRule:
 
 @dataclass(frozen=True, slots=True)
 class NextToRule:
-    """Being side by side."""
+    """`next-to`."""
 
     rule: str
     gap_share: float
     min_gap: float
     max_gap: float
     min_height_share: float
+    max_overlap_ratio: float
     most: int
 
 
 @dataclass(frozen=True, slots=True)
 class NearRule:
-    """Being close in any direction."""
+    """`near`."""
 
     rule: str
     gap_share: float
@@ -124,7 +145,7 @@ class NearRule:
 
 @dataclass(frozen=True, slots=True)
 class BetweenRule:
-    """Being between two things."""
+    """`between`."""
 
     rule: str
     gap_share: float
@@ -138,7 +159,7 @@ class BetweenRule:
 
 @dataclass(frozen=True, slots=True)
 class SideRule:
-    """Left, right, front and behind."""
+    """`left`, `right`, `front` and `behind`."""
 
     rule: str
     tolerance_deg: float
@@ -148,7 +169,7 @@ class SideRule:
 
 @dataclass(frozen=True, slots=True)
 class RoomRule:
-    """Which room a thing is in."""
+    """`room`."""
 
     rule: str
     group_rule: str
@@ -160,7 +181,7 @@ class RoomRule:
 
 @dataclass(frozen=True, slots=True)
 class PartOfRule:
-    """Being a part."""
+    """`part-of`."""
 
     stated_rule: str
     tree_rule: str
@@ -170,7 +191,7 @@ class PartOfRule:
 
 @dataclass(frozen=True, slots=True)
 class ClassLists:
-    """Lists of IRIs or CURIEs of classes; `=` before one leaves its subclasses out."""
+    """Lists of class IRIs or CURIEs; a leading `=` excludes subclasses."""
 
     not_placed: tuple[str, ...]
     not_laid: tuple[str, ...]
@@ -193,8 +214,10 @@ class ClassLists:
 
 @dataclass(frozen=True, slots=True)
 class RelationRules:
-    """All thresholds and lists, a section of `data/spatial.toml` each."""
+    """All thresholds and class lists, one field per section of `knowledge/spatial.toml`."""
 
+    geometry: ObjectGeometry
+    blocking: BlockingRule
     on: OnRule
     on_several: OnSeveralRule
     hovering: HoveringRule
