@@ -111,5 +111,5 @@ class TestWords:
     def test_sides_need_a_viewpoint(self):
         with pytest.raises(GraphError, match="left depends on the viewer; give a viewpoint"):
             parse_kinds("left,on")
-        with pytest.raises(GraphError, match="behind depends on where one stands"):
+        with pytest.raises(GraphError, match="behind depends on the viewer"):
             RelationOptions(kinds=("behind",))
