@@ -1,4 +1,4 @@
-"""Scene + Grounding + relations → RDF: individuals, provenance, file formats, exports and pictures."""
+"""Scene + Grounding + relations → RDF: individuals, provenance, file formats and exports."""
 
 from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_text
 from usd2kg.graph.export.neo4j import write_neo4j

@@ -1,4 +1,4 @@
-"""Statements about statements: why an object has its class, and the numbers behind a relation."""
+"""Annotation of statements, as OWL 2 axiom annotations or RDF 1.2 reifiers."""
 
 import hashlib
 from collections.abc import Callable, Iterator, Sequence
@@ -12,11 +12,11 @@ __all__ = ["Annotate", "Annotation", "annotate_owl", "annotate_rdf12"]
 Annotation = tuple[ox.NamedNode, ox.NamedNode | ox.Literal]
 """An annotation property and its value."""
 Annotate = Callable[[Triple, Sequence[Annotation]], Iterator[Triple]]
-"""Yields the triples that annotate a statement; the statement itself is written elsewhere."""
+"""Yields the triples that annotate a statement, without the statement itself."""
 
 
 def annotate_owl(statement: Triple, annotations: Sequence[Annotation]) -> Iterator[Triple]:
-    """Yield OWL's annotation of an axiom (OWL 2 Mapping to RDF Graphs, section 2.3)."""
+    """Yield an owl:Axiom node with the annotations (OWL 2 Mapping to RDF Graphs, section 2.3)."""
     subject, predicate, value = statement
     axiom = _blank_node("axiom", statement)
     yield axiom, RDF.type, OWL.Axiom
@@ -36,6 +36,6 @@ def annotate_rdf12(statement: Triple, annotations: Sequence[Annotation]) -> Iter
 
 
 def _blank_node(kind: str, statement: Triple) -> ox.BlankNode:
-    """Return a node whose name depends on the statement alone, so that a change elsewhere does not rename it."""
-    said = "\n".join(map(str, statement)).encode()
-    return ox.BlankNode(kind + hashlib.blake2b(said, digest_size=10).hexdigest())
+    """Return a blank node labelled by a hash of the statement, stable under changes elsewhere."""
+    key = "\n".join(map(str, statement)).encode()
+    return ox.BlankNode(kind + hashlib.blake2b(key, digest_size=10).hexdigest())

@@ -1,4 +1,4 @@
-"""The colour of an object: one quality node for each, never shared."""
+"""Colour of objects, in u2k, USD.owl or KnowRob terms."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -18,16 +18,16 @@ class _Color(NamedTuple):
 
 
 def _color(obj: SceneObject) -> _Color | None:
-    """Return the base colour of the first material that has a constant one, else the display colour."""
+    """Return the first constant base colour of a material, else the display colour."""
     for material in obj.material_details:
         if material.base_color is not None:
             return _Color(material.base_color, material.name)
-    # Where a material is bound, no renderer shows the display colour; but it is the best guess left.
+    # A bound material hides the display colour, which is still the best estimate.
     return _Color(obj.display_color, "displayColor") if obj.display_color is not None else None
 
 
 def plain_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield the colour straight on the object."""
+    """Yield the colour as datatype properties of the object."""
     color = _color(obj)
     if color is not None:
         yield node, U2K.color, text(vector_text(color.rgb))
@@ -35,9 +35,9 @@ def plain_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
 
 
 def usd_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield the colour in USD.owl's terms: a list of one colour, as JSON.
+    """Yield the colour as a USD.owl quality: a JSON array of one colour.
 
-    A plain string: a literal of USD.owl's own datatype color3f_array would not be OWL 2 DL.
+    A plain string, since USD.owl's datatype color3f_array is not OWL 2 DL.
     """
     color = _color(obj)
     if color is not None:
@@ -49,9 +49,9 @@ def usd_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
 
 
 def knowrob_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield the colour as KnowRob asks for it.
+    """Yield the colour as a SOMA quality with a region, as KnowRob queries it.
 
-    soma:Color is unsatisfiable (SOMA 5d27187 with DUL), so that a graph with such a colour is inconsistent.
+    soma:Color is unsatisfiable (SOMA 5d27187 with DUL), so that the graph is inconsistent.
     """
     color = _color(obj)
     if color is not None:

@@ -1,4 +1,4 @@
-"""What kind of OWL entity each term is, so that a graph declares all it uses and OWL tools read it without guessing."""
+"""OWL entity types of all terms, so that each graph declares the terms it uses."""
 
 from collections.abc import Iterable, Iterator
 from functools import cache
@@ -25,11 +25,11 @@ from usd2kg.graph.vocabulary import (
 __all__ = ["VOCABULARY_IRI", "declare_terms", "vocabulary_text", "vocabulary_triples"]
 
 VOCABULARY_IRI = "https://w3id.org/usd2kg"
-"""IRI of the ontology of our own terms."""
+"""IRI of the ontology of the u2k terms."""
 
-_KINDS = (OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty)
+_ENTITY_TYPES = (OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty)
 
-_TERMS_OF_OTHERS: dict[ox.NamedNode, dict[Namespace, str]] = {
+_EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
     OWL.Class: {
         SOMA: """
             6DPose BoxShape Color ColorRegion ContinuousJoint FixedJoint HingeJoint Joint JointLimit JointState
@@ -65,44 +65,44 @@ _TERMS_OF_OTHERS: dict[ox.NamedNode, dict[Namespace, str]] = {
         DCTERMS: "source",
     },
 }
-"""Kind → namespace → local names: the terms of SOMA, DUL, USD.owl, KnowRob, PROV-O, SSSOM and SKOS that are written."""
+"""Entity type → namespace → local names of the external terms that graphs use."""
 
 _BUILT_IN = tuple(namespace.iri for namespace in (RDF, RDFS, OWL))
 
 
 def vocabulary_text() -> str:
-    """Return the ontology of our own terms, as Turtle."""
+    """Return the ontology of the u2k terms as Turtle."""
     return (files("usd2kg.graph") / "vocabulary.ttl").read_text("utf-8")
 
 
 def vocabulary_triples() -> list[ox.Triple]:
-    """Return the ontology of our own terms as triples."""
+    """Return the ontology of the u2k terms as triples."""
     return [quad.triple for quad in ox.parse(vocabulary_text(), format=ox.RdfFormat.TURTLE)]
 
 
 @cache
-def _kinds() -> dict[ox.NamedNode, ox.NamedNode]:
-    """Return the kind of each term that a graph may use beside the user's classes."""
+def _entity_types() -> dict[ox.NamedNode, ox.NamedNode]:
+    """Return the entity type of each term that a graph may use, except the user's classes."""
     kinds = {
         namespace[name]: kind
-        for kind, names in _TERMS_OF_OTHERS.items()
+        for kind, names in _EXTERNAL_TERMS.items()
         for namespace, text in names.items()
         for name in text.split()
     }
     for triple in vocabulary_triples():
         subject, kind = triple.subject, triple.object
-        if isinstance(subject, ox.NamedNode) and isinstance(kind, ox.NamedNode) and kind in _KINDS:
+        if isinstance(subject, ox.NamedNode) and isinstance(kind, ox.NamedNode) and kind in _ENTITY_TYPES:
             kinds[subject] = kind
     return kinds
 
 
 def declare_terms(properties: Iterable[ox.NamedNode], classes: Iterable[ox.NamedNode]) -> Iterator[Triple]:
-    """Yield the declarations of the terms that a graph uses, sorted; the user's own classes are left to others.
+    """Yield the sorted declarations of the terms in use; the user's own classes are not declared here.
 
     Raises:
-        KeyError: a property is neither ours nor listed here.
+        KeyError: a property is neither in the u2k vocabulary nor listed here.
     """
-    kinds = _kinds()
+    kinds = _entity_types()
     own = [node for node in properties if not node.value.startswith(_BUILT_IN)]
     for node in sorted({*own, *(node for node in classes if node in kinds)}, key=str):
         yield node, RDF.type, kinds[node]

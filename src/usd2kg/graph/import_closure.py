@@ -1,4 +1,4 @@
-"""merge_imports: a graph that needs no other file, with the ontology, all that it imports and our vocabulary in it."""
+"""Merge the import closure into a graph, so that it needs no other file."""
 
 from dataclasses import replace
 
@@ -13,17 +13,17 @@ __all__ = ["merge_imports"]
 
 
 def merge_imports(graph: KnowledgeGraph, closure: Closure) -> KnowledgeGraph:
-    """Return the graph with what its ontologies and our vocabulary state, and without imports.
+    """Return the graph merged with its import closure and the u2k vocabulary, without owl:imports.
 
-    The header names each document that was merged in, as dcterms:source; what was not at hand is in
-    `missing_imports`, and its terms are declared all the same.
+    The header lists merged documents as dcterms:source. Unavailable ones are in `missing_imports`; their terms stay
+    declared.
     """
     node = ox.NamedNode(graph.iri)
     sources = (VOCABULARY_IRI, *(iri for iri in closure.documents if not iri.startswith("file:")))
     header = [ox.Triple(node, DCTERMS.source, ox.NamedNode(iri)) for iri in sources]
     header.append(ox.Triple(DCTERMS.source, RDF.type, OWL.AnnotationProperty))
     own = [triple for triple in graph.triples if triple.predicate != OWL.imports]
-    # The header stands first, and stays together.
+    # Keep the ontology header together at the start.
     start = next((place for place, triple in enumerate(own) if triple.subject != node), len(own))
     vocabulary = without_header(vocabulary_triples(), "v")
     merged = dict.fromkeys((*own[:start], *header, *own[start:], *closure.triples, *vocabulary))

@@ -1,4 +1,4 @@
-"""instantiate: from a Scene and its Grounding to a knowledge graph, an ABox over the user's TBox."""
+"""Instantiate a grounded scene as a knowledge graph: an ABox over the user's TBox."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -28,32 +28,32 @@ from usd2kg.scene import Scene, SceneObject
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]
 
 PROFILES = ("auto", "soma", "plain")
-"""How objects are written; `auto` is soma where the TBox is SOMA's, else plain."""
+"""Modelling patterns; `auto` is soma if the TBox uses SOMA or DUL, else plain."""
 
 _SOMA_DOCUMENTS = "http://www.ease-crc.org/ont/SOMA"
 
 
 @dataclass(frozen=True)
 class KnowledgeGraph:
-    """The triples of one scene, in a fixed order, and what they count."""
+    """The triples of one scene in a fixed order, with counts."""
 
     iri: str
-    """IRI of the graph, an OWL ontology."""
+    """IRI of the named graph, which is an OWL ontology."""
     base: str
-    """Where the individuals lie."""
+    """Namespace of the individuals."""
     profile: str
     imports: tuple[str, ...]
-    """IRIs of the ontologies that it imports."""
+    """IRIs of the imported ontologies."""
     triples: tuple[ox.Triple, ...]
-    """Header and declarations first; then what is said of each object, together."""
+    """Ontology header and declarations, then one block per object."""
     prefixes: dict[str, str]
     relations: tuple[Relation, ...]
     individuals: int
-    """Objects of the scene; their shapes, places and masses are not counted."""
+    """Number of scene objects; shapes, poses and masses are not counted."""
     classes: dict[str, int]
-    """Class IRI → number of objects of just that class."""
+    """Class IRI → number of objects asserted to have that class."""
     missing_imports: tuple[str, ...] = ()
-    """IRIs of ontologies that should have been merged in and are not at hand."""
+    """IRIs of ontologies that were to be merged and are unavailable."""
 
 
 def instantiate(
@@ -70,15 +70,15 @@ def instantiate(
 
     Args:
         scene: the objects.
-        tbox: the classes they were grounded to.
+        tbox: the candidate classes.
         grounding: the class of each object.
-        base: IRI under which the individuals lie, ending in `/` or `#`; by default made from the file's name.
+        base: namespace of the individuals, ending in `/` or `#`; by default derived from the file name.
         profile: one of `PROFILES`.
-        options: how the graph is written, where that is not as usual.
-        relations: the spatial relations; by default they are found from the boxes.
+        options: annotations, colours and time stamp.
+        relations: the spatial relations; by default found from the boxes.
 
     Raises:
-        GraphError: the base is no IRI, or the profile or a kind of relation is unknown.
+        GraphError: the base is no absolute IRI, or the profile or a kind of relation is unknown.
     """
     base = check_base(base or default_base(scene.source))
     options = options or GraphOptions()
@@ -86,7 +86,7 @@ def instantiate(
     found = tuple(find_relations(scene, tbox, grounding) if relations is None else relations)
     imports = tuple(_imports(tbox, chosen))
     with paused_collection():
-        triples = _Writer(scene, tbox, grounding, base, chosen, imports, options, found).write()
+        triples = _GraphBuilder(scene, tbox, grounding, base, chosen, imports, options, found).build()
     counts = Counter(p.class_iri for p in grounding.predictions if p.class_iri)
     return KnowledgeGraph(
         iri=base.rstrip("#/"),
@@ -113,14 +113,14 @@ def _imports(tbox: TBox, profile: Profile) -> Iterator[str]:
     if not own.startswith("file:"):
         yield own
     for iri in profile.imports:
-        # Each of SOMA's own documents imports those that it needs.
-        is_known = iri in tbox.imports or (iri.startswith(_SOMA_DOCUMENTS) and own.startswith(_SOMA_DOCUMENTS))
-        if iri != own and not is_known:
+        # SOMA's own documents import the others that they need.
+        is_imported = iri in tbox.imports or (iri.startswith(_SOMA_DOCUMENTS) and own.startswith(_SOMA_DOCUMENTS))
+        if iri != own and not is_imported:
             yield iri
 
 
-class _Writer:
-    """Writes the triples of one graph, section by section."""
+class _GraphBuilder:
+    """Builds the triples of one graph, block by block."""
 
     def __init__(
         self,
@@ -149,24 +149,23 @@ class _Writer:
         for relation in relations:
             self.relations.setdefault(relation.target, []).append(relation)
         self.joints = list(resolve_joints(scene, base))
-        self.joints_inside: dict[ox.NamedNode, list[ox.NamedNode]] = {}
+        self.joints_of: dict[ox.NamedNode, list[ox.NamedNode]] = {}
         for linked in self.joints:
             if linked.whole is not None:
-                self.joints_inside.setdefault(linked.whole, []).append(linked.node)
+                self.joints_of.setdefault(linked.whole, []).append(linked.node)
         self.nodes: dict[str, ox.NamedNode] = {}
-        """Prim path → its node: what others stand on or near is named many times."""
         self.properties: set[ox.NamedNode] = set()
         self.classes: set[ox.NamedNode] = set()
 
-    def write(self) -> tuple[ox.Triple, ...]:
-        """Return all triples; each once."""
-        body = [triple for block in self._body() for triple in self._kept(block)]
+    def build(self) -> tuple[ox.Triple, ...]:
+        """Return all triples without duplicates."""
+        statements = [triple for block in self._blocks() for triple in self._record(block)]
         declarations = list(declare_terms(self.properties, self.classes))
-        head = dict.fromkeys((*self._header(), *declarations, *self._used_classes()))
-        return (*(ox.Triple(*triple) for triple in head), *body)
+        head = dict.fromkeys((*self._header(), *declarations, *self._class_hierarchy()))
+        return (*(ox.Triple(*triple) for triple in head), *statements)
 
-    def _kept(self, block: Iterable[Triple]) -> Iterator[ox.Triple]:
-        """Yield the triples of one block, each once, and keep in mind which terms they use."""
+    def _record(self, block: Iterable[Triple]) -> Iterator[ox.Triple]:
+        """Yield the triples of one block without duplicates, and record the terms they use."""
         for triple in dict.fromkeys(block):
             _, predicate, value = triple
             self.properties.add(predicate)
@@ -175,8 +174,8 @@ class _Writer:
                 self.classes.add(value)
             yield ox.Triple(*triple)
 
-    def _body(self) -> Iterator[Iterable[Triple]]:
-        """Yield blocks of triples; no triple is in two of them."""
+    def _blocks(self) -> Iterator[Iterable[Triple]]:
+        """Yield disjoint blocks of triples."""
         yield self._provenance()
         yield self._members()
         yield self._rooms()
@@ -192,8 +191,8 @@ class _Writer:
         for iri in self.imports:
             yield self.graph, OWL.imports, ox.NamedNode(iri)
 
-    def _used_classes(self) -> Iterator[Triple]:
-        """Yield the used classes with all above them, so that the graph alone answers questions by class."""
+    def _class_hierarchy(self) -> Iterator[Triple]:
+        """Yield the superclass closure of the used classes, so that class queries need no ontology."""
         used = {p.class_iri for p in self.grounding.predictions if p.class_iri}
         closure = {iri for cls in used for iri in self.tbox.closure(cls)}
         for iri in sorted(closure):
@@ -216,14 +215,14 @@ class _Writer:
             yield self.profile.member(self.stage, self._node(obj.prim_path))
 
     def _object(self, obj: SceneObject) -> list[Triple]:
-        """Return what is said of one object: its own statements, those of its parts, those about statements."""
+        """Return the block of one object: its statements, those of its quality nodes, then axiom annotations."""
         node = self._node(obj.prim_path)
         prediction = self.grounding.by_path.get(obj.prim_path)
         about: list[Triple] = []
         block: list[Triple] = list(self._type(node, prediction, about))
         block.extend(describe_metadata(obj, node))
         block.extend(self._relations(obj.prim_path, node, about))
-        block.extend((node, self.profile.has_joint, joint) for joint in self.joints_inside.get(node, ()))
+        block.extend((node, self.profile.has_joint, joint) for joint in self.joints_of.get(node, ()))
         block.extend(self.profile.describe(obj, node))
         own = [triple for triple in block if triple[0] == node]
         others = [triple for triple in block if triple[0] != node]
@@ -236,7 +235,7 @@ class _Writer:
         return node
 
     def _type(self, node: ox.NamedNode, prediction: Prediction | None, about: list[Triple]) -> Iterator[Triple]:
-        """Yield the class and why, on the type assertion; on the object itself where it has none."""
+        """Yield the type assertions; their annotations go to `about`, or onto the object if it has no class."""
         yield node, RDF.type, OWL.NamedIndividual
         yield node, RDF.type, self.profile.object_class
         if prediction is None:
@@ -258,7 +257,7 @@ class _Writer:
             about.extend(self.annotate(triples[0], relation_annotations(relation)))
 
     def _rooms(self) -> Iterator[Triple]:
-        """Yield the rooms that are no objects: groups that are called rooms."""
+        """Yield the rooms that are group prims, not objects."""
         anchors = (r.anchor for found in self.relations.values() for r in found if r.kind == "room")
         for path in dict.fromkeys(anchors):
             if path not in self.scene.by_path:

@@ -1,4 +1,4 @@
-"""IRIs of individuals: from prim paths, stable across runs, unique, and back again."""
+"""IRIs of individuals from prim paths: stable, unique and reversible."""
 
 import re
 from functools import lru_cache
@@ -12,13 +12,13 @@ from usd2kg.errors import GraphError
 __all__ = ["check_base", "default_base", "individual_iri", "prim_path_of"]
 
 _SEPARATOR = "."
-"""Stands for the slash between prims. A dot in a name is encoded, so no two paths share an IRI."""
+"""Replaces the slash between prim names; dots in names are percent-encoded."""
 _PART = "-"
-"""Stands before the name of a part; encoded in names, too."""
+"""Precedes the name of an aspect; percent-encoded in names."""
 
 
 def default_base(source: str) -> str:
-    """Return the base under which a scene's individuals lie if the user sets none.
+    """Return the default namespace of a scene's individuals.
 
     >>> default_base("scenes/my kitchen.usda")
     'https://example.org/my%20kitchen/'
@@ -27,27 +27,27 @@ def default_base(source: str) -> str:
 
 
 def check_base(base: str) -> str:
-    """Return `base` if individuals can lie under it.
+    """Return `base` unchanged.
 
     Raises:
-        GraphError: it is not an absolute IRI that ends in `/` or `#`.
+        GraphError: the base is not an absolute IRI that ends in `/` or `#`.
     """
     try:
-        is_good = base.endswith(("/", "#", ":")) and base.isprintable() and bool(re.match(r"[A-Za-z][\w+.-]*:", base))
-        # Turtle's parser is what must be able to read it back.
+        is_valid = base.endswith(("/", "#", ":")) and base.isprintable() and bool(re.match(r"[A-Za-z][\w+.-]*:", base))
+        # The Turtle parser decides whether the IRI is valid.
         next(iter(ox.parse(f"<{base}x> <{base}x> <{base}x> .", format=ox.RdfFormat.TURTLE)))
     except SyntaxError:
-        is_good = False
-    if not is_good:
+        is_valid = False
+    if not is_valid:
         raise GraphError(f"base {base!r}: expected an absolute IRI that ends in / or #, like https://my.lab/kitchen/")
     return base
 
 
 def individual_iri(base: str, prim_path: str, part: str = "") -> str:
-    """Return the IRI of the individual for a prim, or of a node that belongs to it (`part`: shape, box, pose…).
+    """Return the IRI of the individual of a prim, or of an aspect of it (`part`: shape, box, pose…).
 
-    No two paths share an IRI, whatever letters they hold: all but ASCII letters, digits, `_` and `~` are encoded, as
-    UTF-8 in percent. The part follows a hyphen. What belongs to the stage as a whole is a part of the path `/`.
+    The mapping is injective: characters other than ASCII letters, digits, `_` and `~` are percent-encoded as UTF-8,
+    and a hyphen precedes the part. Nodes of the whole stage are parts of the path `/`.
 
     >>> individual_iri("https://my.lab/k/", "/World/Table_1/Cup_3", "box")
     'https://my.lab/k/World.Table_1.Cup_3-box'
@@ -62,13 +62,13 @@ def individual_iri(base: str, prim_path: str, part: str = "") -> str:
 def _encode(name: str) -> str:
     if name.isascii() and name.isidentifier():
         return name
-    # Names are UTF-8 on a stage; half a surrogate pair can still come from other records.
+    # Records from other sources may contain lone surrogates.
     encoded = quote(name, safe="", errors="surrogatepass")
     return encoded.replace(_SEPARATOR, "%2E").replace(_PART, "%2D")
 
 
 def prim_path_of(base: str, iri: str) -> str:
-    """Return the prim path behind an individual's IRI.
+    """Return the prim path of an individual.
 
     >>> prim_path_of("https://my.lab/k/", "https://my.lab/k/World.Table_1.Cup_3")
     '/World/Table_1/Cup_3'

@@ -1,7 +1,7 @@
-"""Joints: what moves against what, which way and how far. Angles are radians, lengths metres, vectors in the world.
+"""Joints with their bodies, axis, limits and state; radians, metres, vectors in the world frame.
 
-SOMA has classes for hinges, slides and fixed joints; a hinge or a slide with one limit or none is no soma:RevoluteJoint
-or soma:PrismaticJoint, whose limits SOMA requires. What SOMA has no class for takes ours.
+soma:RevoluteJoint and soma:PrismaticJoint require both limits, so joints with fewer get a superclass. Types that SOMA
+lacks get a u2k class.
 """
 
 from collections.abc import Iterator
@@ -27,20 +27,20 @@ _OWN_CLASSES = {
 
 
 class JointIndividual(NamedTuple):
-    """A joint and the objects that it belongs to."""
+    """A joint with its node and the objects that it connects."""
 
     joint: Joint
     node: ox.NamedNode
     parent: ox.NamedNode | None
-    """The object that it hangs on; None for the world, for what is no object, and for a joint inside an object."""
+    """Fixed object; None for the world, for a body that is no object, and for a joint within one object."""
     child: ox.NamedNode | None
-    """The object that it moves, in the same way."""
+    """Moved object; None likewise."""
     whole: ox.NamedNode | None
-    """The object that both its bodies belong to, such as a robot."""
+    """Object that both bodies belong to, such as a robot."""
 
 
 def resolve_joints(scene: Scene, base: str) -> Iterator[JointIndividual]:
-    """Yield the joints of a scene, in its order; a body belongs to the nearest object at or above it."""
+    """Yield the joints of a scene in order; a body belongs to the nearest object at or above it."""
     for joint in scene.joints:
         parent, child = (_owner(body, scene) for body in (joint.body0, joint.body1))
         whole = parent if parent == child else None
@@ -57,7 +57,7 @@ def _owner(body: str | None, scene: Scene) -> str | None:
 
 
 def plain_joint(linked: JointIndividual) -> Iterator[Triple]:
-    """Yield a joint in our own terms."""
+    """Yield a joint in u2k terms."""
     joint, node = linked.joint, linked.node
     yield from declare_individual(node, _OWN_CLASSES[joint.type])
     yield from _common(linked)
@@ -70,7 +70,7 @@ def plain_joint(linked: JointIndividual) -> Iterator[Triple]:
 
 
 def soma_joint(linked: JointIndividual) -> Iterator[Triple]:
-    """Yield a joint in SOMA's terms, with ours where it has none."""
+    """Yield a joint in SOMA terms, with u2k terms for what SOMA lacks."""
     joint, node = linked.joint, linked.node
     first, *others = _soma_classes(joint)
     yield from declare_individual(node, first)

@@ -1,4 +1,4 @@
-"""Why an object has its class: as SSSOM justifies mappings, with a person's decision beside what was predicted."""
+"""Justification of type assertions in SSSOM and SEMAPV terms, with reviews and predictions."""
 
 import re
 from collections.abc import Iterator
@@ -20,16 +20,16 @@ _MATCHING = {
     PERSON: SEMAPV.ManualMappingCuration,
     "volume": SEMAPV.BackgroundKnowledgeBasedMatching,
 }
-"""Kind of grounder → the process of SEMAPV that it is."""
+"""Grounder id prefix → SEMAPV matching process."""
 
 
 def justify_class(prediction: Prediction, run: ox.NamedNode) -> list[Annotation]:
-    """Return what annotates the type of an object: confidence, who decided, why, what else was considered."""
+    """Return the annotations of a type assertion: confidence, justification, review, evidence, alternatives, run."""
     confidence = prediction.confidence
     return [
         *([(SSSOM.confidence, number(confidence))] if confidence is not None else []),
         (SSSOM.mapping_justification, matching_process(prediction)),
-        *_refusal(prediction),
+        *_outcome(prediction),
         (U2K.grounder, text(prediction.grounder)),
         *((U2K.evidence, text(group)) for group in prediction.evidence),
         *((U2K.alternative, ox.NamedNode(iri)) for iri in _alternatives(prediction)),
@@ -38,11 +38,11 @@ def justify_class(prediction: Prediction, run: ox.NamedNode) -> list[Annotation]
 
 
 def justify_refusal(prediction: Prediction) -> list[Annotation]:
-    """Return what is said of an object that has no class: how that came about."""
-    return list(_refusal(prediction))
+    """Return the annotations of an object without a class: status, explanation and review."""
+    return list(_outcome(prediction))
 
 
-def _refusal(prediction: Prediction) -> Iterator[Annotation]:
+def _outcome(prediction: Prediction) -> Iterator[Annotation]:
     yield U2K.status, text(prediction.status.value)
     yield U2K.explanation, text(prediction.explanation)
     if prediction.decided_for:
@@ -68,11 +68,11 @@ def _review(review: Review, decided: str | None) -> Iterator[Annotation]:
 
 
 def matching_process(prediction: Prediction) -> ox.NamedNode:
-    """Return the process of SEMAPV by which the class was found."""
+    """Return the SEMAPV matching process of a prediction; curation if a reviewer changed the class."""
     review = prediction.review
     if review is not None and review.predicted_class != prediction.class_iri:
         return SEMAPV.ManualMappingCuration
-    # The id of a language model's grounder names strategy and model, too: llm-B:openai:gpt.
+    # Grounder ids may include strategy and model: llm-B:openai:gpt.
     return _MATCHING.get(re.split("[-:]", prediction.grounder)[0], SEMAPV.UnspecifiedMatching)
 
 

@@ -1,4 +1,4 @@
-"""What a user can choose about how a graph is written."""
+"""User options of graph construction."""
 
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -8,17 +8,17 @@ from usd2kg.errors import GraphError
 __all__ = ["ANNOTATIONS", "COLORS", "GraphOptions", "read_epoch", "read_time"]
 
 ANNOTATIONS = ("owl", "rdf12")
-"""How statements are annotated: as OWL annotates axioms, or by RDF 1.2's triple terms, which OWL tools do not read."""
+"""OWL 2 axiom annotations, or RDF 1.2 triple terms, which OWL tools do not read."""
 COLORS = ("usd", "knowrob")
-"""How the soma profile writes colours: as USD.owl does, or as KnowRob asks for them, which SOMA makes inconsistent."""
+"""Colours of the soma profile: USD.owl qualities, or SOMA qualities for KnowRob, which are inconsistent."""
 
 
 @dataclass(frozen=True)
 class GraphOptions:
-    """How a graph is written.
+    """Annotations, colours and time stamp of a graph.
 
     Raises:
-        GraphError: an option has none of its values.
+        GraphError: an option has an unknown value.
     """
 
     annotations: str = "owl"
@@ -26,7 +26,7 @@ class GraphOptions:
     colors: str = "usd"
     """One of `COLORS`."""
     time: datetime | None = None
-    """When the run ended, with its time zone; None leaves it out, so that the same input gives the same bytes."""
+    """End of the run, with time zone; None omits it, which keeps the output reproducible."""
 
     def __post_init__(self) -> None:
         for name, value, known in (("annotations", self.annotations, ANNOTATIONS), ("colors", self.colors, COLORS)):
@@ -35,13 +35,13 @@ class GraphOptions:
 
 
 def read_time(text: str) -> datetime:
-    """Return the time that a person wrote, in UTC: `now`, or ISO 8601 with a time zone.
+    """Return the UTC time for `now` or for ISO 8601 with a time zone.
 
     >>> read_time("2026-07-15T14:00:00+02:00").isoformat()
     '2026-07-15T12:00:00+00:00'
 
     Raises:
-        GraphError: it is neither.
+        GraphError: the text is neither.
     """
     if text == "now":
         return datetime.now(UTC).replace(microsecond=0)
@@ -58,9 +58,11 @@ def read_epoch(text: str) -> datetime:
     """Return the time of SOURCE_DATE_EPOCH, whole seconds since 1970 (reproducible-builds.org).
 
     Raises:
-        GraphError: it is no such number.
+        GraphError: the text is not a number in range.
     """
     try:
         return datetime.fromtimestamp(int(text), UTC)
     except (ValueError, OverflowError, OSError) as error:
-        raise GraphError(f"SOURCE_DATE_EPOCH {text!r}: expected whole seconds since 1970; mend or unset it") from error
+        raise GraphError(
+            f"SOURCE_DATE_EPOCH {text!r}: expected whole seconds since 1970; correct or unset it"
+        ) from error

@@ -1,7 +1,7 @@
-"""The size, place and mass of an object, by SOMA's patterns and by our own few properties.
+"""Size, pose and mass of objects: as quality nodes with regions (SOMA), or as datatype properties (u2k).
 
-SOMA: size is hasShape → Shape → hasRegion → BoxShape, with both hasLength and hasDepth for KnowRob; the file of its
-geometry is a second region, a MeshShape. Each object has quality nodes of its own: a shared one is inconsistent.
+SOMA: hasShape → Shape → hasRegion → BoxShape, with hasLength and hasDepth for KnowRob; a geometry file is a second
+region, a MeshShape. Quality nodes belong to one object each: a shared quality is inconsistent.
 """
 
 from collections.abc import Iterator
@@ -17,18 +17,18 @@ _REFERENCE_FRAME = "world"
 
 
 def aspect_node(node: ox.NamedNode, part: str) -> ox.NamedNode:
-    """Return the node of what belongs to an object: its shape, box, pose…"""
+    """Return the node of a quality, region or attribute of an object: shape, box, pose…"""
     return ox.NamedNode(f"{node.value}-{part}")
 
 
 def declare_individual(node: ox.NamedNode, cls: ox.NamedNode) -> Iterator[Triple]:
-    """Yield that a node is an individual of a class."""
+    """Yield the declaration and type of a named individual."""
     yield node, RDF.type, OWL.NamedIndividual
     yield node, RDF.type, cls
 
 
 def shared_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield what is written alike in all profiles: centre of mass, oriented size, number of copies."""
+    """Yield what all profiles share: centre of mass, oriented size, number of copies."""
     if obj.center_of_mass is not None:
         yield node, U2K.centerOfMass, text(vector_text(obj.center_of_mass))
     if obj.oriented_size is not None:
@@ -38,7 +38,7 @@ def shared_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
 
 
 def plain_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield size, place and mass straight on the object."""
+    """Yield size, pose and mass as datatype properties of the object."""
     if obj.box is not None:
         width, depth, height = obj.box.size
         yield node, U2K.width, number(width)
@@ -56,7 +56,7 @@ def plain_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
 
 
 def soma_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield size, place and mass as qualities and attributes."""
+    """Yield size, pose and mass as quality nodes."""
     if obj.box is not None or obj.geometry_file:
         yield from _shape(node, obj.box, obj.geometry_file)
     if obj.position is not None and obj.orientation is not None:
@@ -84,7 +84,7 @@ def _shape(node: ox.NamedNode, box: Box | None, file: str) -> Iterator[Triple]:
 
 
 def _box(region: ox.NamedNode, box: Box) -> Iterator[Triple]:
-    # As KnowRob's object_dimensions has it, by ROS's REP 103: x goes forward, y to the left.
+    # KnowRob's object_dimensions follows ROS REP 103: x forward, y left.
     along_x, along_y, along_z = box.size
     yield from declare_individual(region, SOMA.BoxShape)
     yield region, SOMA.hasWidth, number(along_y, "float")

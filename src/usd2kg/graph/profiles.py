@@ -1,7 +1,7 @@
-"""How an object is written: the `soma` profile by SOMA's, DUL's and USD.owl's patterns, and `plain` for any ontology.
+"""Modelling profiles: `soma` with the patterns of SOMA, DUL and USD.owl, and `plain` for any ontology.
 
-Patterns and traps of the soma profile, checked with HermiT against SOMA 5d27187, DUL and USD.owl: the stage has
-members, since a Stage with parts is inconsistent; each object has quality nodes of its own.
+The soma profile was checked with HermiT against SOMA 5d27187, DUL and USD.owl: a Stage has members, since one with
+parts is inconsistent, and quality nodes are never shared between objects.
 """
 
 from collections.abc import Iterator
@@ -21,39 +21,39 @@ __all__ = ["PlainProfile", "Profile", "SomaProfile", "uses_soma"]
 
 
 class Profile(Protocol):
-    """Writes what is known of objects in one vocabulary."""
+    """Maps scene objects, joints and relations to the patterns of one vocabulary."""
 
     name: ClassVar[str]
     imports: ClassVar[tuple[str, ...]]
-    """Ontologies whose terms it uses beside the user's own."""
+    """Ontologies to import in addition to the user's."""
     object_class: ClassVar[ox.NamedNode]
-    """What every object is."""
+    """Class of every object."""
     has_joint: ClassVar[ox.NamedNode]
-    """From an object to a joint inside it."""
+    """Property from an object to a joint within it."""
 
     def describe(self, obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-        """Yield an object's size, place, mass and colour."""
+        """Yield the size, pose, mass and colour of an object."""
         ...
 
     def join(self, linked: JointIndividual) -> Iterator[Triple]:
-        """Yield a joint."""
+        """Yield the individual of a joint."""
         ...
 
     def stage(self, node: ox.NamedNode) -> Iterator[Triple]:
-        """Yield what the stage is."""
+        """Yield the type of the stage."""
         ...
 
     def member(self, stage: ox.NamedNode, obj: ox.NamedNode) -> Triple:
-        """Return how the stage and one of its objects belong together."""
+        """Return the membership of an object in the stage."""
         ...
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
-        """Return the triples of a spatial relation; the first one takes the numbers."""
+        """Return the triples of a spatial relation; the first one is annotated."""
         ...
 
 
 class SomaProfile:
-    """SOMA, DUL, USD.owl and KnowRob's habits."""
+    """Patterns of SOMA, DUL and USD.owl, with KnowRob's conventions."""
 
     name: ClassVar[str] = "soma"
     imports: ClassVar[tuple[str, ...]] = (
@@ -64,25 +64,25 @@ class SomaProfile:
     has_joint: ClassVar[ox.NamedNode] = SOMA.hasPhysicalComponent
 
     def __init__(self, colors: str = "usd") -> None:
-        """Make the profile; `colors` is one of `options.COLORS`."""
+        """Set how colours are modelled, one of `options.COLORS`."""
         self._color = knowrob_color if colors == "knowrob" else usd_color
 
     def describe(self, obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-        """Yield an object's size, place, mass and colour."""
+        """Yield the size, pose, mass and colour of an object."""
         yield from soma_properties(obj, node)
         yield from shared_properties(obj, node)
         yield from self._color(obj, node)
 
     def join(self, linked: JointIndividual) -> Iterator[Triple]:
-        """Yield a joint."""
+        """Yield the individual of a joint."""
         return soma_joint(linked)
 
     def stage(self, node: ox.NamedNode) -> Iterator[Triple]:
-        """Yield what the stage is."""
+        """Yield the type of the stage."""
         yield from declare_individual(node, USD.Stage)
 
     def member(self, stage: ox.NamedNode, obj: ox.NamedNode) -> Triple:
-        """Return the object's membership; `hasPart` would make the stage inconsistent."""
+        """Return dul:hasMember; dul:hasPart would make the stage inconsistent."""
         return stage, DUL.hasMember, obj
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
@@ -91,7 +91,7 @@ class SomaProfile:
 
 
 class PlainProfile:
-    """Our own few properties, straight on the object: for any ontology."""
+    """Datatype properties of the u2k vocabulary directly on the object, for any ontology."""
 
     name: ClassVar[str] = "plain"
     imports: ClassVar[tuple[str, ...]] = ()
@@ -99,21 +99,21 @@ class PlainProfile:
     has_joint: ClassVar[ox.NamedNode] = U2K.hasJoint
 
     def describe(self, obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-        """Yield an object's size, place, mass and colour."""
+        """Yield the size, pose, mass and colour of an object."""
         yield from plain_properties(obj, node)
         yield from shared_properties(obj, node)
         yield from plain_color(obj, node)
 
     def join(self, linked: JointIndividual) -> Iterator[Triple]:
-        """Yield a joint."""
+        """Yield the individual of a joint."""
         return plain_joint(linked)
 
     def stage(self, node: ox.NamedNode) -> Iterator[Triple]:
-        """Yield what the stage is."""
+        """Yield the type of the stage."""
         yield from declare_individual(node, U2K.Stage)
 
     def member(self, stage: ox.NamedNode, obj: ox.NamedNode) -> Triple:
-        """Return the object's membership."""
+        """Return u2k:hasObject."""
         return stage, U2K.hasObject, obj
 
     def relate(self, relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:

@@ -1,4 +1,4 @@
-"""The run that made a graph, in PROV-O's terms: what was read, by whom, how. Without a time unless one is given."""
+"""PROV-O description of the run: activity, inputs and software agent."""
 
 from collections.abc import Iterator
 from datetime import UTC, datetime
@@ -22,7 +22,7 @@ def describe_run(
     software: ox.NamedNode,
     time: datetime | None,
 ) -> Iterator[Triple]:
-    """Yield the activity: what it used, by which software, with which settings of the grounder."""
+    """Yield the prov:Activity with its inputs, agent, grounder settings and end time, if any."""
     yield from declare_individual(run, PROV.Activity)
     yield run, RDFS.label, text(f"Grounding of {Path(grounding.scene).name}")
     for entity in used:
@@ -38,14 +38,14 @@ def describe_run(
 
 
 def describe_software(software: ox.NamedNode, version: str) -> Iterator[Triple]:
-    """Yield the software agent."""
+    """Yield the prov:SoftwareAgent."""
     yield from declare_individual(software, PROV.SoftwareAgent)
     yield software, RDFS.label, text("usd2kg")
     yield software, U2K.version, text(version)
 
 
 def describe_ontology(ontology: ox.NamedNode, tbox: TBox) -> Iterator[Triple]:
-    """Yield the ontology as it was read."""
+    """Yield the prov:Entity of the ontology that was read."""
     yield from declare_individual(ontology, PROV.Entity)
     yield ontology, RDFS.label, text(tbox.source if tbox.ontology_iri.startswith("file:") else tbox.ontology_iri)
     for name, iri in (("ontologyIri", tbox.ontology_iri), ("ontologyVersionIri", tbox.version_iri)):
@@ -56,7 +56,7 @@ def describe_ontology(ontology: ox.NamedNode, tbox: TBox) -> Iterator[Triple]:
 
 
 def describe_scene(stage: ox.NamedNode, scene: Scene) -> Iterator[Triple]:
-    """Yield the stage as it was read; what it is besides is the profile's to say."""
+    """Yield the prov:Entity of the stage that was read; the profile adds its other type."""
     yield stage, RDF.type, PROV.Entity
     yield stage, RDFS.label, text(Path(scene.source).name)
     yield stage, U2K.contentHash, text(scene.content_hash)

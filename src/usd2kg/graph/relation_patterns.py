@@ -1,4 +1,4 @@
-"""How relations are written: the properties of each kind in the soma and in the plain profile."""
+"""RDF properties of spatial relations in the soma and plain profiles."""
 
 from collections.abc import Iterator, Mapping
 
@@ -51,39 +51,39 @@ _PLAIN: Mapping[str, ox.NamedNode] = {
 KIND_OF_PROPERTY: Mapping[ox.NamedNode, str] = {
     name: kind for kind, names in [*_SOMA.items(), *((k, (v,)) for k, v in _PLAIN.items())] for name in names
 }
-"""Property → kind, of the properties that go from the target to the anchor, in both profiles."""
+"""Property → kind, for properties from target to anchor, in both profiles."""
 KIND_OF_INVERSE: Mapping[ox.NamedNode, str] = {SOMA.hasPhysicalComponent: "part-of"}
-"""Property → kind, of those that go from the anchor to the target."""
+"""Property → kind, for properties from anchor to target."""
 
 
 def soma_relation(relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
-    """Return the triples of a relation in SOMA's, DUL's and KnowRob's terms; the first one takes the numbers."""
+    """Return the triples of a relation in SOMA, DUL and KnowRob terms; the first one is annotated."""
     if relation.kind == "part-of":
         return [(anchor, SOMA.hasPhysicalComponent, target)]
     triples: list[Triple] = [(target, name, anchor) for name in _SOMA[relation.kind]]
-    return [*triples, *_returned(relation, _SOMA[relation.kind][0], target, anchor)]
+    return [*triples, *_inverse(relation, _SOMA[relation.kind][0], target, anchor)]
 
 
 def plain_relation(relation: Relation, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
-    """Return the triples of a relation in our own terms; the first one takes the numbers."""
+    """Return the triples of a relation in u2k terms; the first one is annotated."""
     name = _PLAIN[relation.kind]
-    return [(target, name, anchor), *_returned(relation, name, target, anchor)]
+    return [(target, name, anchor), *_inverse(relation, name, target, anchor)]
 
 
-def _returned(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
+def _inverse(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, anchor: ox.NamedNode) -> list[Triple]:
     return [(anchor, name, target)] if relation.kind in SYMMETRIC_KINDS else []
 
 
 def relation_annotations(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
-    """Return the rule, the numbers and the confidence of a relation, as annotations."""
+    """Return rule, measurements and confidence of a relation as annotations."""
     numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
     confidence = [] if relation.confidence is None else [(SSSOM.confidence, number(relation.confidence))]
     return [(U2K.rule, text(relation.rule)), *numbers, *confidence]
 
 
 def describe_between(relation: Relation, base: str) -> Iterator[Triple]:
-    """Yield a node for what is between two anchors: OWL's properties take but one."""
-    assert relation.other_anchor is not None, "what is between is so between two"
+    """Yield an n-ary relation node for `between`: OWL properties are binary."""
+    assert relation.other_anchor is not None, "between has two anchors"
     node = ox.NamedNode(individual_iri(base, relation.target, "between"))
     yield node, RDF.type, OWL.NamedIndividual
     yield node, RDF.type, U2K.Between
@@ -95,7 +95,7 @@ def describe_between(relation: Relation, base: str) -> Iterator[Triple]:
 
 
 def describe_room(path: str, base: str) -> Iterator[Triple]:
-    """Yield what is known of a group prim that is a room by its name, and no object."""
+    """Yield the individual of a group prim whose name makes it a room."""
     node = ox.NamedNode(individual_iri(base, path))
     yield node, RDF.type, OWL.NamedIndividual
     yield node, RDF.type, U2K.RoomGroup

@@ -1,4 +1,4 @@
-"""What the stage says about an object in words: names, assets, materials, labels, texts. Alike in all profiles."""
+"""Authored metadata of objects: names, assets, materials, labels and texts; the same in all profiles."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,7 @@ _WIKIDATA = "http://www.wikidata.org/entity/"
 
 
 def describe_metadata(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield an object's names, prim path, documentation, assets, materials and variants."""
+    """Yield names, prim path, documentation, assets, materials and variants of an object."""
     yield node, RDFS.label, text(obj.display_name or obj.name)
     if obj.display_name and obj.display_name != obj.name:
         yield node, SKOS.altLabel, text(obj.name)
@@ -32,7 +32,7 @@ def describe_metadata(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
 
 
 def describe_labels_and_texts(obj: SceneObject, node: ox.NamedNode, annotate: Annotate) -> Iterator[Triple]:
-    """Yield an object's labels and texts, each with where it stands; reports of labels, which are guesses, are not."""
+    """Yield semantic labels and texts, annotated with their source; labels reported by a tool are omitted."""
     for label in (*obj.labels.own, *obj.labels.inherited):
         yield from _label(node, U2K.sceneLabel, label, obj.prim_path, annotate)
     for label in obj.labels.of_parts:
@@ -49,11 +49,11 @@ def _label(
     if label.strength == "report":
         return ()
     statement: Triple = (node, name, text(label.value))
-    where = [(U2K.labelledPrim, text(label.prim_path))] if label.prim_path != prim_path else []
-    how = [(U2K.labelEncoding, text(label.encoding)), (U2K.labelTaxonomy, text(label.taxonomy))]
+    source = [(U2K.labelledPrim, text(label.prim_path))] if label.prim_path != prim_path else []
+    encoding = [(U2K.labelEncoding, text(label.encoding)), (U2K.labelTaxonomy, text(label.taxonomy))]
     iri = _label_iri(label) if name == U2K.sceneLabel else None
-    meant: list[Triple] = [(node, U2K.sceneLabelIri, iri)] if iri is not None else []
-    return [statement, *meant, *annotate(statement, [*how, *where])]
+    entity: list[Triple] = [(node, U2K.sceneLabelIri, iri)] if iri is not None else []
+    return [statement, *entity, *annotate(statement, [*encoding, *source])]
 
 
 def _label_iri(label: Label) -> ox.NamedNode | None:

@@ -1,4 +1,4 @@
-"""The IRIs that graphs are written in, and how values are written. Exact spelling matters: mind http and https."""
+"""Namespaces, prefixes and literals. Mind http and https in namespace IRIs."""
 
 from collections.abc import Iterable
 
@@ -30,11 +30,11 @@ __all__ = [
 ]
 
 Triple = tuple[ox.NamedNode | ox.BlankNode, ox.NamedNode, ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple]
-"""Subject, predicate and object; only in RDF 1.2 is an object a triple."""
+"""Subject, predicate and object; triple terms need RDF 1.2."""
 
 
 class Namespace:
-    """A namespace whose attributes are its terms: `SOMA.Cup`.
+    """A namespace with its terms as attributes: `SOMA.Cup`.
 
     >>> SOMA["6DPose"].value
     'http://www.ease-crc.org/ont/SOMA.owl#6DPose'
@@ -47,7 +47,7 @@ class Namespace:
         if name.startswith("__"):
             raise AttributeError(name)
         node = ox.NamedNode(self.iri + name)
-        # Kept as an attribute: a graph names its terms millions of times.
+        # Cached as an attribute: terms are looked up millions of times.
         setattr(self, name, node)
         return node
 
@@ -71,7 +71,7 @@ DUL = Namespace("http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#")
 USD = Namespace("https://ease-crc.org/ont/USD.owl#")
 KNOWROB = Namespace("http://knowrob.org/kb/knowrob.owl#")
 U2K = Namespace("https://w3id.org/usd2kg#")
-"""Our own terms; data/vocabulary.ttl defines each."""
+"""The u2k vocabulary, defined in graph/vocabulary.ttl."""
 
 PREFIXES = {
     "rdf": RDF.iri,
@@ -92,7 +92,7 @@ PREFIXES = {
 
 
 def number(value: float, datatype: str = "double") -> ox.Literal:
-    """Return a number with seven significant digits, as an XML Schema literal.
+    """Return an XML Schema literal of a number with seven significant digits.
 
     >>> number(0.1 + 0.2).value
     '0.3'
@@ -101,19 +101,19 @@ def number(value: float, datatype: str = "double") -> ox.Literal:
 
 
 def text(value: str) -> ox.Literal:
-    """Return a plain string literal; characters that RDF's syntaxes cannot hold become U+FFFD."""
+    """Return a string literal; characters that RDF syntaxes cannot encode become U+FFFD."""
     if value.isprintable():
         return ox.Literal(value)
     return ox.Literal("".join(c if c in "\t\n\r" or _is_character(c) else "\ufffd" for c in value))
 
 
 def _is_character(c: str) -> bool:
-    """Return whether XML and RDF can hold a character: no control code, no half of a surrogate pair."""
+    """Return whether a character is legal in XML 1.0 (no control code, lone surrogate or non-character)."""
     return c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff"
 
 
 def vector_text(values: Iterable[float]) -> str:
-    """Return numbers with seven significant digits, parted by blanks.
+    """Return space-separated numbers with seven significant digits.
 
     >>> vector_text((1.0, -0.0, 0.33333333333))
     '1 0 0.3333333'
@@ -122,7 +122,7 @@ def vector_text(values: Iterable[float]) -> str:
 
 
 def named_node(iri: str) -> ox.NamedNode | None:
-    """Return the node of an IRI that others wrote; None if it is no absolute IRI.
+    """Return the node of an external IRI; None if it is not absolute.
 
     >>> named_node("a cup") is None
     True
