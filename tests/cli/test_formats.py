@@ -121,7 +121,7 @@ class TestExport:
             ".ofn",
             "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
         ),
-        (".graphml", "graphs are not read from GraphML, which is for other programs"),
+        (".graphml", "graphs are not read from GraphML, an export format"),
     ],
 )
 def test_what_is_written_only_is_refused_with_its_readers(run: Run, graph: Path, ending: str, told: str):

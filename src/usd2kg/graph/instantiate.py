@@ -15,7 +15,8 @@ from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.joint_patterns import resolve_joints
 from usd2kg.graph.justification import justify_class, justify_refusal
 from usd2kg.graph.options import GraphOptions
-from usd2kg.graph.profiles import PlainProfile, Profile, SomaProfile, uses_soma
+from usd2kg.graph.physical_properties import declare_individual
+from usd2kg.graph.profiles import Profile, plain_profile, soma_profile, uses_soma
 from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
 from usd2kg.graph.relation_patterns import describe_between, describe_room, relation_annotations
 from usd2kg.graph.stage_metadata import describe_labels_and_texts, describe_metadata
@@ -104,8 +105,8 @@ def instantiate(
 def _make_profile(name: str, tbox: TBox, options: GraphOptions) -> Profile:
     if name not in PROFILES:
         raise GraphError(f"profile {name!r} is unknown; expected one of {', '.join(PROFILES)}")
-    is_soma = name == "soma" or (name == "auto" and uses_soma(tuple(cls.iri for cls in tbox.classes)))
-    return SomaProfile(options.colors) if is_soma else PlainProfile()
+    is_soma = name == "soma" or (name == "auto" and uses_soma(cls.iri for cls in tbox.classes))
+    return soma_profile(options.colors) if is_soma else plain_profile()
 
 
 def _imports(tbox: TBox, profile: Profile) -> Iterator[str]:
@@ -182,7 +183,7 @@ class _GraphBuilder:
         for obj in self.scene.objects:
             yield self._object(obj)
         for linked in self.joints:
-            yield self.profile.join(linked)
+            yield self.profile.describe_joint(linked)
 
     def _header(self) -> Iterator[Triple]:
         yield self.graph, RDF.type, OWL.Ontology
@@ -209,10 +210,10 @@ class _GraphBuilder:
         yield from describe_ontology(self.ontology, self.tbox)
 
     def _members(self) -> Iterator[Triple]:
-        yield from self.profile.stage(self.stage)
+        yield from declare_individual(self.stage, self.profile.stage_class)
         yield from describe_scene(self.stage, self.scene)
         for obj in self.scene.objects:
-            yield self.profile.member(self.stage, self._node(obj.prim_path))
+            yield self.stage, self.profile.membership, self._node(obj.prim_path)
 
     def _object(self, obj: SceneObject) -> list[Triple]:
         """Return the block of one object: its statements, those of its quality nodes, then axiom annotations."""
@@ -252,7 +253,7 @@ class _GraphBuilder:
             if relation.kind == "between":
                 yield from describe_between(relation, self.base)
                 continue
-            triples = self.profile.relate(relation, target, self._node(relation.anchor))
+            triples = self.profile.describe_relation(relation, target, self._node(relation.anchor))
             yield from triples
             about.extend(self.annotate(triples[0], relation_annotations(relation)))
 
@@ -262,4 +263,4 @@ class _GraphBuilder:
         for path in dict.fromkeys(anchors):
             if path not in self.scene.by_path:
                 yield from describe_room(path, self.base)
-                yield self.profile.member(self.stage, self._node(path))
+                yield self.stage, self.profile.membership, self._node(path)

@@ -158,7 +158,7 @@ class TestRdfXml:
             serialize_graph(document(say(predicate, ox.Literal("x"))), ox.RdfFormat.RDF_XML)
 
     def test_a_control_character_is_an_error(self):
-        with pytest.raises(GraphError, match=r"holds '\\x01'; XML cannot hold it"):
+        with pytest.raises(GraphError, match=r"contains '\\x01'; XML cannot represent it"):
             serialize_graph(document(say("https://x.org/p", ox.Literal("a\x01"))), ox.RdfFormat.RDF_XML)
 
     def test_blank_nodes_stay_apart(self):
@@ -178,7 +178,7 @@ class TestRdf12:
     @pytest.mark.parametrize(("ending", "name"), [(".rdf", "RDF/XML"), (".jsonld", "JSON-LD"), (".ofn", "OWL")])
     def test_the_others_say_so_and_write_nothing(self, tmp_path: Path, home_tbox: TBox, ending: str, name: str):
         graph = hostile_graph(home_tbox, options=GraphOptions(annotations="rdf12"))
-        with pytest.raises(GraphError, match=f"needs RDF 1.2, which {name} has not; choose .ttl"):
+        with pytest.raises(GraphError, match=f"needs RDF 1.2, which {name} lacks; choose .ttl"):
             write_graph(graph, tmp_path / f"a{ending}")
         assert list(tmp_path.iterdir()) == []
 

@@ -1,4 +1,4 @@
-"""GraphML of a property graph, as networkx, yEd and Gephi read it: typed keys, one edge for each relation."""
+"""GraphML of a property graph for networkx, yEd and Gephi: typed keys, one edge per relation."""
 
 from collections.abc import Iterator, Mapping
 
@@ -14,10 +14,10 @@ _HEAD = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 def graphml_pieces(graph: PropertyGraph) -> Iterator[bytes]:
-    """Yield the file.
+    """Yield the file in chunks.
 
-    Nodes have the key `label` with their name, which viewers show, and `labels` with their classes, like
-    `:Object:Crockery:Cup`; edges have `label` with their type. Characters that XML cannot hold become U+FFFD.
+    Node keys include `label`, the name that viewers show, and `labels`, the classes (`:Object:Crockery:Cup`); the
+    `label` of an edge is its type. Characters that are illegal in XML become U+FFFD.
     """
     nodes = {"label": str, "labels": str, **graph.property_types(of_edges=False)}
     edges = {"label": str, **graph.property_types(of_edges=True)}

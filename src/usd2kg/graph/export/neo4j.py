@@ -1,4 +1,4 @@
-"""A property graph as CSV files for Neo4j: typed headers for neo4j-admin, and a script for LOAD CSV."""
+"""CSV files of a property graph for Neo4j: typed headers for neo4j-admin, and a LOAD CSV script."""
 
 import csv
 import io
@@ -16,7 +16,7 @@ NEO4J_FILES = ("nodes.csv", "relationships.csv", "load.cypher")
 _TYPES = {str: "", float: ":double", int: ":long", bool: ":boolean"}
 _CASTS = {str: "{}", float: "toFloat({})", int: "toInteger({})", bool: "toBoolean({})"}
 _ROWS = 10_000
-"""Rows that are put into one piece."""
+"""Rows per chunk."""
 _HEAD = """// Loads the graph of a scene into a running Neo4j, 5.23 or later.
 //
 // 1. Copy nodes.csv and relationships.csv into the import folder of the database.
@@ -33,18 +33,17 @@ _LABEL_STEP = "  FOREACH (x IN CASE WHEN '{name}' IN labels THEN [1] ELSE [] END
 
 
 def write_neo4j(graph: PropertyGraph, folder: Path) -> tuple[Path, ...]:
-    """Write nodes.csv, relationships.csv and load.cypher into a folder, which is made if need be; return their paths.
+    """Write nodes.csv, relationships.csv and load.cypher into a folder, created if missing; return their paths.
 
-    Texts are written as they are: these are files for a database. A spreadsheet would take a name that begins with
-    `=` for a formula.
+    Texts are not guarded against spreadsheet formulas, since the files are for a database.
 
     Raises:
-        OutputError: the folder cannot be made, or a file cannot be written.
+        OutputError: the folder cannot be created, or a file cannot be written.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"{folder}: cannot be made ({error.strerror}); choose another folder") from error
+        raise OutputError(f"{folder}: cannot be created ({error.strerror}); choose another folder") from error
     node_types = graph.property_types(of_edges=False)
     edge_types = graph.property_types(of_edges=True)
     nodes = ((node.id, ";".join(node.labels), *_cells(node.properties, node_types)) for node in graph.nodes)

@@ -1,7 +1,7 @@
-"""A property graph of a scene, for Neo4j, Gephi, yEd and the like: a node for each object, an edge for each relation.
+"""Property graph of a scene for Neo4j, Gephi or yEd: one node per object, one edge per relation.
 
-What RDF says in several nodes, shape, place, mass and colour, and the reasons on axioms, becomes properties. Both
-profiles give the same property graph. Relations that RDF states both ways are one edge.
+Quality nodes (shape, pose, mass, colour) and axiom annotations become properties. Both profiles give the same property
+graph. Symmetric and inverse relations are one edge.
 """
 
 import json
@@ -29,8 +29,8 @@ from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD, 
 __all__ = ["PropertyEdge", "PropertyGraph", "PropertyNode", "Value", "read_property_graph"]
 
 Value = str | float | int | bool
-_Node = ox.NamedNode | ox.BlankNode
-_Term = _Node | ox.Literal | ox.Triple
+_Resource = ox.NamedNode | ox.BlankNode
+_Term = _Resource | ox.Literal | ox.Triple
 
 _LIST_SEPARATOR = " | "
 
@@ -39,11 +39,11 @@ class PropertyNode(NamedTuple):
     """An object, a room or a joint."""
 
     id: str
-    """Its IRI."""
+    """IRI."""
     labels: tuple[str, ...]
-    """`Thing`, then `Object`, `Room` or `Joint`, then its class and all above that, the most general first."""
+    """`Thing`, then `Object`, `Room` or `Joint`, then the superclasses and the class, most general first."""
     properties: Mapping[str, Value]
-    """Lengths in metres, masses in kilograms, angles of joints in radians, world frame, z up."""
+    """Metres, kilograms and radians; world frame, z-up."""
 
 
 class PropertyEdge(NamedTuple):
@@ -57,41 +57,41 @@ class PropertyEdge(NamedTuple):
 
 @dataclass(frozen=True)
 class PropertyGraph:
-    """Nodes in the order of the file that they come from, and edges in the order of their first nodes."""
+    """Nodes in file order; edges in the order of their start nodes."""
 
     nodes: tuple[PropertyNode, ...]
     edges: tuple[PropertyEdge, ...]
 
     def property_types(self, *, of_edges: bool) -> dict[str, type]:
-        """Return the names of all properties of nodes or edges, in order, with their types."""
-        things: Iterable[PropertyNode | PropertyEdge] = self.edges if of_edges else self.nodes
-        return {name: type(value) for thing in things for name, value in thing.properties.items()}
+        """Return property name → type for all nodes or edges, in order of first use."""
+        elements: Iterable[PropertyNode | PropertyEdge] = self.edges if of_edges else self.nodes
+        return {name: type(value) for element in elements for name, value in element.properties.items()}
 
 
 def read_property_graph(document: GraphDocument) -> PropertyGraph:
-    """Return the property graph of a graph that usd2kg built, in either profile.
+    """Return the property graph of an RDF graph built by usd2kg, in either profile.
 
     Raises:
-        GraphError: the graph has no objects of ours.
+        GraphError: the graph has no object with a u2k:primPath.
     """
     graph = _Index(document)
-    nodes = tuple(_Nodes(graph).read())
+    nodes = tuple(_NodeReader(graph).read())
     if not nodes:
         raise GraphError(f"{document.source}: holds no object with a u2k:primPath; expected a graph that usd2kg built")
-    return PropertyGraph(nodes, tuple(_Edges(graph, [node.id for node in nodes]).read()))
+    return PropertyGraph(nodes, tuple(_EdgeReader(graph, [node.id for node in nodes]).read()))
 
 
 @dataclass
 class _Index:
-    """The triples by subject, and what annotates statements."""
+    """Triples by subject and predicate, and annotations by statement."""
 
     document: GraphDocument
-    of: dict[_Node, dict[ox.NamedNode, list[_Term]]] = field(default_factory=dict)
+    of: dict[_Resource, dict[ox.NamedNode, list[_Term]]] = field(default_factory=dict)
     notes: dict[tuple[_Term, _Term, _Term], dict[ox.NamedNode, list[_Term]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for triple in self.document.triples:
-            assert not isinstance(triple.subject, ox.Triple), "RDF 1.2 has no triples as subjects"
+            assert not isinstance(triple.subject, ox.Triple), "RDF 1.2 has no triple terms as subjects"
             self.of.setdefault(triple.subject, {}).setdefault(triple.predicate, []).append(triple.object)
         for known in self.of.values():
             for term in known.get(RDF.reifies, ()):
@@ -109,7 +109,7 @@ class _Index:
         return next((_text(value) for value in self.values(node, name)), "")
 
 
-class _Nodes:
+class _NodeReader:
     """Reads the nodes of a property graph."""
 
     def __init__(self, graph: _Index) -> None:
@@ -142,7 +142,7 @@ class _Nodes:
         return tuple(name for name in names if name and name not in {"Thing", "Object"})
 
     def _closure(self, cls: _Term) -> list[_Term]:
-        """Return a class and all above it, the most general first."""
+        """Return a class and its superclasses, most general first."""
         if cls not in self._above:
             self._above[cls] = []
             found: dict[_Term, None] = {}
@@ -169,7 +169,7 @@ class _Nodes:
         return self._named(node, U2K.definingPrim) | self._measured(node)
 
     def _joint_labels(self, node: ox.NamedNode) -> tuple[str, ...]:
-        """Return what kind of joint it is, in words that both profiles share."""
+        """Return the joint type as a label that both profiles share."""
         kinds = {_text(kind).rpartition("#")[2] for kind in self._graph.values(node, RDF.type)}
         kinds = {"RevoluteJoint" if kind in {"HingeJoint", "ContinuousJoint"} else kind for kind in kinds}
         own = ("RevoluteJoint", "PrismaticJoint", "FixedJoint", "SphericalJoint", "DistanceJoint")
@@ -184,7 +184,7 @@ class _Nodes:
         return found | ({"scene": scene} if scene else {})
 
     def _measured(self, node: ox.NamedNode) -> dict[str, Value]:
-        """Return what the node and those that describe it say in numbers and texts, in a fixed order."""
+        """Return the numbers and texts of a node and its quality nodes, in a fixed order."""
         found: dict[str, Value] = {}
         for part in self._described_by(node):
             known = self._graph.of.get(part, {})
@@ -200,7 +200,7 @@ class _Nodes:
         order = [*NUMBERS.values(), *(key for keys in VECTORS.values() for key in keys), *TEXTS.values()]
         return {key: found[key] for key in dict.fromkeys(order) if key in found}
 
-    def _described_by(self, node: _Node) -> Iterator[_Node]:
+    def _described_by(self, node: _Resource) -> Iterator[_Resource]:
         yield node
         for name in PARTS:
             for part in self._graph.values(node, name):
@@ -208,7 +208,7 @@ class _Nodes:
                     yield from self._described_by(part) if name != DUL.hasRegion else (part,)
 
 
-class _Edges:
+class _EdgeReader:
     """Reads the edges of a property graph."""
 
     def __init__(self, graph: _Index, ids: list[str]) -> None:
@@ -221,7 +221,7 @@ class _Edges:
             if edge.start not in self._places or edge.end not in self._places:
                 continue
             key = self._key(edge)
-            # The direction that carries the numbers is the one that was found.
+            # Keep the annotated direction.
             if key not in found or (edge.properties and not found[key].properties):
                 found[key] = edge
         above = {(edge.start, edge.end) for edge in found.values() if edge.type == "ABOVE"}
@@ -268,7 +268,7 @@ def _numbers(known: Mapping[ox.NamedNode, list[_Term]], names: Mapping[ox.NamedN
 
 
 def _number(value: _Term) -> Value | None:
-    """Return a number or truth value; None where the text is none."""
+    """Return a number or Boolean; None for other terms."""
     if not isinstance(value, ox.Literal):
         return None
     try:
@@ -297,7 +297,7 @@ def _vector(text: str, keys: tuple[str, ...]) -> dict[str, Value]:
 
 
 def _plain_color(text: str) -> str:
-    """Return the colour in USD.owl's list of lists as three numbers; empty where there is none."""
+    """Return the colour of a USD.owl JSON array as three numbers; empty if malformed."""
     try:
         color = json.loads(text)[0]
         return " ".join(str(float(channel)) for channel in color)

@@ -1,46 +1,29 @@
-"""What each RDF property becomes in a property graph, in both profiles."""
+"""Mapping of RDF properties of both profiles to edges and properties of a property graph."""
 
-from usd2kg.graph.vocabulary import DUL, KNOWROB, OWL, RDFS, SKOS, SOMA, U2K, USD
+from usd2kg.graph.relation_patterns import KIND_OF_PROPERTY
+from usd2kg.graph.vocabulary import DUL, OWL, RDFS, SKOS, SOMA, U2K, USD
 
 __all__ = ["EDGES", "EDGE_NUMBERS", "NUMBERS", "OBJECT_CLASSES", "PARTS", "SYMMETRIC", "TEXTS", "VECTORS"]
 
 OBJECT_CLASSES = frozenset({USD.Prim, U2K.Object, OWL.NamedIndividual})
-"""What every object is: no label says so but `Object`."""
+"""Classes without a label of their own."""
 SYMMETRIC = frozenset({"TOUCHING", "NEXT_TO", "NEAR"})
-"""Types of edges that hold both ways; each is one edge."""
+"""Edge types of symmetric relations."""
 
+_EDGE_TYPES = {"left": "LEFT_OF", "right": "RIGHT_OF", "front": "IN_FRONT_OF", "room": "IN_ROOM"}
 EDGES = {
-    SOMA.isOntopOf: "ON",
-    U2K.on: "ON",
-    SOMA.isInsideOf: "INSIDE",
-    U2K.inside: "INSIDE",
-    KNOWROB.isAboveOf: "ABOVE",
-    U2K.above: "ABOVE",
-    KNOWROB.isBelowOf: "BELOW",
-    U2K.below: "BELOW",
-    DUL.hasCommonBoundary: "TOUCHING",
-    U2K.touching: "TOUCHING",
-    KNOWROB.isNextTo: "NEXT_TO",
-    U2K.nextTo: "NEXT_TO",
-    DUL.nearTo: "NEAR",
-    U2K.near: "NEAR",
-    KNOWROB.isLeftOf: "LEFT_OF",
-    U2K.leftOf: "LEFT_OF",
-    KNOWROB.isRightOf: "RIGHT_OF",
-    U2K.rightOf: "RIGHT_OF",
-    KNOWROB.isInFrontOf: "IN_FRONT_OF",
-    U2K.inFrontOf: "IN_FRONT_OF",
-    KNOWROB.isBehindOf: "BEHIND",
-    U2K.behind: "BEHIND",
-    U2K.inRoom: "IN_ROOM",
-    U2K.partOf: "PART_OF",
+    **{
+        name: _EDGE_TYPES.get(kind, kind.upper().replace("-", "_"))
+        for name, kind in KIND_OF_PROPERTY.items()
+        if name != SOMA.isSupportedBy
+    },
     U2K.hasJoint: "HAS_JOINT",
     SOMA.hasParentLink: "PARENT",
     U2K.parentObject: "PARENT",
     SOMA.hasChildLink: "CHILD",
     U2K.childObject: "CHILD",
 }
-"""Property → type of edge, in the same direction."""
+"""Property → edge type, in the same direction."""
 
 TEXTS = {
     U2K.asset: "asset",
@@ -56,7 +39,7 @@ TEXTS = {
     U2K.status: "status",
     U2K.explanation: "explanation",
 }
-"""Property → the property of the node, text."""
+"""RDF property → text property."""
 NUMBERS = {
     U2K.width: "width",
     SOMA.hasDepth: "width",
@@ -76,7 +59,7 @@ NUMBERS = {
     U2K.isEnabled: "isEnabled",
     U2K.closesLoop: "closesLoop",
 }
-"""Property → the property of the node, a number or truth value."""
+"""RDF property → number or Boolean property."""
 _POSITION, _ORIENTATION = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
 VECTORS = {
     U2K.boxCenter: ("centerX", "centerY", "centerZ"),
@@ -90,7 +73,7 @@ VECTORS = {
     U2K.jointAxis: ("axisX", "axisY", "axisZ"),
     U2K.jointOrigin: ("originX", "originY", "originZ"),
 }
-"""Property with several numbers as text → the properties that they become."""
+"""RDF property with a vector literal → number properties of its components."""
 PARTS = (
     SOMA.hasShape,
     SOMA.hasLocalization,
@@ -101,6 +84,6 @@ PARTS = (
     SOMA.hasJointState,
     DUL.hasRegion,
 )
-"""Properties that lead from an object to the nodes that say how large it is, where, how heavy."""
+"""Properties from an object to its quality nodes and their regions."""
 EDGE_NUMBERS = ("gap", "distance", "overlapRatio", "insideRatio", "betweenRatio", "angle", "margin")
-"""What is measured of a relation."""
+"""Measurements of relations."""

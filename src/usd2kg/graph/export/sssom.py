@@ -1,7 +1,7 @@
 """The mapping of prims to classes as SSSOM/TSV (https://mapping-commons.github.io/sssom/spec/), version 1.1.
 
-The predicate is rdf:type: an object of a scene is an individual, its match a class, and that is what the graph states.
-SSSOM's usual predicates, skos:exactMatch and its kin, hold between concepts.
+The predicate is rdf:type, since the subject is an individual and the object a class. SSSOM's usual SKOS mapping
+predicates relate concepts.
 """
 
 import csv
@@ -22,7 +22,7 @@ from usd2kg.ontology import TBox
 __all__ = ["UNSPECIFIED_LICENSE", "format_sssom"]
 
 UNSPECIFIED_LICENSE = "https://w3id.org/sssom/license/unspecified"
-"""What SSSOM asks to be written where nobody chose a licence."""
+"""SSSOM's value for an unspecified licence."""
 
 _COLUMNS = (
     "subject_id",
@@ -42,11 +42,11 @@ _COLUMNS = (
     "alternatives",
 )
 _EXTENSIONS = {"prim_path": "primPath", "status": "status", "grounder": "grounder", "alternatives": "alternative"}
-"""Column beyond SSSOM's → our term for it."""
+"""Extension column → u2k term."""
 _CLAIMS = frozenset({Status.REFUSED, Status.REVIEWED})
-"""Without a class, these say that none fits; the others say nothing about the object."""
+"""Statuses that, without a class, state that no class fits."""
 _LOCAL = re.compile(r"[^#/:]+")
-"""What follows the base of the individuals in their IRIs."""
+"""Local name of an individual."""
 _PREFIX = "scene"
 
 
@@ -59,22 +59,21 @@ def format_sssom(
     license_iri: str = UNSPECIFIED_LICENSE,
     mapping_date: str | None = None,
 ) -> str:
-    """Return the mapping as SSSOM/TSV, with our columns for prim path, status, grounder and other candidates.
+    """Return the mapping as SSSOM/TSV, with extension columns for prim path, status, grounder and alternatives.
 
-    Objects that the grounder was not able to judge (failed, unreadable, missing) have no row; for those that no class
-    fits, the object is sssom:NoTermFound.
+    Objects without an answer (failed, unreadable, missing) have no row; objects that no class fits map to
+    sssom:NoTermFound.
 
     Args:
         grounding: the mapping.
-        tbox: the classes it maps to.
+        tbox: the classes.
         names: prim path → label, as in the graph.
-        base: IRI under which the individuals lie; by default as for graphs, made from the file's name.
+        base: namespace of the individuals; by default derived from the file name, as for graphs.
         license_iri: the licence of the mapping.
-        mapping_date: when the mapping was made, as 2026-07-15; None leaves it out, so that the same input gives the
-            same bytes.
+        mapping_date: ISO date such as 2026-07-15; None omits it, which keeps the output reproducible.
 
     Raises:
-        GraphError: the base or the licence is no IRI, or the date is none.
+        GraphError: the base or the licence is no IRI, or the date is invalid.
     """
     base = check_base(base or default_base(grounding.scene))
     if named_node(license_iri) is None:
@@ -111,7 +110,7 @@ def _header(grounding: Grounding, tbox: TBox, base: str, curies: "_Curies") -> d
 
 
 class _Curies:
-    """Makes CURIEs, and keeps the namespaces that they need."""
+    """Shortens IRIs to CURIEs and collects the prefixes in use."""
 
     def __init__(self, base: str) -> None:
         self.used = {_PREFIX: base, "u2k": PREFIXES["u2k"], "xsd": PREFIXES["xsd"]}
@@ -153,18 +152,18 @@ def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies:
 
 
 def _line(text: str) -> str:
-    """Return text without line breaks and tabs, which many readers of TSV trip over."""
+    """Return text on one line, since many TSV readers do not unescape line breaks and tabs."""
     return re.sub(r"\s+", " ", text).strip()
 
 
 def _item(text: str) -> str:
-    """Return text as one item of a list that bars part."""
+    """Return text escaped as an item of a |-separated list."""
     return _line(text).replace("|", r"\|")
 
 
 def _document(header: Mapping[str, str], curies: _Curies, rows: Iterable[Mapping[str, str]]) -> str:
     lines = ['sssom_version: "1.1"', "curie_map:"]
-    # A JSON string is a YAML string, whatever is in it.
+    # Every JSON string is a YAML string.
     lines += [f"  {prefix}: {json.dumps(iri)}" for prefix, iri in sorted(curies.used.items())]
     lines += [f"{name}: {json.dumps(_line(value))}" for name, value in header.items()]
     lines.append("extension_definitions:")

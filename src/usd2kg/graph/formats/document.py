@@ -1,4 +1,4 @@
-"""A graph as it stands in a file: triples in their order, in named graphs or in none, and the file's prefixes."""
+"""RDF documents: ordered triples in named graphs, with prefixes; reading and format detection."""
 
 import gzip
 import zlib
@@ -36,53 +36,53 @@ RDF_FORMATS = {
     ".owl": ox.RdfFormat.RDF_XML,
     ".jsonld": ox.RdfFormat.JSON_LD,
 }
-"""File ending → syntax of RDF that is read and written; each may be followed by .gz."""
+"""File extension → RDF syntax for reading and writing; each may be followed by .gz."""
 
 
 TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
-"""What is said of a file that the parser has no memory for."""
+"""Error text for a literal beyond the limit of the parser."""
 _READ_ELSEWHERE = {
     ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
-    ".graphml": "graphs are not read from GraphML, which is for other programs",
+    ".graphml": "graphs are not read from GraphML, an export format",
 }
-"""File ending that is written only → who reads it."""
+"""Write-only file extension → reason."""
 
 
 class GraphPart(NamedTuple):
     """The triples of one named graph."""
 
     iri: str
-    """Name of the graph; empty for the default graph."""
+    """IRI or blank node label of the graph; empty for the default graph."""
     triples: Sequence[ox.Triple]
 
 
 @dataclass(frozen=True)
 class GraphDocument:
-    """What a file of RDF holds."""
+    """The contents of an RDF file."""
 
     parts: tuple[GraphPart, ...]
     prefixes: Mapping[str, str]
     source: str
-    """Where it comes from, for messages."""
+    """File or graph IRI, for error messages."""
 
     @property
     def triples(self) -> Sequence[ox.Triple]:
-        """All triples, whatever graph they are in, each once."""
+        """The union of all graphs, without duplicates."""
         if len(self.parts) == 1:
             return self.parts[0].triples
         return tuple(dict.fromkeys(triple for part in self.parts for triple in part.triples))
 
 
 def document_of(graph: KnowledgeGraph) -> GraphDocument:
-    """Return a graph that was just made: one named graph, called as its ontology is."""
+    """Return the document of a graph: one named graph with the ontology IRI as its name."""
     return GraphDocument((GraphPart(graph.iri, graph.triples),), graph.prefixes, graph.iri)
 
 
 def rdf_format(path: Path) -> ox.RdfFormat:
-    """Return the syntax that a file name asks for, without regard to a last .gz.
+    """Return the RDF syntax for a file name, ignoring a final .gz.
 
     Raises:
-        GraphError: the ending names no syntax of RDF.
+        GraphError: the extension names no RDF syntax.
     """
     name = path.with_suffix("") if path.suffix.lower() == ".gz" else path
     found = RDF_FORMATS.get(name.suffix.lower())
@@ -95,11 +95,11 @@ def rdf_format(path: Path) -> ox.RdfFormat:
 
 
 def open_rdf(path: Path) -> BinaryIO:
-    """Open a file to read, through gzip where its name ends in .gz.
+    """Open a file for reading, decompressed if its name ends in .gz.
 
     Raises:
-        SyntaxError: it is RDF/XML whose entities expand out of bounds.
-        OSError, EOFError, zlib.error: it cannot be read.
+        SyntaxError: the file is RDF/XML with an entity expansion attack.
+        OSError, EOFError, zlib.error: the file cannot be read.
     """
     if rdf_format(path) == ox.RdfFormat.RDF_XML:
         with _open_binary(path) as file:
@@ -112,12 +112,12 @@ def _open_binary(path: Path) -> BinaryIO:
 
 
 def read_document(path: Path) -> GraphDocument:
-    """Return what a file of RDF holds, in its order.
+    """Return the contents of an RDF file in file order.
 
-    Triples outside a named graph belong to the graph of the ontology that the file declares, if it declares one.
+    Default-graph triples are assigned to the graph named by the ontology that the file declares, if any.
 
     Raises:
-        GraphError: the file is missing, its ending names no RDF format, or it does not parse.
+        GraphError: the file is missing, its extension names no RDF format, or it does not parse.
     """
     syntax = rdf_format(path)
     if not path.is_file():
@@ -128,7 +128,7 @@ def read_document(path: Path) -> GraphDocument:
             parts = tuple(_parts(parser))
             prefixes = dict(parser.prefixes)
     except MemoryError as error:
-        # So pyoxigraph says it, whose parser holds no text of more than 16 MiB.
+        # pyoxigraph's parser buffers at most 16 MiB per token.
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = " ".join(str(error).split())
@@ -153,7 +153,7 @@ def _ontology(triples: Sequence[ox.Triple]) -> str:
 
 
 def _base(parts: tuple[GraphPart, ...]) -> str:
-    """Return where the individuals lie: in our graphs, under the name of the graph."""
+    """Return the namespace of the individuals, which extends the graph IRI."""
     for part in parts:
         for end in "/#":
             base = part.iri + end
@@ -163,10 +163,10 @@ def _base(parts: tuple[GraphPart, ...]) -> str:
 
 
 def refuse_rdf12(triple: ox.Triple, syntax: str, source: str) -> None:
-    """Raise GraphError if a triple needs RDF 1.2: a triple term, or a text with a direction."""
+    """Raise GraphError for a triple that needs RDF 1.2: a triple term or a directional literal."""
     value = triple.object
     if isinstance(value, ox.Triple) or (isinstance(value, ox.Literal) and value.direction is not None):
         raise GraphError(
-            f"{source}: what is said of {triple.subject} needs RDF 1.2, which {syntax} has not; choose .ttl, .trig, "
+            f"{source}: a statement about {triple.subject} needs RDF 1.2, which {syntax} lacks; choose .ttl, .trig, "
             ".nt or .nq, or annotate statements as OWL does (--annotations owl)"
         )

@@ -1,4 +1,4 @@
-"""RDF/XML (RDF 1.1 XML Syntax), written in pieces: one Description for each run of triples with one subject."""
+"""Streamed RDF/XML (RDF 1.1 XML Syntax), one rdf:Description per run of triples with the same subject."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,9 +17,9 @@ _START = (
     "A-Z_a-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
     "\u2c00-\u2fef\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
 )
-"""Letters that a name may begin with (Namespaces in XML 1.0, section 3)."""
+"""NameStartChar without the colon (Namespaces in XML 1.0, section 3)."""
 _NAME = re.compile(f"(.*?)([{_START}][{_START}\\-.0-9\u00b7\u0300-\u036f\u203f\u2040]*)\\Z", flags=re.DOTALL)
-"""The longest end of an IRI that can be the name of an element."""
+"""Longest suffix of an IRI that is an NCName."""
 _RESERVED = {
     "Description",
     "RDF",
@@ -33,21 +33,21 @@ _RESERVED = {
     "parseType",
     "resource",
 }
-"""Names in RDF's namespace that are no properties in this syntax (RDF 1.1 XML Syntax, section 6.2)."""
+"""Local names of the RDF namespace that are no property elements (RDF 1.1 XML Syntax, section 6.2)."""
 _PREFIX = re.compile(r"[A-Za-z_][\w.-]*\Z", flags=re.ASCII)
 _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 cannot hold, not even escaped (section 2.2)."""
+"""Characters that are illegal in XML 1.0, even escaped (section 2.2)."""
 _RETURN = {"\r": "&#13;"}
-"""A reader of XML turns a bare carriage return into a line feed (section 2.11)."""
+"""XML readers normalise a bare carriage return to a line feed (section 2.11)."""
 _SUBJECTS = 10_000
-"""Runs of triples that are put into one piece."""
+"""Runs of triples per chunk."""
 
 
 def rdf_xml_pieces(triples: Sequence[ox.Triple], prefixes: Mapping[str, str], source: str) -> Iterator[bytes]:
-    """Yield the file.
+    """Yield the file in chunks.
 
     Raises:
-        GraphError: a property's IRI does not end in an XML name, or a value holds what XML cannot.
+        GraphError: a property IRI does not end in an NCName, or a literal contains an illegal character.
     """
     names = _Names(prefixes, source)
     yield b'<?xml version="1.0" encoding="UTF-8"?>\n<rdf:RDF'
@@ -60,7 +60,7 @@ def rdf_xml_pieces(triples: Sequence[ox.Triple], prefixes: Mapping[str, str], so
 
 
 class _Names:
-    """Names of elements for the IRIs of properties."""
+    """Qualified element names of property IRIs."""
 
     def __init__(self, prefixes: Mapping[str, str], source: str) -> None:
         self.source = source
@@ -69,7 +69,7 @@ class _Names:
         self._known: dict[str, tuple[str, str]] = {}
 
     def element(self, iri: str) -> tuple[str, str]:
-        """Return the name of an element and the declaration that it needs, if any."""
+        """Return the element name and its namespace declaration, if needed."""
         if iri not in self._known:
             self._known[iri] = self._find(iri)
         return self._known[iri]
@@ -78,7 +78,7 @@ class _Names:
         found = _NAME.match(iri)
         if found is None or not found[1] or (found[1] == RDF.iri and found[2] in _RESERVED):
             raise GraphError(
-                f"{self.source}: the property <{iri}> does not end in a name that XML has; RDF/XML cannot hold it, "
+                f"{self.source}: the property <{iri}> does not end in an XML name, as RDF/XML requires; "
                 "choose .ttl, .nt or .jsonld"
             )
         namespace, name = found.groups()
@@ -100,8 +100,8 @@ def _property(triple: ox.Triple, names: _Names) -> str:
         return f"    <{name}{declaration} {_reference(value, 'resource')}/>\n"
     if wrong := not_xml(value.value):
         raise GraphError(
-            f"{names.source}: a value of <{triple.predicate.value}> of {triple.subject} holds {wrong!r}; "
-            "XML cannot hold it, choose .ttl, .nt or .jsonld"
+            f"{names.source}: a value of <{triple.predicate.value}> of {triple.subject} contains {wrong!r}; "
+            "XML cannot represent it, choose .ttl, .nt or .jsonld"
         )
     if value.language:
         kind = f' xml:lang="{value.language}"'
@@ -120,28 +120,28 @@ def _reference(node: ox.NamedNode | ox.BlankNode | ox.Triple, attribute: str) ->
 
 
 def _node_id(label: str) -> str:
-    """Return the name of a blank node: a name in XML begins with a letter, and no two nodes may become one."""
+    """Return an NCName for a blank node label, injectively."""
     found = _NAME.match(label)
     is_name = found is not None and not found[1] and not label.startswith("b_")
     return label if is_name else f"b_{label}"
 
 
 def not_xml(text: str) -> str | None:
-    """Return the first character that XML cannot hold, None if there is none."""
+    """Return the first character that is illegal in XML, or None."""
     found = _NO_XML.search(text)
     return found[0] if found else None
 
 
 def xml_text(text: str) -> str:
-    """Return text as the content of an element, `]]>` and carriage returns included."""
+    """Return text escaped as element content."""
     return escape(text, _RETURN)
 
 
 def xml_attribute(text: str) -> str:
-    """Return text as the value of an attribute in double quotes."""
+    """Return text escaped as a double-quoted attribute value."""
     return escape(text, {**_RETURN, '"': "&quot;", "\n": "&#10;", "\t": "&#9;"})
 
 
 def replace_not_xml(text: str) -> str:
-    """Return text with U+FFFD for each character that XML cannot hold."""
+    """Return text with U+FFFD for each character that is illegal in XML."""
     return _NO_XML.sub("\ufffd", text)

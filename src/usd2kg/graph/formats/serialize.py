@@ -1,4 +1,4 @@
-"""Writing graphs to files: the same graph gives the same bytes."""
+"""Deterministic serialisation of graphs to files."""
 
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -20,26 +20,26 @@ from usd2kg.ontology import write_functional_syntax
 __all__ = ["GRAPH_FORMATS", "GraphFormat", "graph_format", "serialize_graph", "write_graph"]
 
 _CHUNK = 100_000
-"""Triples that are serialised at a time."""
+"""Triples per serialised chunk."""
 
-Pieces = Iterator[bytes | memoryview]
+Chunks = Iterator[bytes | memoryview]
 
 
 class GraphFormat(NamedTuple):
-    """A format of files that graphs are written in."""
+    """A file format for graphs."""
 
     name: str
-    write: Callable[[GraphDocument], Pieces]
-    """Yields the file in pieces, so that a large one need not be in memory whole."""
+    write: Callable[[GraphDocument], Chunks]
+    """Yields the file in chunks."""
 
 
 def graph_format(path: Path) -> GraphFormat:
-    """Return the format that a file name asks for, without regard to a last .gz.
+    """Return the format for a file name, ignoring a final .gz.
 
     Raises:
-        GraphError: the ending is not known.
+        GraphError: the extension is unknown.
     """
-    name = path.with_suffix("") if _is_packed(path) else path
+    name = path.with_suffix("") if _is_compressed(path) else path
     found = GRAPH_FORMATS.get(name.suffix.lower())
     if found is None:
         endings = ", ".join(GRAPH_FORMATS)
@@ -48,49 +48,49 @@ def graph_format(path: Path) -> GraphFormat:
 
 
 def serialize_graph(graph: KnowledgeGraph | GraphDocument, rdf_format: ox.RdfFormat) -> bytes:
-    """Return the graph in a syntax of RDF, deterministically.
+    """Return the graph in an RDF syntax, deterministically.
 
     Raises:
-        GraphError: the syntax cannot hold the graph.
+        GraphError: the syntax cannot represent the graph.
     """
     ending = next(ending for ending, syntax in RDF_FORMATS.items() if syntax == rdf_format)
-    return b"".join(_pieces(graph, GRAPH_FORMATS[ending]))
+    return b"".join(_chunks_of(graph, GRAPH_FORMATS[ending]))
 
 
 def write_graph(graph: KnowledgeGraph | GraphDocument, path: Path | str) -> None:
-    """Write the graph to `path`, in the format of its ending, whole or not at all; packed where that ends in .gz.
+    """Write the graph atomically, in the format of the file extension; compressed if it ends in .gz.
 
     Raises:
-        GraphError: the ending is not known, or the format cannot hold the graph.
+        GraphError: the extension is unknown, or the format cannot represent the graph.
         OutputError: the file cannot be written.
     """
     path = Path(path)
-    pieces = _pieces(graph, graph_format(path))
-    write_whole(path, _packed(pieces) if _is_packed(path) else pieces)
+    pieces = _chunks_of(graph, graph_format(path))
+    write_whole(path, _compressed(pieces) if _is_compressed(path) else pieces)
 
 
-def _pieces(graph: KnowledgeGraph | GraphDocument, chosen: GraphFormat) -> Pieces:
+def _chunks_of(graph: KnowledgeGraph | GraphDocument, chosen: GraphFormat) -> Chunks:
     return chosen.write(document_of(graph) if isinstance(graph, KnowledgeGraph) else graph)
 
 
-def _is_packed(path: Path) -> bool:
+def _is_compressed(path: Path) -> bool:
     return path.suffix.lower() == ".gz"
 
 
-def _packed(pieces: Iterable[bytes | memoryview]) -> Iterator[bytes]:
-    # Python's gzip writes the time into the file; zlib does not.
-    packer = zlib.compressobj(wbits=31)
+def _compressed(pieces: Iterable[bytes | memoryview]) -> Iterator[bytes]:
+    # Python's gzip module writes a time stamp; zlib does not.
+    compressor = zlib.compressobj(wbits=31)
     for piece in pieces:
-        yield packer.compress(piece)
-    yield packer.flush()
+        yield compressor.compress(piece)
+    yield compressor.flush()
 
 
-def _turtle(document: GraphDocument) -> Pieces:
+def _turtle(document: GraphDocument) -> Chunks:
     yield _prefix_lines(document.prefixes)
     yield from _statements(document.triples, document.prefixes)
 
 
-def _trig(document: GraphDocument) -> Pieces:
+def _trig(document: GraphDocument) -> Chunks:
     yield _prefix_lines(document.prefixes)
     for part in document.parts:
         if part.iri:
@@ -101,12 +101,12 @@ def _trig(document: GraphDocument) -> Pieces:
 
 
 def _prefix_lines(prefixes: Mapping[str, str]) -> bytes:
-    # The serialiser writes its prefixes in an order that changes from run to run.
+    # The serialiser's prefix order varies between runs.
     return "".join(sorted(f"@prefix {name}: <{iri}> .\n" for name, iri in prefixes.items())).encode()
 
 
-def _statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> Pieces:
-    """Yield statements of Turtle without the prefixes."""
+def _statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> Chunks:
+    """Yield Turtle statements without prefix declarations."""
     for chunk in _chunks(triples):
         data = _bytes(ox.serialize(chunk, format=ox.RdfFormat.TURTLE, prefixes=dict(prefixes)))
         end = 0
@@ -115,15 +115,15 @@ def _statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> Pi
         yield memoryview(data)[end:]
 
 
-def _n_triples(document: GraphDocument) -> Pieces:
+def _n_triples(document: GraphDocument) -> Chunks:
     return _lines(document.triples)
 
 
-def _n_quads(document: GraphDocument) -> Pieces:
+def _n_quads(document: GraphDocument) -> Chunks:
     for part in document.parts:
         end = f" {_graph_name(part.iri)} .\n".encode() if part.iri else b" .\n"
         for lines in _lines(part.triples):
-            # A line feed ends a line and stands nowhere else.
+            # N-Triples escapes line feeds in literals.
             yield lines.replace(b" .\n", end)
 
 
@@ -137,7 +137,7 @@ def _lines(triples: Sequence[ox.Triple]) -> Iterator[bytes]:
 
 
 def _chunks(triples: Sequence[ox.Triple]) -> Iterator[Sequence[ox.Triple]]:
-    """Yield the triples in runs of some length, parted where the subject changes."""
+    """Yield chunks of triples that end where the subject changes."""
     start = 0
     while start < len(triples):
         end = start + _CHUNK
@@ -152,25 +152,25 @@ def _bytes(data: bytes | None) -> bytes:
     return data
 
 
-def _rdf_xml(document: GraphDocument) -> Pieces:
+def _rdf_xml(document: GraphDocument) -> Chunks:
     return rdf_xml_pieces(document.triples, document.prefixes, document.source)
 
 
-def _json_ld(document: GraphDocument) -> Pieces:
+def _json_ld(document: GraphDocument) -> Chunks:
     for triple in document.triples:
         refuse_rdf12(triple, "JSON-LD", document.source)
     yield _bytes(ox.serialize(document.triples, format=ox.RdfFormat.JSON_LD))
 
 
-def _functional(document: GraphDocument) -> Pieces:
+def _functional(document: GraphDocument) -> Chunks:
     for triple in document.triples:
         refuse_rdf12(triple, "OWL", document.source)
     rdf = b"".join(_lines(document.triples)).decode()
-    # The scene's own prefix would make names that functional syntax has not, like :-stage.
+    # The scene's prefix would give illegal abbreviated IRIs in functional syntax, such as :-stage.
     yield write_functional_syntax(rdf, PREFIXES, document.source).encode()
 
 
-def _graphml(document: GraphDocument) -> Pieces:
+def _graphml(document: GraphDocument) -> Chunks:
     return graphml_pieces(read_property_graph(document))
 
 
@@ -185,4 +185,4 @@ GRAPH_FORMATS = {
     ".ofn": GraphFormat("OWL functional syntax", _functional),
     ".graphml": GraphFormat("GraphML", _graphml),
 }
-"""File ending → format that can be written; each may be followed by .gz."""
+"""File extension → output format; each may be followed by .gz."""
