@@ -1,4 +1,4 @@
-"""Pictures of a graph as SVG or PNG: one object in its surroundings, or what stands on what in a room."""
+"""SVG and PNG diagrams of a graph: a room as cards, or one object in its surroundings."""
 
 from usd2kg.diagrams.png import to_png
 from usd2kg.diagrams.room_cards import draw_room

@@ -1,11 +1,11 @@
-"""What a picture shows of each object, and groups of objects that are alike."""
+"""Tree of the objects in a graph, and its lines in a diagram."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from usd2kg.query.graph_store import GraphStore
 
-__all__ = ["CardLine", "TreeObject", "class_families", "group_similar", "read_object_tree"]
+__all__ = ["CardLine", "TreeObject", "class_families", "group_similar", "read_object_tree", "single_line"]
 
 _OBJECTS = """
 SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WHERE {
@@ -33,15 +33,15 @@ SELECT DISTINCT ?c ?label ?parent WHERE {
 }"""
 
 _FAMILIES = 8
-"""Colours that a person still tells apart."""
+"""Distinguishable colours."""
 _OTHER = "other"
 _MAX_GROUP_LETTERS = 24
-"""Of the labels of objects that share a line."""
+"""Letters of the labels listed for a group."""
 
 
 @dataclass
 class TreeObject:
-    """An object, and what it hangs on in the tree: what it is in, else on, else part of, else jointed to."""
+    """An object below what contains it, else supports it, else has it as a part, else is jointed to it."""
 
     iri: str
     path: str
@@ -50,29 +50,29 @@ class TreeObject:
     class_label: str
     confidence: float | None
     size: str
-    """"width × depth × height cm", of the world box; empty without one."""
+    """"width × depth × height cm" of the world box; empty without one."""
     parent: str | None
     tie: str
-    """How it hangs on its parent: in, on, part, joint; empty without a parent."""
+    """Relation to the parent: in, on, part or joint; empty for a root."""
     family: str = _OTHER
     children: list["TreeObject"] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
 class CardLine:
-    """One line of a picture: a obj, or several alike."""
+    """A line of a diagram: one object, or a group of similar ones."""
 
     text: str
     detail: str
     tie: str
     family: str
     names: str
-    """For the tooltip."""
+    """Tooltip."""
     children: tuple["CardLine", ...] = ()
 
 
 def read_object_tree(store: GraphStore) -> dict[str, TreeObject]:
-    """Return the objects of a graph by IRI, in the order of their paths, each below its parent."""
+    """Return IRI → object in the order of prim paths, linked to parents and children."""
     objects: dict[str, TreeObject] = {}
     for values in store.sparql(_OBJECTS).values:
         row = dict(
@@ -115,7 +115,7 @@ def _tree_object(row: Mapping[str, str | float | int | bool | None]) -> TreeObje
 
 
 def _is_own_ancestor(obj: TreeObject, objects: Mapping[str, TreeObject]) -> bool:
-    """Return whether a obj would hang below itself, since the ties of a graph may run in a circle."""
+    """Return whether the chain of parents is cyclic."""
     seen = {obj.iri}
     above = obj.parent
     while above is not None and above in objects:
@@ -127,9 +127,9 @@ def _is_own_ancestor(obj: TreeObject, objects: Mapping[str, TreeObject]) -> bool
 
 
 def class_families(store: GraphStore, used: Iterable[str]) -> dict[str, str]:
-    """Return the family of each used class: the largest groups are split until there are enough to tell apart.
+    """Return class IRI → label of its family; the smallest families are merged into "other".
 
-    A family is a class with all below it, by the first of its superclasses; the smallest families are one, "other".
+    A family is a superclass with its subclasses. The largest families are split until there are as many as colours.
     """
     labels: dict[str, str] = {}
     parent_of: dict[str, str] = {}
@@ -157,7 +157,7 @@ def class_families(store: GraphStore, used: Iterable[str]) -> dict[str, str]:
 
 
 def _chain(iri: str, parent_of: Mapping[str, str], labels: Mapping[str, str]) -> list[str]:
-    """Return a class and those above it, the topmost first."""
+    """Return a class and its first superclasses, the root first."""
     chain = [iri]
     while (above := parent_of.get(chain[0])) and above in labels and above not in chain:
         chain.insert(0, above)
@@ -165,26 +165,27 @@ def _chain(iri: str, parent_of: Mapping[str, str], labels: Mapping[str, str]) ->
 
 
 def group_similar(objects: Iterable[TreeObject]) -> tuple[CardLine, ...]:
-    """Return objects as lines; those that carry nothing and are of one class and tie share a line."""
+    """Return objects as lines; leaves with the same class and tie share one."""
     single: list[tuple[str, CardLine]] = []
     alike: dict[tuple[str, str], list[TreeObject]] = {}
     for obj in objects:
         if obj.children:
-            single.append((obj.path, _line(obj)))
+            single.append((obj.path, single_line(obj, group_similar(obj.children))))
         else:
             alike.setdefault((obj.class_label, obj.tie), []).append(obj)
     for (class_label, tie), group in alike.items():
         if len(group) == 1:
-            single.append((group[0].path, _line(group[0])))
+            single.append((group[0].path, single_line(group[0])))
         else:
             labels = [obj.label for obj in group]
-            line = CardLine(f"{len(group)} × {class_label}", _some(labels), tie, group[0].family, ", ".join(labels))
+            text = f"{len(group)} × {class_label}"
+            line = CardLine(text, _join_labels(labels), tie, group[0].family, ", ".join(labels))
             single.append((group[0].path, line))
     return tuple(line for _, line in sorted(single, key=lambda pair: (not pair[1].children, pair[0])))
 
 
-def _some(labels: list[str]) -> str:
-    """Return the first labels, as many as a line has room for, and an ellipsis for the others."""
+def _join_labels(labels: list[str]) -> str:
+    """Return as many labels as fit into a line, with an ellipsis for the others."""
     shown = labels[:1]
     for label in labels[1:]:
         if len(", ".join((*shown, label))) > _MAX_GROUP_LETTERS:
@@ -193,7 +194,8 @@ def _some(labels: list[str]) -> str:
     return ", ".join(shown)
 
 
-def _line(obj: TreeObject) -> CardLine:
-    sure = "" if obj.confidence is None else f" {obj.confidence:.2f}"
+def single_line(obj: TreeObject, children: tuple[CardLine, ...] = ()) -> CardLine:
+    """Return the line of one object: label, class and confidence."""
+    confidence = "" if obj.confidence is None else f" {obj.confidence:.2f}"
     names = f"{obj.path} {obj.size}".strip()
-    return CardLine(obj.label, f"{obj.class_label}{sure}", obj.tie, obj.family, names, group_similar(obj.children))
+    return CardLine(obj.label, f"{obj.class_label}{confidence}", obj.tie, obj.family, names, children)

@@ -1,4 +1,4 @@
-"""to_png: a picture as pixels, drawn by resvg with the fonts of the system."""
+"""PNG rendering of the diagrams with resvg and the fonts of the system."""
 
 import re
 from functools import cache
@@ -9,22 +9,22 @@ from usd2kg.errors import OutputError
 __all__ = ["to_png"]
 
 _SCALE = 2.0
-"""Pixels for one unit of the drawing: letters of 13 units are sharp on today's screens and in print."""
+"""Pixels per SVG unit: sharp on high-density screens and in print."""
 _MAX_PIXELS = 60e6
-"""A larger picture is drawn at a smaller scale: programs refuse it, and it takes a gigabyte to draw."""
+"""Larger images are scaled down: viewers refuse them, and rendering takes a gigabyte."""
 _SANS_SERIF = (
     "Arial", "DejaVu Sans", "Liberation Sans", "Noto Sans", "Open Sans", "Roboto", "Ubuntu", "Cantarell", "FreeSans",
     "Segoe UI", "Verdana", "Lucida Grande",
 )  # fmt: skip
-"""What may stand for a sans-serif font, where the system has none of those that the pictures name."""
+"""Fallbacks for the generic sans-serif family."""
 _SIZE = re.compile(r'<svg [^>]*?width="(\d+)" height="(\d+)"')
 
 
 def to_png(svg: str, scale: float = _SCALE) -> bytes:
-    """Return a picture that this package drew, as PNG: two pixels for each unit, fewer where that were too many.
+    """Return a diagram of this package as PNG, scaled down if it has too many pixels.
 
     Raises:
-        OutputError: resvg is not installed, or the system has no font, so that the picture would have no text.
+        OutputError: resvg is not installed, or the system has no sans-serif font.
     """
     family = _sans_serif()
     if family is None:
@@ -49,9 +49,9 @@ def _draw(svg: str, family: str, width: int) -> bytes:
 
 @cache
 def _sans_serif() -> str | None:
-    """Return what to take for a sans-serif font so that text is drawn; None if there is none.
+    """Return the first installed sans-serif family, or None.
 
-    resvg tells of no font that it lacks: it leaves the text out.
+    resvg omits text without an error if the font is missing, so each family is probed.
     """
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20" font-family="{FONT}">'
     for family in _SANS_SERIF:

@@ -1,4 +1,4 @@
-"""The room as cards: each piece of furniture with all that is on and in it, as an indented tree."""
+"""A room as cards: each piece of furniture with the objects on and in it, as an indented tree."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -15,8 +15,9 @@ _INDENT = 20.0
 _PAD = 14.0
 _GAP = 16.0
 _CARRIES = "; carries the cards whose heads are marked “on”"
+_NOTE = "Indented: on what is above it; “in”, “part”, “joint” where so. × counts alike things. Number: confidence."
 _GROUND_SHARE = 0.3
-"""Share of all objects below one of them that makes it the ground of the room."""
+"""Share of all objects below one that makes it the floor of the room."""
 
 
 class _Card(NamedTuple):
@@ -26,10 +27,10 @@ class _Card(NamedTuple):
 
 
 def draw_room(store: GraphStore, title: str) -> str:
-    """Return a picture of all objects of a graph, as SVG.
+    """Return an SVG diagram of all objects of a graph.
 
-    The obj that carries most, the floor, is the head; what stands on it has a card each, and so has what stands on
-    nothing but carries something. Things that are alike share a line.
+    The object that supports most, usually the floor, is the header. What it supports has a card each, and so has
+    every other root with children. Similar objects share a line.
     """
     objects = read_object_tree(store)
     roots = [obj for obj in objects.values() if obj.parent is None]
@@ -40,28 +41,20 @@ def draw_room(store: GraphStore, title: str) -> str:
     cards = sorted((_card(lines) for lines in _groups(roots, ground)), key=lambda card: -card.height)
     width = max([card.width for card in cards], default=200.0)
     columns = _columns(cards, width)
-    heads = [(shorten(title, 90) + f"  {len(objects)} objects", 18.0)]
+    subtitle = f"{ground.class_label}{_CARRIES}" if ground is not None else ""
+    widest = text_width(shorten(title, 90) + f"  {len(objects)} objects", 18.0)
     if ground is not None:
-        heads.append((shorten(ground.label) + ground.class_label + _CARRIES, 13.0))
-    widest = max(text_width(text, size) for text, size in heads) + 80
-    total = max(len(columns) * (width + _GAP) + _GAP, widest)
+        widest = max(widest, text_width(shorten(ground.label) + subtitle, 13.0))
+    total = max(len(columns) * (width + _GAP) + _GAP, widest + 80)
     canvas = Canvas()
-    colors = colors_of(obj.family for obj in objects.values())
-    used = sorted({obj.family for obj in objects.values()}, key=lambda name: (name == "other", name))
-    canvas.text(_GAP, 32, shorten(title, 90), f"{len(objects)} objects", size=18, bold=True)
-    note = "Indented: on what is above it; “in”, “part”, “joint” where so. × counts alike objects. Number: confidence."
-    canvas.text(_GAP, 54, note if text_width(note, 12) < total else "", size=12, fill=PALE_INK)
-    top = 66 + canvas.legend(_GAP, 66, [(name, colors[name]) for name in used], total - 2 * _GAP) + 6
+    families = {obj.family for obj in objects.values()}
+    colors = colors_of(families)
+    legend = {name: color for name, color in colors.items() if name in families}
+    top = _draw_header(canvas, title, len(objects), legend, total)
     if ground is not None:
         canvas.rectangle(_GAP, top, total - 2 * _GAP, 30, PAPER, LINE)
         canvas.dot(_GAP + 16, top + 15, colors[ground.family])
-        canvas.text(
-            _GAP + 28,
-            top + 20,
-            shorten(ground.label),
-            f"{ground.class_label}{_CARRIES}",
-            bold=True,
-        )
+        canvas.text(_GAP + 28, top + 20, shorten(ground.label), subtitle, bold=True)
         top += 30 + _GAP
     bottom = top
     for number, column in enumerate(columns):
@@ -73,8 +66,16 @@ def draw_room(store: GraphStore, title: str) -> str:
     return canvas.document(total, bottom, title)
 
 
+def _draw_header(canvas: Canvas, title: str, count: int, legend: dict[str, str], width: float) -> float:
+    """Draw title, note and legend; return the y below them."""
+    canvas.text(_GAP, 32, shorten(title, 90), f"{count} objects", size=18, bold=True)
+    if text_width(_NOTE, 12) < width:
+        canvas.text(_GAP, 54, _NOTE, size=12, fill=PALE_INK)
+    return 72 + canvas.legend(_GAP, 66, legend, width - 2 * _GAP)
+
+
 def _qualify_shared_labels(heads: list[TreeObject]) -> None:
-    """Put the prim above before the label of each of some objects that share theirs: cab_01/carcass."""
+    """Prefix shared labels with the name of the parent prim, as in cab_01/carcass."""
     shared = {label for label, count in Counter(obj.label for obj in heads).items() if count > 1}
     for obj in heads:
         above = obj.path.rpartition("/")[0].rpartition("/")[2]
@@ -87,7 +88,7 @@ def _count(obj: TreeObject) -> int:
 
 
 def _groups(roots: Iterable[TreeObject], ground: TreeObject | None) -> Iterator[tuple[CardLine, ...]]:
-    """Yield the lines of each card: one tree each, the largest first, then what carries nothing."""
+    """Yield the lines of each card: the trees, largest first, then the leaves."""
     standing = ground.children if ground else []
     free = [obj for obj in roots if obj is not ground]
     trees = [line for line in (*group_similar(standing), *group_similar(free)) if line.children]
@@ -116,13 +117,13 @@ def _widths(lines: Iterable[CardLine], depth: int) -> Iterator[float]:
 
 
 def _detail(line: CardLine, depth: int) -> str:
-    # Within a card the indent says "on"; its head hangs on what is not in the card.
+    # Within a card, the indent stands for "on".
     tie = line.tie if depth == 0 or line.tie != "on" else ""
     return shorten(" · ".join(part for part in (tie, line.detail) if part))
 
 
 def _columns(cards: list[_Card], width: float) -> list[list[_Card]]:
-    """Return the cards in columns of like heights, as many as make the picture about half as wide again as high."""
+    """Return the cards in columns of similar height, for an aspect ratio of about 3:2."""
     total = sum(card.height + _GAP for card in cards)
     count = max(1, min(len(cards), round((1.5 * total / (width + _GAP)) ** 0.5)))
     columns: list[list[_Card]] = [[] for _ in range(count)]
@@ -139,7 +140,7 @@ def _draw_card(canvas: Canvas, card: _Card, x: float, y: float, width: float, co
 def _draw_lines(
     canvas: Canvas, lines: tuple[CardLine, ...], x: float, y: float, depth: int, colors: dict[str, str]
 ) -> float:
-    """Draw lines from a height on, each below the one before; return the height after them."""
+    """Draw lines from y downwards; return the y below the last."""
     for line in lines:
         at = x + depth * _INDENT
         if line.family:

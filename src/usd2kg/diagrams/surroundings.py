@@ -1,9 +1,9 @@
-"""One object in the middle: what carries it below, what is on it above, what is in it left, what is near right."""
+"""One object as a card: supporters below, supported objects above, contents and parts left, nearby objects right."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from usd2kg.diagrams.object_tree import CardLine, TreeObject, group_similar, read_object_tree
+from usd2kg.diagrams.object_tree import CardLine, TreeObject, group_similar, read_object_tree, single_line
 from usd2kg.diagrams.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
 from usd2kg.errors import GraphError
 from usd2kg.query.graph_store import GraphStore
@@ -16,7 +16,7 @@ _GAP = 46.0
 _MARGIN = 20.0
 _HEAD = 58.0
 _MAX_LINES = 14
-"""Lines of a panel."""
+"""Lines per panel."""
 _NEAR = "0.5 m"
 
 
@@ -35,20 +35,20 @@ class _Panel(NamedTuple):
 
 
 def draw_surroundings(store: GraphStore, iri: str, title: str) -> str:
-    """Return a picture of one object and what is around it, as SVG; near is what is within half a metre.
+    """Return an SVG diagram of one object and its surroundings within half a metre.
 
     Raises:
-        GraphError: there is no object with that IRI.
+        GraphError: the IRI names no object.
     """
     objects = read_object_tree(store)
     if iri not in objects:
         raise GraphError(f"{title}: <{iri}> is the group of a room; expected an object, or none for the room")
     obj = objects[iri]
-    below = _chain(obj, objects)
+    below = _ancestors(obj, objects)
     left = [_panel("in it", [c for c in obj.children if c.tie == "in"])]
     left.append(_panel("parts of it", [c for c in obj.children if c.tie in {"part", "joint"}]))
     above = _panel("on it", [c for c in obj.children if c.tie == "on"])
-    under = _Panel("what carries it, down to the floor", tuple(_plain(t, t.tie) for t in below))
+    under = _Panel("what carries it, down to the floor", tuple(single_line(t) for t in below))
     near = _Panel(f"within {_NEAR}", _near(store, obj, objects, {t.iri for t in below}))
     shown = [obj, *below, *obj.children, *objects.values()]
     return _compose(
@@ -56,7 +56,7 @@ def draw_surroundings(store: GraphStore, iri: str, title: str) -> str:
     )
 
 
-def _chain(obj: TreeObject, objects: dict[str, TreeObject]) -> list[TreeObject]:
+def _ancestors(obj: TreeObject, objects: dict[str, TreeObject]) -> list[TreeObject]:
     chain = []
     while obj.parent is not None:
         obj = objects[obj.parent]
@@ -70,27 +70,22 @@ def _panel(head: str, objects: Sequence[TreeObject]) -> _Panel:
 
 
 def _cut(lines: Sequence[CardLine]) -> tuple[CardLine, ...]:
-    """Return the first lines, and one that counts the others."""
+    """Return the first lines, and one that counts the rest."""
     more = len(lines) - _MAX_LINES
     return (*lines[:_MAX_LINES], CardLine(f"… {more} more lines", "", "", "", "")) if more > 0 else tuple(lines)
 
 
-def _plain(obj: TreeObject, tie: str) -> CardLine:
-    sure = "" if obj.confidence is None else f" {obj.confidence:.2f}"
-    return CardLine(obj.label, f"{obj.class_label}{sure}", tie, obj.family, f"{obj.path} {obj.size}")
-
-
 def _near(
-    store: GraphStore, obj: TreeObject, objects: dict[str, TreeObject], left_out: set[str]
+    store: GraphStore, obj: TreeObject, objects: dict[str, TreeObject], excluded: set[str]
 ) -> tuple[CardLine, ...]:
-    """Return the nearest objects that are neither on, in nor under it, each with its distance."""
+    """Return the lines of nearby objects outside its support tree, nearest first, with distances."""
     answer = store.answer("close-to", {"thing": obj.path, "distance": _NEAR})
     by_path = {t.path: t for t in objects.values()}
     lines: list[CardLine] = []
     for row in answer.values:
         values = dict(zip(answer.columns, row, strict=True))
         other = by_path[str(values["path"])]
-        if other.iri not in left_out and obj.iri not in {t.iri for t in _chain(other, objects)}:
+        if other.iri not in excluded and obj.iri not in {t.iri for t in _ancestors(other, objects)}:
             lines.append(
                 CardLine(
                     other.label,
@@ -147,8 +142,8 @@ def _compose(
     _draw_own(canvas, obj, words, (spine, center), (own_width, own_height), colors[obj.family])
     bottom = center + max(own_height / 2 + under_height, left_height / 2, near.height / 2 if near.lines else 0) + 16
     used = {line.family for panel in (above, under, near, *left) for line in panel.lines if line.family} | {obj.family}
-    names = sorted(used, key=lambda name: (name == "other", name))
-    bottom += canvas.legend(_MARGIN, bottom, [(name, colors[name]) for name in names], width - 2 * _MARGIN)
+    legend = {name: color for name, color in colors.items() if name in used}
+    bottom += canvas.legend(_MARGIN, bottom, legend, width - 2 * _MARGIN)
     return canvas.document(width, bottom + 12, title)
 
 

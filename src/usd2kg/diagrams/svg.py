@@ -1,20 +1,23 @@
-"""Shapes and text of SVG 1.1, with all text escaped and its width known beforehand."""
+"""SVG 1.1 shapes and escaped text, with an upper bound of text widths."""
 
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
 __all__ = ["FONT", "PALETTE", "Canvas", "colors_of", "shorten", "text_width"]
 
 FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 PALETTE = ("#3b76af", "#d98032", "#4f9a55", "#c05a9e", "#8a63b8", "#2f9c9c", "#b8912a", "#c3504c")
-"""Eight hues that are told apart, of like darkness; grey is left for all else."""
+"""Eight distinguishable hues of similar lightness; grey is for the rest."""
 _GREY = "#8a8f98"
 INK, PALE_INK, PAPER, LINE = "#1d2330", "#5d6675", "#ffffff", "#c3cad6"
 
 
 def text_width(text: str, size: float) -> float:
-    """Return the most pixels that a text takes in a sans-serif font of a size."""
+    """Return an upper bound of the width of a text in a sans-serif font.
+
+    The fonts of the viewer are unknown, so exact metrics would be wrong.
+    """
     return sum(_em(c) for c in text) * size
 
 
@@ -26,21 +29,21 @@ def _em(c: str) -> float:
     return 0.36 if c in "iljtf.,:;|!'()[] I" else 0.61
 
 
-def shorten(text: str, most: int = 34) -> str:
-    """Return a text with its middle left out where it is long; without line breaks and controls."""
+def shorten(text: str, limit: int = 34) -> str:
+    """Return a text elided in the middle beyond a length, without control characters."""
     text = "".join(c if c.isprintable() else "\ufffd" for c in text)
-    return text if len(text) <= most else f"{text[: most // 2]}…{text[len(text) - most + most // 2 + 1 :]}"
+    return text if len(text) <= limit else f"{text[: limit // 2]}…{text[len(text) - limit + limit // 2 + 1 :]}"
 
 
 def colors_of(families: Iterable[str]) -> dict[str, str]:
-    """Return a colour for each family, by its name in order; "other" is grey."""
+    """Return family → colour in alphabetical order; "other" is last and grey."""
     named = sorted({family for family in families if family != "other"})
     colors = {family: PALETTE[i] if i < len(PALETTE) else _GREY for i, family in enumerate(named)}
     return {**colors, "other": _GREY}
 
 
 class Canvas:
-    """A drawing that grows."""
+    """An SVG document under construction."""
 
     def __init__(self) -> None:
         self._parts: list[str] = []
@@ -48,20 +51,20 @@ class Canvas:
     def rectangle(
         self, x: float, y: float, width: float, height: float, fill: str, stroke: str = "none", radius: float = 6
     ) -> None:
-        """Draw a rectangle with round corners."""
+        """Draw a rounded rectangle."""
         self._parts.append(
             f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="{radius:g}" '
             f'fill="{fill}" stroke="{stroke}"/>'
         )
 
     def path(self, points: Sequence[tuple[float, float]], stroke: str = LINE, dashed: bool = False) -> None:
-        """Draw straight lines from point to point."""
+        """Draw a polyline."""
         steps = " L".join(f"{x:.1f} {y:.1f}" for x, y in points)
         dash = ' stroke-dasharray="3 3"' if dashed else ""
         self._parts.append(f'<path d="M{steps}" fill="none" stroke="{stroke}" stroke-width="1.4"{dash}/>')
 
     def dot(self, x: float, y: float, fill: str) -> None:
-        """Draw a round mark."""
+        """Draw a dot."""
         self._parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{fill}"/>')
 
     def text(
@@ -77,7 +80,7 @@ class Canvas:
         fill: str = INK,
         middle: bool = False,
     ) -> None:
-        """Write a text, with a paler one after it and a tooltip."""
+        """Draw a text with a pale detail after it and a tooltip."""
         weight = ' font-weight="600"' if bold else ""
         anchor = ' text-anchor="middle"' if middle else ""
         tip = f"<title>{escape(shorten(title, 400))}</title>" if title else ""
@@ -90,10 +93,10 @@ class Canvas:
             f"{tip}{escape(text)}{after}</text>"
         )
 
-    def legend(self, x: float, y: float, colors: Sequence[tuple[str, str]], width: float) -> float:
-        """Write what each colour means, in as many rows as needed; return the height."""
+    def legend(self, x: float, y: float, colors: Mapping[str, str], width: float) -> float:
+        """Draw the legend in as many rows as needed; return its height."""
         at, row = x, 0
-        for name, color in colors:
+        for name, color in colors.items():
             needed = text_width(name, 12) + 30
             if at + needed > x + width and at > x:
                 at, row = x, row + 1
@@ -103,7 +106,7 @@ class Canvas:
         return (row + 1) * 20
 
     def document(self, width: float, height: float, title: str) -> str:
-        """Return the whole as an SVG document."""
+        """Return the SVG document."""
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" '
             f'viewBox="0 0 {width:.0f} {height:.0f}" font-family={quoteattr(FONT)}>\n'
