@@ -1,4 +1,4 @@
-"""Pictures of graphs: what they show, that no text meets another, and that names on a stage stay text."""
+"""Diagrams: contents, no overlapping text, and escaped names."""
 
 import struct
 import sys
@@ -36,7 +36,7 @@ def store(home_tbox: TBox) -> GraphStore:
 
 
 def texts(svg: str) -> list[tuple[float, float, float, str]]:
-    """Return left end, baseline, right end and content of each text, by the widths that the layout uses."""
+    """Return left end, baseline, right end and content of each text, by the layout's widths."""
     found = []
     for element in ElementTree.fromstring(svg).iter(f"{SVG}text"):
         size = float(element.attrib["font-size"])
@@ -63,7 +63,7 @@ def contents(svg: str) -> list[str]:
     return [content for *_, content in texts(svg)]
 
 
-def test_a_room_is_a_tree_with_alike_things_on_one_line(store: GraphStore):
+def test_a_room_is_a_tree_with_similar_objects_on_one_line(store: GraphStore):
     shown = contents(draw_room(store, "room"))
     assert shown[0] == "room | 9 objects"
     assert "Table | on · table 0.75" in shown
@@ -156,7 +156,7 @@ class TestCommand:
             (["unicorn", "-o", "x.svg"], "nothing is called 'unicorn'"),
         ],
     )
-    def test_what_cannot_be_drawn_is_an_error(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):
+    def test_rejects_what_cannot_be_drawn(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):
         arguments[-1] = str(tmp_path / arguments[-1])
         result = CliRunner().invoke(app, ["graph", "draw", str(graph), *arguments])
         assert message in str(result.exception)
@@ -181,7 +181,7 @@ class TestPixels:
         empty, named = (to_png(self.SVG.format(text)) for text in ("", '<text x="5" y="15">Table</text>'))
         assert len(named) > len(empty) + 100
 
-    def test_without_a_font_it_is_told_what_to_do(self, monkeypatch: pytest.MonkeyPatch):
+    def test_a_missing_font_names_the_remedy(self, monkeypatch: pytest.MonkeyPatch):
         # resvg without fonts: it draws all but the text, and says nothing.
         import resvg_py  # noqa: PLC0415
 
@@ -192,7 +192,7 @@ class TestPixels:
             to_png(self.SVG.format("<text>Table</text>"))
         png._sans_serif.cache_clear()
 
-    def test_without_resvg_it_is_told_what_to_install(self, monkeypatch: pytest.MonkeyPatch):
+    def test_missing_resvg_names_the_install_command(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "resvg_py", None)
         png._sans_serif.cache_clear()
         with pytest.raises(OutputError, match=r"pip install 'usd2kg\[pictures\]', or write SVG"):
@@ -200,7 +200,7 @@ class TestPixels:
         png._sans_serif.cache_clear()
 
 
-def test_heads_of_one_name_are_told_apart(home_tbox: TBox):
+def test_shared_labels_are_qualified_by_the_parent_prim(home_tbox: TBox):
     cupboards = [(thing(f"/Room/unit_{i}/carcass", (i, 0, 0), (0.5, 0.5, 0.5)), "Cupboard") for i in range(4)]
     cups = [(thing(f"/Room/Cup_{i}", (i + 0.2, 0.2, 0.5), (0.1, 0.1, 0.1)), "Cup") for i in range(4)]
     shown = contents(draw_room(open_store(build_graph(home_tbox, [*cupboards, *cups])), "units"))

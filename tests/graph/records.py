@@ -1,4 +1,4 @@
-"""Scenes of boxes with classes given by hand, so that graphs are tested without a stage or a grounder."""
+"""Scenes of boxes with given classes, to test graphs without a stage or a grounder."""
 
 import io
 from collections.abc import Iterable, Sequence
@@ -27,13 +27,13 @@ def box_at(lower: Corner, size: Corner) -> Box:
 
 
 def thing(path: str, lower: Corner, size: Corner, **known: Any) -> SceneObject:
-    """Return an object with a box, and no other object nested below it."""
+    """Return an object with a box and no nested objects."""
     box = box_at(lower, size)
     return make_object(path, **{"box": box, "own_box": box, **known})
 
 
 def ground_as(tbox: TBox, scene: Scene, classes: dict[str, str], **changes: Any) -> Grounding:
-    """Return a grounding that gives each path of `classes` the class of that local name, and the others none."""
+    """Return a grounding from path → local name of the class; other objects have none."""
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,
@@ -68,7 +68,7 @@ def build_graph(tbox: TBox, placed: Iterable[tuple[SceneObject, str | None]], **
 
 
 def reread(graph: KnowledgeGraph, ending: str = ".ttl") -> ox.Store:
-    """Return the graph as a real reader finds it in the file."""
+    """Return the serialised graph as a store."""
     rdf_format = RDF_FORMATS[ending]
     store = ox.Store()
     store.load(io.BytesIO(serialize_graph(graph, rdf_format)), format=rdf_format)
@@ -87,7 +87,7 @@ def select(store: ox.Store, query: str) -> list[tuple[str | None, ...]]:
 
 
 def said_of(store: ox.Store, statement: str) -> dict[str, str | None]:
-    """Return what annotates a statement, by property; of several values of one property the last."""
+    """Return the annotations of a statement by property; the last of several values."""
     subject, predicate, value = statement.split(maxsplit=2)
     rows = select(
         store,

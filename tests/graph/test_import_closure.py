@@ -1,4 +1,4 @@
-"""A graph that needs no other file."""
+"""Graphs merged with their import closure."""
 
 from pathlib import Path
 
@@ -45,7 +45,7 @@ def test_it_holds_ontology_and_vocabulary_and_imports_nothing(lab: TBox):
     assert (graph.imports, graph.individuals) == ((), 1)
 
 
-def test_its_header_says_what_was_merged(lab: TBox):
+def test_the_header_lists_merged_documents(lab: TBox):
     store = reread(merged(lab))
     assert select(store, "SELECT ?o ?s { ?o a owl:Ontology ; dcterms:source ?s }") == [
         ("https://my.lab/k", "https://lab.example/lab"),
@@ -60,7 +60,7 @@ def test_no_statement_is_there_twice_and_an_owl_parser_reads_it(lab: TBox):
     assert {"ClassAssertion", "DisjointClasses", "SymmetricObjectProperty"} <= kinds
 
 
-def test_the_built_in_ontology_says_what_it_stands_for(home_tbox: TBox):
+def test_the_built_in_ontology_names_its_source(home_tbox: TBox):
     graph = merged(home_tbox)
     assert graph.missing_imports == ("http://www.ease-crc.org/ont/SOMA-HOME.owl", "https://ease-crc.org/ont/USD.owl")
     assert ask(reread(graph), "soma:Refrigerator a owl:Class")

@@ -1,4 +1,4 @@
-"""The graph of a scene, read back by a real reader and asked in SPARQL."""
+"""Graphs of scenes, re-read and queried with SPARQL."""
 
 from collections import Counter
 from dataclasses import replace
@@ -79,7 +79,7 @@ class TestObjects:
         assert ask(store, 'soma:Cup a owl:Class ; rdfs:label "cup"')
         assert not ask(store, "soma:Refrigerator ?p ?o"), "nothing here is a refrigerator"
 
-    def test_without_a_class_there_is_only_what_is_known(self, store: ox.Store):
+    def test_an_object_without_a_class_has_status_and_explanation_only(self, store: ox.Store):
         assert select(store, "SELECT ?p ?v { k:Room.Ghost ?p ?v }") == sorted(
             [
                 ("http://www.w3.org/1999/02/22-rdf-syntax-ns#type", "http://www.w3.org/2002/07/owl#NamedIndividual"),
@@ -159,7 +159,7 @@ class TestPoseAndMass:
             'k:Room.Cup_3 soma:hasMassAttribute ?m . ?m a soma:MassAttribute ; soma:hasMassValue "0.25"^^xsd:double',
         )
 
-    def test_what_has_no_mass_pose_or_box_has_no_such_node(self, store: ox.Store):
+    def test_missing_mass_pose_or_box_gives_no_quality_node(self, store: ox.Store):
         assert select(store, "SELECT ?o { ?o soma:hasMassAttribute ?m }") == [(f"{BASE}Room.Cup_3",)]
         assert not ask(store, "k:Room.Apple soma:hasLocalization ?p")
         assert not ask(store, "k:Room.Ghost soma:hasShape|soma:hasLocalization|soma:hasMassAttribute ?x")
@@ -354,7 +354,7 @@ class TestHostileText:
         assert parse_as_owl(graph)
 
     @pytest.mark.parametrize("code", [0xD800, 0xDFFF])
-    def test_so_does_half_a_surrogate_pair(self, home_tbox: TBox, code: int):
+    def test_a_lone_surrogate_becomes_a_replacement_character(self, home_tbox: TBox, code: int):
         cup = make_object("/Room/Cup", display_name=f"a{chr(code)}b")
         found = reread(build_graph(home_tbox, [(cup, "Cup")]))
         assert select(found, "SELECT ?l { k:Room.Cup rdfs:label ?l }") == [("a\ufffdb",)]
@@ -376,7 +376,7 @@ class TestHostileText:
 
 
 def one_triple_each(graph: KnowledgeGraph, ending: str) -> set[str]:
-    """Return the triples of the re-read graph, blank nodes named by what they say."""
+    """Return the triples of the re-read graph, with blank nodes labelled by content."""
     store = reread(graph, ending)
     about: dict[object, set[str]] = {}
     for quad in store:

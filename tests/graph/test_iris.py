@@ -20,9 +20,9 @@ NAMES = st.builds(lambda start, rest: start + rest, _STARTS, _REST)
 PATHS = st.lists(NAMES, min_size=1, max_size=5).map(lambda names: "/" + "/".join(names))
 PARTS = st.sampled_from(["box", "mass", "place", "pose", "shape", "joint", "joint-limit", "color"])
 COPIES = st.builds(lambda path, number: f"{path}[{number}]", PATHS, st.integers())
-"""Paths of a point instancer's copies."""
+"""Paths of point instances."""
 ANY_PATHS = st.one_of(PATHS, COPIES, st.text(min_size=1).map(lambda text: "/" + text))
-"""What else might come as a path: properties (`/Cup.box`), variants (`/Cup{lod=high}`), whatever a tool wrote."""
+"""Other paths: properties (`/Cup.box`), variants (`/Cup{lod=high}`), arbitrary text."""
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_half_a_surrogate_pair_has_an_iri_of_its_own():
     assert prim_path_of(BASE, individual_iri(BASE, path)) == path
 
 
-def test_what_belongs_to_the_stage_as_a_whole_is_no_objects():
+def test_stage_level_nodes_do_not_clash_with_objects():
     reserved = {individual_iri(BASE, "/", part) for part in ("stage", "run", "ontology", "software")}
     assert individual_iri(BASE, "/-stage") not in reserved
     assert individual_iri(BASE, "/", "stage") == "https://my.lab/k/-stage"
@@ -82,7 +82,7 @@ def test_what_belongs_to_the_stage_as_a_whole_is_no_objects():
 
 @settings(deadline=None, max_examples=500)
 @given(ANY_PATHS, ANY_PATHS, PARTS, PARTS)
-def test_different_things_have_different_iris(first: str, second: str, part: str, other: str):
+def test_iris_are_injective(first: str, second: str, part: str, other: str):
     iris = [
         individual_iri(BASE, path, of_part)
         for path in dict.fromkeys([first, second])

@@ -117,7 +117,7 @@ def test_a_joint_inside_an_object_is_the_objects(home_tbox: TBox, profile: str, 
     assert ask(store, f'{JOINT} u2k:parentPrim "/Kitchen/Cabinet/shelf" ; u2k:childPrim "/Kitchen/Cabinet/lamp/arm"')
 
 
-def test_a_joint_to_the_world_or_to_what_is_no_object_has_one_object(home_tbox: TBox):
+def test_a_joint_to_the_world_or_a_non_object_has_one_object(home_tbox: TBox):
     world = graph_of(home_tbox, "plain", body0=None)
     assert ask(world, f"{JOINT} u2k:childObject {DOOR_NODE}")
     assert not ask(world, f"{JOINT} u2k:parentObject|u2k:parentPrim ?o")
@@ -133,7 +133,7 @@ def test_switches_are_written_where_they_are_unusual(home_tbox: TBox):
     assert ask(unusual, f"{JOINT} u2k:isEnabled false ; u2k:closesLoop true")
 
 
-def test_what_is_unknown_is_not_written(home_tbox: TBox):
+def test_unknown_joint_values_are_omitted(home_tbox: TBox):
     store = graph_of(home_tbox, "plain", axis_vector=None, origin=None, value=None)
     assert not ask(store, f"{JOINT} u2k:jointAxis|u2k:jointOrigin|u2k:jointPosition ?v")
 

@@ -87,7 +87,7 @@ def test_a_property_that_is_not_declared_is_a_violation(tmp_path: Path):
     assert any("lowerLimit" in violation for violation in check_owl(path, ontologies()).violations)
 
 
-def test_knowrobs_colours_are_inconsistent_as_told(tmp_path: Path):
+def test_knowrob_colours_are_inconsistent(tmp_path: Path):
     path = franka(tmp_path, options=GraphOptions(colors="knowrob"))
     report = check_owl(path, ontologies(), reasons=True)
     assert (report.violations, report.verdict) == ((), "inconsistent")

@@ -1,4 +1,4 @@
-"""Who made the graph from what, why an object has its class, and what a person decided."""
+"""Provenance of the run, justification of classes, and reviews."""
 
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -110,7 +110,7 @@ REVIEWER = "https://orcid.org/0000-0001-2345-6789"
 
 
 def reviewed(tbox: TBox, name: str | None, reviewer: str = REVIEWER, **said: object) -> ox.Store:
-    """Return the graph after a person gave the cup, predicted with 0.75, another class or the same."""
+    """Return the graph after a review of the cup, which was predicted with 0.75."""
     predicted = Prediction(
         "/Cup",
         tbox.resolve("Cup"),
@@ -163,7 +163,7 @@ class TestReview:
 
 
 class TestRdf12:
-    def test_triple_terms_carry_what_owl_axioms_carry(self, home_tbox: TBox):
+    def test_reifiers_have_the_same_annotations_as_owl_axioms(self, home_tbox: TBox):
         graph = build(home_tbox, GraphOptions(annotations="rdf12"))
         for ending in (".ttl", ".nt"):
             store = reread(graph, ending)

@@ -1,4 +1,4 @@
-"""What a change in the scene changes in the graph: the statements about what changed, and no other."""
+"""A change in the scene changes only the statements about the changed object."""
 
 from dataclasses import replace
 
@@ -55,7 +55,7 @@ def test_the_order_of_objects_changes_the_order_of_statements_only(home_tbox: TB
     assert room(home_tbox, *cups) == room(home_tbox, *reversed(cups))
 
 
-def test_what_is_said_of_one_object_stands_together(home_tbox: TBox):
+def test_statements_of_one_object_are_contiguous(home_tbox: TBox):
     labelled = replace(
         cup("Cup_2", 1), labels=ObjectLabels((Label("/Room/Cup_2", "UsdSemantics", "class", "mug"),), (), ())
     )

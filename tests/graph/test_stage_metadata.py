@@ -18,7 +18,7 @@ BOX = box_at((0, 0, 0), (1, 1, 1))
 
 
 def graph_of(home_tbox: TBox, profile: str = "plain", options: GraphOptions | None = None, **known: Any) -> ox.Store:
-    """Return the graph of one cup of which the stage says what is `known`."""
+    """Return the graph of one cup with the authored metadata `known`."""
     placed = [(make_object("/Cup", **known), "Cup")]
     return reread(build_graph(home_tbox, placed, profile=profile, options=options))
 
@@ -196,7 +196,7 @@ class TestLabels:
         assert (values(store, "u2k:sceneLabel"), values(store, "u2k:sceneLabelIri")) == ([found.value], [iri])
 
     @pytest.mark.parametrize("value", ["not an iri", "<script>", "Q12x", ""])
-    def test_what_is_no_iri_stays_a_text(self, home_tbox: TBox, value: str):
+    def test_an_invalid_iri_stays_a_literal(self, home_tbox: TBox, value: str):
         labels = ObjectLabels((label(value, "iri"), label(value, "wikidata_qcode")), (), ())
         store = graph_of(home_tbox, labels=labels)
         assert (values(store, "u2k:sceneLabel"), values(store, "u2k:sceneLabelIri")) == ([value], [])

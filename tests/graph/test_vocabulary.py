@@ -1,4 +1,4 @@
-"""Our own terms: every one that is written is defined, every one that is defined is written, and OWL tools read it."""
+"""The u2k vocabulary: terms in use and defined terms are the same, and OWL tools read it."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ SPATIAL = frozenset(
     partOf rightOf target touching
     """.split()
 )
-"""Terms of relations that a scene may or may not hold."""
+"""Terms of relations that depend on the scene."""
 
 KINDS = {OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty}
 TBOX = replace(
@@ -34,7 +34,7 @@ TBOX = replace(
 
 
 def local_names(triples: list[ox.Triple] | tuple[ox.Triple, ...]) -> set[str]:
-    """Return the local names of our terms in subjects, predicates and objects, datatypes included."""
+    """Return the local names of u2k terms in subjects, predicates, objects and datatypes."""
     nodes = [node for triple in triples for node in triple]
     return {node.value.removeprefix(U2K.iri) for node in nodes if _is_ours(node)}
 
@@ -44,7 +44,7 @@ def _is_ours(node: object) -> bool:
 
 
 def rich_graph(profile: str) -> KnowledgeGraph:
-    """Return a graph of which each kind of statement is a part."""
+    """Return a graph with every kind of statement."""
     box = box_at((0, 0, 0), (0.1, 0.1, 0.1))
     labels = ObjectLabels(
         (Label("/Cup", "UsdSemantics", "wikidata_qcode", "Q81727"),), (), (Label("/Cup/h", "Isaac", "class", "handle"),)
@@ -93,13 +93,13 @@ WRITTEN = {profile: rich_graph(profile) for profile in ("soma", "plain")}
 
 
 def defined() -> dict[str, ox.NamedNode]:
-    """Return local name → kind of each term that the vocabulary defines."""
+    """Return local name → entity type of each defined term."""
     rows = [triple for triple in vocabulary_triples() if triple.predicate == RDF.type and triple.object in KINDS]
     return {t.subject.value.removeprefix(U2K.iri): t.object for t in rows if _is_ours(t.subject)}
 
 
 @pytest.mark.parametrize("profile", WRITTEN)
-def test_every_term_that_is_written_is_defined_as_what_it_is_declared(profile: str):
+def test_terms_are_declared_with_their_defined_entity_type(profile: str):
     graph = WRITTEN[profile]
     assert local_names(graph.triples) <= set(defined())
     for triple in graph.triples:
@@ -124,7 +124,7 @@ def test_every_property_and_class_that_is_used_is_declared_and_no_other(profile:
     assert declared == used | above
 
 
-def test_every_term_has_a_label_and_says_what_it_means_and_stands_on():
+def test_every_term_has_label_comment_and_subject():
     said: dict[str, set[str]] = {name: set() for name in defined()}
     for triple in vocabulary_triples():
         if _is_ours(triple.subject):

@@ -1,4 +1,4 @@
-"""Small rooms of boxes with classes given by hand, and what is found in them."""
+"""Small rooms of boxes with given classes, and their relations."""
 
 from collections.abc import Iterable
 from functools import cache
@@ -30,7 +30,7 @@ def relate(
     joints: Any = (),
     **options: Any,
 ) -> tuple[Relation, ...]:
-    """Return the relations of some kinds between objects in a scene of their own."""
+    """Return the relations of the given kinds in a scene of these objects."""
     tbox = tbox or home()
     scene = make_scene(*(obj for obj, _ in placed), joints=joints)
     grounding = ground_as(tbox, scene, {obj.prim_path: cls for obj, cls in placed if cls})

@@ -1,4 +1,4 @@
-"""What is above and below what, and what is left out because something between says it already."""
+"""above and below, without pairs implied by an intermediate object."""
 
 import pytest
 
@@ -35,7 +35,7 @@ def test_just_enough_and_just_not_enough_of_it_over_the_other(more: float, count
     assert len(relate(TABLE, lamp, kinds=("above",))) == count
 
 
-def test_what_stands_on_something_is_not_said_to_be_above_it():
+def test_on_suppresses_above():
     assert relate(FLOOR, TABLE, cup((0.4, 0.4, 0.7)), kinds=("above",)) == ()
 
 
@@ -45,7 +45,7 @@ def test_of_a_book_on_a_tray_on_a_table_a_lamp_is_above_the_book():
     assert related(relate(FLOOR, TABLE, tray, book, LAMP, kinds=("above",))) == {("lamp", "above", "book")}
 
 
-def test_but_what_is_not_under_it_hides_nothing():
+def test_an_object_not_in_between_suppresses_nothing():
     tray = artifact("tray", (0, 0, 0.7), (0.3, 0.3, 0.02))
     assert related(relate(TABLE, tray, LAMP, kinds=("above",))) == {("lamp", "above", "table")}
 
@@ -55,7 +55,7 @@ def test_a_stack_in_the_air_is_a_chain():
     assert related(relate(*signs, kinds=("above",))) == {(f"sign{i + 1}", "above", f"sign{i}") for i in range(4)}
 
 
-def test_of_a_book_on_a_wall_shelf_the_shelf_says_what_is_below():
+def test_a_shelf_is_above_the_objects_below_its_books():
     shelf = (thing("/shelf", (0, 0, 1.4), (1, 0.3, 0.05)), "DesignedFurniture")
     book = artifact("book", (0.1, 0.05, 1.45), (0.2, 0.2, 0.25))
     assert related(relate(TABLE, shelf, book, kinds=("above",))) == {("shelf", "above", "table")}
@@ -80,7 +80,7 @@ def test_drawers_of_one_cabinet_are_above_each_other_and_above_nothing_outside()
     assert found == {("drawer1", "above", "drawer0"), ("drawer2", "above", "drawer1"), ("cab", "above", "ball")}
 
 
-def test_a_beam_over_many_things_is_above_its_nearest_few():
+def test_above_keeps_the_nearest_anchors():
     beam = artifact("beam", (0, 0, 3), (20, 0.5, 0.2))
     boxes = [artifact(f"box{i}", (1.0 * i, 0, 0), (0.5, 0.5, 0.1 * (i + 1))) for i in range(10)]
     found = [r for r in relate(beam, *boxes, kinds=("above",)) if r.target == "/beam"]
@@ -88,11 +88,11 @@ def test_a_beam_over_many_things_is_above_its_nearest_few():
     assert related(found) == {("beam", "above", f"box{i}") for i in range(10 - ABOVE.most, 10)}
 
 
-def test_two_flat_things_at_one_height_are_not_above_each_other():
+def test_flat_objects_at_one_height_are_not_above_each_other():
     assert relate(artifact("a", (0, 0, 1), (1, 1, 0)), artifact("b", (0, 0, 1), (1, 1, 0)), kinds=("above",)) == ()
 
 
-def test_all_is_above_the_floor_so_nothing_is_said_to_be():
+def test_floors_take_no_part_in_above():
     room = (thing("/room", (-5, -5, 0), (10, 10, 3)), "Room")
     ceiling = (thing("/ceiling", (-5, -5, 3), (10, 10, 0.1)), "Ceiling")
     assert relate(room, FLOOR, ceiling, LAMP, kinds=("above",)) == ()

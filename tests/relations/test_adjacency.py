@@ -1,4 +1,4 @@
-"""What touches, is next to and near what."""
+"""touching, next-to and near."""
 
 import math
 
@@ -40,10 +40,10 @@ class TestTouching:
         corner = (thing("/c", (0.6, 0.55, 0), (0.6, 0.6, 0.8)), "KitchenCabinet")
         assert relate(cabinet("a", 0), corner, kinds=("touching",)) == ()
 
-    def test_what_is_on_something_is_not_said_to_touch_it(self):
+    def test_on_suppresses_touching(self):
         assert relate(FLOOR, TABLE, cup((0.4, 0.4, 0.7)), kinds=("touching",)) == ()
 
-    def test_a_board_above_touches_what_it_does_not_rest_on(self):
+    def test_a_board_touches_an_object_below_that_does_not_support_it(self):
         # The slab rests on one of the two, and only grazes the lower part of the other by its side.
         slab = artifact("slab", (0, 0, 0.8), (0.6, 0.6, 0.04))
         tall = (thing("/tall", (0.6, 0, 0), (0.3, 0.6, 2)), "Wardrobe")
@@ -81,18 +81,18 @@ class TestNextTo:
         found = pairs(relate(*row, kinds=("next-to",)))
         assert found == {("next-to", names("a", "b")), ("next-to", names("b", "c"))}
 
-    def test_so_does_a_wall(self):
+    def test_a_wall_blocks_adjacency(self):
         wall = (thing("/wall", (0.32, -2, 0), (0.06, 4, 2.5)), "Wall")
         here, there = artifact("here", (0, 0, 0), (0.3, 0.3, 0.3)), artifact("there", (0.4, 0, 0), (0.3, 0.3, 0.3))
         assert len(relate(here, there, kinds=CLOSE)) == 1
         assert relate(here, wall, there, kinds=CLOSE) == ()
 
-    def test_but_not_walls_that_are_one_mesh_around_both(self):
+    def test_walls_in_one_mesh_do_not_block_adjacency(self):
         walls = (thing("/walls", (-3, -3, 0), (6, 6, 2.5)), "Wall")
         here, there = artifact("here", (0, 0, 0), (0.3, 0.3, 0.3)), artifact("there", (0.4, 0, 0), (0.3, 0.3, 0.3))
         assert pairs(relate(walls, here, there, kinds=CLOSE)) == {("next-to", names("here", "there"))}
 
-    def test_what_is_in_a_cupboard_is_next_to_nothing_outside(self):
+    def test_contents_are_not_next_to_objects_outside(self):
         cupboard = (thing("/cupboard", (0, 0, 0), (0.6, 0.4, 0.7)), "Cupboard")
         inner = [(thing(f"/in{i}", (0.05 + 0.12 * i, 0.1, 0.1), (0.1, 0.1, 0.12)), "Glass") for i in range(2)]
         outer = (thing("/out", (0.62, 0.1, 0.1), (0.1, 0.1, 0.12)), "Glass")
@@ -147,7 +147,7 @@ class TestNear:
 
 
 class TestTurned:
-    """A board of 1 m × 0.2 m that is turned by 45 degrees: its box is 0.8485 m wide and deep."""
+    """A 1 m × 0.2 m board rotated by 45 degrees: its box is 0.8485 m wide and deep."""
 
     HALF = math.sqrt(0.5)
 
@@ -175,7 +175,7 @@ class TestTurned:
         (relation,) = relate(self.board("board", 0, 0), post, kinds=("next-to",))
         assert relation.numbers == pytest.approx({"distance": 0.46 - corner})
 
-    def test_of_what_leans_or_has_more_within_its_box_the_box_counts(self):
+    def test_distance_falls_back_to_the_box_without_a_known_footprint(self):
         step = 0.3 * self.HALF
         tilted = self.board("one", 0, 0, orientation=(0.2, 0.0, math.sin(math.pi / 8), 0.9))
         assert relate(tilted, self.board("other", -step, step), kinds=("next-to",)) == ()

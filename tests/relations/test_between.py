@@ -1,4 +1,4 @@
-"""What is between two other things."""
+"""between."""
 
 import pytest
 
@@ -42,12 +42,12 @@ def test_at_another_height_nothing_is_between():
     assert between(left, right, cup((0.35, 0.05, 0.19))) == set()
 
 
-def test_what_it_stands_on_is_no_side():
+def test_a_supporter_is_no_anchor_of_between():
     other = artifact("other", (0.6, 0.1, 0.7), (0.2, 0.2, 0.2))
     assert between(FLOOR, TABLE, other, cup((0.4, 0.15, 0.7))) == set()
 
 
-def test_the_closest_pair_is_told():
+def test_finds_the_closest_pair_of_anchors():
     row = [artifact(f"box{i}", (0.4 * i, 0, 0), (0.2, 0.2, 0.2)) for i in range(5)]
     assert between(*row) == {(f"box{i}", frozenset({f"box{i - 1}", f"box{i + 1}"})) for i in (1, 2, 3)}
 

@@ -16,19 +16,19 @@ def level(x: float, y: float, z: float, width: float, depth: float) -> Box:
 
 
 class TestATapOverAWorktop:
-    """A kitchen unit as one mesh, 1.2 m high: its worktop is at 0.9 m, and a tap rises over it."""
+    """A kitchen unit in one mesh, 1.2 m high: worktop at 0.9 m, with a protruding tap."""
 
     UNIT = (thing("/unit", (0, 0, 0), (2, 0.6, 1.2), support_levels=(level(0, 0, 0.9, 2, 0.6),)), "KitchenCabinet")
 
-    def test_what_hangs_at_the_height_of_the_tap_is_not_on_it(self):
+    def test_an_object_at_the_height_of_the_tap_is_not_on_the_worktop(self):
         ladle = artifact("ladle", (1, 0.55, 1.2), (0.1, 0.02, 0.3))
         assert relate(self.UNIT, ladle) == ()
 
-    def test_nor_does_it_touch_it(self):
+    def test_an_object_at_the_height_of_the_tap_does_not_touch_the_worktop(self):
         ladle = artifact("ladle", (1, 0.55, 1.2), (0.1, 0.02, 0.3))
         assert relate(self.UNIT, ladle, kinds=("touching",)) == ()
 
-    def test_what_stands_on_the_worktop_is_on_it(self):
+    def test_an_object_on_the_worktop_is_on_it(self):
         jar = artifact("jar", (1, 0.3, 0.9), (0.1, 0.1, 0.2))
         assert related(relate(self.UNIT, jar)) == {("jar", "on", "unit")}
 
@@ -48,15 +48,15 @@ class TestTheLedgeOfASideboard:
     LEVELS = (level(0, 0, 0.2, 2, 0.5), level(0.4, 0, 0.5, 1.6, 0.5))
     SIDEBOARD = (thing("/sideboard", (0, 0, 0), (2, 0.5, 0.5), support_levels=LEVELS), "Cupboard")
 
-    def test_what_stands_on_the_ledge_is_on_it_and_not_inside(self):
+    def test_an_object_on_the_ledge_is_on_it_and_not_inside(self):
         frame = artifact("frame", (0.1, 0.2, 0.2), (0.15, 0.05, 0.15))
         assert related(relate(self.SIDEBOARD, frame)) == {("frame", "on", "sideboard")}
 
-    def test_what_stands_below_the_top_is_inside(self):
+    def test_an_object_below_the_top_is_inside(self):
         book = artifact("book", (1, 0.2, 0.2), (0.15, 0.05, 0.15))
         assert related(relate(self.SIDEBOARD, book)) == {("book", "inside", "sideboard")}
 
-    def test_what_is_in_the_basin_of_an_open_sink_is_inside(self):
+    def test_an_object_in_the_basin_of_a_sink_is_inside(self):
         # Its drainer, at 0.19 m, lies beside the basin, not over it; a sink has no top.
         levels = (level(0, 0, 0.02, 0.4, 0.4), level(0.4, 0, 0.19, 0.4, 0.4))
         sink = (thing("/sink", (0, 0, 0), (0.8, 0.4, 0.2), support_levels=levels), "Sink")
@@ -104,11 +104,11 @@ class TestDrawers:
 
 
 class TestWallsInOnePiece:
-    """The box around the walls of a whole house is around all that is in there, too."""
+    """The box around all walls of a house contains everything in it."""
 
     HOUSE = (thing("/walls", (-5, -5, 0), (10, 10, 2.5)), "Wall")
 
-    def test_what_hovers_in_the_house_is_on_what_it_is_close_over(self):
+    def test_a_hovering_object_within_house_walls_is_on_the_object_below(self):
         chair = (thing("/chair", (0, 0, 0.05), (0.5, 0.5, 0.9)), "DesignedChair")
         (relation,) = relate(FLOOR, self.HOUSE, chair)
         assert (relation.target, relation.anchor, relation.rule) == ("/chair", "/floor", RULES.hovering.rule)

@@ -28,7 +28,7 @@ class TestOn:
         assert (relation.kind, relation.target, relation.anchor, relation.rule) == ("on", "/cup", "/table", ON.rule)
         assert relation.numbers == pytest.approx({"gap": 0.004, "overlapRatio": 0.5})
 
-    def test_what_sinks_in_a_little_has_a_negative_gap(self):
+    def test_penetration_is_a_negative_gap(self):
         (relation,) = relate(TABLE, cup((0.4, 0.4, 0.695)))
         assert relation.numbers["gap"] == pytest.approx(-0.005)
 
@@ -66,7 +66,7 @@ class TestOn:
         assert related(relate(TABLE, more)) == {("cup", "on", "table")}
         assert relate(TABLE, less) == ()
 
-    def test_larger_than_what_carries_it(self):
+    def test_rejects_a_target_much_larger_than_its_anchor(self):
         # A board of the post's width: its length makes the ratio of the two footprints.
         post = (thing("/post", (0, 0, 0), (0.1, 0.1, 1)), "DesignedComponent")
         ratio = ON.max_area_ratio
@@ -92,7 +92,7 @@ class TestOn:
         assert related(relate(chair, cushion)) == {("cushion", "on", "chair")}
 
     @pytest.mark.parametrize("height", [0.02, 0.03, 0.05, 0.3])
-    def test_a_thing_may_sink_below_a_rim_but_not_far(self, height: float):
+    def test_an_object_may_be_slightly_below_a_rim(self, height: float):
         # A tray whose box ends at its rim: low rims are met by the share of their height, high ones by the bound.
         tray = (thing("/tray", (0.2, 0.2, 0.7), (0.4, 0.3, height)), "DesignedArtifact")
         sink = min(ON.sink_share * height, ON.max_sink)
@@ -107,11 +107,11 @@ class TestOn:
         above = cup((0.4, 0.4, 1.5), name="above")
         assert relate(TABLE, under, beside, above) == ()
 
-    def test_two_things_side_by_side_carry_neither_each_other(self):
+    def test_adjacent_objects_do_not_support_each_other(self):
         other = (thing("/other", (1, 0, 0), (1, 1, 0.7)), "Table")
         assert relate(TABLE, other) == ()
 
-    def test_what_hangs_on_a_wall_is_on_nothing(self):
+    def test_wall_mounted_objects_are_on_nothing(self):
         wall = (thing("/wall", (0, 1, 0), (4, 0.1, 2.5)), "Wall")
         # Sunk into the wall a little, as meshes are, well above the table.
         picture = (thing("/picture", (0.2, 0.96, 1.2), (0.5, 0.05, 0.4)), "DesignedArtifact")
@@ -172,25 +172,25 @@ class TestInside:
         assert ("crate", "inside", "cupboard") in found
         assert not {("plate", "inside", "cupboard"), ("plate", "inside", "kitchen")} & found
 
-    def test_what_is_in_a_bowl_is_not_on_it_nor_on_its_table(self):
+    def test_contents_of_a_bowl_are_on_neither_bowl_nor_table(self):
         apple = (thing("/apple", (0.5, 0.5, 0.71), (0.08, 0.08, 0.08)), "DesignedArtifact")
         assert {pair for pair in related(relate(TABLE, self.BOWL, apple)) if pair[0] == "apple"} == {
             ("apple", "inside", "bowl")
         }
 
     @pytest.mark.parametrize("cls", ["Spoon", "Plate", "Lid", "Table", "DesignedChair"])
-    def test_what_holds_nothing_is_no_container(self, cls: str):
+    def test_classes_without_the_disposition_are_no_containers(self, cls: str):
         around = (thing("/around", (0, 0, 0), (1, 1, 1)), cls)
         crumb = (thing("/crumb", (0.4, 0.4, 0.4), (0.1, 0.1, 0.1)), "DesignedArtifact")
         assert ("crumb", "inside", "around") not in related(relate(around, crumb))
 
     @pytest.mark.parametrize("cls", ["Bowl", "Cupboard", "Refrigerator", "Box", "Drawer", "Sink", "TrashContainer"])
-    def test_what_holds_things_is(self, cls: str):
+    def test_classes_with_the_disposition_are_containers(self, cls: str):
         around = (thing("/around", (0, 0, 0), (1, 1, 1)), cls)
         crumb = (thing("/crumb", (0.4, 0.4, 0.4), (0.1, 0.1, 0.1)), "DesignedArtifact")
         assert related(relate(around, crumb)) == {("crumb", "inside", "around")}
 
-    def test_a_fitted_part_is_not_inside_what_it_belongs_to(self):
+    def test_a_fitted_part_is_not_inside_its_whole(self):
         cabinet = (thing("/cabinet", (0, 0, 0), (0.6, 0.6, 0.9)), "KitchenCabinet")
         drawer = (thing("/cabinet/drawer", (0.02, 0.02, 0.5), (0.56, 0.5, 0.2), parent_path="/cabinet"), "Drawer")
         handle = (thing("/cabinet/handle", (0.2, 0.02, 0.6), (0.1, 0.02, 0.02)), "DesignedHandle")
@@ -198,7 +198,7 @@ class TestInside:
         # A drawer is both: a part, and in there.
         assert related(relate(cabinet, drawer, handle, door)) == {("drawer", "inside", "cabinet")}
 
-    def test_but_a_fork_in_that_drawer_is(self):
+    def test_a_fork_in_a_drawer_is_inside(self):
         cabinet = (thing("/cabinet", (0, 0, 0), (0.6, 0.6, 0.9)), "KitchenCabinet")
         drawer = (thing("/cabinet/drawer", (0.02, 0.02, 0.5), (0.56, 0.5, 0.2), parent_path="/cabinet"), "Drawer")
         fork = (thing("/fork", (0.2, 0.1, 0.55), (0.02, 0.2, 0.02)), "Fork")
@@ -209,7 +209,7 @@ class TestInside:
         twin = (thing("/twin", (0.4, 0.4, 0.7), (0.3, 0.3, 0.12)), "Bowl")
         assert {r.kind for r in relate(self.BOWL, twin)} <= {"on"}
 
-    def test_anything_may_contain_where_the_ontology_does_not_tell(self):
+    def test_every_class_is_a_container_without_stated_dispositions(self):
         tbox = home()
         silent = TBox(
             source="silent",
@@ -227,7 +227,7 @@ class TestInside:
 
 
 class TestOnSeveral:
-    """A worktop 3 m long on cabinets 0.6 m wide: none carries it alone."""
+    """A worktop 3 m long on cabinets 0.6 m wide: none supports it alone."""
 
     def cabinets(self, *starts: float, cls: str = "KitchenCabinet", top: float = 0.86) -> list[Placed]:
         return [(thing(f"/cab{i}", (x, 0, 0), (0.6, 0.55, top)), cls) for i, x in enumerate(starts)]
@@ -269,20 +269,20 @@ class TestHovering:
     def test_no_farther_than_is_allowed(self):
         assert relate(TABLE, cup((0.4, 0.4, 0.7 + HOVERING.max_gap + HAIR))) == ()
 
-    def test_what_hangs_on_a_wall_does_not_hover(self):
+    def test_wall_mounted_objects_do_not_hover(self):
         wall = (thing("/wall", (0, 1, 0), (4, 0.1, 2.5)), "Wall")
         radiator = artifact("radiator", (2, 0.9, 0.035), (1, 0.1, 0.7))
         in_the_room = artifact("heater", (2, -2, 0.035), (1, 0.1, 0.7))
         assert related(relate(FLOOR, wall, radiator, in_the_room)) == {("heater", "on", "floor")}
 
-    def test_what_is_carried_hovers_over_nothing(self):
+    def test_supported_objects_do_not_hover(self):
         tray = artifact("tray", (0.2, 0.2, 0.7), (0.4, 0.3, 0.02))
         book = artifact("book", (0.25, 0.25, 0.72), (0.2, 0.15, 0.04))
         assert related(relate(TABLE, tray, book)) == {("tray", "on", "table"), ("book", "on", "tray")}
 
 
 class TestFeet:
-    """A tap whose spout reaches far over the basin: its foot is what it stands on."""
+    """A tap with a spout far over the basin: its foot decides."""
 
     FOOT, SPOUT = box_at((0.1, 0.1, 0.9), (0.05, 0.05, 0.1)), box_at((0.1, 0.1, 1.0), (0.05, 0.4, 0.2))
     TAP = (thing("/tap", (0.1, 0.1, 0.9), (0.05, 0.4, 0.3), part_boxes=(FOOT, SPOUT)), "Tap")
@@ -293,13 +293,13 @@ class TestFeet:
         (relation,) = relate(ledge, self.TAP)
         assert relation.numbers == pytest.approx({"gap": 0, "overlapRatio": 1})
 
-    def test_and_not_what_is_below_the_rest(self):
+    def test_only_the_feet_decide_what_supports_an_object(self):
         far_side = (thing("/far", (0, 0.2, 0.8), (1, 0.4, 0.1)), "Countertop")
         assert relate(far_side, self.TAP) == ()
 
 
 class TestLevels:
-    """Shelves whose boards are one mesh tell of them by their level faces."""
+    """Shelves in one mesh have their boards as level faces."""
 
     LEVELS = tuple(Box((0, 0, z), (1, 0.3, z)) for z in (0.4, 0.9, 1.4))
     SHELF = (thing("/shelf", (0, 0, 0), (1, 0.3, 1.8), support_levels=LEVELS), "DesignedFurniture")
@@ -314,7 +314,7 @@ class TestLevels:
     def test_between_the_boards_it_is_on_none(self):
         assert relate(self.SHELF, artifact("book", (0.1, 0.05, 1.1), (0.15, 0.2, 0.2))) == ()
 
-    def test_what_stands_on_the_board_goes_before(self):
+    def test_an_object_on_the_board_takes_precedence(self):
         tray = artifact("tray", (0.1, 0.05, 0.9), (0.4, 0.2, 0.02))
         jar = artifact("jar", (0.2, 0.1, 0.92), (0.1, 0.1, 0.15))
         assert related(relate(self.SHELF, tray, jar)) == {("tray", "on", "shelf"), ("jar", "on", "tray")}
@@ -328,7 +328,7 @@ class TestLevels:
         closed = (thing("/unit", (0, 0, 0), (2, 0.6, 1.1)), "KitchenCabinet")
         assert related(relate(closed, jar)) == {("jar", "inside", "unit")}
 
-    def test_inside_a_cupboard_with_a_top_on_whatever_board(self):
+    def test_inside_a_cupboard_on_any_board(self):
         boards = tuple(Box((0, 0, z), (1, 0.4, z)) for z in (0.1, 0.9, 1.2))
         cupboard = (thing("/cupboard", (0, 0, 0), (1, 0.4, 1.2), support_levels=boards), "Cupboard")
         high = (thing("/plate", (0.2, 0.1, 0.9), (0.25, 0.25, 0.02)), "DinnerPlate")
@@ -360,12 +360,12 @@ class TestStandingIn:
         plate = (thing("/plate", (0.1, 0.03, 0.9), (0.02, 0.19, 0.19)), "DinnerPlate")
         assert ("plate", "inside", "rack") in related(relate(self.TOP, rack, plate))
 
-    def test_what_stands_beside_it_is_not_in_it(self):
+    def test_an_object_beside_a_container_is_not_inside(self):
         # A bottle that overlaps the pot's box by a third of its own, as round things do in corners, and stands as low.
         bottle = (thing("/bottle", (0.08, 0.08, 0.9), (0.09, 0.09, 0.3)), "Bottle")
         assert ("bottle", "inside", "pot") not in related(relate(self.TOP, self.POT, bottle))
 
-    def test_nothing_sticks_out_of_what_is_closed(self):
+    def test_nothing_sticks_out_of_a_closed_container(self):
         jar = (thing("/jar", (0, 0, 0.9), (0.14, 0.14, 0.15)), "Jar")
         spoon = (thing("/spoon", (0.05, 0.05, 0.91), (0.02, 0.03, 0.3)), "Spoon")
         assert ("spoon", "inside", "jar") not in related(relate(self.TOP, jar, spoon))

@@ -1,4 +1,4 @@
-"""What is a part of what."""
+"""part-of."""
 
 from typing import Any
 
@@ -70,7 +70,7 @@ class TestStated:
         fan = (thing("/fan", (0, 0, 0), (0.5, 0.5, 0.5)), "Appliance")
         assert parts(fan, motor) == {("/fan/motor", "/fan"): PART.stated_rule}
 
-    def test_what_moves_on_a_joint_rests_on_nothing(self):
+    def test_jointed_parts_are_on_nothing(self):
         # A drawer is never laid down, so a flap of another class.
         flap = (thing("/flap", (0, 0, 0.8), (0.6, 0.6, 0.02)), "DesignedArtifact")
         assert related(relate(self.CABINET, flap)) == {("flap", "on", "cab")}

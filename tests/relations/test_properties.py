@@ -1,4 +1,4 @@
-"""What holds of the relations of every room, whatever stands in it."""
+"""Property-based tests of relations in random rooms."""
 
 import math
 from collections.abc import Callable
@@ -15,14 +15,14 @@ from usd2kg.relations import ALL_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Relati
 from usd2kg.scene import Box, SceneObject
 
 GRID = 1 / 64
-"""Multiples of a power of two add up without rounding, so that moving a room changes no digit of any number."""
+"""Sums of multiples of a power of two are exact, so that translations change no measurement."""
 VIEW = Viewpoint((-3.0, -5.0, 1.5), (1.0, 2.0, 0.0))
 CLASSES = ["Table", "Bowl", "Cup", "Box", "DesignedArtifact", "Cupboard", "Wall", "Drawer", "DesignedChair", "Door"]
 
 
 @st.composite
 def rooms(draw: st.DrawFn) -> list[Placed]:
-    """Return a table on a floor and some things of random place and size, close together."""
+    """Return a table on a floor and random objects close together."""
     corners = st.tuples(*[st.integers(0, 64)] * 3)
     sizes = st.tuples(*[st.integers(1, 64)] * 3)
     room: list[Placed] = [
@@ -32,7 +32,7 @@ def rooms(draw: st.DrawFn) -> list[Placed]:
     ]
     for i in range(draw(st.integers(1, 7))):
         lower, size = ([GRID * step for step in draw(steps)] for steps in (corners, sizes))
-        # Every second thing begins where the table ends, or a little off.
+        # Every second object starts near the height of the table.
         lower[2] = 0.75 + GRID * draw(st.integers(-2, 2)) if i % 2 else lower[2]
         room.append(
             (
@@ -47,8 +47,8 @@ def everything(room: list[Placed], view: Viewpoint = VIEW) -> tuple[Relation, ..
     return relate(*room, kinds=ALL_KINDS, viewpoint=view)
 
 
-def told(relations: tuple[Relation, ...]) -> dict[tuple[str, ...], Relation]:
-    """Return relations by what they say; which one a symmetric one starts from is the scene's order."""
+def by_statement(relations: tuple[Relation, ...]) -> dict[tuple[str, ...], Relation]:
+    """Return relations by statement; ends of symmetric ones are sorted."""
     found = {}
     for r in relations:
         ends = sorted((r.target, r.anchor)) if r.kind in SYMMETRIC_KINDS else [r.target, r.anchor, r.other_anchor or ""]
@@ -71,7 +71,7 @@ def moved(room: list[Placed], by: Corner) -> list[Placed]:
 
 
 def turned(room: list[Placed], quarters: int) -> list[Placed]:
-    """Return a room turned about z by right angles."""
+    """Return a room rotated about z by right angles."""
 
     def turn(box: Box) -> Box:
         (x0, y0, z0), (x1, y1, z1) = box.lower, box.upper
@@ -84,19 +84,19 @@ def turned(room: list[Placed], quarters: int) -> list[Placed]:
 
 @settings(deadline=None, max_examples=40)
 @given(rooms(), st.tuples(*[st.integers(-4096, 4096)] * 3))
-def test_moving_the_whole_room_changes_nothing(room: list[Placed], steps: tuple[int, int, int]):
+def test_translating_a_room_preserves_relations(room: list[Placed], steps: tuple[int, int, int]):
     x, y, z = (GRID * step for step in steps)
     assert everything(moved(room, (x, y, z))) == everything(room)
 
 
 @settings(deadline=None, max_examples=40)
 @given(rooms(), st.integers(1, 3))
-def test_nor_does_turning_it_by_right_angles_with_the_viewer(room: list[Placed], quarters: int):
+def test_rotating_room_and_viewer_by_right_angles_preserves_relations(room: list[Placed], quarters: int):
     (x, y, _), dx, dy = VIEW.position, 1.0, 2.0
     for _ in range(quarters):
         x, y, dx, dy = -y, x, -dy, dx
     view = Viewpoint((x, y, 1.5), (dx, dy, 0.0))
-    before, after = told(everything(room)), told(everything(turned(room, quarters), view))
+    before, after = by_statement(everything(room)), by_statement(everything(turned(room, quarters), view))
     assert before.keys() == after.keys()
     for key, relation in before.items():
         assert after[key].numbers == pytest.approx(relation.numbers)
@@ -105,9 +105,9 @@ def test_nor_does_turning_it_by_right_angles_with_the_viewer(room: list[Placed],
 
 @settings(deadline=None, max_examples=40)
 @given(rooms(), st.randoms(use_true_random=False))
-def test_nor_does_the_order_of_the_objects(room: list[Placed], random):
+def test_the_order_of_objects_does_not_matter(room: list[Placed], random):
     shuffled = random.sample(room, len(room))
-    before, after = told(everything(room)), told(everything(shuffled))
+    before, after = by_statement(everything(room)), by_statement(everything(shuffled))
     assert before.keys() == after.keys()
     for key, relation in before.items():
         assert after[key].numbers == pytest.approx(relation.numbers)
@@ -115,12 +115,12 @@ def test_nor_does_the_order_of_the_objects(room: list[Placed], random):
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_they_come_by_target_in_scene_order_and_each_once(room: list[Placed]):
+def test_relations_are_sorted_by_target_without_duplicates(room: list[Placed]):
     relations = everything(room)
     place = {obj.prim_path: index for index, (obj, _) in enumerate(room)}
     targets = [place[r.target] for r in relations]
     assert targets == sorted(targets)
-    assert len(told(relations)) == len(relations)
+    assert len(by_statement(relations)) == len(relations)
     for r in relations:
         if r.kind in SYMMETRIC_KINDS:
             assert place[r.target] < place[r.anchor]
@@ -128,7 +128,7 @@ def test_they_come_by_target_in_scene_order_and_each_once(room: list[Placed]):
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_what_is_on_in_or_above_something_is_not_below_it_too(room: list[Placed]):
+def test_directed_relations_are_asymmetric(room: list[Placed]):
     relations = everything(room)
     found = {(r.kind, r.target, r.anchor) for r in relations}
     for kind, target, anchor in found:
@@ -150,7 +150,7 @@ def test_what_is_on_in_or_above_something_is_not_below_it_too(room: list[Placed]
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_each_is_on_one_thing_and_in_one_and_chains_end(room: list[Placed]):
+def test_each_object_has_one_supporter_and_container_without_cycles(room: list[Placed]):
     up: dict[str, dict[str, list[str]]] = {"on": {}, "inside": {}, "room": {}}
     for r in everything(room):
         if r.kind in up and r.rule != RULES.on_several.rule:
@@ -166,7 +166,7 @@ def test_each_is_on_one_thing_and_in_one_and_chains_end(room: list[Placed]):
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_numbers_are_those_of_the_boxes(room: list[Placed]):
+def test_measurements_match_the_boxes(room: list[Placed]):
     boxes = {obj.prim_path: obj.own_box for obj, _ in room}
     for r in everything(room):
         assert r.confidence is None or 0 <= r.confidence <= 1
@@ -193,7 +193,7 @@ def test_numbers_are_those_of_the_boxes(room: list[Placed]):
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_nothing_weaker_is_said_of_what_is_on_in_or_part_of_something(room: list[Placed]):
+def test_stronger_relations_suppress_weaker_ones(room: list[Placed]):
     relations = everything(room)
     strong = {frozenset((r.target, r.anchor)) for r in relations if r.kind in {"on", "inside", "part-of"}}
     weak = {frozenset((r.target, r.anchor)) for r in relations if r.kind in {"above", "touching", "next-to", "near"}}
@@ -204,7 +204,7 @@ def test_nothing_weaker_is_said_of_what_is_on_in_or_part_of_something(room: list
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_a_kind_is_the_same_whatever_others_are_asked_for(room: list[Placed]):
+def test_kinds_are_independent_of_each_other(room: list[Placed]):
     whole = everything(room)
     for kind in ALL_KINDS:
         if kind not in {"near", *VIEWPOINT_KINDS}:
@@ -213,7 +213,7 @@ def test_a_kind_is_the_same_whatever_others_are_asked_for(room: list[Placed]):
 
 @settings(deadline=None, max_examples=40)
 @given(st.tuples(*[st.floats(-1000, 1000)] * 3))
-def test_moving_by_any_length_changes_no_relation(by: Corner):
+def test_translation_by_any_length_preserves_relations(by: Corner):
     room: list[Placed] = [
         (thing("/floor", (-5, -5, -0.1), (10, 10, 0.1)), "Floor"),
         (thing("/table", (0, 0, 0), (1, 1, 0.7)), "Table"),
@@ -223,14 +223,14 @@ def test_moving_by_any_length_changes_no_relation(by: Corner):
         (thing("/lamp", (0.3, 0.3, 1.5), (0.4, 0.4, 0.3)), "Appliance"),
         (thing("/chair", (1.1, 0.2, 0), (0.5, 0.5, 0.9)), "DesignedChair"),
     ]
-    assert told(everything(moved(room, by))).keys() == told(everything(room)).keys()
+    assert by_statement(everything(moved(room, by))).keys() == by_statement(everything(room)).keys()
     # 1,000 m away a number has 13 digits left behind the point.
     gap = next(r.numbers["gap"] for r in everything(moved(room, by)) if (r.target, r.kind) == ("/cup", "on"))
     assert gap == pytest.approx(0.002, abs=1e-9)
 
 
 def spun(objects: list[tuple[Corner, float, Corner]], angle: float) -> list[Placed]:
-    """Return upright blocks (middle, own turn in radians, size) with the whole scene turned by an angle about z."""
+    """Return upright blocks (centre, yaw in radians, size) with the whole scene rotated about z."""
     placed = []
     for i, ((x, y, z), turn, (width, depth, height)) in enumerate(objects):
         cos, sin = math.cos(angle), math.sin(angle)
@@ -257,7 +257,7 @@ def spun(objects: list[tuple[Corner, float, Corner]], angle: float) -> list[Plac
     ),
     st.floats(0, 2 * math.pi),
 )
-def test_distances_are_the_same_however_the_scene_is_turned(blocks, angle):
+def test_distances_are_invariant_under_rotation(blocks, angle):
     objects = [
         ((0.21 * x, 0.23 * y, 0.0), 0.26 * turn, (0.07 * width, 0.11 * depth, 0.5))
         for x, y, turn, width, depth in blocks
@@ -267,12 +267,12 @@ def test_distances_are_the_same_however_the_scene_is_turned(blocks, angle):
         return {(r.target, r.anchor): r.numbers["distance"] for r in relate(*room, kinds=("near",))}
 
     here, there = nearest(spun(objects, 0)), nearest(spun(objects, angle))
-    # Which of them is blocked by a third thing goes by boxes; the numbers do not.
+    # Blocking depends on the axis-aligned boxes; distances do not.
     assert here.keys() & there.keys() or not here
     for pair in here.keys() & there.keys():
         assert there[pair] == pytest.approx(here[pair], abs=1e-9)
 
 
-def test_a_scene_without_boxes_or_objects_has_none():
+def test_a_scene_without_boxes_has_no_relations():
     assert relate(kinds=ALL_KINDS, viewpoint=VIEW) == ()
     assert np.array(relate(kinds=None)).size == 0

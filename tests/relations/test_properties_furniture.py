@@ -1,4 +1,4 @@
-"""What holds of the relations of furniture with boards and drawers, and of a stage in any unit."""
+"""Property-based tests of furniture with boards and drawers, and of stages in any unit."""
 
 from dataclasses import replace
 from typing import Any
@@ -11,7 +11,7 @@ from pxr import Usd
 from tests.graph.records import ground_as, related, thing
 from tests.relations.room_builder import Placed, home, relate
 from tests.relations.test_part_of import joint
-from tests.relations.test_properties import GRID, everything, moved, rooms, told, turned
+from tests.relations.test_properties import GRID, by_statement, everything, moved, rooms, turned
 from usd2kg.relations import find_relations
 from usd2kg.scene import Box, SceneObject, read_scene
 
@@ -20,7 +20,7 @@ KINDS = ("on", "inside", "above", "below", "touching", "next-to", "near", "part-
 
 @st.composite
 def furnished(draw: st.DrawFn) -> list[Placed]:
-    """Return a room of which some things have boards at a random height."""
+    """Return a room with boards at random heights in some objects."""
     return [(with_board(obj, draw(st.integers(-1, 8))), cls) for obj, cls in draw(rooms())]
 
 
@@ -34,7 +34,7 @@ def with_board(obj: SceneObject, eighth: int) -> SceneObject:
 
 
 def with_boards_along(room: list[Placed], change: Any) -> list[Placed]:
-    """Return a room with its things, and their boards like them, moved or turned."""
+    """Return a room with its objects and their boards moved or rotated."""
     bare = change([(replace(obj, support_levels=()), cls) for obj, cls in room])
     levels = {obj.prim_path: obj.support_levels[0] for obj, _ in room if obj.support_levels}
     boards = change([(replace(obj, box=level, own_box=level), "") for obj, level in _known(room, levels)])
@@ -51,22 +51,22 @@ def _known(room: list[Placed], levels: dict[str, Box]) -> list[tuple[SceneObject
 
 @settings(deadline=None, max_examples=40)
 @given(furnished(), st.tuples(*[st.integers(-512, 512)] * 3))
-def test_moving_a_furnished_room_changes_nothing(room: list[Placed], steps: tuple[int, int, int]):
+def test_translating_a_furnished_room_preserves_relations(room: list[Placed], steps: tuple[int, int, int]):
     x, y, z = (GRID * step for step in steps)
     assert everything(with_boards_along(room, lambda placed: moved(placed, (x, y, z)))) == everything(room)
 
 
 @settings(deadline=None, max_examples=40)
 @given(furnished(), st.integers(1, 3))
-def test_nor_does_turning_it_about_the_vertical(room: list[Placed], quarters: int):
+def test_rotating_a_furnished_room_preserves_relations(room: list[Placed], quarters: int):
     there = relate(*with_boards_along(room, lambda placed: turned(placed, quarters)), kinds=KINDS)
-    here = told(relate(*room, kinds=KINDS))
-    assert told(there).keys() == here.keys()
+    here = by_statement(relate(*room, kinds=KINDS))
+    assert by_statement(there).keys() == here.keys()
 
 
 @settings(deadline=None, max_examples=40)
 @given(furnished())
-def test_no_two_are_each_on_or_in_the_other(room: list[Placed]):
+def test_on_and_inside_are_asymmetric(room: list[Placed]):
     found = {(r.kind, r.target, r.anchor) for r in everything(room)}
     for kind, target, anchor in found:
         if kind in {"on", "inside"}:
@@ -75,7 +75,7 @@ def test_no_two_are_each_on_or_in_the_other(room: list[Placed]):
 
 @settings(deadline=None, max_examples=40)
 @given(st.lists(st.tuples(*[st.integers(-8, 64)] * 3, *[st.integers(1, 64)] * 3), min_size=2, max_size=5))
-def test_a_whole_is_not_in_its_part_nor_a_drawer_in_another(boxes: list[tuple[int, ...]]):
+def test_no_whole_is_inside_its_part_and_no_drawer_inside_another(boxes: list[tuple[int, ...]]):
     cabinet: Placed = (thing("/cab", (0, 0, 0), (1, 1, 1)), "KitchenCabinet")
     drawers = [
         (thing(f"/drawer{i}", (GRID * x, GRID * y, GRID * z), (GRID * a, GRID * b, GRID * c)), "Drawer")
@@ -105,7 +105,7 @@ ROOM = {
 
 
 def stage_text(unit: float, up_axis: str) -> str:
-    """Return the room as a layer whose lengths are in units of so many metres."""
+    """Return the room as a layer with the given metres per unit."""
     prims = []
     for name, (lower, size) in ROOM.items():
         middle = [(low + side / 2) / unit for low, side in zip(lower, size, strict=True)]

@@ -1,4 +1,4 @@
-"""Which room a thing is in."""
+"""room: the room that an object is in."""
 
 import pytest
 
@@ -37,12 +37,12 @@ def test_the_smallest_room_around_it():
     assert rooms(flat, KITCHEN, cup((6, 1, 0.7))) == {("cup", "room", "flat")}
 
 
-def test_what_is_in_a_cupboard_is_in_the_room_as_well():
+def test_contents_of_a_cupboard_are_in_its_room():
     cupboard = (thing("/cupboard", (0, 0, 1.4), (0.6, 0.4, 0.7)), "Cupboard")
     assert ("cup", "room", "kitchen") in rooms(KITCHEN, cupboard, cup((0.2, 0.1, 1.5)))
 
 
-def test_a_room_is_what_is_below_it_and_not_its_own_mesh():
+def test_a_rooms_box_includes_the_objects_below_it():
     # A prim for the room with a floor mesh of its own, walls nested below it.
     whole = box_at((0, 0, 0), (4, 3, 2.5))
     room = (thing("/room", (0, 0, 0), (4, 3, 0.01), box=whole), "Room")
@@ -62,7 +62,7 @@ def test_a_panel_that_is_called_a_kitchen_is_no_room():
 
 
 class TestGroups:
-    """Without a room among the objects, groups that are named after one stand for it."""
+    """Without room objects, groups named after a room count."""
 
     def test_a_group_called_after_a_room(self):
         fridge = (thing("/Flat/kitchen_01/fridge", (0, 0, 0), (0.6, 0.6, 2)), "Refrigerator")
@@ -77,7 +77,7 @@ class TestGroups:
             ("/Flat/BedRoom/lamp", "/Flat/BedRoom", RULES.room.group_rule),
         }
 
-    def test_where_it_is_counts_and_not_what_it_is_below(self):
+    def test_position_decides_the_room_not_the_hierarchy(self):
         walls = [(thing(f"/Flat/kitchen/wall{i}", (0, 4 * i, 0), (4, 0.1, 2.5)), "Wall") for i in range(2)]
         robot = artifact("robot", (1, 1, 0), (0.5, 0.5, 1))
         assert rooms(*walls, robot) == {("robot", "room", "kitchen")}

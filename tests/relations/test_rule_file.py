@@ -1,4 +1,4 @@
-"""The table of thresholds, and a user's own in place of them."""
+"""Relation rules and their overrides."""
 
 from dataclasses import fields
 from pathlib import Path
@@ -22,7 +22,7 @@ def rules_file(tmp_path: Path):
     return write
 
 
-def test_without_a_file_there_are_those_that_ship():
+def test_defaults_to_the_packaged_rules():
     assert load_rules() is load_rules()
     assert load_rules().on.rule == "on/1"
 
@@ -69,7 +69,7 @@ class TestClasses:
         rack = (thing("/rack", (0, 0, 0), (1, 1, 1)), "Rack")
         assert related(relate(rack, self.CRUMB, rules=rules)) == {("crumb", "inside", "rack")}
 
-    def test_subclasses_are_in_a_list_but_for_names_with_an_equals_sign(self, rules_file):
+    def test_an_equals_sign_excludes_subclasses(self, rules_file):
         # An armchair is a chair.
         for name, expected in (("soma:DesignedChair", True), ("=soma:DesignedChair", False)):
             rules = load_rules(rules_file(f'[classes]\ncontainers = ["{name}"]\n'))
@@ -108,7 +108,7 @@ class TestClasses:
         ("[on\n", "not valid TOML"),
     ],
 )
-def test_mistakes_are_told(rules_file, text: str, message: str):
+def test_rejects_invalid_rule_files(rules_file, text: str, message: str):
     path = rules_file(text)
     with pytest.raises(GraphError, match=message) as raised:
         load_rules(path)
@@ -156,7 +156,7 @@ def test_thresholds_at_their_limits_divide_by_nothing(rules_file):
 
 
 class TestPage:
-    """docs/relations.md is what the software does."""
+    """docs/relations.md matches the rules."""
 
     PAGE = (Path(__file__).parents[2] / "docs/relations.md").read_text("utf-8")
 
@@ -173,9 +173,9 @@ class TestPage:
         assert (rules.on.rule, rules.near.most) == ("lab-on/1", 5)
         assert "=soma:Box" in rules.classes.closed
 
-    def test_the_thresholds_it_tells_are_those_of_the_table(self):
+    def test_documented_thresholds_match_the_rules(self):
         rules = load_rules()
-        told = {
+        documented = {
             "More than 30 % of what the target stands on": rules.on.min_overlap_ratio == 0.3,
             "hovers at most 7 cm over something": rules.hovering.max_gap == 0.07,
             "more than half a metre thick": rules.hovering.max_wall_thickness == 0.5,
@@ -192,7 +192,7 @@ class TestPage:
             "within 40 degrees": rules.side.tolerance_deg == 40,
         }
         page = " ".join(self.PAGE.split())
-        assert not [text for text, holds in told.items() if not holds or text not in page]
+        assert not [text for text, holds in documented.items() if not holds or text not in page]
 
 
 def test_a_missing_file(tmp_path: Path):

@@ -1,4 +1,4 @@
-"""Left, right, front and behind, as someone sees things."""
+"""left, right, front and behind, from a viewpoint."""
 
 import pytest
 
@@ -63,7 +63,7 @@ def test_in_between_two_directions_nothing_is_said():
     assert sides(ONE, two, viewpoint=Viewpoint((0, -3, 0), (0, 1, 0))) == set()
 
 
-def test_of_things_at_other_heights_or_far_away_neither():
+def test_sides_need_similar_heights_and_proximity():
     high = artifact("two", (0.25, 0, 0.18), (0.2, 0.2, 0.2))
     far = artifact("two", (2, 0, 0), (0.2, 0.2, 0.2))
     for other in (high, far):

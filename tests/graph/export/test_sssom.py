@@ -1,4 +1,4 @@
-"""SSSOM files: the exact bytes, any text survives an independent reader, what people decided is read back."""
+"""SSSOM files: exact bytes, round trips through an independent reader, and reviews."""
 
 import csv
 import io
@@ -48,7 +48,7 @@ def make_grounding(*predictions: Prediction) -> Grounding:
 
 
 def rows_of(text: str) -> list[dict[str, str]]:
-    """Return the rows as another program would read them."""
+    """Return the rows as parsed by the csv module."""
     body = io.StringIO("".join(line for line in text.splitlines(keepends=True) if not line.startswith("#")), newline="")
     return list(csv.DictReader(body, delimiter="\t"))
 
@@ -58,7 +58,7 @@ def header_of(text: str) -> dict[str, str]:
     return {name.strip(): json.loads(value) for name, value in (line.split(": ", 1) for line in lines)}
 
 
-def test_the_header_says_what_and_by_what():
+def test_the_header_names_source_and_tool():
     text = format_sssom(
         make_grounding(CUP), TBOX, {}, base=BASE, license_iri="https://x.org/l", mapping_date="2026-07-15"
     )
@@ -72,7 +72,7 @@ def test_the_header_says_what_and_by_what():
     assert head["subject_source_version"] == "sha256:1"
 
 
-def test_a_row_says_what_the_graph_says():
+def test_rows_match_the_graph():
     (row,) = rows_of(format_sssom(make_grounding(CUP), TBOX, {CUP.prim_path: "Mug\t1"}, base=BASE))
     head = header_of(format_sssom(make_grounding(CUP), TBOX, {}, base=BASE))
     assert row["subject_id"] == "scene:K%C3%BCche.Cup_1"
@@ -85,7 +85,7 @@ def test_a_row_says_what_the_graph_says():
     assert row["alternatives"].endswith(":Thing")
 
 
-def test_reviewers_are_named_and_what_is_unknown_has_no_row():
+def test_reviewers_are_named_and_unanswered_objects_have_no_row():
     rows = rows_of(format_sssom(make_grounding(CORRECTED, CONFIRMED, NO_CLASS, LOST), TBOX, {}, base=BASE))
     assert [row["prim_path"] for row in rows] == ["/Küche/x", "/Küche/c", "/Küche/y"]
     corrected, confirmed, refused = rows
@@ -139,7 +139,7 @@ class TestReadingBack:
         path.write_text(format_sssom(make_grounding(*predictions), TBOX, {}), encoding="utf-8")
         return path
 
-    def test_only_what_a_person_decided_counts(self, tmp_path: Path):
+    def test_only_reviewed_rows_are_decisions(self, tmp_path: Path):
         by_hand = decided("/Küche/h", LAB + "Thing")
         path = self.write(tmp_path, CUP, CORRECTED, CONFIRMED, NO_CLASS, by_hand)
         assert read_decisions(path, TBOX) == {
@@ -148,7 +148,7 @@ class TestReadingBack:
             "/Küche/h": LAB + "Thing",
         }
 
-    def test_nothing_decided_is_told(self, tmp_path: Path, caplog: pytest.LogCaptureFixture):
+    def test_warns_if_no_row_is_a_decision(self, tmp_path: Path, caplog: pytest.LogCaptureFixture):
         with caplog.at_level(logging.WARNING):
             assert read_decisions(self.write(tmp_path, CUP), TBOX) == {}
         assert "none of its 1 rows was decided by a person" in caplog.text

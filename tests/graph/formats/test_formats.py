@@ -1,4 +1,4 @@
-"""Every format is read again by a reader that is not ours, and says the same; hostile names included."""
+"""Independent readers read every format with the same content, hostile names included."""
 
 import csv
 import gzip
@@ -43,7 +43,7 @@ RDFLIB_FORMATS = {".ttl": "turtle", ".nt": "nt", ".trig": "trig", ".nq": "nquads
 PROFILES = ("soma", "plain")
 
 pytestmark = [
-    # rdflib warns of what it calls itself.
+    # rdflib's own deprecations.
     pytest.mark.filterwarnings("ignore:ConjunctiveGraph is deprecated:DeprecationWarning"),
     pytest.mark.filterwarnings("ignore:Dataset.default_context is deprecated:DeprecationWarning"),
 ]
@@ -89,7 +89,7 @@ class TestRdf:
 
     @pytest.mark.parametrize("ending", [ending for ending in RDF_FORMATS if ending != ".jsonld"])
     @pytest.mark.parametrize("packed", ["", ".gz"])
-    def test_what_is_read_back_is_the_same_in_the_same_order(
+    def test_round_trip_preserves_triples_and_order(
         self, tmp_path: Path, graph: KnowledgeGraph, ending: str, packed: str
     ):
         path = tmp_path / f"graph{ending}{packed}"
@@ -176,7 +176,9 @@ class TestRdf12:
         assert list(read_document(tmp_path / f"a{ending}").triples) == list(graph.triples)
 
     @pytest.mark.parametrize(("ending", "name"), [(".rdf", "RDF/XML"), (".jsonld", "JSON-LD"), (".ofn", "OWL")])
-    def test_the_others_say_so_and_write_nothing(self, tmp_path: Path, home_tbox: TBox, ending: str, name: str):
+    def test_formats_without_triple_terms_raise_and_write_nothing(
+        self, tmp_path: Path, home_tbox: TBox, ending: str, name: str
+    ):
         graph = hostile_graph(home_tbox, options=GraphOptions(annotations="rdf12"))
         with pytest.raises(GraphError, match=f"needs RDF 1.2, which {name} lacks; choose .ttl"):
             write_graph(graph, tmp_path / f"a{ending}")

@@ -1,4 +1,4 @@
-"""Graph files: the format of the ending, the same bytes every time, whole or absent."""
+"""Graph files: format by extension, deterministic bytes, atomic writes."""
 
 import os
 import subprocess
@@ -102,7 +102,7 @@ def test_another_ending_is_an_error_and_writes_nothing(tmp_path: Path, graph: Kn
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_is_written_is_what_was_serialised(tmp_path: Path, graph: KnowledgeGraph):
+def test_written_bytes_equal_serialised_bytes(tmp_path: Path, graph: KnowledgeGraph):
     path = tmp_path / "graph.nt"
     write_graph(graph, path)
     assert path.read_bytes() == serialize_graph(graph, ox.RdfFormat.N_TRIPLES)
