@@ -58,14 +58,14 @@ KIND = "isIRI(?c) && ?c NOT IN (usd:Prim, owl:NamedIndividual)"
 
 
 def count(store: ox.Store, query: str) -> int:
-    """Return the number that a query asks for; of a mere pattern, how many ?o fit it."""
+    """Return the count of a query; for a bare pattern, the number of distinct ?o."""
     text = query if query.startswith("SELECT") else f"SELECT (COUNT(DISTINCT ?o) AS ?n) {{ {query} }}"
     (row,) = store.query(text.replace("{kind}", KIND), prefixes=PREFIXES)
     return int(row["n"].value)
 
 
 def open_ours(stage: Path, ontology: Path) -> ox.Store:
-    """Return our graph of a stage as a reader finds it in the file."""
+    """Return our graph of a stage, re-read from its serialisation."""
     store = ox.Store()
     graph = usd2kg.build(stage, ontology, profile="soma").graph
     store.load(serialize_graph(graph, ox.RdfFormat.TURTLE), format=ox.RdfFormat.TURTLE)

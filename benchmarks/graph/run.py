@@ -83,7 +83,7 @@ def _make_object(path: str, lower: tuple[float, ...], size: tuple[float, ...], m
 
 
 def make_grounding(scene: Scene, tbox: TBox) -> Grounding:
-    """Return a grounding that gives each object its class, with three alternatives."""
+    """Return a grounding of all objects, with three alternatives each."""
     classes = {name: tbox.resolve(name) for name in ("Table", "Cup", "Glass", "Bowl", "Plate")}
     predictions = []
     for obj in scene.objects:
@@ -108,21 +108,21 @@ def make_grounding(scene: Scene, tbox: TBox) -> Grounding:
 
 
 class Timed(NamedTuple):
-    """A result and how long it took."""
+    """A result with its processor time."""
 
     result: Any
     seconds: float
 
 
 def timed(action: Callable[[], Any]) -> Timed:
-    """Return what an action gives, and the seconds of processor time that it takes."""
+    """Return the result of a call and its processor time in seconds."""
     start = time.process_time()
     result = action()
     return Timed(result, time.process_time() - start)
 
 
 def compare_writing(graph: KnowledgeGraph, folder: Path, ending: str, rdf_format: ox.RdfFormat) -> tuple[float, float]:
-    """Return the shortest of three times of writing the graph, ours and pyoxigraph's own, in seconds."""
+    """Return the best of three serialisation times, ours and pyoxigraph's, in seconds."""
     prefixes = graph.prefixes if rdf_format == ox.RdfFormat.TURTLE else None
     own = str(folder / f"theirs{ending}")
     ours, theirs = [], []
@@ -133,7 +133,7 @@ def compare_writing(graph: KnowledgeGraph, folder: Path, ending: str, rdf_format
 
 
 def peak_memory() -> float:
-    """Return the largest resident memory of this process so far, in GB."""
+    """Return the peak resident memory of this process in GB."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
 
 

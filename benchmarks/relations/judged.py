@@ -1,4 +1,4 @@
-"""Hold the spatial relations that are found against those that were judged by eye.
+"""Compare found spatial relations with manual judgements.
 
 Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
@@ -28,7 +28,7 @@ ANY = "*"
 
 
 class Sources(NamedTuple):
-    """Where a scene and its judged list are."""
+    """A scene and its judged list."""
 
     stage: Path
     judged: Path
@@ -42,7 +42,7 @@ SCENES = {
 
 
 class Fact(NamedTuple):
-    """One row of a judged list: one of the relations to one of the objects holds, or is left open."""
+    """A row of a judged list: one of the relations to one of the objects holds, or is open."""
 
     subject: str
     kinds: tuple[str, ...]
@@ -50,7 +50,7 @@ class Fact(NamedTuple):
     is_open: bool
 
     def covers(self, subject: str, kind: str, anchor: str) -> bool:
-        """Return whether a relation is one that this row tells of; `touching` holds both ways."""
+        """Return whether this row covers a relation; `touching` is symmetric."""
         pairs = [(subject, anchor)] if kind != "touching" else [(subject, anchor), (anchor, subject)]
         return kind in self.kinds and any(
             s == self.subject and (o in self.objects or ANY in self.objects) for s, o in pairs
@@ -59,10 +59,10 @@ class Fact(NamedTuple):
 
 @dataclass
 class Tally:
-    """What was found of one kind of relation, and what of it holds; pairs of prim paths."""
+    """Found and true relations of one kind, as pairs of prim paths."""
 
     judged: int = 0
-    """Rows that hold."""
+    """Rows that are true."""
     right: list[tuple[str, str]] = field(default_factory=list)
     wrong: list[tuple[str, str]] = field(default_factory=list)
     open: list[tuple[str, str]] = field(default_factory=list)
@@ -70,12 +70,12 @@ class Tally:
 
     @property
     def precision(self) -> float:
-        """Share of what was found that is right, what is left open not counted; NaN where nothing was found."""
+        """Precision without open cases; NaN if nothing was found."""
         return _share(len(self.right), len(self.right) + len(self.wrong))
 
     @property
     def recall(self) -> float:
-        """Share of what holds that was found; NaN where nothing holds."""
+        """Recall; NaN if nothing is true."""
         return _share(self.judged - len(self.missed), self.judged)
 
 
@@ -95,7 +95,7 @@ def read_judged(path: Path) -> list[Fact]:
 
 
 def compare(facts: Iterable[Fact], found: Iterable[Relation]) -> dict[str, Tally]:
-    """Return what was found against what was judged, by kind; only kinds that the list knows, and objects in it."""
+    """Return kind → tally, for the kinds and objects of the list."""
     facts = list(facts)
     by_subject: dict[str, list[Fact]] = {}
     for fact in facts:
@@ -104,9 +104,9 @@ def compare(facts: Iterable[Fact], found: Iterable[Relation]) -> dict[str, Tally
     tallies = {kind: Tally() for kind in kinds}
     links = [(r.target, r.kind, r.anchor) for r in found if r.kind in tallies and r.target in by_subject]
     for target, kind, anchor in links:
-        told = [f for f in (*by_subject[target], *by_subject.get(anchor, ())) if f.covers(target, kind, anchor)]
+        facts = [f for f in (*by_subject[target], *by_subject.get(anchor, ())) if f.covers(target, kind, anchor)]
         tally = tallies[kind]
-        place = tally.wrong if not told else tally.open if all(fact.is_open for fact in told) else tally.right
+        place = tally.wrong if not facts else tally.open if all(fact.is_open for fact in facts) else tally.right
         place.append((target, anchor))
     known = _Known(links)
     for fact in facts:
@@ -119,20 +119,20 @@ def compare(facts: Iterable[Fact], found: Iterable[Relation]) -> dict[str, Tally
 
 
 class _Known:
-    """Looks up what was found."""
+    """Index of the found relations."""
 
     def __init__(self, links: Iterable[tuple[str, str, str]]) -> None:
         self._links = set(links)
 
     def meets(self, fact: Fact) -> bool:
-        """Return whether one of the relations that a row tells of was found."""
+        """Return whether one of the relations of a row was found."""
         tries = [(fact.subject, kind, anchor) for kind in fact.kinds for anchor in fact.objects]
         turned = [(o, kind, s) for s, kind, o in tries if kind == "touching"]
         return any(link in self._links for link in (*tries, *turned))
 
 
 def table(name: str, tallies: Mapping[str, Tally]) -> list[str]:
-    """Return one row of Markdown for each kind."""
+    """Return one Markdown row per kind."""
     rows = []
     for kind, tally in tallies.items():
         right, wrong, open_, missed = (len(x) for x in (tally.right, tally.wrong, tally.open, tally.missed))
@@ -143,7 +143,7 @@ def table(name: str, tallies: Mapping[str, Tally]) -> list[str]:
 
 
 def errors(tallies: Mapping[str, Tally]) -> list[str]:
-    """Return a line for each relation that is wrong or missed."""
+    """Return one line per false positive or false negative."""
     lines = []
     for kind, tally in tallies.items():
         for word, pairs in (("wrong", tally.wrong), ("missed", tally.missed)):
@@ -152,7 +152,7 @@ def errors(tallies: Mapping[str, Tally]) -> list[str]:
 
 
 def main(names: list[str]) -> None:
-    """Print the table and what is wrong and missed."""
+    """Print the table and the errors."""
     unknown = [name for name in names if name not in SCENES]
     if unknown:
         sys.exit(f"judged.py: there is no scene {unknown[0]}; expected one of {', '.join(SCENES)}")
@@ -160,16 +160,16 @@ def main(names: list[str]) -> None:
         "| scene | relation | judged | found | right | wrong | open | missed | precision % | recall % |",
         "|" + " --- |" * 10,
     ]
-    told = []
+    errors_and_notes = []
     for name in names or SCENES:
         source = SCENES[name]
         if not source.stage.exists():
-            told.append(f"{name} is left out: there is no {source.stage}; set USD2KG_SHARED")
+            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set USD2KG_SHARED")
             continue
         tallies = compare(read_judged(source.judged), usd2kg.build(source.stage).graph.relations)
         rows += table(name, tallies)
-        told += [f"{name}: {line}" for line in errors(tallies)]
-    print("\n".join([*rows, "", *told]))
+        errors_and_notes += [f"{name}: {line}" for line in errors(tallies)]
+    print("\n".join([*rows, "", *errors_and_notes]))
 
 
 def _share(part: int, whole: int) -> float:

@@ -1,4 +1,4 @@
-"""Time the spatial relations on synthetic rooms: tables, shelves, boxes in boxes, and the small things on and in them.
+"""Time the spatial relations on synthetic rooms: tables, shelves, nested boxes, and small objects on and in them.
 
 Usage: python benchmarks/relations/run.py [OBJECTS...] (default 1000 10000 100000)
 
@@ -31,7 +31,7 @@ def box_at(lower: Corner, size: Corner) -> Box:
 
 
 class Maker:
-    """Makes objects with classes until there are enough."""
+    """Adds classified objects up to a given number."""
 
     def __init__(self, wanted: int) -> None:
         self.wanted = wanted
@@ -105,14 +105,14 @@ class Maker:
                 self.add("book", "DesignedArtifact", (x + 0.05 + 0.18 * place, y + 0.05, 0.12 + 0.4 * board), size)
 
     def nest(self, x: float, y: float) -> None:
-        """Add four boxes, each in the one before."""
+        """Add four nested boxes."""
         for depth in range(4):
             side = 0.6 - 0.12 * depth
             self.add("box", "Box", (x + 0.06 * depth, y + 0.06 * depth, 0.03 * depth), (side, side, side))
 
 
 def make_scene(count: int, tbox: TBox) -> tuple[Scene, Grounding]:
-    """Return a scene of so many objects, and a grounding that gives each its class."""
+    """Return a scene with the given number of objects, and its grounding."""
     maker = Maker(count)
     maker.fill()
     iris = {name: tbox.resolve(name) for name in set(maker.classes)}
@@ -156,7 +156,7 @@ def measured(count: int, tbox: TBox) -> Iterator[tuple[str, float, int]]:
 
 
 def exponent(sizes: list[int], seconds: list[float]) -> float:
-    """Return the slope of log seconds over log size, by least squares: 1 is in proportion."""
+    """Return the least-squares slope of log seconds over log size: 1 is linear."""
     x, y = [math.log(size) for size in sizes], [math.log(value) for value in seconds]
     middle_x, middle_y = sum(x) / len(x), sum(y) / len(y)
     spread = sum((value - middle_x) ** 2 for value in x)
