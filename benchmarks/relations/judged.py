@@ -104,9 +104,9 @@ def compare(facts: Iterable[Fact], found: Iterable[Relation]) -> dict[str, Tally
     tallies = {kind: Tally() for kind in kinds}
     links = [(r.target, r.kind, r.anchor) for r in found if r.kind in tallies and r.target in by_subject]
     for target, kind, anchor in links:
-        facts = [f for f in (*by_subject[target], *by_subject.get(anchor, ())) if f.covers(target, kind, anchor)]
+        covering = [f for f in (*by_subject[target], *by_subject.get(anchor, ())) if f.covers(target, kind, anchor)]
         tally = tallies[kind]
-        place = tally.wrong if not facts else tally.open if all(fact.is_open for fact in facts) else tally.right
+        place = tally.wrong if not covering else tally.open if all(fact.is_open for fact in covering) else tally.right
         place.append((target, anchor))
     known = _Known(links)
     for fact in facts:
