@@ -6,6 +6,7 @@ import pytest
 
 from tools.build_data import BuiltFile, build_files, check_listed, find_differences
 from tools.data_files import KNOWLEDGE, SourceError
+from tools.settings_files import convert_settings
 from tools.source_schema import Column, Schema, Source, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
@@ -137,3 +138,28 @@ def test_rejects_tables_with_missing_or_unknown_keys(tmp_path, text):
 def test_rejects_broken_toml(tmp_path):
     with pytest.raises(SourceError, match=r"/colours.toml: .*line 1"):
         convert_word_lists(write_list(tmp_path, "[plain\n"))
+
+
+def write_settings(folder: Path, text: str) -> Path:
+    path = folder / "shapes.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_converts_settings_with_an_origin_for_each_value(tmp_path):
+    text = "[gap]\nleast = 0.5  # metres [chosen: a hand's width]\nnames = ['a']  # names [fitted by tools/fit.py]\n"
+    assert convert_settings(write_settings(tmp_path, text)).decode() == (
+        '{\n "gap": {\n  "least": 0.5,\n  "names": [\n   "a"\n  ]\n }\n}\n'
+    )
+
+
+@pytest.mark.parametrize("comment", ["", "# metres", "# metres [guessed]", "# [chosen: no meaning]"])
+def test_rejects_settings_without_meaning_or_origin(tmp_path, comment):
+    path = write_settings(tmp_path, f"[gap]\nleast = 0.5  {comment}\n")
+    with pytest.raises(SourceError, match=r"shapes.toml:2: least has no origin; expected a comment"):
+        convert_settings(path)
+
+
+def test_rejects_settings_outside_a_section(tmp_path):
+    with pytest.raises(SourceError, match=r"shapes.toml: least is in no section"):
+        convert_settings(write_settings(tmp_path, "least = 0.5  # metres [chosen]\n"))

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from tools.build_categories import build_categories
 from tools.build_home_tbox import build_home_tbox
 from tools.data_files import DATA, KNOWLEDGE, ROOT, SourceError, write_data_file
+from tools.settings_files import convert_settings
 from tools.source_schema import Schema, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
@@ -45,6 +46,8 @@ def build_files(schema: Schema) -> Iterator[BuiltFile]:
             yield BuiltFile(source.builds, path.read_bytes())
     for path in sorted((KNOWLEDGE / "words").glob("*.toml")):
         yield BuiltFile(f"words/{path.stem}.json", convert_word_lists(path))
+    for path in sorted((KNOWLEDGE / "settings").glob("*.toml")):
+        yield BuiltFile(f"settings/{path.stem}.json", convert_settings(path))
 
 
 def check_listed(schema: Schema, knowledge: Path = KNOWLEDGE) -> None:

@@ -4,12 +4,14 @@ import csv
 import io
 import json
 from collections.abc import Mapping
+from dataclasses import fields
 from functools import lru_cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from types import MappingProxyType
+from typing import Any, TypeVar
 
-__all__ = ["data_file", "read_bytes", "read_rows", "read_text", "word_map", "word_set"]
+__all__ = ["data_file", "read_bytes", "read_rows", "read_settings", "read_text", "word_map", "word_set"]
 
 
 def data_file(name: str) -> Traversable:
@@ -56,3 +58,29 @@ def word_map(component: str, name: str) -> Mapping[str, str]:
 def _read_word_lists(component: str) -> Mapping[str, list[str] | dict[str, str]]:
     lists: dict[str, list[str] | dict[str, str]] = json.loads(read_text(f"words/{component}.json"))
     return lists
+
+
+_Record = TypeVar("_Record")
+
+
+def read_settings(component: str, section: str, record: type[_Record]) -> _Record:
+    """Return a section of `knowledge/settings/<component>.toml`, which documents each value, as a dataclass.
+
+    Lists become tuples.
+
+    Raises:
+        KeyError: the section is unknown.
+        TypeError: the section and the dataclass have different keys.
+    """
+    values = _read_settings_file(component)[section]
+    known = {entry.name for entry in fields(record)}  # type: ignore[arg-type]
+    if odd := sorted(known ^ set(values)):
+        where = f"[{section}] in knowledge/settings/{component}.toml"
+        raise TypeError(f"{odd[0]} is only in {where} or only in {record.__name__}")
+    return record(**{key: tuple(value) if isinstance(value, list) else value for key, value in values.items()})
+
+
+@lru_cache(maxsize=16)
+def _read_settings_file(component: str) -> Mapping[str, Mapping[str, Any]]:
+    sections: dict[str, dict[str, Any]] = json.loads(read_text(f"settings/{component}.json"))
+    return sections
