@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tools.build_data import BuiltFile, build_files, check_listed, find_differences
+from tools.build_data import BuiltFile, build_files, check_listed, convert_files, find_differences
 from tools.data_files import KNOWLEDGE, SourceError
 from tools.settings_files import convert_settings
 from tools.source_schema import Column, Schema, Source, read_schema, validate_source
@@ -13,7 +13,7 @@ from tools.word_lists import convert_word_lists
 
 def test_committed_data_is_what_the_sources_give():
     schema = read_schema(KNOWLEDGE / "schema.toml")
-    assert find_differences(list(build_files(schema)), schema.data) == []
+    assert find_differences([*convert_files(), *build_files(schema)], schema.data) == []
 
 
 def test_reports_files_that_differ_or_have_no_source(tmp_path):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from tools.data_files import KNOWLEDGE, SourceError, csv_bytes, read_source_rows
-from usd2kg.grounding.lexical.concepts.categories import synset_of
+from usd2kg.grounding.lexical.concepts.categories import find_synset
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
 MOST_OBJECTS = 3000
@@ -35,7 +35,7 @@ def build_categories() -> bytes:
     rows = []
     for kinds, members in merge_synonymous_kinds(source, taxonomy):
         kept = find_informative_members(kinds, members, taxonomy)
-        named = (synset_of(name, taxonomy) for name in (*kinds, *members))
+        named = (find_synset(name, taxonomy) for name in (*kinds, *members))
         count = count_hyponyms([synset for synset in named if synset is not None], below)
         if kept and count <= MOST_OBJECTS:
             rows.append(("|".join(kinds), count, "|".join(kept)))
@@ -56,7 +56,7 @@ def merge_synonymous_kinds(rows: Iterable[Row], taxonomy: Taxonomy) -> list[Row]
     by_synset: dict[int, Row] = {}
     merged = []
     for kinds, members in rows:
-        synsets = [synset for kind in kinds if (synset := synset_of(kind, taxonomy)) is not None]
+        synsets = [synset for kind in kinds if (synset := find_synset(kind, taxonomy)) is not None]
         row = next((by_synset[synset] for synset in synsets if synset in by_synset), None)
         if row is None:
             row = Row([], [])
@@ -77,14 +77,14 @@ def find_informative_members(kinds: Sequence[str], members: Sequence[str], taxon
     """
     synsets: dict[int, str] = {}
     for member in members:
-        synset = synset_of(member, taxonomy)
+        synset = find_synset(member, taxonomy)
         if synset is None:
             raise SourceError(
                 KNOWLEDGE / "categories.csv",
                 f"{'|'.join(kinds)}: {member!r} is no noun of the taxonomy, or has fewer senses",
             )
         synsets.setdefault(synset, member)
-    kind_synsets = {synset_of(kind, taxonomy) for kind in kinds}
+    kind_synsets = {find_synset(kind, taxonomy) for kind in kinds}
     hypernyms = {synset: {up for up, _ in taxonomy.walk_up(synset)} for synset in synsets}
     return [
         member

@@ -8,18 +8,21 @@ differs from what would be written. Data of third parties is not built here: `[d
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
-from tools.build_categories import build_categories
-from tools.build_home_tbox import build_home_tbox
 from tools.data_files import DATA, KNOWLEDGE, ROOT, SourceError, write_data_file
 from tools.settings_files import convert_settings
 from tools.source_schema import Schema, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
-BUILDERS: Mapping[str, Callable[[], bytes]] = {"categories.csv": build_categories, "home.ttl": build_home_tbox}
-"""Data file → function that returns its content; all other sources are copied, or are the input of a command."""
+BUILDERS = {"categories.csv": "tools.build_categories", "home.ttl": "tools.build_home_tbox"}
+"""Data file → module with a function of the same name that returns its content.
+
+All other sources are copied, or are the input of a command. The modules are imported late, since usd2kg reads settings
+and word lists on import.
+"""
 
 
 class BuiltFile(NamedTuple):
@@ -30,8 +33,20 @@ class BuiltFile(NamedTuple):
     content: bytes
 
 
+def convert_files() -> Iterator[BuiltFile]:
+    """Yield the word lists and settings.
+
+    Raises:
+        SourceError: a source is malformed.
+    """
+    for path in sorted((KNOWLEDGE / "words").glob("*.toml")):
+        yield BuiltFile(f"words/{path.stem}.json", convert_word_lists(path))
+    for path in sorted((KNOWLEDGE / "settings").glob("*.toml")):
+        yield BuiltFile(f"settings/{path.stem}.json", convert_settings(path))
+
+
 def build_files(schema: Schema) -> Iterator[BuiltFile]:
-    """Yield the data files that the sources give.
+    """Yield the data files that the tables give; the files of `convert_files` must be in place.
 
     Raises:
         SourceError: a source does not match its schema, is missing, or is not in the schema.
@@ -41,13 +56,11 @@ def build_files(schema: Schema) -> Iterator[BuiltFile]:
         path = KNOWLEDGE / source.name
         validate_source(path, source)
         if source.builds in BUILDERS:
-            yield BuiltFile(source.builds, BUILDERS[source.builds]())
+            name = BUILDERS[source.builds]
+            build: Callable[[], bytes] = getattr(import_module(name), name.rpartition(".")[2])
+            yield BuiltFile(source.builds, build())
         elif source.builds not in schema.data:
             yield BuiltFile(source.builds, path.read_bytes())
-    for path in sorted((KNOWLEDGE / "words").glob("*.toml")):
-        yield BuiltFile(f"words/{path.stem}.json", convert_word_lists(path))
-    for path in sorted((KNOWLEDGE / "settings").glob("*.toml")):
-        yield BuiltFile(f"settings/{path.stem}.json", convert_settings(path))
 
 
 def check_listed(schema: Schema, knowledge: Path = KNOWLEDGE) -> None:
@@ -83,21 +96,26 @@ def find_differences(built: list[BuiltFile], others: Mapping[str, object], data:
     return problems
 
 
+def write_files(files: Iterator[BuiltFile]) -> None:
+    """Write the files that differ."""
+    for name, content in files:
+        path = DATA / name
+        if not path.is_file() or path.read_bytes() != content:
+            print(f"wrote {write_data_file(name, content).relative_to(ROOT)}")
+
+
 def main() -> None:
     """Write the data files, or check them."""
     try:
         schema = read_schema(KNOWLEDGE / "schema.toml")
-        built = list(build_files(schema))
+        if "--check" in sys.argv[1:]:
+            if problems := find_differences([*convert_files(), *build_files(schema)], schema.data):
+                raise SystemExit("\n".join(["src/usd2kg/data is not what knowledge/ gives; run make data:", *problems]))
+        else:
+            write_files(convert_files())
+            write_files(build_files(schema))
     except SourceError as error:
         raise SystemExit(str(error)) from error
-    if "--check" in sys.argv[1:]:
-        if problems := find_differences(built, schema.data):
-            raise SystemExit("\n".join(["src/usd2kg/data is not what knowledge/ gives; run make data:", *problems]))
-        return
-    for name, content in built:
-        path = DATA / name
-        if not path.is_file() or path.read_bytes() != content:
-            print(f"wrote {write_data_file(name, content).relative_to(ROOT)}")
 
 
 if __name__ == "__main__":

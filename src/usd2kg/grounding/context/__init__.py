@@ -1,7 +1,7 @@
-"""What surrounds an object: its neighbours, its placement, and the view of it that a naming regime allows."""
+"""What surrounds an object: its neighbours, its placement, and the naming regime through which a grounder sees it."""
 
-from usd2kg.grounding.context.neighbours import Companion, Company, Nearness, size_distance
-from usd2kg.grounding.context.placement import Look, Neighbour
+from usd2kg.grounding.context.neighbours import Nearness, Neighbour, Neighbourhood, size_distance
+from usd2kg.grounding.context.placement import Appearance, FloorPlan, PlacedObject, Placement
 from usd2kg.grounding.context.views import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -16,13 +16,15 @@ __all__ = [
     "ABBREVIATED_LENGTH",
     "EVIDENCE_GROUPS",
     "STUDY_GROUPS",
-    "Companion",
-    "Company",
-    "Look",
+    "Appearance",
+    "FloorPlan",
     "NamingRegime",
     "Nearness",
     "Neighbour",
+    "Neighbourhood",
     "ObjectView",
+    "PlacedObject",
+    "Placement",
     "abbreviate",
     "size_distance",
     "view_objects",

@@ -1,80 +1,67 @@
-"""The company an object keeps: the other named objects of its stage, those like it and those beside it."""
+"""Neighbours of an object: named objects beside it in the stage's tree, and objects of its size elsewhere."""
 
 import math
 from bisect import bisect_left
-from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from enum import StrEnum
 from functools import cached_property
-from heapq import nsmallest
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
+from usd2kg.grounding.context.settings import NEIGHBOURS
+from usd2kg.grounding.context.stage_words import FormWords, Gather, Rate, StageWords, WriteForms
 from usd2kg.scene.model import Scene, SceneObject, Vector
-from usd2kg.words import words_of
 
-__all__ = ["Companion", "Company", "Nearness", "companies", "size_distance"]
+__all__ = ["SAME_SIZE", "Nearness", "Neighbour", "Neighbourhood", "neighbourhoods", "size_distance"]
 
-_NEXT = 2
-_MOST_SIBLINGS = 48
-_MOST_TWINS = 16
-_MOST_ALIKE = 24
-_THINNEST = 0.002
-"""Metres: sheets and decals differ in thickness by nothing that matters."""
-_TWIN = 0.01
-_MOST_RANKED = 14
-"""So many words are kept for a form, where no more are asked for."""
-
+SAME_SIZE = NEIGHBOURS.same_size
+"""`size_distance` below which two sizes are equal."""
 
 R = TypeVar("R", bound=tuple[Any, ...])
 G = TypeVar("G")
-J = TypeVar("J")
-Ways = Callable[[str], Iterable[tuple[str, float]]]
-"""Gives (form, score) of the ways in which a word may be written."""
-Rate = Callable[[str, float, float], R]
-"""Gives from a word, the share of the objects that bear it and the score of its form what it is worth, least first."""
-Gather = Callable[[str, list[R]], G]
-"""Makes something of a form and what the words are worth that it may be, the best first."""
-Judge = Callable[[str, tuple[str, ...], Vector | None], J | None]
-"""Gives from a name, the names above it and a size what the thing is; None if they do not say."""
+V = TypeVar("V")
+Vote = Callable[[str, tuple[str, ...], Vector | None], V | None]
+"""Returns the vote of an object by its name, the names above it and its extents; None for no vote."""
 
 
 class Nearness(StrEnum):
-    """How near another object is, in the stage's tree or in size."""
+    """How a neighbour is related to an object."""
 
     NEXT = "next"
-    """One of the two before or the two after it under the same prim."""
+    """One of the two siblings before it or after it."""
     SIBLING = "sibling"
-    """Under the same prim."""
-    TWIN = "twin"
-    """Of the same size, elsewhere."""
-    ALIKE = "alike"
-    """Of about the same size, elsewhere."""
+    """Another object under the same prim."""
+    SAME_SIZE = "same-size"
+    """Of equal size, elsewhere."""
+    SIMILAR_SIZE = "similar-size"
+    """Of similar size, elsewhere."""
 
 
-class Companion(NamedTuple):
-    """Another object, as a target sees it."""
+class Neighbour(NamedTuple):
+    """Another object of the stage."""
 
     name: str
     parents: tuple[str, ...]
     """Names of the prims above, outermost first."""
     nearness: Nearness
     distance: float | None
-    """How much the sizes differ, see `size_distance`; None where one of them is unknown."""
+    """Difference of size, see `size_distance`; None if a size is unknown."""
     size: Vector | None = None
-    """Its own extent in metres, along its own axes where those are turned."""
+    """Extents in metres, along the neighbour's own axes if those are rotated."""
 
 
 def size_distance(one: Vector, other: Vector) -> float:
-    """Return the root mean square of the three differences of log extent, the extents sorted: 0 for twins.
+    """Return the root mean square difference of the log extents, each sorted; 0 for equal sizes, no unit.
 
-    0.1 is about a tenth longer all round. Extents below 2 mm count as 2 mm.
+    0.1 is about 10 % in every direction. Extents below 2 mm count as 2 mm.
     """
-    return _distance(_log_sizes(one), _log_sizes(other))
+    return _distance(_log_extents(one), _log_extents(other))
 
 
-def _log_sizes(size: Vector) -> Vector:
+def _log_extents(size: Vector) -> Vector:
+    """Return the logarithms of the extents, shortest first."""
+    least = NEIGHBOURS.min_extent
     short, middle, long = sorted(size)
-    return math.log(max(short, _THINNEST)), math.log(max(middle, _THINNEST)), math.log(max(long, _THINNEST))
+    return math.log(max(short, least)), math.log(max(middle, least)), math.log(max(long, least))
 
 
 def _distance(one: Vector, other: Vector) -> float:
@@ -82,211 +69,151 @@ def _distance(one: Vector, other: Vector) -> float:
     return math.sqrt(((a - x) ** 2 + (b - y) ** 2 + (c - z) ** 2) / 3)
 
 
-class _Stage:
-    """What is known of all objects; made once a scene, asked for one target at a time."""
+class _StageIndex:
+    """Objects of a stage by parent and by size, shared by all its neighbourhoods."""
 
     def __init__(self, scene: Scene) -> None:
         self.objects = scene.objects
-        self.families: dict[str, list[int]] = {}
+        self.words = StageWords(scene)
+        self.siblings: dict[str, list[int]] = {}
+        """Path of a parent prim → its objects."""
         self.places: list[int] = []
-        self.logs = [None if size is None else _log_sizes(size) for size in map(_size, scene.objects)]
-        """The logarithms of the extents, the least first."""
-        self._written: dict[tuple[Ways, Rate[Any], Gather[Any, Any], int], _Written[Any, Any]] = {}
-        self._judgements: dict[Judge[Any], dict[int, Any]] = {}
+        """Object → its place among its siblings."""
+        self.log_extents = [None if size is None else _log_extents(size) for size in map(_size_of, scene.objects)]
+        self._votes: dict[Vote[Any], dict[int, Any]] = {}
         for index, obj in enumerate(scene.objects):
-            family = self.families.setdefault(_above(obj), [])
-            self.places.append(len(family))
-            family.append(index)
+            siblings = self.siblings.setdefault(_parent_path(obj), [])
+            self.places.append(len(siblings))
+            siblings.append(index)
 
     @cached_property
-    def words(self) -> Counter[str]:
-        """Word → number of objects with it in their names."""
-        return Counter(word for obj in self.objects for word in dict.fromkeys(words_of(obj.name)))
-
-    @cached_property
-    def volumes(self) -> tuple[list[float], list[int]]:
-        """The sums of the log extents in order, and the objects that they are of."""
-        ordered = sorted((sum(logs), index) for index, logs in enumerate(self.logs) if logs is not None)
+    def by_volume(self) -> tuple[list[float], list[int]]:
+        """The log volumes in ascending order, and the objects that have them."""
+        ordered = sorted((sum(logs), index) for index, logs in enumerate(self.log_extents) if logs is not None)
         return [volume for volume, _ in ordered], [index for _, index in ordered]
 
     @cached_property
-    def holders(self) -> frozenset[str]:
-        """The paths that have objects below them."""
+    def ancestors(self) -> frozenset[str]:
+        """Paths of prims with objects below them."""
         found: set[str] = set()
-        for path in self.families:
+        for path in self.siblings:
             above = path
             while above not in found:
                 found.add(above)
                 above = above.rpartition("/")[0]
         return frozenset(found)
 
-    def written(self, ways: Ways, rate: Rate[R], gather: Gather[R, G], most: int) -> "_Written[R, G]":
-        """Return the words by form, made once."""
-        key = ways, rate, gather, most
-        if key not in self._written:
-            self._written[key] = _Written(self, *key)
-        return self._written[key]
-
-    def judgements(self, judge: Judge[J]) -> dict[int, J | None]:
-        """Return object → what the judge said of it, of those that it was asked about."""
-        return self._judgements.setdefault(judge, {})
+    def votes(self, vote: Vote[V]) -> dict[int, V | None]:
+        """Return object → its vote, for those asked so far."""
+        return self._votes.setdefault(vote, {})
 
 
-class _Written(Generic[R, G]):
-    """The words of a stage by the forms in which they may be written, best first."""
+class Neighbourhood:
+    """The neighbours of one object.
 
-    def __init__(self, stage: _Stage, ways: Ways, rate: Rate[R], gather: Gather[R, G], most: int) -> None:
-        self._words, self._count = stage.words, len(stage.objects)
-        self._rate, self._gather, self._most = rate, gather, most
-        self._written: dict[str, list[tuple[str, float]]] = {}
-        self._ranked: dict[str, list[tuple[R, str, float]]] = {}
-        self._best: dict[str, G] = {}
-        self.forms: dict[str, list[str]] = {}
-        """Word → the forms in which it may be written."""
-        for word in self._words:
-            forms = self.forms[word] = []
-            for form, score in ways(word):
-                forms.append(form)
-                self._written.setdefault(form, []).append((word, score))
+    It never reveals the object's own name, so that masked regimes stay leave-one-out.
+    """
 
-    def best(self, form: str) -> G | None:
-        """Return what is made of the best words that may be written in a form; None if there are none."""
-        if form not in self._written:
-            return None
-        if form not in self._best:
-            self._best[form] = self._gather(form, [worth for worth, _, _ in self._rank(form, self._most)])
-        return self._best[form]
-
-    def best_without(self, own: frozenset[str], form: str) -> G | None:
-        """Return the same for an object that bears the words `own`, which are not to be told of it."""
-        # Without its bearer a word of its own may fall behind or out; the others keep their order.
-        near = self._rank(form, self._most + len(own))
-        if not any(word in own for _, word, _ in near):
-            return self.best(form)
-        left = [(worth, word, score) for worth, word, score in near if word not in own or self._words[word] > 1]
-        found = sorted(self._worth(word, score, 1) if word in own else worth for worth, word, score in left)
-        return self._gather(form, found[: self._most]) if found else None
-
-    def _rank(self, form: str, count: int) -> list[tuple[R, str, float]]:
-        """Return the best words for a form; of a letter half the stage's words are some."""
-        words = self._written.get(form, ())
-        ranked = self._ranked.get(form)
-        if ranked is None or len(ranked) < min(count, len(words)):
-            worths = ((self._worth(word, score), word, score) for word, score in words)
-            ranked = self._ranked[form] = nsmallest(max(count, _MOST_RANKED), worths)
-        return ranked[:count]
-
-    def _worth(self, word: str, score: float, left_out: int = 0) -> R:
-        return self._rate(word, (self._words[word] - left_out) / self._count, score)
-
-
-class Company:
-    """The company of one target, which never tells the target's own name."""
-
-    def __init__(self, stage: _Stage, index: int) -> None:
+    def __init__(self, stage: _StageIndex, index: int) -> None:
         self._stage = stage
         self._index = index
 
-    def words_written(self, ways: Ways, rate: Rate[R], gather: Gather[R, G], most: int) -> Callable[[str], G | None]:
-        """Return a function that gives for a form what is made of the words in other objects' names that it may be.
+    def words_by_form(
+        self, write_forms: WriteForms, rate: Rate[R], gather: Gather[R, G], most: int
+    ) -> Callable[[str], G | None]:
+        """Return a function from an abbreviated form to what `gather` makes of the stage's words with that form.
 
-        Its argument is a form, letters in lower case; it returns None where there is no such word.
+        The function returns None for a form that no word of another object has.
 
         Args:
-            ways: gives (form, score) of all the ways in which a word may be written, each form once.
-            rate: gives what a word is worth, as a tuple: the best is the least, and a smaller share makes none better.
-            gather: makes of a form and the worth of its words, sorted, what the function returns. It is asked once a
-                stage, but for forms of the target's own words.
-            most: the number of words for each form.
-
-        The share is that of the objects that bear the word; shares add up to about the words in a name.
+            write_forms: yields (form, score) for each form of a word, each form once.
+            rate: rates a word by its share of objects and the score of its form, as a tuple; the smallest is the best,
+                and a smaller share never rates better.
+            gather: makes the result from a form and the ratings of its words, best first. Called once a stage for each
+                form, except for forms of the object's own words.
+            most: number of words kept for each form.
         """
-        written = self._stage.written(ways, rate, gather, most)
-        own = frozenset(words_of(self._stage.objects[self._index].name))
-        own_forms = {form for word in own for form in written.forms[word]}
+        words: FormWords[R, G] = self._stage.words.by_form(write_forms, rate, gather, most)
+        return words.without_object(self._stage.objects[self._index].name)
 
-        def best(form: str) -> G | None:
-            return written.best_without(own, form) if form in own_forms else written.best(form)
+    def neighbours(self) -> list[Neighbour]:
+        """Return the siblings and the objects of equal or similar size, each once."""
+        return [self.neighbour(other, nearness, distance) for other, (nearness, distance) in self._find().items()]
 
-        return best
+    def votes(self, vote: Vote[V]) -> list[tuple[V, Nearness, float | None, int]]:
+        """Return (vote, nearness, size distance, index in the scene) of each neighbour that votes.
 
-    def companions(self) -> list[Companion]:
-        """Return the objects beside the target and those like it, each once, at the nearest it is."""
-        return [self.companion(other, nearness, distance) for other, (nearness, distance) in self._near().items()]
-
-    def judged(self, judge: Judge[J]) -> list[tuple[J, Nearness, float | None, int]]:
-        """Return what `judge` says of the companions, each with how near it is and its place in the scene.
-
-        It is asked once an object, and where it says nothing, the companion is left out.
+        `vote` is called once for each object of the stage.
         """
-        judgements = self._stage.judgements(judge)
+        known = self._stage.votes(vote)
         found = []
-        for other, (nearness, distance) in self._near().items():
-            if other not in judgements:
-                companion = self.companion(other, nearness, distance)
-                judgements[other] = judge(companion.name, companion.parents, companion.size)
-            judgement = judgements[other]
-            if judgement is not None:
-                found.append((judgement, nearness, distance, other))
+        for other, (nearness, distance) in self._find().items():
+            if other not in known:
+                neighbour = self.neighbour(other, nearness, distance)
+                known[other] = vote(neighbour.name, neighbour.parents, neighbour.size)
+            own = known[other]
+            if own is not None:
+                found.append((own, nearness, distance, other))
         return found
 
-    def companion(self, other: int, nearness: Nearness, distance: float | None) -> Companion:
-        """Return an object of the scene as the target sees it."""
+    def neighbour(self, other: int, nearness: Nearness, distance: float | None) -> Neighbour:
+        """Return an object of the scene as a neighbour."""
         obj = self._stage.objects[other]
-        parents = tuple(name for name in _above(obj).split("/") if name)
-        return Companion(obj.name, parents, nearness, distance, _size(obj))
+        parents = tuple(name for name in _parent_path(obj).split("/") if name)
+        return Neighbour(obj.name, parents, nearness, distance, _size_of(obj))
 
-    def _near(self) -> dict[int, tuple[Nearness, float | None]]:
-        """Return the companions by their place in the scene, with their nearness and distance."""
-        found = self._beside()
-        for other, near in self._like():
+    def _find(self) -> dict[int, tuple[Nearness, float | None]]:
+        """Return neighbour → nearness and size distance, siblings first."""
+        found = self._find_siblings()
+        for other, near in self._find_similar():
             found.setdefault(other, near)
         path = self._stage.objects[self._index].prim_path
-        if path not in self._stage.holders:
+        if path not in self._stage.ancestors:
             return found
-        # What lies below the target has the target's name among its parents.
+        # Descendants have the object's name among their parents.
         objects, below = self._stage.objects, path + "/"
         return {other: near for other, near in found.items() if not objects[other].prim_path.startswith(below)}
 
-    def _beside(self) -> dict[int, tuple[Nearness, float | None]]:
+    def _find_siblings(self) -> dict[int, tuple[Nearness, float | None]]:
         stage, own = self._stage, self._index
-        logs = stage.logs
-        size = logs[own]
-        family, place = stage.families[_above(stage.objects[own])], stage.places[own]
-        start, end = max(0, place - _MOST_SIBLINGS // 2), place + _MOST_SIBLINGS // 2
+        size = stage.log_extents[own]
+        siblings, place = stage.siblings[_parent_path(stage.objects[own])], stage.places[own]
+        reach = NEIGHBOURS.max_siblings // 2
+        start = max(0, place - reach)
         found: dict[int, tuple[Nearness, float | None]] = {}
-        for at, other in enumerate(family[start:end], start):
-            other_size = logs[other]
+        for at, other in enumerate(siblings[start : place + reach], start):
+            other_size = stage.log_extents[other]
             distance = None if size is None or other_size is None else _distance(size, other_size)
-            found[other] = Nearness.NEXT if -_NEXT <= at - place <= _NEXT else Nearness.SIBLING, distance
+            is_next = abs(at - place) <= NEIGHBOURS.next_places
+            found[other] = Nearness.NEXT if is_next else Nearness.SIBLING, distance
         del found[own]
         return found
 
-    def _like(self) -> list[tuple[int, tuple[Nearness, float | None]]]:
-        size = self._stage.logs[self._index]
+    def _find_similar(self) -> list[tuple[int, tuple[Nearness, float | None]]]:
+        size = self._stage.log_extents[self._index]
         if size is None:
             return []
-        logs, (volumes, order) = self._stage.logs, self._stage.volumes
-        at = bisect_left(volumes, sum(size))
-        near = order[max(0, at - _MOST_ALIKE) : at + _MOST_ALIKE]
+        logs, (volumes, order) = self._stage.log_extents, self._stage.by_volume
+        at, reach = bisect_left(volumes, sum(size)), NEIGHBOURS.max_similar_size
+        near = order[max(0, at - reach) : at + reach]
         nearest = [(_distance(size, other), index) for index in near if (other := logs[index]) and index != self._index]
         nearest.sort()
-        twins = sum([distance < _TWIN for distance, _ in nearest[:_MOST_TWINS]])
+        equal = sum([distance < SAME_SIZE for distance, _ in nearest[: NEIGHBOURS.max_same_size]])
         return [
-            (index, (Nearness.TWIN if rank < twins else Nearness.ALIKE, distance))
-            for rank, (distance, index) in enumerate(nearest[: max(twins, _MOST_ALIKE)])
+            (index, (Nearness.SAME_SIZE if rank < equal else Nearness.SIMILAR_SIZE, distance))
+            for rank, (distance, index) in enumerate(nearest[: max(equal, reach)])
         ]
 
 
-def companies(scene: Scene) -> list[Company]:
-    """Return the company of each object, in scene order."""
-    stage = _Stage(scene)
-    return [Company(stage, index) for index in range(len(scene.objects))]
+def neighbourhoods(scene: Scene) -> list[Neighbourhood]:
+    """Return the neighbourhood of each object, in scene order."""
+    stage = _StageIndex(scene)
+    return [Neighbourhood(stage, index) for index in range(len(scene.objects))]
 
 
-def _above(obj: SceneObject) -> str:
+def _parent_path(obj: SceneObject) -> str:
     return obj.prim_path.rpartition("/")[0]
 
 
-def _size(obj: SceneObject) -> Vector | None:
+def _size_of(obj: SceneObject) -> Vector | None:
     return obj.oriented_size or (obj.box.size if obj.box else None)

@@ -1,8 +1,7 @@
-"""What a grounder is given of one object: the evidence it may use, with names masked by the naming regime.
+"""The view that a grounder has of one object: the evidence it may use, with the name masked by the naming regime.
 
-A regime masks the name of *one* target at a time; its siblings and parents keep theirs. So views are made one
-by one, and nothing that is learnt from one may be used for another (leave-one-out): the union of all siblings'
-lists would give every name away.
+A regime masks the name of one target at a time; siblings and parents keep theirs. Grounding is leave-one-out: nothing
+learned from one view may be used for another, because the siblings of all targets together reveal every name.
 """
 
 import re
@@ -12,8 +11,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import overload
 
-from usd2kg.grounding.context.neighbours import Company, companies
-from usd2kg.grounding.context.placement import Look, Plan, Standing
+from usd2kg.grounding.context.neighbours import Neighbourhood, neighbourhoods
+from usd2kg.grounding.context.placement import Appearance, FloorPlan, Placement
 from usd2kg.scene.model import Scene, SceneObject, Vector
 from usd2kg.words import split_identifier
 
@@ -28,19 +27,19 @@ __all__ = [
 ]
 
 STUDY_GROUPS = frozenset({"name", "geometry", "position", "hierarchy"})
-"""The evidence of the study."""
-EVIDENCE_GROUPS = STUDY_GROUPS | {"asset", "company", "labels", "materials", "parts"}
-"""All evidence a grounder can be limited to."""
-_MASKED_GROUPS = STUDY_GROUPS | {"company"}
-"""What a masked regime shows: assets, labels, parts and materials would give the name away."""
+"""The groups of evidence that the study uses."""
+EVIDENCE_GROUPS = STUDY_GROUPS | {"asset", "labels", "materials", "neighbours", "parts"}
+"""All groups of evidence."""
+_MASKED_GROUPS = STUDY_GROUPS | {"neighbours"}
+"""The groups that masked regimes show: assets, labels, parts and materials would reveal the name."""
 _CLASS_TAXONOMIES = frozenset({"class", "iri", "semantics", "wikidata_class"})
-"""Taxonomies of labels whose values are names of classes."""
+"""Taxonomies of semantic labels whose values are class names."""
 ABBREVIATED_LENGTH = 4
-"""Letters kept of each word in the abbreviated regime. The study does not publish its own; this one is ours."""
+"""Letters kept of each word in the abbreviated regime. Chosen for this project; the study does not publish its own."""
 
 
 class NamingRegime(StrEnum):
-    """What a grounder sees of the target's own name."""
+    """How a grounder sees the target's own name."""
 
     SEMANTIC = "semantic"
     """The authored name."""
@@ -53,14 +52,14 @@ class NamingRegime(StrEnum):
 
 
 class _Siblings(Sequence[str]):
-    """The names of a family without one member; the family's list is stored once."""
+    """The names of the siblings under one prim but one; the list is stored once for all of them."""
 
-    def __init__(self, family: Sequence[str], left_out: int) -> None:
-        self._family = family
+    def __init__(self, names: Sequence[str], left_out: int) -> None:
+        self._names = names
         self._left_out = left_out
 
     def __len__(self) -> int:
-        return len(self._family) - 1
+        return len(self._names) - 1
 
     @overload
     def __getitem__(self, index: int) -> str: ...
@@ -73,66 +72,66 @@ class _Siblings(Sequence[str]):
             index += len(self)
         if not 0 <= index < len(self):
             raise IndexError(index)
-        return self._family[index + (index >= self._left_out)]
+        return self._names[index + (index >= self._left_out)]
 
     def __iter__(self) -> Iterator[str]:
-        return (name for i, name in enumerate(self._family) if i != self._left_out)
+        return (name for i, name in enumerate(self._names) if i != self._left_out)
 
 
 @dataclass(frozen=True)
 class ObjectView:
-    """The evidence about one target. What is empty or None is unknown, or may not be used."""
+    """The evidence about one target. Fields that are empty or None are unknown or may not be used."""
 
     name: str = ""
     """The prim's name, as the regime shows it."""
     parents: tuple[str, ...] = ()
     """Names of the prims above, outermost first."""
     groups: tuple[str, ...] = ()
-    """The last of `parents`: those that are below the nearest object above, and so only group."""
+    """The last of `parents`: prims between the target and the nearest object above, which only group."""
     siblings: Sequence[str] = ()
     """Names of the other objects under the same prim, in traversal order."""
     size: Vector | None = None
-    """Extent of the world box in metres."""
+    """Extents of the world-aligned box in metres."""
     oriented_size: Vector | None = None
-    """Extent along the thing's own axes in metres, where they are turned against the world's."""
+    """Extents in metres along the object's own axes, where they are rotated against the world's."""
     mass_kg: float | None = None
     position: Vector | None = None
-    """World translation in metres."""
-    standing: Standing | None = None
-    """How it stands among the others, whatever they are called."""
+    """World position in metres."""
+    placement: Placement | None = None
+    """Where it is among the other objects."""
     display_name: str = ""
     documentation: str = ""
     asset: tuple[str, ...] = ()
     labels: tuple[str, ...] = ()
-    """Words of the class labels that the stage has on it already."""
+    """Words of its semantic labels on the stage."""
     materials: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
-    company: Company | None = None
-    """The other objects of the stage; None where they are nameless too."""
+    neighbourhood: Neighbourhood | None = None
+    """The neighbours with their names; None if the regime hides them."""
     is_masked: bool = field(default=False)
-    """Whether the name is not the authored one: what it seems to say may be a token of the mask."""
+    """Whether the regime replaced the name."""
 
     @property
     def own_size(self) -> Vector | None:
-        """The extent that says most of what the thing is: however it is turned, it has the same."""
+        """The extents along the object's own axes, which rotation does not change; None if unknown."""
         return self.oriented_size or self.size
 
     @property
-    def look(self) -> Look | None:
-        """What is seen of it besides names; None where its size is not known."""
+    def appearance(self) -> Appearance | None:
+        """Its size and stance; None if its size is unknown."""
         if self.own_size is None or self.size is None:
             return None
         is_nested = len(self.groups) < len(self.parents)
-        if self.standing is None:
-            return Look(self.own_size, self.size[2], None, is_nested)
-        height = self.size[2] if self.standing.is_laid_out else None
-        return Look(self.own_size, height, self.standing.elevation, is_nested)
+        if self.placement is None:
+            return Appearance(self.own_size, self.size[2], None, is_nested)
+        height = self.size[2] if self.placement.is_laid_out else None
+        return Appearance(self.own_size, height, self.placement.elevation, is_nested)
 
 
 def abbreviate(name: str, length: int = ABBREVIATED_LENGTH) -> str:
     """Return a name with the vowels removed and each word cut to `length` letters, in lower case.
 
-    A word of vowels alone keeps its first letter; numbers stay.
+    A word of vowels only keeps its first letter; numbers stay.
 
     >>> abbreviate("CupCBlue_1")
     'cpcbl1'
@@ -153,30 +152,30 @@ def view_objects(
     groups: frozenset[str] | None = None,
     length: int = ABBREVIATED_LENGTH,
 ) -> Iterator[tuple[SceneObject, ObjectView]]:
-    """Yield each object with the view of it that a grounder gets.
+    """Yield each object with the view that a grounder has of it.
 
     Args:
         scene: the scene.
-        regime: how the target's name is masked. Masked regimes show the study's evidence and the company: assets,
-            labels, parts and materials would give the name away.
-        groups: the evidence to show, default all that the regime allows.
+        regime: how the target's name is masked. Masked regimes show the study's groups and the neighbours: assets,
+            labels, parts and materials would reveal the name.
+        groups: groups of evidence to show; default all that the regime allows.
         length: letters kept of each word in the abbreviated regime.
     """
     allowed = EVIDENCE_GROUPS if regime is NamingRegime.SEMANTIC else _MASKED_GROUPS
     shown = allowed if groups is None else allowed & groups
     masked = _masked_names(scene, regime, length)
     families = _families(scene)
-    has_company = "company" in shown and regime is not NamingRegime.OPAQUE_ANONYMOUS
-    plan = Plan(scene)
-    others = companies(scene) if has_company else [None] * len(scene.objects)
+    has_names = "neighbours" in shown and regime is not NamingRegime.OPAQUE_ANONYMOUS
+    plan = FloorPlan(scene)
+    others = neighbourhoods(scene) if has_names else [None] * len(scene.objects)
     for index, obj in enumerate(scene.objects):
-        parents, siblings = _company(obj, families, regime)
+        parents, siblings = _relatives(obj, families, regime)
         grouping = parents[obj.parent_path.count("/") if obj.parent_path else 0 :]
         view = ObjectView(
             name=masked[index] if "name" in shown else "",
             is_masked=regime is not NamingRegime.SEMANTIC,
-            company=others[index],
-            standing=Standing(plan, index, is_anonymous=not has_company) if "position" in shown else None,
+            neighbourhood=others[index],
+            placement=Placement(plan, index, is_anonymous=not has_names) if "position" in shown else None,
         )
         yield obj, _with_evidence(view, obj, shown, parents, grouping, siblings)
 
@@ -193,8 +192,8 @@ def _with_evidence(
     return ObjectView(
         name=view.name,
         is_masked=view.is_masked,
-        company=view.company,
-        standing=view.standing,
+        neighbourhood=view.neighbourhood,
+        placement=view.placement,
         parents=parents if "hierarchy" in shown else (),
         groups=grouping if "hierarchy" in shown else (),
         siblings=siblings if "hierarchy" in shown else (),
@@ -212,7 +211,7 @@ def _with_evidence(
 
 
 def _label_words(obj: SceneObject) -> tuple[str, ...]:
-    """Return the class labels on the object's own prim as names: `drawer` of `drawer.n.wn.artifact`, WordNet's form."""
+    """Return the class labels on the object's own prim as names: `drawer` for WordNet's `drawer.n.wn.artifact`."""
     values = [
         label.iri or label.value
         for label in obj.labels.own
@@ -232,7 +231,7 @@ def _masked_names(scene: Scene, regime: NamingRegime, length: int) -> list[str]:
 
 
 def _collision_free(names: list[str], short: list[str]) -> list[str]:
-    """Return the short names, numbered where different authored names would share one."""
+    """Return the short names, numbered where different authored names share one."""
     by_name: dict[str, str] = {}
     owned: set[str] = set()
     counts: Counter[str] = Counter()
@@ -250,12 +249,14 @@ def _collision_free(names: list[str], short: list[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Families:
-    """Objects under the same prim: their names once, and each object's place among them."""
+    """Siblings by parent prim."""
 
     names: dict[str, list[str]]
+    """Path of the parent → names of its objects."""
     anonymous: dict[str, list[str]]
-    """The same with running numbers for names."""
+    """The same with running numbers instead of names."""
     places: dict[str, tuple[str, int]]
+    """Path of an object → path of its parent, and place among its siblings."""
 
 
 def _families(scene: Scene) -> _Families:
@@ -270,7 +271,7 @@ def _families(scene: Scene) -> _Families:
     return _Families(names, anonymous, places)
 
 
-def _company(obj: SceneObject, families: _Families, regime: NamingRegime) -> tuple[tuple[str, ...], Sequence[str]]:
+def _relatives(obj: SceneObject, families: _Families, regime: NamingRegime) -> tuple[tuple[str, ...], Sequence[str]]:
     above, place = families.places[obj.prim_path]
     parents = tuple(name for name in above.split("/") if name)
     siblings: Sequence[str] = _Siblings(families.names[above], place)

@@ -1,6 +1,6 @@
-"""From scores to probabilities: a logistic model of few features, fitted on labelled scenes (Platt, 1999).
+"""Calibrated confidence: a logistic model of a few features of a prediction (Platt, 1999).
 
-The parameters are in `data/calibration.json`, written by `tools/fit_calibration.py`.
+`tools/fit_calibration.py` fits the weights on labelled scenes and writes them to `data/calibration.json`.
 """
 
 import json
@@ -9,12 +9,13 @@ from collections.abc import Container, Iterable, Mapping
 from functools import lru_cache
 
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
-from usd2kg.grounding.lexical.concepts.object_likelihoods import Beliefs
+from usd2kg.grounding.lexical.concepts.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.settings import CONFIDENCE
 from usd2kg.grounding.model import Prediction
 from usd2kg.knowledge import read_text
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["FEATURES", "features_of", "general_odds", "probability"]
+__all__ = ["FEATURES", "calibrate", "features_of", "general_class_log_odds"]
 
 FEATURES = (
     "intercept",
@@ -23,67 +24,62 @@ FEATURES = (
     "is_label",
     "is_general",
     "has_subclasses",
-    "is_company",
+    "is_by_context",
     "is_foreign",
     "foreign_margin",
     "foreign_general",
     "foreign_subclasses",
-    "foreign_general_odds",
-    "company_score",
-    "belief",
+    "foreign_general_log_odds",
+    "context_score",
+    "posterior",
 )
-"""What the parameters are called."""
-_BY_LOOK = frozenset({"company", "geometry"})
-_LEAST, _USUAL = 0.01, 0.1
-_LABEL = 0.95
-"""A score that only the class's own label reaches."""
-_SUPPOSED_GENERAL, _SUPPOSED = 2, 10
-"""Of so many answers that are supposed to come before a stage's so many are general."""
+"""Names of the features."""
+_CONTEXT_GROUPS = frozenset({"neighbours", "geometry"})
 
 
-def general_odds(predictions: Iterable[Prediction], general: Container[ClassIRI]) -> float:
-    """Return the logarithm of the odds that a thing whose name was understood is said to be of a general class.
+def general_class_log_odds(predictions: Iterable[Prediction], general: Container[ClassIRI]) -> float:
+    """Return the log-odds that an object of the stage whose words were understood is of a general class.
 
-    Of an ontology that has classes for what is on a stage one is seldom the answer, and then mostly a better one was
-    missed; of one that was made for other things it is often, and right.
+    An ontology made for the domain has specific classes, so that a general answer is mostly a missed one. An ontology
+    made for another domain has general answers that are mostly right. Smoothed with a beta prior.
 
     Args:
-        predictions: the answers of a stage.
-        general: the classes that say little, see `LexicalGrounder.general_classes`.
+        predictions: the predictions of a stage.
+        general: the general classes, see `LexicalGrounder.general_classes`.
     """
-    told = [iri in general for one in predictions if _is_by_words(one) and (iri := one.class_iri)]
-    share = (sum(told) + _SUPPOSED_GENERAL) / (len(told) + _SUPPOSED)
+    answers = [iri in general for one in predictions if _is_by_words(one) and (iri := one.class_iri)]
+    share = (sum(answers) + CONFIDENCE.prior_general) / (len(answers) + CONFIDENCE.prior_answers)
     return math.log(share / (1 - share))
 
 
 def _is_by_words(prediction: Prediction) -> bool:
-    return bool(prediction.evidence) and _BY_LOOK.isdisjoint(prediction.evidence)
+    return bool(prediction.evidence) and _CONTEXT_GROUPS.isdisjoint(prediction.evidence)
 
 
 def features_of(
-    prediction: Prediction, look: Beliefs, tbox: TBox, general: Container[ClassIRI], odds: float
+    prediction: Prediction, posterior: ClassPosterior, tbox: TBox, general: Container[ClassIRI], log_odds: float
 ) -> dict[str, float]:
-    """Return the features of an answer.
+    """Return the features of a prediction.
 
-    - `score`: of the likeliest class, 0 to 1;
-    - `margin`: how far the next class is behind;
+    - `score`: score of the best class, 0 to 1;
+    - `margin`: score of the best class less that of the second;
     - `is_label`: whether the name is the class's own label;
-    - `is_general`: whether the class is true of so much that a better one may be missed;
-    - `has_subclasses`: whether classes are below it, of which a person may have chosen one: a table fork for a fork;
-    - `is_company`: whether other objects or the size decided and not the words;
-    - `is_foreign`: whether the class is none of the built-in home TBox, so that the home vocabulary says nothing of it;
-    - `foreign_margin`, `foreign_general` and `foreign_subclasses`: what these say where it is so;
-    - `foreign_general_odds`: how often the stage's things are of a general class, where this one is so by its words;
-    - `company_score`: the score, where they did;
-    - `belief`: how probable the class is by what the object looks like, the logarithm against a tenth; 0 where its size
-      is not known, where the words did not decide, and for classes of other ontologies.
+    - `is_general`: whether the class is a general one;
+    - `has_subclasses`: whether the class has subclasses, one of which a person may choose;
+    - `is_by_context`: whether neighbours, size or place decided rather than words;
+    - `is_foreign`: whether the class is not one of the built-in home TBox;
+    - `foreign_margin`, `foreign_general`, `foreign_subclasses`: the features above, for foreign classes only;
+    - `foreign_general_log_odds`: `general_class_log_odds`, for foreign general classes that words decided;
+    - `context_score`: the score, where the context decided;
+    - `posterior`: logarithm of the probability by size and place over a reference of 0.1; 0 where the size is unknown,
+      where the context decided, and for foreign classes.
 
     Args:
-        prediction: the answer, with the scores of its candidates.
-        look: what the object is believed to be by its size, how it stands, and where the names above say.
+        prediction: the prediction with the scores of its candidates.
+        posterior: the classes by size, stance, and the places named above.
         tbox: the classes.
-        general: those of them that say little.
-        odds: see `general_odds`, of the answers of the stage.
+        general: the general ones among them.
+        log_odds: see `general_class_log_odds`, for the predictions of the stage.
     """
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
@@ -91,41 +87,40 @@ def features_of(
     is_general = iri in general
     has_subclasses = iri is not None and bool(tbox.children[iri])
     is_foreign = iri is not None and iri not in home_names()
-    is_by_look = not _BY_LOOK.isdisjoint(prediction.evidence)
+    is_by_context = not _CONTEXT_GROUPS.isdisjoint(prediction.evidence)
     return {
         "intercept": 1.0,
         "score": first,
         "margin": first - second,
-        "is_label": float(first > _LABEL),
+        "is_label": float(first > CONFIDENCE.label_score),
         "is_general": float(is_general),
         "has_subclasses": float(has_subclasses),
-        "is_company": float(is_by_look),
+        "is_by_context": float(is_by_context),
         "is_foreign": float(is_foreign),
         "foreign_margin": first - second if is_foreign else 0.0,
         "foreign_general": float(is_foreign and is_general),
         "foreign_subclasses": float(is_foreign and has_subclasses),
-        "foreign_general_odds": odds if is_foreign and is_general and _is_by_words(prediction) else 0.0,
-        "company_score": first if is_by_look else 0.0,
-        "belief": _belief(prediction, look),
+        "foreign_general_log_odds": log_odds if is_foreign and is_general and _is_by_words(prediction) else 0.0,
+        "context_score": first if is_by_context else 0.0,
+        "posterior": 0.0 if is_foreign or is_by_context else _log_posterior(iri, posterior),
     }
 
 
-def _belief(prediction: Prediction, look: Beliefs) -> float:
-    iri = prediction.class_iri
-    if iri is None or iri not in home_names() or not look.classes or not _BY_LOOK.isdisjoint(prediction.evidence):
+def _log_posterior(iri: ClassIRI | None, posterior: ClassPosterior) -> float:
+    if iri is None or not posterior.columns:
         return 0.0
-    return math.log((look.probability(iri) + _LEAST) / _USUAL)
+    probability = posterior.probability(iri) + CONFIDENCE.posterior_floor
+    return math.log(probability / CONFIDENCE.posterior_reference)
 
 
-def probability(features: Mapping[str, float]) -> float:
-    """Return the probability that the answer is the class a person would choose, to four decimals."""
+def calibrate(features: Mapping[str, float]) -> float:
+    """Return the probability that the predicted class is the one that a person would choose, to four decimals."""
     weights = _weights()
-    # A feature that is being fitted for the first time has no weight yet.
+    # A new feature has no weight until it is fitted.
     return round(1 / (1 + math.exp(-sum(weights.get(name, 0.0) * value for name, value in features.items()))), 4)
 
 
 @lru_cache(maxsize=1)
 def _weights() -> dict[str, float]:
-    text = read_text("calibration.json")
-    found: dict[str, float] = json.loads(text)["weights"]
-    return found
+    weights: dict[str, float] = json.loads(read_text("calibration.json"))["weights"]
+    return weights

@@ -1,94 +1,90 @@
-"""Weighing what the words, the company and the size and place of an object say against each other."""
+"""Combine the evidence of words, neighbours, and size and place into one score for each class."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import islice
 from typing import NamedTuple
 
+from usd2kg.grounding.lexical.settings import COMBINATION
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["Finding", "weigh"]
-
-_WORDS_FLOOR, _SEEN_FLOOR, _BELIEF_FLOOR = 0.02, 0.01, 0.04
-"""What each kind of evidence gives a class that it does not speak for: it rules nothing out."""
-_BELIEF_POWER = 0.5
-"""How far the beliefs are heard of what the company speaks for, whose votes heed the size already."""
-_TOLD = 0.3
-"""A score that says something, if not enough."""
-_SUITED = 8
-"""The classes that are considered for the beliefs alone."""
-_MOST = 8
-"""The classes that are told."""
-_COMPANY_TRUST, _BELIEF_TRUST = 0.8, 0.5
-"""How far the company and the beliefs are trusted to tell the class, as a share of what the name would be."""
+__all__ = ["ScoredClass", "combine_evidence"]
 
 
-class Finding(NamedTuple):
-    """A class that one kind of evidence speaks for."""
+class ScoredClass(NamedTuple):
+    """A class that one kind of evidence supports."""
 
     group: str
     """The evidence group."""
     class_iri: ClassIRI
     score: float
     explain: Callable[[], str]
-    """Gives one sentence for a person: of most findings nobody asks for it."""
+    """Returns one sentence for a person; a function because most explanations are never shown."""
 
 
-def weigh(
-    words: Sequence[Finding],
-    company: Sequence[Finding],
-    beliefs: Mapping[ClassIRI, float],
-    explain_belief: Callable[[ClassIRI], str],
+def combine_evidence(
+    by_words: Sequence[ScoredClass],
+    by_neighbours: Sequence[ScoredClass],
+    posterior: Mapping[ClassIRI, float],
+    explain_posterior: Callable[[ClassIRI], str],
     *,
     is_masked: bool,
-) -> list[Finding]:
-    """Return what words that are not clear by themselves, the company and the beliefs say together, the best first.
+) -> list[ScoredClass]:
+    """Return the classes by all evidence together, best first.
 
-    An object is of a kind with its company, or a thing of its own, which the beliefs tell: a mixture. That and the
-    words are a product of experts (Hinton, 2002), each with a floor below which it rules nothing out:
+    A product of experts (Hinton, 2002) of the words and the context. The context is a mixture: the object is either of
+    a neighbour's class or drawn from the posterior by size and place. Floors keep one expert from excluding a class:
 
-        (words + 0.02) · (company · (belief + 0.04)^½ + (1 - Σ company) · belief + 0.01)^power
+        (words + 0.02) · (neighbours · (posterior + 0.04)^½ + (1 - Σ neighbours) · posterior + 0.01)^power
+
+    The power is 1 less the best score of the words: the more a name says, the less the context counts.
 
     Args:
-        words: what the words say, whether spelled out or abbreviated.
-        company: what the company says, each class once; the scores add up to 1 at most.
-        beliefs: class → its probability by size and place, the greatest first.
-        explain_belief: gives the sentence for a class that the beliefs speak for.
-        is_masked: whether the name is not the authored one.
+        by_words: the classes that words support, spelled out or abbreviated.
+        by_neighbours: the classes of neighbours, each once; the scores add up to 1 at most.
+        posterior: class → its probability by size and place, in descending order.
+        explain_posterior: returns the sentence for a class that size and place support.
+        is_masked: whether the naming regime masks the name; then the power is 1.
     """
-    by_words, by_company = _best_by_class(words), _best_by_class(company)
-    best_said = max((finding.score for finding in words), default=0.0)
-    votes = sum(finding.score for finding in company)
-    # The more a name says, the less is asked of the others; what an abbreviation seems to say is often wrong.
-    power = 1 - (0.0 if is_masked else best_said)
-    weighed: list[tuple[float, ClassIRI, float, float]] = []
-    for iri in dict.fromkeys([*by_words, *by_company, *islice(beliefs, _SUITED)]):
-        belief = beliefs.get(iri, 0.0)
-        said = by_words[iri].score if iri in by_words else 0.0
-        shared = by_company[iri].score * (belief + _BELIEF_FLOOR) ** _BELIEF_POWER if iri in by_company else 0.0
-        own = (1 - votes) * belief
-        weighed.append(((said + _WORDS_FLOOR) * (shared + own + _SEEN_FLOOR) ** power, iri, shared, own))
-    total = sum([weight for weight, *_ in weighed])
-    trust = max(best_said, _COMPANY_TRUST * votes, _BELIEF_TRUST if beliefs else 0.0)
-    weighed.sort(key=lambda one: (-one[0], one[1]))
-    found = []
-    for weight, iri, shared, own in weighed[:_MOST]:
-        said = by_words[iri].score if iri in by_words else 0.0
-        # What the name says it has said, though the size may say so more clearly.
-        if iri in by_words and (said >= max(shared, own) or (own >= shared and said >= _TOLD)):
-            expert = by_words[iri]
-        elif shared >= own and iri in by_company:
-            expert = by_company[iri]
+    worded, neighboured = _best_by_class(by_words), _best_by_class(by_neighbours)
+    best_word_score = max((found.score for found in by_words), default=0.0)
+    neighbour_total = sum(found.score for found in by_neighbours)
+    power = 1 - (0.0 if is_masked else best_word_score)
+    weighted: list[tuple[float, ClassIRI, float, float]] = []
+    for iri in dict.fromkeys([*worded, *neighboured, *islice(posterior, COMBINATION.max_posterior_classes)]):
+        own = posterior.get(iri, 0.0)
+        word_score = worded[iri].score if iri in worded else 0.0
+        shared = 0.0
+        if iri in neighboured:
+            shared = neighboured[iri].score * (own + COMBINATION.posterior_floor) ** COMBINATION.posterior_power
+        own *= 1 - neighbour_total
+        context = (shared + own + COMBINATION.context_floor) ** power
+        weighted.append(((word_score + COMBINATION.word_floor) * context, iri, shared, own))
+    total = sum([weight for weight, *_ in weighted])
+    trust = max(
+        best_word_score,
+        COMBINATION.neighbour_trust * neighbour_total,
+        COMBINATION.posterior_trust if posterior else 0.0,
+    )
+    weighted.sort(key=lambda entry: (-entry[0], entry[1]))
+    combined = []
+    for weight, iri, shared, own in weighted[: COMBINATION.max_classes]:
+        word_score = worded[iri].score if iri in worded else 0.0
+        is_explained = own >= shared and word_score >= COMBINATION.explained_score
+        if iri in worded and (word_score >= max(shared, own) or is_explained):
+            expert = worded[iri]
+        elif shared >= own and iri in neighboured:
+            expert = neighboured[iri]
         else:
-            expert = Finding("geometry", iri, own, partial(explain_belief, iri))
-        found.append(expert._replace(score=weight / total * trust))
-    return found
+            expert = ScoredClass("geometry", iri, own, partial(explain_posterior, iri))
+        combined.append(expert._replace(score=weight / total * trust))
+    return combined
 
 
-def _best_by_class(findings: Sequence[Finding]) -> dict[ClassIRI, Finding]:
-    best: dict[ClassIRI, Finding] = {}
-    for finding in findings:
-        known = best.get(finding.class_iri)
-        if known is None or known.score < finding.score:
-            best[finding.class_iri] = finding
+def _best_by_class(scored: Sequence[ScoredClass]) -> dict[ClassIRI, ScoredClass]:
+    best: dict[ClassIRI, ScoredClass] = {}
+    for found in scored:
+        known = best.get(found.class_iri)
+        if known is None or known.score < found.score:
+            best[found.class_iri] = found
     return best

@@ -33,7 +33,7 @@ def distinct_views(views: Sequence[ObjectView], options: PromptOptions) -> list[
 
 
 def _signature(view: ObjectView, strategy: Strategy) -> object:
-    bare = replace(view, name=_stem(view.name), position=None, siblings=(), company=None)
+    bare = replace(view, name=_stem(view.name), position=None, siblings=(), neighbourhood=None)
     if strategy is Strategy.NAME_ONLY:
         return bare.name
     size = tuple(round(side, 2) for side in sorted(view.own_size)) if view.own_size else None

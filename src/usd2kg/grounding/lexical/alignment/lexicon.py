@@ -1,4 +1,4 @@
-"""The TBox's words: which terms name a class, and where each class lies in the noun taxonomy."""
+"""Build the lexicon of a TBox: the terms that name its classes, and the synsets that they are aligned with."""
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -8,58 +8,44 @@ from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.class_labels import (
     SENSE_KEY,
-    affixes_of,
-    head_of,
-    phrase_of,
-    said_otherwise,
-    wordings,
+    equivalent_nouns,
+    head_noun_of,
+    jargon_prefixes,
+    normalise_label,
+    paraphrases,
     words_of_label,
 )
-from usd2kg.grounding.lexical.alignment.home_vocabulary import borrowed_names, lent_names
-from usd2kg.grounding.lexical.alignment.residual_class import GENERAL, anchor_default, default_class, residue_of
-from usd2kg.grounding.lexical.alignment.terms import HEAD, LABEL, LENT, LESSER, SYNONYM, Anchor, Term, keep_best
+from usd2kg.grounding.lexical.alignment.home_vocabulary import borrow_terms, lend_terms
+from usd2kg.grounding.lexical.alignment.residual_class import (
+    GENERAL_NOUNS,
+    align_default,
+    find_default_class,
+    residue_of,
+)
+from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, keep_best
 from usd2kg.grounding.lexical.concepts.categories import members_of
-from usd2kg.grounding.lexical.concepts.senses import sense_weight
+from usd2kg.grounding.lexical.concepts.senses import sense_weight, usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy
-from usd2kg.knowledge import read_rows
+from usd2kg.grounding.lexical.settings import ALIGNMENT
+from usd2kg.knowledge import read_rows, word_set
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 
-__all__ = [
-    "Counted",
-    "Lexicon",
-    "build_lexicon",
-    "home_names",
-    "things_of",
-]
+__all__ = ["CategoryMember", "Lexicon", "build_lexicon", "home_names", "physical_classes"]
 
-_UNMADE = frozenset(["animal", "object", "person", "plant"])
-"""Domains of what nobody made, whose things stand in scenes out of doors."""
-_TOP = frozenset("artifact|whole|object|physical entity|entity|abstraction|matter|thing|unit".split("|"))
-"""What is above so many meanings that it sets none apart."""
-_ABOVE_MANY = _TOP | {
-    *("substance", "instrumentality", "part", "device", "equipment", "system", "medium", "series", "arrangement"),
-    "group",
-}
-"""What is above a meaning, and is said in texts about any other too."""
-_JOINING = frozenset(["and", "of", "or"])
-_SHORTEST_CODE = 2
-"""A word of so many letters is a code, in a term of several."""
-_HAPPENINGS = frozenset("activity event action process state situation task".split())
-"""Head words of classes that no thing belongs to: what is below them is not asked, though it be called `make_bed`."""
-_UNTOLD = 0.8
-"""The weight of senses of a kind with the one that is meant: two senses of a lamp are both lamps."""
-_SOME_THINGS = 3000
-"""What is supposed of a class that is known by its head alone."""
-_PLAUSIBLE = 0.85
-"""A sense that fits this share as well as the best one may be meant too."""
+_NATURAL_DOMAINS = frozenset(["animal", "object", "person", "plant"])
+"""WordNet domains of things that are not made."""
+_TOP_NOUNS = word_set("lexical", "top_nouns")
+_UNSPECIFIC_NOUNS = _TOP_NOUNS | word_set("lexical", "unspecific_nouns")
+_CONJUNCTIONS = frozenset(["and", "of", "or"])
+_EVENT_NOUNS = word_set("lexical", "event_nouns")
 
 
-class Counted(NamedTuple):
-    """A class that people count things among."""
+class CategoryMember(NamedTuple):
+    """A class that people count a synset among, although WordNet has it elsewhere."""
 
-    anchor: Anchor
-    things: int
-    """The number of meanings that they count so, of all nouns."""
+    aligned: AlignedClass
+    synset_count: int
+    """Number of synsets that people count among the class."""
 
 
 @dataclass(frozen=True)
@@ -68,34 +54,28 @@ class Lexicon:
 
     terms: Mapping[str, Term]
     """Term without spaces → the class it names."""
-    anchors: Mapping[int, Anchor]
+    sense_classes: Mapping[int, AlignedClass]
     """Synset → the class aligned with it."""
     vocabulary: Mapping[str, int]
-    """Single word → the number of terms that hold it."""
-    default: ClassIRI | None
-    """The class of what has no other, see `default_class`."""
-    general: frozenset[ClassIRI]
-    """The classes of which little is said by saying that something is of them: the roots, and the default."""
-    borrowed: Mapping[str, Term]
-    """Term without spaces → the class labelled as what the home vocabulary says is above the thing that is called so.
+    """Single word → number of terms that contain it."""
+    default_class: ClassIRI | None
+    """The class of objects without a more specific one, see `find_default_class`."""
+    general_classes: frozenset[ClassIRI]
+    """Classes that say little about an object: the roots and the default class."""
+    borrowed_terms: Mapping[str, Term]
+    """Term without spaces → the class labelled like a superclass in the home vocabulary: a charger is an appliance.
 
-    For ontologies with other classes, where nothing else is known: that a charger is some appliance.
+    For ontologies that share no class with the home TBox, where nothing else is known of the noun.
     """
-    listed: frozenset[ClassIRI]
-    """The classes whose further terms are known: those of the home vocabulary, if it is used."""
-    counted: Mapping[int, Sequence[Counted]]
-    """Synset → the classes that people count it among, though the taxonomy does not."""
-    kingdoms: frozenset[str]
-    """The domains of what nobody made in which the TBox has classes that the home vocabulary does not know."""
+    home_classes: frozenset[ClassIRI]
+    """Classes of the TBox that the home vocabulary has synonyms for."""
+    category_members: Mapping[int, Sequence[CategoryMember]]
+    """Synset → classes that people count it among, though it is not their hyponym."""
 
 
 @lru_cache(maxsize=1)
 def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
-    """Return the names of things by the class of the built-in home TBox that people would choose for them.
-
-    The TBox's own labels and synonyms, and those of `data/home_names.csv`, which is general knowledge of the same kind
-    in bulk: what a thing that is called so is.
-    """
+    """Return the names of objects by class of the built-in home TBox: labels, synonyms, and `data/home_names.csv`."""
     home = load_home_tbox()
     names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
     by_local_name = {cls.local_name: cls.iri for cls in home.classes}
@@ -109,191 +89,107 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
 
     Args:
         tbox: the classes.
-        taxonomy: what their terms are aligned with.
-        synonyms: further terms by class IRI, beside the TBox's own labels.
+        taxonomy: the nouns that their terms are aligned with.
+        synonyms: class IRI → names in addition to the TBox's own labels; may have classes that the TBox lacks.
     """
-    terms = _terms(tbox, taxonomy, synonyms)
-    anchors: dict[int, Anchor] = {}
-    for key, term in terms.items():
-        if key in taxonomy and _is_common_noun(term, taxonomy):
-            _anchor(key, term, tbox, terms, taxonomy, anchors)
-    for key, term in terms.items():
-        if term.weight == LABEL and _is_common_noun(term, taxonomy):
-            for noun in said_otherwise(term.text, taxonomy, is_noun=key in taxonomy):
-                _anchor(noun, term._replace(weight=SYNONYM), tbox, terms, taxonomy, anchors)
-    for key in [key for key, term in terms.items() if _is_lesser_meaning(key, term, taxonomy, anchors)]:
-        terms[key] = terms[key]._replace(weight=LESSER)
-    listed = frozenset(synonyms.keys() & tbox.by_iri.keys())
-    default = default_class(tbox, taxonomy)
-    anchor_default(default, tbox, taxonomy, anchors)
-    # Last: where other ontologies have classes of their own for what these names say, theirs are meant.
-    for class_iri, text in list(lent_names(tbox, terms, anchors, taxonomy, synonyms)):
-        keep_best(terms, class_iri, phrase_of(text, taxonomy), LENT)
-    _add_heads(terms)
+    terms = _own_terms(tbox, taxonomy, synonyms)
+    sense_classes = _align_terms(tbox, terms, taxonomy)
+    home_classes = frozenset(synonyms.keys() & tbox.by_iri.keys())
+    default = find_default_class(tbox, taxonomy)
+    align_default(default, tbox, taxonomy, sense_classes)
+    # After the ontology's own terms, which take precedence.
+    for term in list(lend_terms(tbox, terms, sense_classes, taxonomy, synonyms)):
+        keep_best(terms, term)
+    _add_head_nouns(terms)
+    members: Mapping[int, Sequence[CategoryMember]] = {}
+    if not home_classes.issuperset(tbox.by_iri):
+        members = _category_members(tbox, terms, sense_classes, default, taxonomy, home_classes)
     return Lexicon(
         terms=terms,
-        anchors=anchors,
+        sense_classes=sense_classes,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
-        default=default,
-        general=frozenset([*tbox.roots, *filter(None, [default])]),
-        borrowed=borrowed_names(tbox, terms, default, taxonomy, synonyms),
-        listed=listed,
-        counted={} if listed.issuperset(tbox.by_iri) else _counted(tbox, terms, anchors, default, taxonomy, listed),
-        kingdoms=_kingdoms(terms, anchors, taxonomy, listed),
+        default_class=default,
+        general_classes=frozenset([*tbox.roots, *filter(None, [default])]),
+        borrowed_terms=borrow_terms(tbox, terms, default, taxonomy, synonyms),
+        home_classes=home_classes,
+        category_members=members,
     )
 
 
-def _terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> dict[str, Term]:
-    """Return term without spaces → the class it names, by the labels and synonyms of the classes alone."""
-    affixes, depths = affixes_of(tbox, taxonomy), tbox.depths
+def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> dict[str, Term]:
+    """Return term without spaces → the class it names, by the labels and synonyms of the classes."""
+    prefixes, depths = jargon_prefixes(tbox, taxonomy), tbox.depths
     terms: dict[str, Term] = {}
-    bare: dict[str, set[ClassIRI]] = {}
-    for cls in sorted(things_of(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
-        for text, weight in _texts(cls, synonyms.get(cls.iri, ())):
-            said = phrase_of(text, taxonomy)
-            keep_best(terms, cls.iri, said, weight)
-            # Other furniture is furniture, but for that with a class of its own.
-            keep_best(terms, cls.iri, residue_of(text, taxonomy) or "", min(weight, SYNONYM))
-            first, _, rest = said.partition(" ")
-            if rest and first in affixes:
-                bare.setdefault(rest, set()).add(cls.iri)
-    for rest, claimants in bare.items():
-        if len(claimants) == 1 and rest not in _ABOVE_MANY | GENERAL:
-            # The components of five vendors are no component as such, and a shading device is not what any device is.
-            keep_best(terms, next(iter(claimants)), rest, LABEL)
+    without_prefix: dict[str, set[ClassIRI]] = {}
+    for cls in sorted(physical_classes(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
+        for text, kind in _texts_of(cls, synonyms.get(cls.iri, ())):
+            label = normalise_label(text, taxonomy)
+            keep_best(terms, Term(cls.iri, label, kind))
+            if residue := residue_of(text, taxonomy):
+                # “Other furniture” is the class of furniture, unless another class has that label.
+                keep_best(terms, Term(cls.iri, residue, TermKind.SYNONYM))
+            first, _, rest = label.partition(" ")
+            if rest and first in prefixes:
+                without_prefix.setdefault(rest, set()).add(cls.iri)
+    for rest, classes in without_prefix.items():
+        # Not where several classes differ by prefix alone, and not for nouns that are true of other classes too.
+        if len(classes) == 1 and rest not in _UNSPECIFIC_NOUNS | GENERAL_NOUNS:
+            keep_best(terms, Term(next(iter(classes)), rest, TermKind.LABEL))
     return terms
 
 
-def _is_common_noun(term: Term, taxonomy: Taxonomy) -> bool:
-    """Return whether a term is a common noun: a CT scanner is one, the SOLiD of a system's name is no solid.
+def _texts_of(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, TermKind]]:
+    yield cls.label, TermKind.LABEL
+    yield cls.local_name, TermKind.LABEL
+    for text in (*cls.alt_labels, *synonyms):
+        yield text, TermKind.SYNONYM
 
-    What is but a synonym and means anything at all (`artefact`) does not make the class that of all things.
+
+def physical_classes(tbox: TBox) -> Sequence[OntologyClass]:
+    """Return the classes but those of events, activities and the like; all classes if nothing is left."""
+    events = {cls.iri for cls in tbox.classes if head_noun_of(cls.label) in _EVENT_NOUNS}
+    return [cls for cls in tbox.classes if events.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
+
+
+def _align_terms(tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> dict[int, AlignedClass]:
+    """Return synset → class, by the terms and by nouns of the same meaning as labels."""
+    sense_classes: dict[int, AlignedClass] = {}
+    common = {key: term for key, term in terms.items() if _is_common_noun(term, taxonomy)}
+    for key, term in common.items():
+        if key in taxonomy:
+            _align_noun(key, term, tbox, terms, taxonomy, sense_classes)
+    for key, term in common.items():
+        if term.kind is TermKind.LABEL:
+            synonym = term._replace(kind=TermKind.SYNONYM)
+            for noun in equivalent_nouns(term.text, taxonomy, is_noun=key in taxonomy):
+                _align_noun(noun, synonym, tbox, terms, taxonomy, sense_classes)
+    return sense_classes
+
+
+def _is_common_noun(term: Term, taxonomy: Taxonomy) -> bool:
+    """Return whether a term is a common noun: “CT scanner” is one, the name “SOLiD system” is not.
+
+    A synonym that means any object (“artefact”) does not align its class with all objects.
     """
-    words = [word for word in term.text.split() if word not in _JOINING]
-    is_general = term.weight < LABEL and term.text in GENERAL
-    is_spelled_out = len(words) == 1 or min(map(len, words)) > _SHORTEST_CODE
+    words = [word for word in term.text.split() if word not in _CONJUNCTIONS]
+    is_general = term.kind is not TermKind.LABEL and term.text in GENERAL_NOUNS
+    is_spelled_out = len(words) == 1 or min(map(len, words)) > ALIGNMENT.max_code_letters
     return not is_general and (is_spelled_out or taxonomy.is_phrase(term.text.replace(" ", "")))
 
 
-def _kingdoms(
-    terms: Mapping[str, Term], anchors: Mapping[int, Anchor], taxonomy: Taxonomy, listed: frozenset[ClassIRI]
-) -> frozenset[str]:
-    return frozenset(
-        sense.domain
-        for key, term in terms.items()
-        if term.weight == LABEL and term.class_iri not in listed
-        for sense in taxonomy.senses(key)[:1]
-        if sense.domain in _UNMADE and sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri
-    )
-
-
-def _is_lesser_meaning(key: str, term: Term, taxonomy: Taxonomy, anchors: Mapping[int, Anchor]) -> bool:
-    """Return whether a label is meant as nothing made, though its word means that first: a screwdriver, the drink."""
-    senses = taxonomy.senses(key)
-    usual = max(senses, key=sense_weight, default=None)
-    if term.weight != LABEL or usual is None or usual.domain != "artifact":
-        return False
-    own = [sense for sense in senses if sense.synset in anchors and anchors[sense.synset].class_iri == term.class_iri]
-    return bool(own) and all(sense.domain != "artifact" for sense in own)
-
-
-def _counted(
+def _align_noun(
+    key: str,
+    term: Term,
     tbox: TBox,
     terms: Mapping[str, Term],
-    anchors: Mapping[int, Anchor],
-    default: ClassIRI | None,
     taxonomy: Taxonomy,
-    listed: frozenset[ClassIRI],
-) -> dict[int, list[Counted]]:
-    """Return synset → the classes whose names say that people count it among them, but for the default."""
-    found: dict[int, list[Counted]] = {}
-    placed = {anchor.class_iri for anchor in anchors.values()}
-    for key, term in terms.items():
-        if term.class_iri == default or SENSE_KEY.match(tbox.by_iri[term.class_iri].local_name):
-            # What is a kind of a sense of WordNet is for WordNet to say.
-            continue
-        if term.weight == LABEL or (term.weight >= SYNONYM and term.class_iri not in listed):
-            # Of the many names of things of the home vocabulary none is a kind that people count things among.
-            told = next(filter(None, (list(members_of(said, taxonomy)) for said in wordings(term.text, taxonomy))), [])
-            for synset, things in told:
-                found.setdefault(synset, []).append(Counted(Anchor(term.class_iri, term.weight), things))
-        elif term.weight == HEAD and term.class_iri not in placed:
-            # Of a built structure nothing is known but that it is a structure.
-            for sense in sorted(taxonomy.senses(key), key=sense_weight)[-1:]:
-                found.setdefault(sense.synset, []).append(Counted(Anchor(term.class_iri, HEAD), _SOME_THINGS))
-    return found
-
-
-def things_of(tbox: TBox) -> Sequence[OntologyClass]:
-    """Return the classes that things belong to: those of activities, events and the like are left out."""
-    happenings = {cls.iri for cls in tbox.classes if head_of(cls.label) in _HAPPENINGS}
-    return [cls for cls in tbox.classes if happenings.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
-
-
-def _texts(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, float]]:
-    yield cls.label, LABEL
-    yield cls.local_name, LABEL
-    for text in (*cls.alt_labels, *synonyms):
-        yield text, SYNONYM
-
-
-def _add_heads(terms: dict[str, Term]) -> None:
-    """Let the last word of a two-word label stand for the class, where no other label ends with it."""
-    by_head: dict[str, list[Term]] = {}
-    for term in terms.values():
-        if term.weight == LABEL and " " in term.text:
-            by_head.setdefault(term.text.split()[-1], []).append(term)
-    for head, named in by_head.items():
-        is_unique = len({term.class_iri for term in named}) == 1
-        is_special = head not in terms and head not in _ABOVE_MANY | GENERAL
-        if is_unique and is_special and len(named[0].text.split()) == 2:
-            terms[head] = Term(named[0].class_iri, head, HEAD)
-
-
-def _meant(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:
-    """Return the senses of a term that the ontologist meant, if any can be told.
-
-    Those below what the class's IRI names after the sense; else those below the label of a superclass; else those
-    below something that the class's text speaks of; else those below any name of a superclass.
-    """
-    cls, above = tbox.by_iri[term.class_iri], tbox.closure(term.class_iri)
-    names = {sense: [taxonomy.name(up) for up, _ in taxonomy.walk_up(sense.synset)] for sense in taxonomy.senses(key)}
-
-    def below(*groups: Callable[[str], bool]) -> list[Sense]:
-        found = ([sense for sense, up in names.items() if any(map(is_told, up))] for is_told in groups)
-        return next(filter(None, found), [])
-
-    def is_named(name: str) -> bool:
-        named = terms.get(name.replace(" ", ""))
-        return named is not None and named.class_iri in above and named.class_iri != cls.iri
-
-    hint = SENSE_KEY.match(cls.local_name)
-    told = hint and hint[2] and hint[2].replace("_", " ")
-    said = _said_of(cls, tbox, taxonomy) if term.weight == LABEL else frozenset()
-    return below(
-        lambda name: name == told,
-        lambda name: name not in _TOP and is_named(name) and terms[name.replace(" ", "")].weight == LABEL,
-        lambda name: name not in _ABOVE_MANY and name.replace(" ", "") != key and said.issuperset(name.split()),
-        is_named,
-    )
-
-
-def _said_of(cls: OntologyClass, tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
-    """Return the words, in the singular, of a class's text and of its superclasses' labels."""
-    texts = [cls.comment, *(tbox.by_iri[iri].label for iri in tbox.closure(cls.iri) if iri != cls.iri)]
-    words = {word for text in texts for word in words_of_label(text)}
-    return frozenset(words | {taxonomy.singular(word) for word in words})
-
-
-def _anchor(
-    key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy, anchors: dict[int, Anchor]
+    sense_classes: dict[int, AlignedClass],
 ) -> None:
-    """Align a term with its senses; those that fit much worse than the best are not meant."""
-    senses = taxonomy.senses(key)
+    """Align the senses of a noun with the class of a term: those meant, and at less weight others of their domain."""
 
-    def keep(sense: Sense, weight: float) -> None:
-        known = anchors.get(sense.synset)
-        # A bicycle is what people call a cycle by its first name: where both are classes, the one below is meant.
+    def align(sense: Sense, weight: float) -> None:
+        known = sense_classes.get(sense.synset)
+        # A synset's first lemma names it best: a bicycle is the class bicycle rather than its superclass cycle.
         is_closer = (
             known is not None
             and known.weight == weight
@@ -301,19 +197,103 @@ def _anchor(
             and tbox.is_subclass(term.class_iri, known.class_iri)
         )
         if known is None or known.weight < weight or is_closer:
-            anchors[sense.synset] = Anchor(term.class_iri, weight)
+            sense_classes[sense.synset] = AlignedClass(term.class_iri, weight)
 
+    senses = taxonomy.senses(key)
     if len(senses) == 1:
-        keep(senses[0], term.weight)
+        align(senses[0], term.kind.weight)
         return
-    meant = _meant(key, term, tbox, terms, taxonomy) or list(senses)
+    meant = _meant_senses(key, term, tbox, terms, taxonomy) or list(senses)
     domains = {sense.domain for sense in meant}
     others = [sense for sense in senses if sense not in meant and sense.domain in domains]
-    for group, trust in ((meant, 1.0), (others, _UNTOLD)):
+    for group, trust in ((meant, 1.0), (others, ALIGNMENT.other_sense_weight)):
         best = max((sense_weight(sense) for sense in group), default=1.0)
         for sense in group:
-            # Rocks are stones first of all, though of what is found in homes the candy is likelier.
-            is_first = group is meant and sense == senses[0] and sense.domain in _UNMADE
-            share = 1.0 if is_first else sense_weight(sense) / best
-            if share >= _PLAUSIBLE:
-                keep(sense, term.weight * share * trust)
+            # The first sense of a natural object is meant, although made objects are more frequent in scenes.
+            is_natural_first = group is meant and sense == senses[0] and sense.domain in _NATURAL_DOMAINS
+            share = 1.0 if is_natural_first else sense_weight(sense) / best
+            if share >= ALIGNMENT.min_sense_ratio:
+                align(sense, term.kind.weight * share * trust)
+
+
+def _meant_senses(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:
+    """Return the senses of a term that the ontology means, by the first criterion that any sense meets; maybe none.
+
+    Below the hypernym in the class's sense key; below the label of a superclass; below a noun in the class's comment or
+    a superclass's label; below any name of a superclass.
+    """
+    cls, superclasses = tbox.by_iri[term.class_iri], tbox.closure(term.class_iri)
+    hypernyms = {
+        sense: [taxonomy.name(up) for up, _ in taxonomy.walk_up(sense.synset)] for sense in taxonomy.senses(key)
+    }
+
+    def first_met(*criteria: Callable[[str], bool]) -> list[Sense]:
+        met = ([sense for sense, names in hypernyms.items() if any(map(is_met, names))] for is_met in criteria)
+        return next(filter(None, met), [])
+
+    def names_superclass(name: str) -> bool:
+        named = terms.get(name.replace(" ", ""))
+        return named is not None and named.class_iri in superclasses and named.class_iri != cls.iri
+
+    def labels_superclass(name: str) -> bool:
+        return name not in _TOP_NOUNS and names_superclass(name) and terms[name.replace(" ", "")].kind is TermKind.LABEL
+
+    sense_key = SENSE_KEY.match(cls.local_name)
+    hypernym = sense_key and sense_key[2] and sense_key[2].replace("_", " ")
+    described = _description_words(cls, tbox, taxonomy) if term.kind is TermKind.LABEL else frozenset()
+    return first_met(
+        lambda name: name == hypernym,
+        labels_superclass,
+        lambda name: (
+            name not in _UNSPECIFIC_NOUNS and name.replace(" ", "") != key and described.issuperset(name.split())
+        ),
+        names_superclass,
+    )
+
+
+def _description_words(cls: OntologyClass, tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
+    """Return the words of a class's comment and of its superclasses' labels, as written and in the singular."""
+    texts = [cls.comment, *(tbox.by_iri[iri].label for iri in tbox.closure(cls.iri) if iri != cls.iri)]
+    words = {word for text in texts for word in words_of_label(text)}
+    return frozenset(words | {taxonomy.singular(word) for word in words})
+
+
+def _category_members(
+    tbox: TBox,
+    terms: Mapping[str, Term],
+    sense_classes: Mapping[int, AlignedClass],
+    default: ClassIRI | None,
+    taxonomy: Taxonomy,
+    home_classes: frozenset[ClassIRI],
+) -> dict[int, list[CategoryMember]]:
+    """Return synset → classes that people count it among: by `categories.csv`, or by the head noun of the label."""
+    members: dict[int, list[CategoryMember]] = {}
+    aligned = {found.class_iri for found in sense_classes.values()}
+    for key, term in terms.items():
+        if term.class_iri == default or SENSE_KEY.match(tbox.by_iri[term.class_iri].local_name):
+            # The hyponyms of a WordNet sense are those in WordNet.
+            continue
+        # The synonyms of a home class are kinds of objects, not categories.
+        is_own_synonym = term.kind is TermKind.SYNONYM and term.class_iri not in home_classes
+        if term.kind is TermKind.LABEL or is_own_synonym:
+            known = (list(members_of(text, taxonomy)) for text in paraphrases(term.text, taxonomy))
+            for synset, count in next(filter(None, known), []):
+                found = AlignedClass(term.class_iri, term.kind.weight)
+                members.setdefault(synset, []).append(CategoryMember(found, count))
+        elif term.kind is TermKind.HEAD and term.class_iri not in aligned and (sense := usual_sense(key, taxonomy)):
+            found = AlignedClass(term.class_iri, term.kind.weight)
+            members.setdefault(sense.synset, []).append(CategoryMember(found, ALIGNMENT.assumed_category_size))
+    return members
+
+
+def _add_head_nouns(terms: dict[str, Term]) -> None:
+    """Add the head noun of each two-word label as a term, where no other label has it and it is specific."""
+    by_head: dict[str, list[Term]] = {}
+    for term in terms.values():
+        if term.kind is TermKind.LABEL and " " in term.text:
+            by_head.setdefault(term.text.split()[-1], []).append(term)
+    for head, named in by_head.items():
+        is_unique = len({term.class_iri for term in named}) == 1
+        is_specific = head not in terms and head not in _UNSPECIFIC_NOUNS | GENERAL_NOUNS
+        if is_unique and is_specific and len(named[0].text.split()) == 2:
+            terms[head] = Term(named[0].class_iri, head, TermKind.HEAD)

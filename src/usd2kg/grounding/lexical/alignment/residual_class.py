@@ -1,77 +1,79 @@
-"""The class of what has no other: the one that is true of most things, or that is called after the rest."""
+"""The default class of a TBox: the class that is true of most objects, or that is labelled as the rest."""
 
 from collections import Counter
 
-from usd2kg.grounding.lexical.alignment.class_labels import head_of, words_of_label
-from usd2kg.grounding.lexical.alignment.terms import Anchor
-from usd2kg.grounding.lexical.concepts.senses import sense_weight
+from usd2kg.grounding.lexical.alignment.class_labels import head_noun_of, words_of_label
+from usd2kg.grounding.lexical.alignment.terms import AlignedClass
+from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.knowledge import word_set
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 
-__all__ = ["GENERAL", "anchor_default", "default_class", "is_residual", "residue_of"]
+__all__ = ["GENERAL_NOUNS", "align_default", "find_default_class", "is_residual", "residue_of"]
 
-GENERAL = frozenset("artifact artefact object thing product item asset equipment entity element".split())
-_NEGATIONS = ("un", "non", "not")
-_MADE = "artifact"
-"""The lemma of all that is made."""
-_RESIDUAL = frozenset("misc miscellaneous other others sundries sundry various".split())
-"""Words of labels for what has no class of its own."""
-_ANYTHING = GENERAL | {"and", "goods", "misc", "other", "prop", "stuff"}
-_NO_SUNDRIES = ("area", "facility", "structure", "vehicle", "way")
+GENERAL_NOUNS = word_set("lexical", "general_nouns")
+_RESIDUAL_WORDS = word_set("lexical", "residual_words")
+_ANYTHING = GENERAL_NOUNS | word_set("lexical", "residual_objects")
+_NEGATIONS = word_set("lexical", "negating_prefixes")
+_NOT_RESIDUAL = word_set("lexical", "never_residual_nouns")
+_ARTIFACT = "artifact"
+"""Lemma of the synset above everything made."""
 
 
 def residue_of(label: str, taxonomy: Taxonomy) -> str | None:
-    """Return what has no class of its own by a label that says so, in the singular; None for any other label.
+    """Return the kind that a label for the rest covers, in the singular; None for any other label.
 
     >>> from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
     >>> residue_of("other furniture", load_taxonomy()), residue_of("furniture", load_taxonomy())
     ('furniture', None)
 
     Returns:
-        Empty for the rest of everything: `Sundries`, `otherprop`.
+        Empty for the rest of everything: “Sundries”, “otherprop”.
     """
     words = words_of_label(label)
     if len(words) == 1:
-        # Lists of labels write it as one: NYU40's `otherfurniture`.
-        first = next((word for word in _RESIDUAL if words[0].startswith(word)), "")
+        # Label lists join the words: NYU40's “otherfurniture”.
+        first = max(filter(words[0].startswith, _RESIDUAL_WORDS), key=len, default="")
         rest = words[0].removeprefix(first)
         words = [first, rest] if first and taxonomy.singular(rest) in taxonomy else words
-    if _RESIDUAL.isdisjoint(words):
+    if _RESIDUAL_WORDS.isdisjoint(words):
         return None
-    *before, last = [word for word in words if word not in _RESIDUAL] or [""]
+    *before, last = [word for word in words if word not in _RESIDUAL_WORDS] or [""]
     residue = [*before, taxonomy.singular(last)]
     return "" if _ANYTHING.issuperset(filter(None, residue)) else " ".join(residue)
 
 
 def is_residual(cls: OntologyClass, taxonomy: Taxonomy) -> bool:
-    """Return whether a class is of the things that have no other."""
+    """Return whether a class is labelled as the rest of everything."""
     return residue_of(cls.label, taxonomy) == ""
 
 
-def anchor_default(default: ClassIRI | None, tbox: TBox, taxonomy: Taxonomy, anchors: dict[int, Anchor]) -> None:
-    """Let what is made be of the default class where no class is above all that is made.
+def align_default(
+    default: ClassIRI | None, tbox: TBox, taxonomy: Taxonomy, sense_classes: dict[int, AlignedClass]
+) -> None:
+    """Align the artifact synset with the default class, unless a class is aligned with it or above.
 
-    So a wall is understood in an ontology without walls, and is not taken for what a lesser meaning of the word, or its
-    size, would make it. Where no class is any kind of thing there is nothing to be understood. A class of sundries has
-    neither rooms nor vehicles: of these no more is known than their root.
+    Then a wall is recognised in an ontology without walls, and gets the default class instead of the class of a rarer
+    sense or of a similar size. Rooms, vehicles and the like are not in a residual class; they get its root.
     """
-    made = taxonomy.senses(_MADE)[0].synset
-    if default is None or not anchors or not anchors.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made)):
+    made = taxonomy.senses(_ARTIFACT)[0].synset
+    is_covered = not sense_classes.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made))
+    if default is None or not sense_classes or is_covered:
         return
-    anchors[made] = Anchor(default, 1.0)
+    sense_classes[made] = AlignedClass(default, 1.0)
     root = next(iri for iri in tbox.roots if tbox.is_subclass(default, iri))
     if root != default:
-        for noun in _NO_SUNDRIES:
-            anchors.setdefault(taxonomy.senses(noun)[0].synset, Anchor(root, 1.0))
+        for noun in sorted(_NOT_RESIDUAL):
+            sense_classes.setdefault(taxonomy.senses(noun)[0].synset, AlignedClass(root, 1.0))
 
 
-def default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
-    """Return the class of what has no other; None if there is none.
+def find_default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
+    """Return the class of objects without a more specific one; None if there is none.
 
-    Where a class is called after the rest (`sundry item`, `otherprop`) it is that one, if it is a root or below the one
-    that is true of most things: of other activities no thing is one. Else it is that root.
+    A class labelled as the rest (“sundry item”, “otherprop”), if it is a root or below the root that is true of most
+    objects; else that root.
     """
-    root = _root_of_most(tbox, taxonomy)
+    root = _most_general_root(tbox, taxonomy)
     residual = [
         cls.iri
         for cls in tbox.classes
@@ -80,16 +82,16 @@ def default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
     return min(residual, key=lambda iri: (tbox.depths[iri], iri), default=root)
 
 
-def _root_of_most(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
-    """Return the root that is true of most things: an artifact or object by its name, else the one with most below.
+def _most_general_root(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
+    """Return the root that is true of most objects; None in a list of specific classes.
 
-    An ontology's largest root may be of activities or states, and no thing is one of those: only what is called after
-    something made counts. Where a root is called the opposite of the best one, as `UnControllable` is, it has all that
-    is not known to be of the other. Of a list of chairs, tables and doors none is true of anything else.
+    A root labelled artifact, object or the like, else the root with the most subclasses labelled as artifacts: the
+    largest root may be of activities or states. If another root's label negates it (`UnControllable`), that one covers
+    what is not known to be of the first.
     """
 
     def is_made(label: str) -> bool:
-        senses = taxonomy.senses(taxonomy.singular(head_of(label)))
+        senses = taxonomy.senses(taxonomy.singular(head_noun_of(label)))
         return bool(senses) and senses[0].domain == "artifact"
 
     below = Counter(iri for cls in tbox.classes for iri in tbox.closure(cls.iri))
@@ -99,16 +101,16 @@ def _root_of_most(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
         words = words_of_label(tbox.by_iri[root].label) or words_of_label(tbox.by_iri[root].local_name) or [""]
         return taxonomy.singular(words[-1])
 
-    best = min(tbox.roots, key=lambda root: (head(root) not in GENERAL, -made_below[root], -below[root], root))
-    if len(tbox.roots) > 1 and head(best) not in GENERAL and _is_one_kind(head(best), taxonomy):
+    best = min(tbox.roots, key=lambda root: (head(root) not in GENERAL_NOUNS, -made_below[root], -below[root], root))
+    if len(tbox.roots) > 1 and head(best) not in GENERAL_NOUNS and _is_specific(head(best), taxonomy):
         return None
-    called = "".join(words_of_label(tbox.by_iri[best].label))
-    opposites = {negation + called for negation in _NEGATIONS if called}
-    return next((root for root in tbox.roots if "".join(words_of_label(tbox.by_iri[root].label)) in opposites), best)
+    label = "".join(words_of_label(tbox.by_iri[best].label))
+    negated = {prefix + label for prefix in _NEGATIONS if label}
+    return next((root for root in tbox.roots if "".join(words_of_label(tbox.by_iri[root].label)) in negated), best)
 
 
-def _is_one_kind(noun: str, taxonomy: Taxonomy) -> bool:
-    """Return whether a noun means one kind of thing among others, and not all that is made or more."""
-    usual = max(taxonomy.senses(noun), key=sense_weight, default=None)
-    made = taxonomy.senses(_MADE)[0].synset
+def _is_specific(noun: str, taxonomy: Taxonomy) -> bool:
+    """Return whether a noun means one kind of object, rather than artifacts or anything above them."""
+    usual = usual_sense(noun, taxonomy)
+    made = taxonomy.senses(_ARTIFACT)[0].synset
     return usual is not None and usual.synset not in {up for up, _ in taxonomy.walk_up(made)}

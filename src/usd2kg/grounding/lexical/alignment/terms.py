@@ -1,16 +1,43 @@
-"""The terms that name classes, and where classes lie in the taxonomy."""
+"""Terms that name classes, and classes aligned with WordNet synsets."""
 
-from dataclasses import dataclass
+from enum import Enum
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.class_labels import phrase_of
+from usd2kg.grounding.lexical.alignment.class_labels import normalise_label
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.settings import TERMS
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["BORROWED", "HEAD", "LABEL", "LENT", "LESSER", "SYNONYM", "Anchor", "Term", "keep_best", "term_key"]
+__all__ = ["AlignedClass", "Term", "TermKind", "keep_best", "term_key"]
 
-LABEL, SYNONYM, LENT, BORROWED, LESSER, HEAD = 1.0, 0.92, 0.9, 0.7, 0.7, 0.6
-"""Weights of terms; a lent one is a home class's name for another ontology's class that is labelled alike."""
+
+class TermKind(Enum):
+    """Where a term comes from."""
+
+    LABEL = "label"
+    """The class's own label or local name."""
+    SYNONYM = "synonym"
+    """An alternative label, or a name of the home vocabulary for a class with the same IRI."""
+    LENT = "lent"
+    """A name of the home vocabulary, for a class of another ontology with the same label."""
+    BORROWED = "borrowed"
+    """The same for a superclass of the home class."""
+    HEAD = "head"
+    """The head noun of a longer label."""
+
+    @property
+    def weight(self) -> float:
+        """How far the term is trusted to mean the class, 0 to 1."""
+        return _WEIGHTS[self]
+
+
+_WEIGHTS = {
+    TermKind.LABEL: TERMS.label_weight,
+    TermKind.SYNONYM: TERMS.synonym_weight,
+    TermKind.LENT: TERMS.lent_weight,
+    TermKind.BORROWED: TERMS.borrowed_weight,
+    TermKind.HEAD: TERMS.head_weight,
+}
 
 
 class Term(NamedTuple):
@@ -18,29 +45,29 @@ class Term(NamedTuple):
 
     class_iri: ClassIRI
     text: str
-    weight: float
-    """1 for the class's own label, less for a synonym, least for the last word of a longer label."""
+    """Lower case, the last word in the singular."""
+    kind: TermKind
 
 
-@dataclass(frozen=True, slots=True)
-class Anchor:
-    """A class's place in the taxonomy."""
+class AlignedClass(NamedTuple):
+    """A class that a synset is aligned with."""
 
     class_iri: ClassIRI
     weight: float
+    """How far the synset is trusted to mean the class, 0 to 1."""
 
 
 def term_key(text: str, taxonomy: Taxonomy) -> str:
-    """Return the key of `Lexicon.terms` for a label or a name that is written as one; empty if it has no words."""
-    return phrase_of(text, taxonomy).replace(" ", "")
+    """Return the key of a label in `Lexicon.terms`: its words joined; empty if it has none."""
+    return normalise_label(text, taxonomy).replace(" ", "")
 
 
-def keep_best(terms: dict[str, Term], class_iri: ClassIRI, text: str, weight: float) -> None:
-    """Let a text name a class, if it does not name another that has more claim to it."""
-    key = text.replace(" ", "")
+def keep_best(terms: dict[str, Term], term: Term) -> None:
+    """Add a term unless its text names a class with at least the same weight already."""
+    key = term.text.replace(" ", "")
     if not key:
         return
     known = terms.get(key)
-    # Classes come from general to special, so that of two claims to a word the general class's stays.
-    if known is None or known.weight < weight:
-        terms[key] = Term(class_iri, text, weight)
+    # Callers pass classes from general to special: of two equal claims the more general class's stays.
+    if known is None or known.kind.weight < term.kind.weight:
+        terms[key] = term

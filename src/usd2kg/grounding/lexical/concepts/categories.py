@@ -1,4 +1,4 @@
-"""What people count among a general kind that the taxonomy has elsewhere: to an office, staplers are stationery."""
+"""Members of categories that WordNet has elsewhere: staplers are stationery to an office."""
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
@@ -7,38 +7,38 @@ from typing import NamedTuple
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.knowledge import read_rows
 
-__all__ = ["Category", "members_of", "synset_of"]
+__all__ = ["Category", "find_synset", "members_of"]
 
 
 class Category(NamedTuple):
-    """A general kind."""
+    """One row of `data/categories.csv`."""
 
-    things: int
-    """The number of meanings that belong to it, of all nouns."""
+    synset_count: int
+    """Number of synsets in the category."""
     members: tuple[str, ...]
-    """What belongs to it, with all that is below: names for `synset_of`."""
+    """Nouns for `find_synset`, each with all its hyponyms."""
 
 
-def members_of(kind: str, taxonomy: Taxonomy) -> Iterator[tuple[int, int]]:
-    """Yield (synset, number of things of the kind) of what belongs to a kind, written without spaces; maybe nothing."""
-    category = _load_categories().get(kind)
-    if category is not None:
-        synsets = (synset_of(member, taxonomy) for member in category.members)
-        yield from ((synset, category.things) for synset in synsets if synset is not None)
+def members_of(category: str, taxonomy: Taxonomy) -> Iterator[tuple[int, int]]:
+    """Yield (synset, number of synsets in the category) for the members of a category, its name without spaces."""
+    found = _load_categories().get(category)
+    if found is not None:
+        synsets = (find_synset(member, taxonomy) for member in found.members)
+        yield from ((synset, found.synset_count) for synset in synsets if synset is not None)
 
 
-def synset_of(name: str, taxonomy: Taxonomy) -> int | None:
-    """Return the first meaning of a name, or for `nail#2` the second; None if the taxonomy has none."""
-    lemma, _, meaning = name.replace(" ", "").replace("-", "").partition("#")
-    senses = taxonomy.senses(lemma)[int(meaning or 1) - 1 :]
+def find_synset(name: str, taxonomy: Taxonomy) -> int | None:
+    """Return the synset of a noun's first sense, or of the second for `nail#2`; None if there is none."""
+    lemma, _, rank = name.replace(" ", "").replace("-", "").partition("#")
+    senses = taxonomy.senses(lemma)[int(rank or 1) - 1 :]
     return senses[0].synset if senses else None
 
 
 @lru_cache(maxsize=1)
 def _load_categories() -> Mapping[str, Category]:
-    """Return the kinds of `data/categories.csv` by their names without spaces."""
+    """Return name without spaces → category."""
     return {
-        kind: Category(int(row["things"]), tuple(row["members"].split("|")))
+        name: Category(int(row["things"]), tuple(row["members"].split("|")))
         for row in read_rows("categories.csv")
-        for kind in row["kinds"].replace(" ", "").replace("-", "").split("|")
+        for name in row["kinds"].replace(" ", "").replace("-", "").split("|")
     }

@@ -1,8 +1,8 @@
-"""Which class a name is likely of that is in no list: learned from the names of the home vocabulary.
+"""Classify names that are no term of the home vocabulary, with a model of its names.
 
-A multinomial logit (McFadden, 1974) over the words of a name and what they are kinds of: a `spice shaker` is a
-container although nobody wrote it down, as other shakers are. The weights are in `data/likeness.npz`, written by
-`tools/fit_likeness.py`.
+A multinomial logit (McFadden, 1974) over the words of a name, their hypernyms, and the letters of the head noun: a
+spice shaker is a container because other shakers are. `tools/fit_name_classifier.py` fits the weights and writes them to
+`data/name_classifier.npz`.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -15,24 +15,17 @@ from numpy.typing import NDArray
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.concepts.senses import sense_weight
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.settings import CLASSIFIER
 from usd2kg.knowledge import data_file
 from usd2kg.ontology import ClassIRI
 
 __all__ = ["features_of", "likely_classes", "similar_name"]
 
-_MOST = 4
-"""Classes that are told for a name."""
-_SENSES = (1.0, 0.5)
-"""What the likeliest meanings of a word count, the likeliest first."""
-_ENDING, _BEGINNING = 0.7, 0.5
-_ENDINGS = (3, 4, 5)
-_BEGINNING_LETTERS = 4
-
 Logits = NDArray[np.float64]
 
 
 class _Model(NamedTuple):
-    """The weights."""
+    """Weights of the classifier."""
 
     rows: Mapping[str, int]
     """Feature → row."""
@@ -45,28 +38,28 @@ class _Model(NamedTuple):
 
 
 def likely_classes(words: tuple[str, ...]) -> tuple[tuple[ClassIRI, float], ...]:
-    """Return the likeliest classes of the built-in home TBox for a name, each with its probability, best first.
+    """Return the most probable classes of the built-in home TBox for a name with their probabilities, best first.
 
     Args:
-        words: in lower case, modifiers first, the head noun last and singular.
+        words: lower case, modifiers first, the head noun last and singular.
     """
     model = _load_model()
     *modifiers, head = words
-    parts = [_weigh_head(head)]
+    parts = [_head_logits(head)]
     if modifiers:
-        parts += [_weigh_pair(modifiers[-1], head), _weigh_modifiers(tuple(modifiers))]
+        parts += [_pair_logits(modifiers[-1], head), _modifier_logits(tuple(modifiers))]
     known = [part for part in parts if part is not None]
     if not known:
         return ()
     logits = sum(known, start=model.intercepts)
     shares = np.exp(logits - logits.max())
     shares /= shares.sum()
-    best = np.argsort(-shares, kind="stable")[:_MOST].tolist()
+    best = np.argsort(-shares, kind="stable")[: CLASSIFIER.max_classes].tolist()
     return tuple((model.classes[place], float(shares[place])) for place in best)
 
 
 def features_of(words: tuple[str, ...]) -> dict[str, float]:
-    """Return the features of a name: its words, what they are kinds of, and the letters of its head."""
+    """Return feature → value of a name: its words, their hypernyms, and the letters of the head noun."""
     *modifiers, head = words
     if not modifiers:
         return _head_features(head)
@@ -75,9 +68,9 @@ def features_of(words: tuple[str, ...]) -> dict[str, float]:
 
 def _head_features(head: str) -> dict[str, float]:
     features = {f"head {head}": 1.0, **_kinds("head", head)}
-    for count in _ENDINGS:
-        features[f"ending {head[-count:]}"] = _ENDING
-    features[f"beginning {head[:_BEGINNING_LETTERS]}"] = _BEGINNING
+    for count in CLASSIFIER.ending_letters:
+        features[f"ending {head[-count:]}"] = CLASSIFIER.ending_value
+    features[f"beginning {head[: CLASSIFIER.beginning_letters]}"] = CLASSIFIER.beginning_value
     return features
 
 
@@ -94,36 +87,36 @@ def _modifier_features(modifiers: Iterable[str]) -> dict[str, float]:
     return features
 
 
-# The parts of a name return in others, and with them what they add.
+# Names share their parts, so that the logits of each part are cached.
 
 
 @lru_cache(maxsize=4096)
-def _weigh_head(head: str) -> Logits | None:
-    return _weigh(_head_features(head))
+def _head_logits(head: str) -> Logits | None:
+    return _sum_logits(_head_features(head))
 
 
 @lru_cache(maxsize=2048)
-def _weigh_pair(modifier: str, head: str) -> Logits | None:
-    return _weigh(_pair_features(modifier, head))
+def _pair_logits(modifier: str, head: str) -> Logits | None:
+    return _sum_logits(_pair_features(modifier, head))
 
 
 @lru_cache(maxsize=2048)
-def _weigh_modifiers(modifiers: tuple[str, ...]) -> Logits | None:
-    return _weigh(_modifier_features(modifiers))
+def _modifier_logits(modifiers: tuple[str, ...]) -> Logits | None:
+    return _sum_logits(_modifier_features(modifiers))
 
 
-def _weigh(features: Mapping[str, float]) -> Logits | None:
-    """Return what features add to the logit of each class, (classes,); None if no weight is known."""
+def _sum_logits(features: Mapping[str, float]) -> Logits | None:
+    """Return the sum of the weighted features for each class, (classes,); None if no feature has weights."""
     model = _load_model()
     known = [(model.rows[name], value) for name, value in features.items() if name in model.rows]
     if not known:
         return None
-    return _weigh_rows(tuple(known))
+    return _sum_rows(tuple(known))
 
 
 @lru_cache(maxsize=2048)
-def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
-    # Of most pairs nothing is known but that they are pairs.
+def _sum_rows(known: tuple[tuple[int, float], ...]) -> Logits:
+    # Cached: most pairs have the one feature that they are a pair.
     model = _load_model()
     rows, values = zip(*known, strict=True)
     logits: Logits = np.array(values) @ model.weights[list(rows)]
@@ -133,10 +126,10 @@ def _weigh_rows(known: tuple[tuple[int, float], ...]) -> Logits:
 
 
 def _kinds(role: str, word: str) -> Mapping[str, float]:
-    """Return the synsets above the likeliest meanings of a word, as features."""
+    """Return the hypernyms of the usual senses of a word as features."""
     taxonomy = load_taxonomy()
     noun = taxonomy.singular(word)
-    # Most pairs of words are no noun, and few come again.
+    # Most pairs of words are no noun: only nouns are cached.
     return _kinds_of(role, noun) if noun in taxonomy else {}
 
 
@@ -145,7 +138,7 @@ def _kinds_of(role: str, noun: str) -> Mapping[str, float]:
     taxonomy = load_taxonomy()
     senses = sorted(taxonomy.senses(noun), key=sense_weight, reverse=True)
     features: dict[str, float] = {}
-    for sense, value in zip(senses, _SENSES, strict=False):
+    for sense, value in zip(senses, CLASSIFIER.sense_values, strict=False):
         for synset, _ in taxonomy.walk_up(sense.synset):
             features.setdefault(_kind(role, synset), value)
     return features
@@ -157,7 +150,7 @@ def _kind(role: str, synset: int) -> str:
 
 
 def similar_name(words: tuple[str, ...], class_iri: ClassIRI) -> str | None:
-    """Return a name of the class in the home vocabulary with the same head, or None.
+    """Return a home name of the class with the same head noun, or None.
 
     >>> from usd2kg.ontology import load_home_tbox
     >>> similar_name(("gherkin", "jar"), load_home_tbox().resolve("Jar"))
@@ -179,7 +172,7 @@ def _heads() -> Iterator[tuple[str, ClassIRI, str]]:
 
 @lru_cache(maxsize=1)
 def _load_model() -> _Model:
-    with data_file("likeness.npz").open("rb") as file, np.load(file) as arrays:
+    with data_file("name_classifier.npz").open("rb") as file, np.load(file) as arrays:
         features, classes = (bytes(arrays[name]).decode("utf-8").split("\n") for name in ("features", "classes"))
         return _Model(
             rows={name: row for row, name in enumerate(features)},

@@ -1,6 +1,6 @@
-"""Where everyday things are usually found and how they stand there: evidence where a name says nothing.
+"""Likelihood of an object's place and stance for everyday objects: evidence where the name says nothing.
 
-The columns `places`, `stands` and `up` of `data/everyday_objects.csv` are common sense, written down by hand.
+The columns `places`, `stands` and `up` of `data/everyday_objects.csv` are common sense, written by hand.
 """
 
 import math
@@ -12,8 +12,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from usd2kg.grounding.context.placement import Look
-from usd2kg.grounding.lexical.concepts.sizes import SMALLEST_EXTENT, thing_rows
+from usd2kg.grounding.context.placement import Appearance
+from usd2kg.grounding.lexical.concepts.sizes import everyday_object_rows
+from usd2kg.grounding.lexical.settings import PLACE, SIZE, STANCE
+from usd2kg.knowledge import word_map
 from usd2kg.words import split_identifier
 
 __all__ = [
@@ -21,13 +23,13 @@ __all__ = [
     "PLACE_TEXTS",
     "Floats",
     "Stance",
-    "log_stances",
-    "place_of_look",
-    "place_of_thing",
-    "place_shares",
+    "log_place_likelihoods_of_appearance",
+    "log_place_likelihoods_of_noun",
+    "log_stance_likelihoods",
+    "noun_priors",
+    "place_probabilities",
     "places_named",
     "stance_of",
-    "thing_shares",
 ]
 
 PLACE_TEXTS = {
@@ -47,209 +49,174 @@ PLACE_TEXTS = {
     "gym": "a gym",
     "outdoors": "a place outdoors",
 }
-"""Kind of place, as the table calls it → what a person is told."""
+"""Kind of place as in the table → its name in explanations."""
 PLACES = tuple(PLACE_TEXTS)
-"""The kinds of places."""
+"""Kinds of place, in the order of all (places,) arrays."""
 
-_SPOKEN_OF = {
-    "kitchen": "kitchen kitchenette cooking pantry galley",
-    "dining": "dining dinette",
-    "living": "living lounge sitting parlour parlor",
-    "bedroom": "bedroom sleeping dormitory dorm",
-    "bathroom": "bathroom bath toilet wc shower restroom washroom lavatory ensuite",
-    "hall": "hall hallway entry entrance corridor foyer lobby stairs stairway vestibule",
-    "utility": "laundry utility pantry storage cleaning scullery",
-    "child": "nursery classroom playroom school kindergarten kids",
-    "office": "office meeting conference reception desk cubicle study",
-    "workshop": "workshop garage workbench toolroom",
-    "warehouse": "warehouse factory logistics depot plant shopfloor packing",
-    "laboratory": "lab laboratory hospital clinic surgery ward",
-    "shop": "shop store supermarket cafe restaurant bar grocery market",
-    "gym": "gym fitness sports",
-    "outdoors": "street garden yard outdoor outdoors exterior patio terrace parking road park balcony backyard",
-}
-"""Kind of place → words of which one in the name of a prim above says that it is such a place."""
-_NAMED = {
-    word: tuple(place for place, words in _SPOKEN_OF.items() if word in words.split())
-    for word in sorted({word for words in _SPOKEN_OF.values() for word in words.split()})
-}
-
-_ELSEWHERE = 0.003
-"""How many of a thing are in a place that the table does not have for it."""
-_DOUBT, _LOOK_DOUBT = 0.1, 0.3
-"""How often a thing is anywhere, so that its being here says nothing of the place: of a known thing, of a look."""
-
-_USUAL = (0.65, 0.25, 0.1)
-"""Shares of the ways in which a thing stands or is turned, the usual one first."""
-_OTHER_WAY, _OTHER_TURN = 0.02, 0.05
-"""What each way counts that the table does not have."""
-_HEIGHTS = (0.03, 0.3, 0.65, 1.15, 1.9)
-"""Metres: where the ranges of elevation end."""
-_AT_HEIGHT = {
-    "floor": (0.80, 0.10, 0.03, 0.03, 0.02, 0.02),
-    "surface": (0.06, 0.12, 0.20, 0.37, 0.18, 0.07),
-    "wall": (0.06, 0.09, 0.12, 0.20, 0.33, 0.20),
-    "ceiling": (0.01, 0.01, 0.01, 0.02, 0.15, 0.80),
-    "part": (0.15, 0.20, 0.20, 0.25, 0.12, 0.08),
-}
-"""How a thing stands → share of the things that have their lowest point in each range of elevation."""
-_NESTED = {"floor": 0.15, "surface": 0.3, "wall": 0.25, "ceiling": 0.15, "part": 0.8}
-"""How a thing stands → share of the things that are below another object in the stage's tree."""
-_SAME_EXTENT = 0.06
-"""Extents whose logarithms differ by less may be taken for each other, to tell which one points up."""
-_REGULAR, _TABLED = 0.03, 0.02
-"""The same for extents that are equal because the thing is round or square: of an object, and in the table."""
-_STAYS_REGULAR, _TURNS_REGULAR = 0.75, 0.07
-"""How often extents are equal where the table has them so, and where it has not."""
+_PLACES_BY_WORD = word_map("lexical", "place_words")
+"""Word in a prim name above → kinds of place that it indicates, separated by spaces."""
 
 Floats = npt.NDArray[np.float64]
 
 
-class _Table(NamedTuple):
+class _PlaceTable(NamedTuple):
+    """The place and stance columns of `everyday_objects.csv`."""
+
     counts: Floats
-    """(things, places): how many there are in a place of the kind."""
+    """(nouns, places): mean number of such objects in a place of the kind."""
     at_height: Floats
-    """(ranges of elevation, things): share of the things that stand there."""
+    """(elevation ranges, nouns): share of the objects with their lowest point there."""
     nested: Floats
-    """(things,): share of the things that are parts of others."""
-    turned: Floats
-    """(3, things): share of the things whose longest, middle or shortest extent points up."""
-    regular: Floats
-    """(2, things): share of the things with long and middle, and with middle and short extents equal."""
+    """(nouns,): share of the objects below another object in the stage's tree."""
+    upright: Floats
+    """(3, nouns): share of the objects whose longest, middle or shortest extent is vertical."""
+    equal: Floats
+    """(2, nouns): share of the objects whose long and middle, or middle and short extents are equal."""
 
 
 @lru_cache(maxsize=4096)
 def places_named(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the kinds of places that the names of prims speak of.
+    """Return the kinds of place that prim names mention.
 
     >>> places_named(("KitchenDining", "shelf_02"))
     ('kitchen', 'dining')
     """
     words = (word.lower() for name in names for word in split_identifier(name))
-    return tuple(place for word in words for place in _NAMED.get(word, ()))
+    return tuple(place for word in words for place in _PLACES_BY_WORD.get(word, "").split())
 
 
-def place_shares(logs: Floats, named: Iterable[str] = ()) -> Floats:
+def place_probabilities(log_likelihoods: Floats, named: Iterable[str] = ()) -> Floats:
     """Return the probability of each kind of place, (places,).
 
     Args:
-        logs: logarithm of how likely what was found there is in each kind of place, up to a constant, (places,).
-        named: kinds of places that names above speak of, see `places_named`.
+        log_likelihoods: log P(objects around | place) up to a constant, (places,).
+        named: kinds of place that names above mention, see `places_named`.
     """
-    logs = logs.copy()
+    logs = log_likelihoods.copy()
     for place in named:
-        logs[PLACES.index(place)] -= math.log(_DOUBT)
+        logs[PLACES.index(place)] -= math.log(PLACE.uninformative_share)
     powers = np.exp(logs - logs.max())
     result: Floats = powers / powers.sum()
     return result
 
 
-def place_of_thing(row: int) -> Floats:
-    """Return log P(a thing is there | kind of place) up to a constant, (places,): of a row, see `thing_rows`."""
-    logs: Floats = _shares_of_places()[row]
+def log_place_likelihoods_of_noun(row: int) -> Floats:
+    """Return log P(the everyday object in a row is there | place) up to a constant, (places,)."""
+    logs: Floats = _log_place_likelihoods()[row]
     return logs
 
 
-def place_of_look(logs: Floats) -> Floats:
-    """Return the same for something that is nameless.
+def log_place_likelihoods_of_appearance(log_likelihoods: Floats) -> Floats:
+    """Return log P(an object of this size and stance is there | place) up to a constant, (places,).
 
     Args:
-        logs: log P(what is seen of it | thing) for each thing, (things,).
+        log_likelihoods: log P(size, stance | noun) for each noun, (nouns,).
     """
-    likely = np.exp(logs - logs.max()) @ _shares_of_things()
-    result: Floats = np.log((1 - _LOOK_DOUBT) * likely / likely.mean() + _LOOK_DOUBT)
+    likely = np.exp(log_likelihoods - log_likelihoods.max()) @ _noun_shares()
+    uninformative = PLACE.uninformative_appearance_share
+    result: Floats = np.log((1 - uninformative) * likely / likely.mean() + uninformative)
     return result
 
 
 @lru_cache(maxsize=1)
-def _shares_of_places() -> Floats:
-    """Return for each thing the logarithm of how often it is what one comes upon in each kind of place."""
-    shares = _shares_of_things() / _shares_of_things().sum(axis=1, keepdims=True)
-    logs: Floats = np.log((1 - _DOUBT) * shares * len(PLACES) + _DOUBT)
+def _log_place_likelihoods() -> Floats:
+    """Return log P(noun | place) over its mean over places, (nouns, places), mixed with a uniform share."""
+    shares = _noun_shares() / _noun_shares().sum(axis=1, keepdims=True)
+    uniform = PLACE.uninformative_share
+    logs: Floats = np.log((1 - uniform) * shares * len(PLACES) + uniform)
     return logs
 
 
-def thing_shares(places: Floats) -> Floats:
-    """Return the share of each thing among all those in a place, given the probability of each kind, (things,)."""
-    shares: Floats = _shares_of_things() @ places
-    return shares
+def noun_priors(places: Floats) -> Floats:
+    """Return P(noun) of an object given the probability of each kind of place, (nouns,)."""
+    priors: Floats = _noun_shares() @ places
+    return priors
 
 
 @lru_cache(maxsize=1)
-def _shares_of_things() -> Floats:
-    counts = _load_table().counts + _ELSEWHERE
+def _noun_shares() -> Floats:
+    """Return P(noun | place), (nouns, places)."""
+    counts = _load_table().counts + PLACE.count_elsewhere
     shares: Floats = counts / counts.sum(axis=0, keepdims=True)
     return shares
 
 
 class Stance(NamedTuple):
-    """How an object stands and what is equal about its form, as far as it counts."""
+    """How an object stands, and which of its extents are equal."""
 
-    range: int | None
-    """Number of the range of elevation; None if it is not known."""
+    elevation_range: int | None
+    """Index of the range of elevation; None if unknown."""
     upright: tuple[int, ...]
-    """Which of its extents, the longest 0, may point up; none if it is not known."""
+    """Extents that may be vertical, 0 the longest; empty if unknown."""
     equal: tuple[bool, bool]
-    """Whether the long and the middle extent are equal, and the middle and the short one."""
+    """Whether the long and middle extents are equal, and the middle and short ones."""
     is_nested: bool
+    """Whether it is below another object in the stage's tree."""
 
 
-def stance_of(look: Look) -> Stance:
-    """Return how an object stands by its look."""
-    long, middle, short = (math.log(max(extent, SMALLEST_EXTENT)) for extent in sorted(look.size, reverse=True))
+def stance_of(seen: Appearance) -> Stance:
+    """Return the stance of an object."""
+    long, middle, short = (math.log(max(extent, SIZE.min_extent)) for extent in sorted(seen.size, reverse=True))
     upright: tuple[int, ...] = ()
-    if look.height is not None:
-        height = math.log(max(look.height, SMALLEST_EXTENT))
-        apart = abs(long - height), abs(middle - height), abs(short - height)
-        least = min(apart) + _SAME_EXTENT
-        upright = tuple(place for place, distance in enumerate(apart) if distance <= least)
+    if seen.height is not None:
+        height = math.log(max(seen.height, SIZE.min_extent))
+        differences = abs(long - height), abs(middle - height), abs(short - height)
+        limit = min(differences) + STANCE.vertical_tolerance
+        upright = tuple(index for index, difference in enumerate(differences) if difference <= limit)
     return Stance(
-        range=None if look.elevation is None else bisect_right(_HEIGHTS, look.elevation),
+        elevation_range=None if seen.elevation is None else bisect_right(STANCE.elevation_limits, seen.elevation),
         upright=upright,
-        equal=(long - middle < _REGULAR, middle - short < _REGULAR),
-        is_nested=look.is_nested,
+        equal=(long - middle < STANCE.equal_extents, middle - short < STANCE.equal_extents),
+        is_nested=seen.is_nested,
     )
 
 
 @lru_cache(maxsize=256)
-def log_stances(stance: Stance) -> Floats:
-    """Return log P(stance | thing) for each thing, natural logarithm, (things,); not to be written to."""
+def log_stance_likelihoods(stance: Stance) -> Floats:
+    """Return log P(stance | noun) for each everyday noun, natural logarithm, (nouns,), read-only."""
     table = _load_table()
     likely = table.nested if stance.is_nested else 1 - table.nested
-    for regular, is_equal in zip(table.regular, stance.equal, strict=True):
-        likely = likely * (regular if is_equal else 1 - regular)
-    if stance.range is not None:
-        likely = likely * table.at_height[stance.range]
+    for share, is_equal in zip(table.equal, stance.equal, strict=True):
+        likely = likely * (share if is_equal else 1 - share)
+    if stance.elevation_range is not None:
+        likely = likely * table.at_height[stance.elevation_range]
     if stance.upright:
-        likely = likely * table.turned[list(stance.upright)].sum(axis=0)
+        likely = likely * table.upright[list(stance.upright)].sum(axis=0)
     logs: Floats = np.log(likely)
     logs.flags.writeable = False
     return logs
 
 
 @lru_cache(maxsize=1)
-def _load_table() -> _Table:
-    rows = thing_rows()
+def _load_table() -> _PlaceTable:
+    rows = everyday_object_rows()
+    at_height = {
+        "floor": STANCE.floor_heights,
+        "surface": STANCE.surface_heights,
+        "wall": STANCE.wall_heights,
+        "ceiling": STANCE.ceiling_heights,
+        "part": STANCE.part_heights,
+    }
+    supports = list(at_height)
     counts = np.zeros((len(rows), len(PLACES)))
-    ways = list(_AT_HEIGHT)
-    stands = np.zeros((len(rows), len(ways)))
-    turned = np.zeros((3, len(rows)))
+    stands = np.zeros((len(rows), len(supports)))
+    upright = np.zeros((3, len(rows)))
     for at, row in enumerate(rows):
         for place, count in (part.split("=") for part in row["places"].split()):
             counts[at, PLACES.index(place)] = float(count)
-        for way, share in zip(row["stands"].split(), _USUAL, strict=False):
-            stands[at, ways.index(way)] = share
-        for extent, share in zip(row["up"], _USUAL, strict=False):
-            turned["lms".index(extent), at] = share
-    stands += _OTHER_WAY
+        for support, share in zip(row["stands"].split(), STANCE.order_shares, strict=False):
+            stands[at, supports.index(support)] = share
+        for extent, share in zip(row["up"], STANCE.order_shares, strict=False):
+            upright["lms".index(extent), at] = share
+    stands += STANCE.other_support_share
     stands /= stands.sum(axis=1, keepdims=True)
-    turned += _OTHER_TURN
+    upright += STANCE.other_upright_share
     extents = np.log([[float(row[side]) for side in ("long_m", "middle_m", "short_m")] for row in rows])
-    regular = np.where(extents[:, :2] - extents[:, 1:] < _TABLED, _STAYS_REGULAR, _TURNS_REGULAR)
-    return _Table(
+    is_equal = extents[:, :2] - extents[:, 1:] < STANCE.equal_typical_extents
+    return _PlaceTable(
         counts=counts,
-        at_height=(stands @ np.array([_AT_HEIGHT[way] for way in ways])).T,
-        nested=stands @ np.array([_NESTED[way] for way in ways]),
-        turned=turned / turned.sum(axis=0),
-        regular=regular.T,
+        at_height=(stands @ np.array(list(at_height.values()))).T,
+        nested=stands @ np.array(STANCE.nested_shares),
+        upright=upright / upright.sum(axis=0),
+        equal=np.where(is_equal, STANCE.equal_share, STANCE.chance_equal_share).T,
     )

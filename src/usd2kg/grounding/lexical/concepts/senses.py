@@ -1,27 +1,26 @@
-"""How likely a meaning of a noun is meant by the name of an object on a stage."""
+"""Prior of the senses of a noun in the name of an object in a scene."""
 
-from usd2kg.grounding.lexical.concepts.taxonomy import Sense
+from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy
+from usd2kg.grounding.lexical.settings import SENSE
 
-__all__ = ["sense_weight", "unmade_weight"]
+__all__ = ["sense_weight", "usual_sense"]
 
 _DOMAIN_WEIGHTS = {
-    "artifact": 1.0,
-    "food": 0.9,
-    "person": 0.8,
-    "substance": 0.6,
-    "communication": 0.4,
-    "group": 0.4,
-    "top": 0.3,
+    "artifact": SENSE.artifact,
+    "food": SENSE.food,
+    "person": SENSE.person,
+    "substance": SENSE.substance,
+    "communication": SENSE.communication,
+    "group": SENSE.group,
+    "top": SENSE.top,
 }
-_OTHER_DOMAIN = 0.45
-_RANK_DECAY = 0.93
 
 
 def sense_weight(sense: Sense) -> float:
-    """Return how likely a sense is meant by the name of an object on a stage: artifacts first."""
-    return _DOMAIN_WEIGHTS.get(sense.domain, _OTHER_DOMAIN) * _RANK_DECAY ** (sense.rank - 1)
+    """Return the weight of a sense, 0 to 1: artifacts and frequent senses first."""
+    return _DOMAIN_WEIGHTS.get(sense.domain, SENSE.other_domain) * SENSE.rank_decay ** (sense.rank - 1)
 
 
-def unmade_weight(sense: Sense) -> float:
-    """Return the same for a thing that nobody made, where no made thing is meant."""
-    return _RANK_DECAY ** (sense.rank - 1)
+def usual_sense(noun: str, taxonomy: Taxonomy) -> Sense | None:
+    """Return the sense of a noun with the largest weight; None for an unknown noun."""
+    return max(taxonomy.senses(noun), key=sense_weight, default=None)

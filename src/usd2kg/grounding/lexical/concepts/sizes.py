@@ -1,4 +1,7 @@
-"""How well the size of an object fits each of a thousand everyday things: evidence where a name says nothing."""
+"""Likelihood of an object's size for everyday objects.
+
+`data/everyday_objects.csv` has the typical extents of 1,450 objects with their spread.
+"""
 
 import math
 from collections.abc import Mapping
@@ -8,39 +11,27 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from usd2kg.grounding.lexical.settings import SIZE
 from usd2kg.knowledge import read_rows
 
 __all__ = [
-    "SMALLEST_EXTENT",
     "Size",
-    "likelihoods_of",
+    "everyday_nouns",
+    "everyday_object_row",
+    "everyday_object_rows",
     "log_likelihoods",
-    "rounded",
-    "surprise",
-    "thing_nouns",
-    "thing_row",
-    "thing_rows",
+    "round_size",
+    "size_log_likelihood_ratio",
+    "size_log_likelihoods",
     "typical_extents",
 ]
 
-SMALLEST_EXTENT = 0.001
-"""Metres. A thinner extent counts as this: a sheet may be modelled without thickness, and zero has no logarithm."""
-
-_LARGEST_EXTENT = 100.0
-"""Metres. Where the broad share of the mixture ends."""
-_RELATIVE_ERROR = 0.08
-"""How far a model of a thing departs from the thing, as a standard deviation of the logarithm of an extent."""
-_ABSOLUTE_ERROR = 0.001
-"""Metres. The same for thin things, whose thickness is drawn freely."""
-_BROAD_SHARE = 0.02
-"""Part of the things of a kind that are of any size: a toy car, a giant chess piece, a wrong unit."""
-_BROAD_DENSITY = _BROAD_SHARE * math.factorial(3) / math.log(_LARGEST_EXTENT / SMALLEST_EXTENT) ** 3
-"""The ordered triples are a sixth of the cube of all triples, so the uniform density over them is six times as high."""
-_PEAK = 0.375
-"""Student's t density of 4 degrees of freedom and scale 1 at its centre: Γ(5/2) / (Γ(2) √(4π))."""
-
+_BROAD_DENSITY = SIZE.broad_share * math.factorial(3) / math.log(SIZE.max_extent / SIZE.min_extent) ** 3
+"""Ordered triples are a sixth of all triples, so that the uniform density over them is six times as high."""
+_PEAK_DENSITY = 0.375
+"""Density of Student's t with 4 degrees of freedom and scale 1 at its centre: Γ(5/2) / (Γ(2) √(4π))."""
 _BLOCK = 8
-"""Boxes taken at a time: what they need fits into a processor's cache, which saves half the time and more."""
+"""Boxes evaluated at a time: their intermediate arrays fit into a processor's cache, which halves the time."""
 
 Size = tuple[float, float, float]
 """Extents of an object in metres, in any order."""
@@ -48,42 +39,41 @@ Size = tuple[float, float, float]
 _Floats = npt.NDArray[np.float64]
 
 
-class _Table(NamedTuple):
-    """The rows of `everyday_objects.csv`, ready for `log_likelihoods`."""
+class _SizeTable(NamedTuple):
+    """The rows of `everyday_objects.csv` as parameters of `log_likelihoods`."""
 
     nouns: tuple[str, ...]
     half_rates: _Floats
-    """(3, rows), longest extent first: 1 / (2 s_k), as t² / 4 = (x · half rate - scaled centre)²."""
+    """(3, rows), longest extent first: 1 / (2 s_k), so that t² / 4 = (x · half rate - scaled centre)²."""
     scaled_centres: _Floats
     """(3, rows): m_k / (2 s_k), with m_k the logarithm of the typical extent in metres."""
     peaks: _Floats
-    """(rows,): the density at the centres, the broad share left out."""
+    """(rows,): density at the centres, without the broad share."""
 
 
-def thing_nouns() -> tuple[str, ...]:
-    """Return the nouns of the things whose size is known, in the order of `log_likelihoods`: lemmas of the taxonomy.
+def everyday_nouns() -> tuple[str, ...]:
+    """Return the everyday objects, in the order of `log_likelihoods`.
 
-    The size is meant for what the noun is used for most in homes and at work: the first artifact, food or plant that
-    WordNet has for it but for a few (a plate for eating, a notebook of paper, a log of wood, the fruit of a tree).
+    Each is a lemma of the taxonomy, in its most frequent sense at home and at work.
     """
     return _load_table().nouns
 
 
 @lru_cache(maxsize=1)
 def _rows() -> dict[str, int]:
-    return {noun.replace(" ", ""): row for row, noun in enumerate(thing_nouns())}
+    return {noun.replace(" ", ""): row for row, noun in enumerate(everyday_nouns())}
 
 
-def thing_row(noun: str) -> int | None:
-    """Return the row of a thing, its name without spaces; None if it is not in the table."""
+def everyday_object_row(noun: str) -> int | None:
+    """Return the row of an everyday object by its noun without spaces; None if it has none."""
     return _rows().get(noun)
 
 
 def typical_extents(noun: str) -> tuple[float, float, float] | None:
-    """Return the typical extents of a thing in metres, longest first; None if its size is not known.
+    """Return the typical extents of an everyday object in metres, longest first; None if unknown.
 
     Args:
-        noun: the thing, without spaces.
+        noun: the noun without spaces.
     """
     row = _rows().get(noun)
     if row is None:
@@ -93,63 +83,61 @@ def typical_extents(noun: str) -> tuple[float, float, float] | None:
     return float(long), float(middle), float(short)
 
 
-def surprise(size: Size, noun: str) -> float | None:
-    """Return how much a size speaks for a thing, against all things whose size is known, as a natural logarithm.
+def size_log_likelihood_ratio(size: Size, noun: str) -> float | None:
+    """Return the log-likelihood ratio of a size for a noun against the average everyday object, natural logarithm.
 
-        log p(size | thing) - log mean over things of p(size | thing)
+        log p(size | noun) - log mean over nouns of p(size | noun)
 
     Args:
         size: extents in metres, in any order.
-        noun: the thing, without spaces.
+        noun: the noun without spaces.
 
     Returns:
-        More than 0 where the thing is of this size more often than things are, less for the wrong size; None where the
-        thing's size is not known.
+        Positive where the size fits, negative where it does not; None if the noun's typical size is unknown.
     """
     row = _rows().get(noun)
     if row is None:
         return None
-    logs, usual = _kept(rounded(size))
-    return float(logs[row]) - usual
+    logs, log_mean = _cached_likelihoods(round_size(size))
+    return float(logs[row]) - log_mean
 
 
-def likelihoods_of(size: Size) -> _Floats:
-    """Return `log_likelihoods` of one size, kept for when it is asked for again; not to be written to."""
-    return _kept(rounded(size))[0]
+def size_log_likelihoods(size: Size) -> _Floats:
+    """Return `log_likelihoods` of one size, cached and read-only."""
+    return _cached_likelihoods(round_size(size))[0]
 
 
-def rounded(size: Size) -> Size:
-    """Return a size to a tenth of a millimetre: copies of one model differ by what the arithmetic leaves."""
+def round_size(size: Size) -> Size:
+    """Return a size rounded to 0.1 mm: copies of one model differ by rounding errors."""
     x, y, z = size
     return round(x, 4), round(y, 4), round(z, 4)
 
 
 @lru_cache(maxsize=256)
-def _kept(size: Size) -> tuple[_Floats, float]:
-    """Return `log_likelihoods`, and log mean over things of p(size | thing)."""
+def _cached_likelihoods(size: Size) -> tuple[_Floats, float]:
+    """Return `log_likelihoods`, and log mean over nouns of p(size | noun)."""
     densities = _densities(_log_extents(np.array([size])))[0]
-    usual = math.log(densities.mean())
+    log_mean = math.log(densities.mean())
     logs = np.log(densities, out=densities)
     logs.flags.writeable = False
-    return logs, usual
+    return logs, log_mean
 
 
 def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
-    """Return log p(size | thing) for each thing, natural logarithm; shape (3,) → (things,), (n, 3) → (n, things).
+    """Return log p(size | noun) for each everyday noun, natural logarithm; (3,) → (nouns,), (n, 3) → (n, nouns).
 
-    `sizes` are the extents of boxes in metres, in any order, along the objects' own axes if those are known. With
-    x1 ≥ x2 ≥ x3 the logarithms of the extents, each at least `SMALLEST_EXTENT`,
+    `sizes` are extents of boxes in metres, in any order, along the objects' own axes where those are known. With
+    x1 ≥ x2 ≥ x3 the logarithms of the extents, each at least 1 mm,
 
-        p(x | thing) = 0.98 · Π_k t4((x_k - m_k) / s_k) / s_k / P + 0.02 · 6 / ln(100 m / 1 mm)³
+        p(x | noun) = 0.98 · Π_k t4((x_k - m_k) / s_k) / s_k / P + 0.02 · 6 / ln(100 m / 1 mm)³
         s_k² = spread² + 0.08² + (1 mm / e^m_k)²
 
-    with t4 the density of Student's t with 4 degrees of freedom, heavier in the tails than the normal, e^m_k the
-    typical extents, and P the probability that three such draws come in order, one sixth for a ball. It is a density
-    over ordered triples, so the values of different things can be compared and combined with a prior of the things.
-    No value is -inf.
+    where t4 is the density of Student's t with 4 degrees of freedom, e^m_k are the typical extents, and P is the
+    probability that three such draws are in descending order (one sixth for a ball). It is a density over ordered
+    triples, so that values of different nouns compare. No value is -inf.
 
     Raises:
-        ValueError: the last axis has not 3 extents, or one is negative or not finite.
+        ValueError: the last axis does not have 3 extents, or one is negative or not finite.
     """
     extents = np.asarray(sizes, dtype=np.float64)
     if extents.ndim not in (1, 2) or extents.shape[-1] != 3:
@@ -164,12 +152,12 @@ def log_likelihoods(sizes: npt.ArrayLike) -> _Floats:
 def _log_extents(extents: _Floats) -> _Floats:
     """Return the logarithms of the extents of boxes, longest first, (n, 3)."""
     if not (np.isfinite(extents).all() and (extents >= 0).all()):
-        raise ValueError("sizes hold a negative or non-finite extent; leave objects without a box out")
-    return np.log(np.maximum(np.sort(extents, axis=-1)[:, ::-1], SMALLEST_EXTENT))
+        raise ValueError("sizes hold a negative or non-finite extent; leave out objects without a box")
+    return np.log(np.maximum(np.sort(extents, axis=-1)[:, ::-1], SIZE.min_extent))
 
 
 def _densities(logs: _Floats) -> _Floats:
-    """Return p(x | thing) for boxes of the log extents `logs`, (n, 3), longest first; (n, things)."""
+    """Return p(x | thing) for boxes of the log extents `logs`, (n, 3), longest first; (n, nouns)."""
     table = _load_table()
     offsets = logs[:, :, np.newaxis] * table.half_rates
     offsets -= table.scaled_centres
@@ -177,7 +165,7 @@ def _densities(logs: _Floats) -> _Floats:
     offsets += 1.0
     product = offsets[:, 0] * offsets[:, 1]
     product *= offsets[:, 2]
-    # One square root for all three extents: (1 + t²/4)^(-5/2) is the slow part.
+    # (1 + t²/4)^(-5/2) is the slow part: one square root for all three extents.
     found: _Floats = np.sqrt(product)
     product *= product
     found *= product
@@ -187,28 +175,28 @@ def _densities(logs: _Floats) -> _Floats:
 
 
 @lru_cache(maxsize=1)
-def thing_rows() -> tuple[Mapping[str, str], ...]:
+def everyday_object_rows() -> tuple[Mapping[str, str], ...]:
     """Return the rows of `data/everyday_objects.csv`, in the order of `log_likelihoods`."""
     return tuple(read_rows("everyday_objects.csv"))
 
 
 @lru_cache(maxsize=1)
-def _load_table() -> _Table:
-    rows = thing_rows()
+def _load_table() -> _SizeTable:
+    rows = everyday_object_rows()
     extents = np.array([[float(row[side]) for row in rows] for side in ("long_m", "middle_m", "short_m")])
-    extents = np.maximum(extents, SMALLEST_EXTENT)
+    extents = np.maximum(extents, SIZE.min_extent)
     spread = np.array([float(row["spread"]) for row in rows])
-    scales = np.sqrt(spread**2 + _RELATIVE_ERROR**2 + (_ABSOLUTE_ERROR / extents) ** 2)
+    scales = np.sqrt(spread**2 + SIZE.relative_error**2 + (SIZE.absolute_error / extents) ** 2)
     centres = np.log(extents)
-    peaks = (1 - _BROAD_SHARE) * _PEAK**3 / scales.prod(axis=0) / _order_probability(centres, scales)
-    return _Table(tuple(row["noun"] for row in rows), 0.5 / scales, centres * 0.5 / scales, peaks)
+    peaks = (1 - SIZE.broad_share) * _PEAK_DENSITY**3 / scales.prod(axis=0) / _order_probability(centres, scales)
+    return _SizeTable(tuple(row["noun"] for row in rows), 0.5 / scales, centres * 0.5 / scales, peaks)
 
 
 def _order_probability(centres: _Floats, scales: _Floats) -> _Floats:
-    """Return the probability that draws around three centres come in order, (rows,).
+    """Return the probability that draws around three centres are in descending order, (rows,).
 
-    ∫ f2(x) (1 - F1(x)) F3(x) dx by the midpoint rule, with t = 2 tan θ, which brings the whole line between ±π/2 and
-    makes f2 dx = 0.75 cos³θ dθ.
+    ∫ f2(x) (1 - F1(x)) F3(x) dx by the midpoint rule; t = 2 tan θ maps the real line to ±π/2, and
+    f2 dx = 0.75 cos³θ dθ.
     """
     step = math.pi / 400
     angles = (np.arange(400) + 0.5) * step - math.pi / 2

@@ -1,4 +1,4 @@
-"""WordNet's nouns for physical things: lemmas, senses in order of use, and what is a kind of what."""
+"""WordNet's nouns for physical objects: lemmas, their senses by frequency, and hypernyms."""
 
 import gzip
 from array import array
@@ -19,17 +19,17 @@ _MORE_PLURALS = (("ves", "f"), ("ves", "fe"), ("es", "e"), ("es", ""), ("s", "")
 
 
 class Sense(NamedTuple):
-    """One meaning of a lemma."""
+    """One sense of a lemma."""
 
     synset: int
     rank: int
-    """1 for the meaning used most."""
+    """1 for the most frequent sense."""
     domain: str
-    """WordNet's lexicographer file: artifact, food, plant…"""
+    """WordNet's lexicographer file, such as artifact, food or plant."""
 
 
 class _Cells:
-    """The cells of a column: a hundred thousand strings of their own would take ten times its memory."""
+    """The cells of a column, decoded on access: 100,000 strings take ten times the memory."""
 
     def __init__(self, column: bytes) -> None:
         self._column = column
@@ -51,7 +51,7 @@ class _Cells:
 class Taxonomy:
     """A noun hierarchy. Synsets are numbers; lemmas are lower case, compounds without space or hyphen.
 
-    Cells are parsed when they are first asked for: a scene needs few of them.
+    Cells are parsed on first access, since a scene needs few of them.
     """
 
     def __init__(self, columns: TaxonomyColumns) -> None:
@@ -72,7 +72,7 @@ class Taxonomy:
         self._singular = lru_cache(maxsize=16384)(self._find_singular)
 
     def senses(self, lemma: str) -> tuple[Sense, ...]:
-        """Return the meanings of a lemma or joined compound (`flowerpot`), most used first; maybe none."""
+        """Return the senses of a lemma or joined compound (`flowerpot`), most frequent first; none if it is unknown."""
         found = self._senses.get(lemma)
         if found is None:
             if lemma not in self._places:
@@ -83,15 +83,15 @@ class Taxonomy:
         return found
 
     def kinds(self, lemma: str) -> str:
-        """Return of what kinds the meanings of a lemma are, for `parse_kinds`; empty for an unknown one.
+        """Return rank and domain of a lemma's senses as text for `parse_kinds`; empty for an unknown lemma.
 
-        Many lemmas are of like kinds, so that what follows from these can be kept.
+        Many lemmas share one text, which callers use as a cache key.
         """
         at = self._places.get(lemma)
         return "" if at is None else self._kinds[at]
 
     def parse_kinds(self, kinds: str) -> list[tuple[int, str]]:
-        """Return (rank, domain) of the meanings that `kinds` speaks of, most used first."""
+        """Return (rank, domain) of each sense in a text from `kinds`, most frequent first."""
         return [(int(kind[1:]), self._domains[kind[0]]) for kind in kinds.split()]
 
     @property
@@ -103,19 +103,19 @@ class Taxonomy:
         return lemma in self._places
 
     def is_phrase(self, lemma: str) -> bool:
-        """Return whether a lemma is known, and people write it as several words: `ctscanner` as CT scanner."""
+        """Return whether a lemma is a compound of several written words: `ctscanner` is “CT scanner”."""
         return lemma in self._places and self._is_one_word[self._places[lemma]] == "0"
 
     def phrases(self) -> list[str]:
-        """Return the lemmas that people write as several words, joined."""
+        """Return the compounds of several written words, joined."""
         return [lemma for lemma, is_one_word in zip(self._places, self._is_one_word, strict=True) if is_one_word == "0"]
 
     def name(self, synset: int) -> str:
-        """Return the lemma that WordNet lists first for a synset, with its spaces."""
+        """Return the first lemma of a synset, with its spaces."""
         return self._names[synset]
 
     def size(self, synset: int) -> int:
-        """Return the number of synsets that are a kind of one, itself included."""
+        """Return the number of hyponyms of a synset, itself included."""
         return int(self._sizes[synset])
 
     @property
@@ -124,25 +124,25 @@ class Taxonomy:
         return len(self._names)
 
     def above(self, synset: int) -> tuple[int, ...]:
-        """Return the synsets that a synset is directly a kind of."""
+        """Return the direct hypernyms of a synset."""
         found = self._above.get(synset)
         if found is None:
             found = self._above[synset] = tuple(map(int, self._above_texts[synset].split()))
         return found
 
     def walk_up(self, synset: int) -> Iterator[tuple[int, int]]:
-        """Yield (synset, hops) from a synset upwards, nearest first, itself with 0 hops."""
-        hops = {synset: 0}
+        """Yield (hypernym, steps) of a synset, nearest first, itself with 0 steps."""
+        steps = {synset: 0}
         pending = [synset]
         for current in pending:
-            yield current, hops[current]
+            yield current, steps[current]
             for up in self.above(current):
-                if up not in hops:
-                    hops[up] = hops[current] + 1
+                if up not in steps:
+                    steps[up] = steps[current] + 1
                     pending.append(up)
 
     def below(self, names: frozenset[str]) -> Callable[[int], bool]:
-        """Return a function that tells whether a synset, or one above it, has one of these names."""
+        """Return a predicate: whether a synset or a hypernym has one of these names."""
         known: dict[int, bool] = {}
 
         def is_below(synset: int) -> bool:
@@ -153,7 +153,7 @@ class Taxonomy:
         return is_below
 
     def path_up(self, synset: int, target: int) -> list[int]:
-        """Return the synsets from `synset` up to `target`, both included, by a shortest way."""
+        """Return a shortest path of hypernyms from `synset` up to `target`, both included."""
         came_from: dict[int, int | None] = {synset: None}
         for current, _ in self.walk_up(synset):
             for up in self.above(current):
@@ -166,7 +166,7 @@ class Taxonomy:
         return path[::-1]
 
     def singular(self, word: str) -> str:
-        """Return the singular of a plural noun; a word that is a noun as it stands, or unknown, unchanged.
+        """Return the singular of a plural noun; a known lemma or an unknown word unchanged.
 
         >>> load_taxonomy().singular("knives")
         'knife'
@@ -180,7 +180,7 @@ class Taxonomy:
         return word
 
     def words(self, domains: frozenset[str]) -> list[str]:
-        """Return the single-word lemmas that have a meaning in one of `domains`, sorted."""
+        """Return the single-word lemmas with a sense in one of `domains`, sorted."""
         others = frozenset(letter for letter, domain in self._domains.items() if domain in domains).isdisjoint
         return sorted(
             [
@@ -193,5 +193,5 @@ class Taxonomy:
 
 @lru_cache(maxsize=1)
 def load_taxonomy() -> Taxonomy:
-    """Return the taxonomy that ships with the package, read once."""
+    """Return the taxonomy of the package, read once."""
     return Taxonomy(parse_taxonomy(gzip.decompress(read_bytes("wordnet.txt.gz"))))

@@ -13,7 +13,7 @@ FORMAT = "usd2kg noun taxonomy, format 2"
 
 
 class TaxonomyColumns(NamedTuple):
-    """The columns of the taxonomy, each as the UTF-8 text of its cells: most cells are never looked at."""
+    """The columns of the taxonomy, each as the UTF-8 text of its cells; most cells are never parsed."""
 
     adjectives: bytes
     """Words that are adjectives more often than nouns."""
@@ -28,7 +28,7 @@ class TaxonomyColumns(NamedTuple):
     lemmas: bytes
     """Lower case, compounds without spaces and hyphens."""
     lemma_kinds: bytes
-    """Domain and rank of each sense, the most used sense first, separated by spaces: `c1 f2`."""
+    """Domain and rank of each sense, the most frequent sense first, separated by spaces: `c1 f2`."""
     lemma_synsets: bytes
     """The synset of each sense in the same order, separated by spaces."""
     lemma_is_one_word: bytes

@@ -12,7 +12,7 @@ from functools import cached_property, lru_cache, reduce
 from itertools import accumulate
 from typing import NamedTuple
 
-from usd2kg.grounding.context.neighbours import Company
+from usd2kg.grounding.context.neighbours import Neighbourhood
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
@@ -93,7 +93,7 @@ class AbbreviationReader:
     def read(
         self,
         tokens: Sequence[str],
-        company: Company | None = None,
+        neighbourhood: Neighbourhood | None = None,
         spelled: Container[str] = (),
         parent: str = "",
     ) -> list[Reading]:
@@ -101,7 +101,7 @@ class AbbreviationReader:
 
         Args:
             tokens: its runs of letters, lower case; each may hold several words.
-            company: the other objects of the stage, whose names may hold the same words.
+            neighbourhood: the other objects of the stage, whose names may hold the same words.
             spelled: the tokens that are words in full, which stand for nothing else.
             parent: the name of the prim above, whose words may stand in this one too.
         """
@@ -109,7 +109,7 @@ class AbbreviationReader:
         ends = list(accumulate(map(len, tokens)))
         borders = [end for end, token in zip(ends, tokens, strict=True) for _ in token]
         whole = {end - len(token): token for end, token in zip(ends, tokens, strict=True) if token in spelled}
-        near = self._near(company, parent)
+        near = self._near(neighbourhood, parent)
         beam = Beam(self._seconds, _MOST_BONUS)
         paths = [ROOT]
         arcs: list[list[Arc]] = [[] for _ in range(len(letters) + 1)]
@@ -130,12 +130,12 @@ class AbbreviationReader:
             scored.append((path[0] + log_consistency(letters, words, whole), words))
         return _readings(scored)
 
-    def _near(self, company: Company | None, parent: str) -> _Near:
+    def _near(self, neighbourhood: Neighbourhood | None, parent: str) -> _Near:
         """Return a function that gives what a form may be by the other names of the stage, None for nothing."""
-        if company is None:
+        if neighbourhood is None:
             beside: _Near = _nothing_near
         else:
-            beside = company.words_written(forms_of, self._rate, self._gather, _CHOICES)
+            beside = neighbourhood.words_by_form(forms_of, self._rate, self._gather, _CHOICES)
         above = self._of_parent(parent)
         if not above:
             return beside

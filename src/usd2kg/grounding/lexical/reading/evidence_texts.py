@@ -4,19 +4,19 @@ import re
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.words import words_of
 
-__all__ = ["is_made_up", "texts_of"]
+__all__ = ["is_generated_name", "texts_of"]
 
 _PRIMITIVES = frozenset(
     ["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull", "poly", "surface"]
 )
 """Parts named after a geometric primitive say how a thing was modelled, not what it is."""
 _NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
-_MOST_PARTS = 20
 
 
-def is_made_up(name: str) -> bool:
+def is_generated_name(name: str) -> bool:
     """Return whether a modelling program made the name up from a primitive: `pCube3`, `polySurface12`.
 
     A `Box_3` may be a box; programs write `Box003`.
@@ -34,7 +34,9 @@ def texts_of(view: ObjectView) -> list[tuple[str, str]]:
     texts += [("labels", label) for label in view.labels]
     texts.append(("documentation", _first_phrase(view.documentation)))
     texts += [("hierarchy", group) for group in reversed(view.groups) if _is_plural(group)]
-    texts += [("parts", part) for part in view.parts[:_MOST_PARTS] if not _PRIMITIVES.issuperset(words_of(part))]
+    texts += [
+        ("parts", part) for part in view.parts[: EVIDENCE.max_parts] if not _PRIMITIVES.issuperset(words_of(part))
+    ]
     return [(group, text) for group, text in dict.fromkeys(texts) if text]
 
 

@@ -1,7 +1,7 @@
 """Which word of a name says what the thing is: the bowl of `bowl_salad_oak`, the table of `dining_table`.
 
 A conditional logit over the words at which the phrase proper may end (McFadden, 1974): the weight of an end is
-exp(Σ weight · feature). The weights are in `data/heads.json`, written by `tools/fit_heads.py`.
+exp(Σ weight · feature). The weights are in `data/head_noun.json`, written by `tools/fit_head_noun.py`.
 """
 
 import json
@@ -15,10 +15,10 @@ from typing import NamedTuple
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.knowledge import read_text
 
-__all__ = ["Features", "likelihood", "propensity"]
+__all__ = ["HeadFeatures", "head_likelihood", "head_log_odds"]
 
 
-class Features(NamedTuple):
+class HeadFeatures(NamedTuple):
     """What is known of one end."""
 
     score: float = 0.0
@@ -55,16 +55,16 @@ class Features(NamedTuple):
     """Whether the parent's name holds the head, and words stand before it: below `sinkUnit` a `doorSink` is a door."""
 
 
-def likelihood(features: Features) -> float:
+def head_likelihood(features: HeadFeatures) -> float:
     """Return how likely a phrase ends where these features were read, up to a factor that all its ends share."""
     return math.exp(sum(map(mul, _weights(), features)))
 
 
 @lru_cache(maxsize=16384)
-def propensity(word: str) -> float:
+def head_log_odds(word: str) -> float:
     """Return the logarithm of how many times oftener a word ends a name of several words than stands within one.
 
-    >>> propensity("frame") > 0 > propensity("porcelain")
+    >>> head_log_odds("frame") > 0 > head_log_odds("porcelain")
     True
     """
     ends, within = _counts()
@@ -79,6 +79,6 @@ def _counts() -> tuple[Counter[str], Counter[str]]:
 
 
 @lru_cache(maxsize=1)
-def _weights() -> Features:
-    text = read_text("heads.json")
-    return Features(**json.loads(text)["weights"])
+def _weights() -> HeadFeatures:
+    text = read_text("head_noun.json")
+    return HeadFeatures(**json.loads(text)["weights"])

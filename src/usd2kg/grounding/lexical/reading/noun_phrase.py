@@ -15,7 +15,6 @@ from usd2kg.grounding.lexical.reading.tokens import (
     Token,
     is_half,
     is_reference,
-    parted_as_above,
     read_parent,
     shared_beginning,
     tokens_of,
@@ -27,8 +26,6 @@ from usd2kg.words import is_telling
 
 __all__ = ["NamePhrase", "NameReader"]
 
-_BUILT, _FASTENED = frozenset(["wall", "ceiling"]), frozenset(["hung", "mounted", "recessed"])
-"""What things are fastened to, and how: the last words of `toilet_wall_hung`, which say nothing of its kind."""
 _SHORTEST_RESPELLED = 6
 """Words shorter than this are corrected towards the TBox's own words only: among all nouns too many are near."""
 _MOST_WORDS = 16
@@ -105,10 +102,7 @@ class NameReader:
 
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         """Return the phrase behind a name; `parents` are the names of the prims above, outermost first."""
-        parted = chain.from_iterable(
-            [token] if self.kinds.is_known(token.text) else parted_as_above(token, parents) for token in tokens_of(name)
-        )
-        tokens = self._telling(self._without_additions(list(parted)))[:_MOST_WORDS]
+        tokens = self._telling(self._without_additions(tokens_of(name)))[:_MOST_WORDS]
         tokens, references = self._part_references(tokens, parents)
         words: list[str] = []
         glued: list[bool] = []
@@ -123,21 +117,14 @@ class NameReader:
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
         # Among other unknown words an abbreviation is better read with them, by what the stage speaks of.
         is_spelled = any(map(self.kinds.is_known, others)) if others else len(tokens) > 1
-        for at, token in enumerate(tokens):
+        for token in tokens:
             read = self._spelled_out(token.text) if is_spelled else self.correct(token.text)
             as_written = {(token.text,), (self._taxonomy.singular(token.text),)}
-            is_usual = token.text in usual_abbreviations()
-            if read not in as_written and not is_usual and self._is_in_compound(tokens, at):
-                # There are no cyclers, but thermal cyclers.
-                read = (token.text,)
             words.extend(read)
             glued.extend([token.is_glued, *[True] * (len(read) - 1)])
             if read not in as_written:
                 corrections.append((token.text, " ".join(read)))
         context = tuple(word for token in references for word in self._spelled_out(token.text))
-        if len(words) > 2 and words[-1] in _FASTENED and words[-2] in _BUILT:
-            # A `toilet_wall_hung` is no wall.
-            del words[-2:], glued[-2:]
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
     def _without_additions(self, tokens: list[Token]) -> list[Token]:
@@ -182,18 +169,6 @@ class NameReader:
         ]
         terms = [run for run in runs if "".join(tokens[i].text for i in run) in self._lexicon.terms]
         return max(terms, key=len, default=range(0))
-
-    def _is_in_compound(self, tokens: list[Token], at: int) -> bool:
-        """Return whether a word is one of a noun of two or three words that is known as a whole."""
-        runs = (
-            tokens[start : start + length]
-            for length in (2, 3)
-            for start in range(max(0, at - length + 1), min(at, len(tokens) - length) + 1)
-        )
-        return any(
-            "".join((*(token.text for token in before), self._taxonomy.singular(last.text))) in self._taxonomy
-            for *before, last in runs
-        )
 
     def _spelled_out(self, word: str) -> tuple[str, ...]:
         """Return an agreed abbreviation among words that are spelled out (`butter_knf`) in full."""

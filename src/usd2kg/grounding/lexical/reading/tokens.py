@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import accumulate
 from typing import NamedTuple
 
 from usd2kg.words import is_telling, split_identifier
@@ -12,7 +11,6 @@ __all__ = [
     "Token",
     "is_half",
     "is_reference",
-    "parted_as_above",
     "read_parent",
     "shared_beginning",
     "tokens_of",
@@ -65,22 +63,6 @@ def shared_beginning(tokens: list[Token], parents: tuple[str, ...]) -> int:
     above = tokens_of(parents[-1]) if parents else []
     pairs = enumerate(zip(tokens, above, strict=False))
     return next((at for at, (own, other) in pairs if own.text != other.text), min(len(tokens), len(above)))
-
-
-def parted_as_above(token: Token, parents: Sequence[str]) -> list[Token]:
-    """Return the tokens of a name above that are written without borders in this one; just itself if there are none.
-
-    Below `SupportArm_A` the `supportarm` of `sm_supportarm_a01` is a support arm.
-    """
-    for parent in reversed(parents):
-        above = [found.text for found in tokens_of(parent)]
-        for start in range(len(above)):
-            joined = list(accumulate(above[start:]))
-            if token.text in joined[1:]:
-                first, *others = above[start : start + joined.index(token.text) + 1]
-                *within, last = (Token(text, "", is_glued=True) for text in others)
-                return [Token(first, "", token.is_glued), *within, last._replace(number=token.number)]
-    return [token]
 
 
 @lru_cache(maxsize=4096)

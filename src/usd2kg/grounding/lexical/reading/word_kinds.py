@@ -18,19 +18,13 @@ PLACEMENTS = frozenset(
     """.split()
 )
 _PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility", "establishment"])
-_ENCLOSURES = frozenset(["compartment"])
-"""No places, though WordNet has them among the rooms: a locker is a thing, and so is a butter compartment."""
-_MOUNTS = frozenset(
-    "wall ceiling floor door window counter countertop worktop benchtop tabletop table desk shelf".split()
-)
-"""Where things hang and stand, and are called after: `clock_wall`."""
 AREAS = frozenset(["area", "zone", "section", "region", "exit"])
 """Places within a room: the drawer in the `sink_area_drawer`, the sign of an `exit_sign`."""
 _MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
 _STUFFS = frozenset(["metallic element", "alloy", "building material", "wood", "fabric", "material", "coating", "cane"])
 """What things are made of, though it may be the name of a thing too: iron, stone, denim."""
 _DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
-_MOUNT, _PLACE = 0.3, 0.4
+_PLACE = 0.4
 _STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
 _SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "person", "substance", "object", "shape"})
@@ -55,7 +49,6 @@ class WordKinds:
         self._is_wood = taxonomy.below(_WOODS)
         self._is_stuff = taxonomy.below(_STUFFS)
         self._is_kind_of_place = taxonomy.below(_PLACES)
-        self._is_kind_of_enclosure = taxonomy.below(_ENCLOSURES)
 
     def is_known(self, word: str) -> bool:
         """Return whether a word is a term of the TBox, or a noun or adjective of the taxonomy."""
@@ -90,7 +83,7 @@ class WordKinds:
         """Return whether the taxonomy knows a word as a noun for something physical."""
         return word in self._taxonomy
 
-    def trailing(self, word: str, *, is_last: bool = True) -> float:
+    def modifier_share(self, word: str, *, is_last: bool = True) -> float:
         """Return how likely a word, behind the head of a name, does no more than describe: `table_oak`.
 
         A share of names by the word's first meaning, set by hand: materials, colours and shapes nearly always, codes
@@ -102,8 +95,6 @@ class WordKinds:
     def _describing(self, word: str) -> float:
         if word in PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
             return _DESCRIBES
-        if word in _MOUNTS:
-            return _MOUNT
         senses = self._taxonomy.senses(word)
         if not senses:
             return _OTHER_THING if word in self._lexicon.terms else _CODE
@@ -120,9 +111,7 @@ class WordKinds:
     def _is_place(self, word: str) -> bool:
         """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
         sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
-        if sense is None or self._is_kind_of_enclosure(sense.synset):
-            return word in AREAS
-        return word in AREAS or self._is_kind_of_place(sense.synset)
+        return word in AREAS or (sense is not None and self._is_kind_of_place(sense.synset))
 
     def may_describe(self, word: str) -> bool:
         """Return whether a word beside those of its parent may but describe: below `Desk` a `desk_oak` is a desk.

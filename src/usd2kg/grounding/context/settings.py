@@ -1,0 +1,40 @@
+"""Settings of the context of objects, one record per section of `knowledge/settings/context.toml`.
+
+The TOML file documents each value beside it: unit, meaning and origin.
+"""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["NEIGHBOURS", "PLACEMENT"]
+
+
+@dataclass(frozen=True, slots=True)
+class NeighbourSettings:
+    """Neighbours in the stage's tree and by size."""
+
+    next_places: int
+    max_siblings: int
+    max_same_size: int
+    max_similar_size: int
+    same_size: float
+    min_extent: float
+    min_cached_words: int
+
+
+@dataclass(frozen=True, slots=True)
+class PlacementSettings:
+    """Ground and surroundings on the floor plan."""
+
+    cell: float
+    min_floor_width: float
+    max_floor_height: float
+    storey_height: float
+    max_crowd: int
+    layout_sample: int
+    layout_neighbours: int
+
+
+NEIGHBOURS = read_settings("context", "neighbours", NeighbourSettings)
+PLACEMENT = read_settings("context", "placement", PlacementSettings)

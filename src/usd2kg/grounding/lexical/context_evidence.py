@@ -1,0 +1,140 @@
+"""Score classes by the context of an object: its neighbours, its size and stance, and the kind of place it is in."""
+
+from functools import cached_property, lru_cache, partial
+
+import numpy as np
+
+from usd2kg.grounding.context.neighbours import SAME_SIZE, Nearness, Neighbour, Neighbourhood
+from usd2kg.grounding.context.placement import PlacedObject
+from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.concepts.class_posterior import (
+    NO_POSTERIOR,
+    ClassPosterior,
+    PosteriorModel,
+    log_likelihoods_of_appearance,
+    neighbour_weights,
+)
+from usd2kg.grounding.lexical.concepts.places import (
+    PLACE_TEXTS,
+    PLACES,
+    Floats,
+    Stance,
+    log_place_likelihoods_of_appearance,
+    log_place_likelihoods_of_noun,
+    log_stance_likelihoods,
+    place_probabilities,
+    places_named,
+    stance_of,
+)
+from usd2kg.grounding.lexical.concepts.sizes import Size, round_size, size_log_likelihoods
+from usd2kg.grounding.lexical.evidence_combination import ScoredClass
+from usd2kg.grounding.lexical.name_evidence import NameEvidence
+from usd2kg.grounding.lexical.neighbour_vote import Vote, count_votes, siblings_as_neighbours, vote_of
+from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.settings import VOTE
+from usd2kg.ontology import ClassIRI, TBox
+
+__all__ = ["ContextEvidence"]
+
+_NEARNESS_TEXTS = {
+    Nearness.NEXT: "right beside it",
+    Nearness.SIBLING: "in the same group",
+    Nearness.SAME_SIZE: "of the same size",
+    Nearness.SIMILAR_SIZE: "of about the same size",
+}
+
+
+class ContextEvidence:
+    """Scores classes by context, for one TBox."""
+
+    def __init__(self, tbox: TBox, words: NameEvidence, reader: NameReader, matcher: PhraseMatcher) -> None:
+        self._tbox = tbox
+        self._words = words
+        self._reader = reader
+        self._matcher = matcher
+        # Copies of one model have the same size and stance.
+        self._posterior_by_appearance = lru_cache(maxsize=8192)(self._compute_posterior_by_appearance)
+        # Scenes cache the results of these two functions by identity, so that each is one object.
+        self._vote, self._place = self._vote_of_neighbour, self._log_places_of_neighbour
+
+    @cached_property
+    def _model(self) -> PosteriorModel:
+        return PosteriorModel(self._words.match)
+
+    def posterior_by_appearance(self, view: ObjectView) -> ClassPosterior:
+        """Return the classes by size, stance and the places that names above mention, regardless of the name."""
+        seen = view.appearance
+        if seen is None:
+            return NO_POSTERIOR
+        return self._posterior_by_appearance(round_size(seen.size), stance_of(seen), places_named(view.parents))
+
+    def _compute_posterior_by_appearance(self, size: Size, stance: Stance, named: tuple[str, ...]) -> ClassPosterior:
+        log_likelihoods = size_log_likelihoods(size) + log_stance_likelihoods(stance)
+        return self._model.posterior(log_likelihoods, place_probabilities(np.zeros(len(PLACES)), named))
+
+    def posterior(self, view: ObjectView) -> ClassPosterior:
+        """Return the classes by size, stance, the objects around it, and the places that names above mention."""
+        if view.appearance is None:
+            return NO_POSTERIOR
+        places = place_probabilities(self._log_places_around(view), places_named(view.parents))
+        return self._model.posterior(log_likelihoods_of_appearance(view.appearance), places)
+
+    def explain_posterior(self, view: ObjectView, place: str | None, iri: ClassIRI) -> str:
+        """Return one sentence for a class that size and place support."""
+        elevation = view.appearance.elevation if view.appearance is not None else None
+        where = "" if elevation is None else f", {elevation:.1f} m above the ground"
+        among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
+        label = self._tbox.by_iri[iri].readable_name
+        return f"its name does not say; of its size{where}{among}, it is likeliest {label}"
+
+    def score_neighbours(self, view: ObjectView) -> list[ScoredClass]:
+        """Return the classes of neighbours with their share of the votes."""
+        if view.neighbourhood is not None:
+            return self._score_neighbourhood(view.neighbourhood)
+        siblings = siblings_as_neighbours(view.siblings, view.parents)
+        voted = ((self._vote(found.name, found.parents, found.size), found) for found in siblings)
+        votes = count_votes((vote, found.nearness, found.distance, found) for vote, found in voted if vote is not None)
+        return [
+            ScoredClass("hierarchy", iri, share, partial(self._explain_neighbour, iri, votes.heaviest[iri][-1]))
+            for iri, share in votes.shares.items()
+        ]
+
+    def _score_neighbourhood(self, neighbourhood: Neighbourhood) -> list[ScoredClass]:
+        votes = count_votes(neighbourhood.votes(self._vote))
+
+        def explain(iri: ClassIRI) -> str:
+            _, nearness, distance, other = votes.heaviest[iri]
+            return self._explain_neighbour(iri, neighbourhood.neighbour(other, nearness, distance))
+
+        return [ScoredClass("neighbours", iri, share, partial(explain, iri)) for iri, share in votes.shares.items()]
+
+    def _explain_neighbour(self, iri: ClassIRI, neighbour: Neighbour) -> str:
+        where = _NEARNESS_TEXTS[neighbour.nearness]
+        is_same_size = neighbour.distance is not None and neighbour.distance < SAME_SIZE
+        is_stated = neighbour.nearness in {Nearness.SAME_SIZE, Nearness.SIMILAR_SIZE}
+        size = ", of the same size," if is_same_size and not is_stated else ""
+        return f"“{neighbour.name}” {where}{size} is {self._tbox.by_iri[iri].readable_name}"
+
+    def _vote_of_neighbour(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
+        return None if is_generated_name(name) else vote_of(self._words.match(name, parents, size))
+
+    def _log_places_around(self, view: ObjectView) -> Floats:
+        """Return the log likelihood of each kind of place by the objects around, (places,)."""
+        if view.placement is not None:
+            logs, metres = view.placement.around(self._place, VOTE.max_placed)
+            return neighbour_weights(metres) @ logs if len(logs) else np.zeros(len(PLACES))
+        siblings = [self._log_places_of_name(name, view.parents) for name in view.siblings[: VOTE.max_placed]]
+        return sum(siblings, start=np.zeros(len(PLACES))) * neighbour_weights(VOTE.sibling_distance)
+
+    def _log_places_of_neighbour(self, other: PlacedObject) -> Floats:
+        """Return the log likelihood of each kind of place by one object's name, or else its size, (places,)."""
+        by_name = self._log_places_of_name(other.name, other.parents)
+        if by_name.any():
+            return by_name
+        return log_place_likelihoods_of_appearance(log_likelihoods_of_appearance(other.appearance))
+
+    def _log_places_of_name(self, name: str, parents: tuple[str, ...]) -> Floats:
+        row = None if is_generated_name(name) else self._matcher.find_object_row(self._reader.read(name, parents))
+        return np.zeros(len(PLACES)) if row is None else log_place_likelihoods_of_noun(row)

@@ -1,0 +1,159 @@
+"""Score the classes that the words of an object support: its name, asset, labels, documentation, groups and parts."""
+
+from collections.abc import Sequence
+from functools import cached_property, lru_cache, partial
+
+from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
+from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.alignment.term_matching import Match
+from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.evidence_combination import ScoredClass
+from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader, Reading
+from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_english_word
+from usd2kg.grounding.lexical.reading.evidence_texts import texts_of
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.reading.shortening import may_be_short
+from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE, READING
+from usd2kg.languages import translate
+from usd2kg.ontology import ClassIRI
+from usd2kg.words import is_telling, split_identifier
+
+__all__ = ["NameEvidence"]
+
+_WEIGHTS = {
+    "name": EVIDENCE.name_weight,
+    "asset": EVIDENCE.asset_weight,
+    "documentation": EVIDENCE.documentation_weight,
+    "hierarchy": EVIDENCE.group_weight,
+    "labels": EVIDENCE.label_weight,
+    "parts": EVIDENCE.part_weight,
+}
+_SOURCES = {
+    "asset": "asset",
+    "documentation": "documentation",
+    "hierarchy": "group",
+    "labels": "label",
+    "parts": "parts",
+}
+"""Evidence group → its name in explanations."""
+
+
+class NameEvidence:
+    """Scores classes by words, for one TBox."""
+
+    def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader, matcher: PhraseMatcher) -> None:
+        self._lexicon = lexicon
+        self._taxonomy = taxonomy
+        self._reader = reader
+        self._matcher = matcher
+        self.match = lru_cache(maxsize=8192)(self._match)
+        """(text, names above, extents in metres or None) → matches of the text, best first."""
+
+    def score_words(self, view: ObjectView) -> list[ScoredClass]:
+        """Return the classes that words support, best first; later sources are read only if none is clear before."""
+        scored: list[ScoredClass] = []
+        for group, text in texts_of(view):
+            if group in {"hierarchy", "parts"} and self.names_known_noun(view.name):
+                # A tulip without a class in the TBox is not a tube because it has a stem.
+                break
+            is_name = group == "name"
+            for match in self.match(text, view.parents if is_name else (), view.own_size if is_name else None):
+                explain = partial(_explain_match, match, group)
+                scored.append(ScoredClass(group, match.class_iri, match.score * _WEIGHTS[group], explain))
+            scored.sort(key=lambda found: (-found.score, found.class_iri))
+            if scored and scored[0].score >= EVIDENCE.clear_score:
+                break
+        return scored
+
+    def names_known_noun(self, name: str) -> bool:
+        """Return whether the last word of a name is a noun that the taxonomy knows, and not a modifier."""
+        words = self._reader.read(name).words
+        if not words or len(words[-1]) < READING.min_noun_letters:
+            return False
+        return not self._reader.kinds.is_modifier(words[-1]) and self._reader.kinds.is_noun(words[-1])
+
+    def score_abbreviation(self, view: ObjectView) -> list[ScoredClass]:
+        """Return the classes of the readings of an abbreviated name; none if all its words are known."""
+        tokens = [part.lower() for part in split_identifier(view.name) if part.isalpha()]
+        tokens = [token for token in tokens if is_telling(token)][: ABBREVIATED_NAME.max_tokens]
+        if not tokens or (not view.is_masked and self._is_spelled_out(tokens)):
+            return []
+        spelled = {token for token in tokens if len(token) >= SHORTEST_WORD and self._is_word(token)}
+        return self._score_readings(view, self._read_abbreviation(view, tokens, spelled))
+
+    def complete(self, view: ObjectView, scored: list[ScoredClass]) -> list[ScoredClass]:
+        """Return the scores with the unknown words of a clear name expanded: the blade of a `fan_bld`.
+
+        Args:
+            view: the object.
+            scored: the classes by the known words alone; returned unchanged if no expansion is likely.
+        """
+        matches = self.match(view.name, view.parents, view.own_size)
+        words = matches[0].phrase.words[-ABBREVIATED_NAME.max_tokens :] if matches else ()
+        spelled = {word for word in words if self._is_word(word) or not may_be_short(word)}
+        if spelled.issuperset(words):
+            return scored
+        readings = self._read_abbreviation(view, words, spelled)
+        if (
+            not readings
+            or readings[0].probability < ABBREVIATED_NAME.min_probability
+            or spelled.issuperset(readings[0].words)
+        ):
+            return scored
+        likely = [reading for reading in readings if reading.probability > ABBREVIATED_NAME.negligible_probability]
+        rest = 1 - readings[0].probability
+        expanded = [
+            *self._score_readings(view, likely),
+            *(found._replace(score=rest * found.score) for found in scored),
+        ]
+        return sorted(expanded, key=lambda found: (-found.score, found.class_iri))
+
+    def _read_abbreviation(self, view: ObjectView, words: Sequence[str], spelled: set[str]) -> list[Reading]:
+        parent = view.parents[-1] if view.parents else ""
+        return self._abbreviations.read(words, view.neighbourhood, spelled, parent)
+
+    def _score_readings(self, view: ObjectView, readings: Sequence[Reading]) -> list[ScoredClass]:
+        """Return the classes of the readings of a name, weighted by probability and fit of the size."""
+        shares: dict[ClassIRI, float] = {}
+        best: dict[ClassIRI, tuple[float, Reading, Match]] = {}
+        # The remaining probability is that the letters are no word at all.
+        total = ABBREVIATED_NAME.unmatched_weight * (1 - sum(reading.probability for reading in readings))
+        for reading in readings:
+            phrase = self._reader.phrase(reading.words)
+            matches, likelihood = self._matcher.match_with_likelihood(phrase, view.parents, view.own_size)
+            weight = reading.probability * max(likelihood, ABBREVIATED_NAME.unmatched_weight)
+            total += weight
+            if matches:
+                iri, share = matches[0].class_iri, weight * matches[0].score
+                shares[iri] = shares.get(iri, 0.0) + share
+                if iri not in best or best[iri][0] < share:
+                    best[iri] = share, reading, matches[0]
+        return [
+            ScoredClass("name", iri, share / total, partial(_explain_reading, view.name, *best[iri][1:]))
+            for iri, share in shares.items()
+        ]
+
+    @cached_property
+    def _abbreviations(self) -> AbbreviationReader:
+        # Built on first use: most stages spell their names out.
+        return AbbreviationReader(self._lexicon, self._taxonomy)
+
+    def _is_spelled_out(self, tokens: Sequence[str]) -> bool:
+        """Return whether all words of a name are known, or it is a name in another language."""
+        return all(map(self._is_word, tokens)) or translate(tuple(tokens)) is not None
+
+    def _is_word(self, word: str) -> bool:
+        return self._reader.kinds.is_known(word) or is_english_word(word)
+
+    def _match(self, text: str, parents: tuple[str, ...], size: Size | None = None) -> tuple[Match, ...]:
+        return tuple(self._matcher.match(self._reader.read(text, parents), parents, size))
+
+
+def _explain_match(match: Match, group: str) -> str:
+    return match.explanation if group == "name" else f"{match.explanation} (from its {_SOURCES[group]})"
+
+
+def _explain_reading(name: str, reading: Reading, match: Match) -> str:
+    return f"“{name}” may be short for “{' '.join(reading.words)}”: {match.explanation}"

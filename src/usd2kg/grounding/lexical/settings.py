@@ -1,0 +1,273 @@
+"""Settings of the lexical grounder, one record per section of `knowledge/settings/lexical.toml`.
+
+The TOML file documents each value beside it: unit, meaning and origin.
+"""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = [
+    "ABBREVIATED_NAME",
+    "ABSTENTION",
+    "ALIGNMENT",
+    "CLASSIFIER",
+    "COMBINATION",
+    "CONFIDENCE",
+    "COPIES",
+    "EVIDENCE",
+    "HEAD_NOUN",
+    "MATCHING",
+    "PLACE",
+    "READING",
+    "ROUTES",
+    "SENSE",
+    "SIZE",
+    "STANCE",
+    "TERMS",
+    "VOTE",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class EvidenceSettings:
+    """Weights and thresholds of the sources of words."""
+
+    name_weight: float
+    asset_weight: float
+    label_weight: float
+    documentation_weight: float
+    group_weight: float
+    part_weight: float
+    clear_score: float
+    min_score: float
+    default_confidence: float
+    max_candidates: int
+    max_parts: int
+
+
+@dataclass(frozen=True, slots=True)
+class AbbreviatedNameSettings:
+    """Use of the readings of an abbreviated name."""
+
+    max_tokens: int
+    min_probability: float
+    negligible_probability: float
+    unmatched_weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class CombinationSettings:
+    """Product of experts of words and context."""
+
+    word_floor: float
+    context_floor: float
+    posterior_floor: float
+    posterior_power: float
+    neighbour_trust: float
+    posterior_trust: float
+    explained_score: float
+    max_posterior_classes: int
+    max_classes: int
+
+
+@dataclass(frozen=True, slots=True)
+class VoteSettings:
+    """Votes of neighbouring objects."""
+
+    min_score: float
+    next_weight: float
+    sibling_weight: float
+    same_size_weight: float
+    similar_size_weight: float
+    copy_factor: float
+    size_spread: float
+    unknown_size_factor: float
+    prior_weight: float
+    sibling_distance: float
+    max_siblings: int
+    max_placed: int
+
+
+@dataclass(frozen=True, slots=True)
+class CopySettings:
+    """Agreement of copies of one asset."""
+
+    size_distance: float
+    min_vote_ratio: float
+
+
+@dataclass(frozen=True, slots=True)
+class AbstentionSettings:
+    """Abstention to a superclass."""
+
+    score_power: float
+
+
+@dataclass(frozen=True, slots=True)
+class ConfidenceSettings:
+    """Features of the calibrated confidence."""
+
+    posterior_floor: float
+    posterior_reference: float
+    label_score: float
+    prior_general: float
+    prior_answers: float
+
+
+@dataclass(frozen=True, slots=True)
+class TermSettings:
+    """Weights of terms by origin."""
+
+    label_weight: float
+    synonym_weight: float
+    lent_weight: float
+    borrowed_weight: float
+    head_weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class AlignmentSettings:
+    """Alignment of terms with senses."""
+
+    max_code_letters: int
+    other_sense_weight: float
+    min_sense_ratio: float
+    assumed_category_size: int
+
+
+@dataclass(frozen=True, slots=True)
+class RouteSettings:
+    """Features of routes."""
+
+    max_steps: int
+
+
+@dataclass(frozen=True, slots=True)
+class MatchingSettings:
+    """Scores of matches."""
+
+    term_score: float
+    compound_score: float
+    noun_score: float
+    step_decay: float
+    general_factor: float
+    root_steps: int
+    min_label_sense_weight: float
+    place_factor: float
+    share_power: float
+    classifier_weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class HeadNounSettings:
+    """Choice of the head noun."""
+
+    corrected_factor: float
+    min_not_modifier: float
+    min_share: float
+    equal_score_ratio: float
+    min_size_ratio: float
+    max_size_ratio: float
+    size_power: float
+    size_offset: float
+    size_steps: int
+    min_place_size: float
+
+
+@dataclass(frozen=True, slots=True)
+class ClassifierSettings:
+    """Features of the name classifier."""
+
+    max_classes: int
+    sense_values: tuple[float, ...]
+    ending_value: float
+    beginning_value: float
+    ending_letters: tuple[int, ...]
+    beginning_letters: int
+
+
+@dataclass(frozen=True, slots=True)
+class SenseSettings:
+    """Prior of senses."""
+
+    artifact: float
+    food: float
+    person: float
+    substance: float
+    communication: float
+    group: float
+    top: float
+    other_domain: float
+    rank_decay: float
+
+
+@dataclass(frozen=True, slots=True)
+class SizeSettings:
+    """Likelihood of sizes."""
+
+    min_extent: float
+    max_extent: float
+    relative_error: float
+    absolute_error: float
+    broad_share: float
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceSettings:
+    """Likelihood of places."""
+
+    count_elsewhere: float
+    uninformative_share: float
+    uninformative_appearance_share: float
+    neighbour_weight: float
+    reach: float
+    clear_probability: float
+
+
+@dataclass(frozen=True, slots=True)
+class StanceSettings:
+    """Likelihood of stances."""
+
+    order_shares: tuple[float, ...]
+    other_support_share: float
+    other_upright_share: float
+    elevation_limits: tuple[float, ...]
+    floor_heights: tuple[float, ...]
+    surface_heights: tuple[float, ...]
+    wall_heights: tuple[float, ...]
+    ceiling_heights: tuple[float, ...]
+    part_heights: tuple[float, ...]
+    nested_shares: tuple[float, ...]
+    vertical_tolerance: float
+    equal_extents: float
+    equal_typical_extents: float
+    equal_share: float
+    chance_equal_share: float
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingSettings:
+    """Reading of names."""
+
+    min_noun_letters: int
+
+
+EVIDENCE = read_settings("lexical", "evidence", EvidenceSettings)
+ABBREVIATED_NAME = read_settings("lexical", "abbreviated_name", AbbreviatedNameSettings)
+COMBINATION = read_settings("lexical", "combination", CombinationSettings)
+VOTE = read_settings("lexical", "vote", VoteSettings)
+COPIES = read_settings("lexical", "copies", CopySettings)
+ABSTENTION = read_settings("lexical", "abstention", AbstentionSettings)
+CONFIDENCE = read_settings("lexical", "confidence", ConfidenceSettings)
+TERMS = read_settings("lexical", "terms", TermSettings)
+ALIGNMENT = read_settings("lexical", "alignment", AlignmentSettings)
+ROUTES = read_settings("lexical", "routes", RouteSettings)
+MATCHING = read_settings("lexical", "matching", MatchingSettings)
+HEAD_NOUN = read_settings("lexical", "head_noun", HeadNounSettings)
+CLASSIFIER = read_settings("lexical", "classifier", ClassifierSettings)
+SENSE = read_settings("lexical", "sense", SenseSettings)
+SIZE = read_settings("lexical", "size", SizeSettings)
+PLACE = read_settings("lexical", "place", PlaceSettings)
+STANCE = read_settings("lexical", "stance", StanceSettings)
+READING = read_settings("lexical", "reading", ReadingSettings)
