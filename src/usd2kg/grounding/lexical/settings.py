@@ -11,18 +11,23 @@ __all__ = [
     "ABBREVIATED_NAME",
     "ABSTENTION",
     "ALIGNMENT",
+    "CHANNEL",
     "CLASSIFIER",
     "COMBINATION",
     "CONFIDENCE",
     "COPIES",
     "EVIDENCE",
+    "FREQUENCY",
     "HEAD_NOUN",
     "MATCHING",
+    "MODIFIER",
     "PLACE",
     "READING",
     "ROUTES",
     "SENSE",
+    "SHORTENING",
     "SIZE",
+    "SPELLING",
     "STANCE",
     "TERMS",
     "VOTE",
@@ -248,9 +253,94 @@ class StanceSettings:
 
 @dataclass(frozen=True, slots=True)
 class ReadingSettings:
-    """Reading of names."""
+    """Tokens of names."""
 
     min_noun_letters: int
+    max_words: int
+    max_term_words: int
+    max_unit_letters: int
+
+
+@dataclass(frozen=True, slots=True)
+class SpellingSettings:
+    """Correction of spelling."""
+
+    min_long_letters: int
+    min_letters_for_two_edits: int
+    min_letters: int
+    min_doubled_letters: int
+    min_foreign_letters: int
+    foreign_loss: float
+    max_candidates: int
+    min_joined_letters: int
+    min_consonants: int
+    max_missing_vowels: int
+
+
+@dataclass(frozen=True, slots=True)
+class ModifierSettings:
+    """Words that modify."""
+
+    adjective_share: float
+    code_share: float
+    content_share: float
+    place_share: float
+    object_share: float
+    min_participle_letters: int
+    max_object_rank: int
+    max_last_odds: float
+
+
+@dataclass(frozen=True, slots=True)
+class FrequencySettings:
+    """Counts of words."""
+
+    bigram_pseudo_count: int
+    last_pseudo_count: float
+
+
+@dataclass(frozen=True, slots=True)
+class ChannelSettings:
+    """Noisy channel of abbreviations."""
+
+    bigram_share: float
+    tbox_share: float
+    stage_share: float
+    parent_share: float
+    adjective_factor: float
+    min_log_prior: float
+    common_abbreviation: float
+    stray_letter: float
+    unknown_word: float
+    unknown_letter: float
+    max_unknown_letters: int
+    pipeline_prefix: float
+    bigram_trust: float
+    compound_factor: float
+    max_bigram_factor: float
+    max_choices: int
+    max_piece_letters: int
+    next_word: float
+    beam_width: int
+    max_log_loss: float
+    max_pieces: int
+    consistent_share: float
+    max_gap_letters: int
+    gap_letter: float
+    common_form: float
+
+
+@dataclass(frozen=True, slots=True)
+class ShorteningSettings:
+    """Ways of shortening words."""
+
+    full_share: float
+    skeleton_share: float
+    skeleton_with_first_vowel_share: float
+    truncated_share: float
+    length_shares: tuple[float, ...]
+    max_letters: int
+    max_letters_with_vowels: int
 
 
 EVIDENCE = read_settings("lexical", "evidence", EvidenceSettings)
@@ -271,3 +361,8 @@ SIZE = read_settings("lexical", "size", SizeSettings)
 PLACE = read_settings("lexical", "place", PlaceSettings)
 STANCE = read_settings("lexical", "stance", StanceSettings)
 READING = read_settings("lexical", "reading", ReadingSettings)
+SPELLING = read_settings("lexical", "spelling", SpellingSettings)
+MODIFIER = read_settings("lexical", "modifier", ModifierSettings)
+FREQUENCY = read_settings("lexical", "frequency", FrequencySettings)
+CHANNEL = read_settings("lexical", "channel", ChannelSettings)
+SHORTENING = read_settings("lexical", "shortening", ShorteningSettings)

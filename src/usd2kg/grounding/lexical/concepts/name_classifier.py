@@ -1,8 +1,8 @@
 """Classify names that are no term of the home vocabulary, with a model of its names.
 
 A multinomial logit (McFadden, 1974) over the words of a name, their hypernyms, and the letters of the head noun: a
-spice shaker is a container because other shakers are. `tools/fit_name_classifier.py` fits the weights and writes them to
-`data/name_classifier.npz`.
+spice shaker is a container because other shakers are. The weights are in `data/name_classifier.npz`, which
+`tools/fit_name_classifier.py` fits and writes.
 """
 
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,9 +1,9 @@
-"""Abbreviated names as words: a noisy channel over the words of the TBox, of the taxonomy and of the stage.
+"""Expand abbreviated names with a noisy channel over the words of the TBox, of the taxonomy and of the stage.
 
-A name is read as the words w that make P(w) · P(written | w) largest (Shannon's noisy channel; for spelling Kernighan,
-Church and Gale, COLING 1990). P(w) mixes how likely a thing is called so, the words of names in scenes, the TBox's
-terms and the words of the other names on the stage; a word depends on the one before it. P(written | w) is that of the
-usual ways to shorten words: vowels dropped, cut short, or both, mostly all words of a name alike.
+The reading of a name maximises P(words) · P(written | words) (Shannon's noisy channel; for spelling: Kernighan, Church
+and Gale, COLING 1990). P(words) is a bigram model whose unigrams mix the prior of nouns, words of names in scenes, the
+terms of the TBox, the words of other names on the stage, and those of the parent's name. P(written | words) models how
+words are shortened: vowels dropped, truncated, or both, and mostly all words of a name alike.
 """
 
 import math
@@ -16,78 +16,68 @@ from usd2kg.grounding.context.neighbours import Neighbourhood
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
-from usd2kg.grounding.lexical.reading.name_bigrams import load_written_names
+from usd2kg.grounding.lexical.reading.name_bigrams import load_name_bigrams
 from usd2kg.grounding.lexical.reading.shortening import Choice, FormIndex, find_range, forms_of, usual_abbreviations
 from usd2kg.grounding.lexical.reading.shortening_style import log_consistency
-from usd2kg.grounding.lexical.reading.word_frequencies import thing_prior
+from usd2kg.grounding.lexical.reading.word_frequencies import log_prior
+from usd2kg.grounding.lexical.settings import CHANNEL
+from usd2kg.knowledge import word_set
 from usd2kg.words import words_of
 
 __all__ = ["AbbreviationReader", "Reading"]
 
-_THINGS = frozenset({"artifact", "food", "plant", "substance"})
-_NAMES_SHARE, _TBOX_SHARE, _STAGE_SHARE, _PARENT_SHARE = 0.5, 0.1, 0.2, 0.07
-"""Of the words of names, how many are those of names everywhere, of the TBox, of other names on the stage, and of the
-name of the prim above."""
-_ADJECTIVE = math.log(0.05 / 0.003)
-"""How much likelier an adjective is to stand in a name than `thing_prior`, which is about heads, has it."""
-_GENERAL = math.log(1 - _NAMES_SHARE - _TBOX_SHARE - _STAGE_SHARE - _PARENT_SHARE)
-_RAREST = -15.5
-_USUAL = math.log(0.002)
-"""An abbreviation that people have agreed on, before the stage is heard."""
-_ANY_LETTER = math.log(0.0004)
-"""A single letter or pair that stands for no word: the C of CupC."""
-_UNKNOWN_WORD, _UNKNOWN_LETTER = math.log(0.02), math.log(0.06)
-"""A word that nobody knows, a brand say, of three to six letters that may be any."""
+_NOUN_DOMAINS = frozenset({"artifact", "food", "plant", "substance"})
+"""WordNet domains of the nouns that names contain."""
+_ADJECTIVE_LOG_FACTOR = math.log(CHANNEL.adjective_factor)
+_LOG_NOUN_SHARE = math.log(1 - CHANNEL.bigram_share - CHANNEL.tbox_share - CHANNEL.stage_share - CHANNEL.parent_share)
+_LOG_COMMON_ABBREVIATION = math.log(CHANNEL.common_abbreviation)
 _UNREAD = {
-    **{count: (count * _ANY_LETTER, 0.0) for count in (1, 2)},
-    **{count: (_UNKNOWN_WORD, count * _UNKNOWN_LETTER) for count in (3, 4, 5, 6)},
+    **{count: (count * math.log(CHANNEL.stray_letter), 0.0) for count in (1, 2)},
+    **{
+        count: (math.log(CHANNEL.unknown_word), count * math.log(CHANNEL.unknown_letter))
+        for count in range(3, CHANNEL.max_unknown_letters + 1)
+    },
 }
-"""Number of letters → what it costs that they are no word, in two terms."""
-_PREFIXES = frozenset(["sm", "sk", "skm", "prop", "prp"])
-_PREFIX = (math.log(0.1), 0.0)
-"""A word of a pipeline that is written on to the beginning of a name: the SM of `smtckck`, a static mesh."""
+"""Number of letters → log probability that they are no known word, in two terms: the C of CupC, a brand."""
+_PREFIXES = word_set("lexical", "pipeline_prefixes")
+_PREFIX = (math.log(CHANNEL.pipeline_prefix), 0.0)
 _NEVER = (-math.inf, 0.0)
 _NO_WORD = Piece((), {}, 0)
-_TOLD_BY_NAMES = 0.9
-"""How far names are believed in which word follows another."""
-_COMPOUND, _MOST_BONUS = math.log(25), math.log(200)
-"""How much likelier two words are together if they make a known compound, and at most by the names they are in."""
-_CHOICES = 7
-_LONGEST_PIECE = 12
+_COMPOUND_BONUS, _MAX_BONUS = math.log(CHANNEL.compound_factor), math.log(CHANNEL.max_bigram_factor)
 
 _Near = Callable[[str], Piece | None]
 
 
 class Reading(NamedTuple):
-    """One way to read a name."""
+    """One expansion of a name."""
 
     words: tuple[str, ...]
     probability: float
-    """Among all readings of the name that were found."""
+    """Share among all readings found."""
 
 
-class _Written(NamedTuple):
-    """A word of the stage that a form may stand for; the best sorts first."""
+class _StageWord(NamedTuple):
+    """A word of the stage that a form may abbreviate; the best sorts first."""
 
     loss: float
-    """Minus the score of a `Choice`."""
+    """The negative score of a `Choice`."""
     word: str
     noun: str
     """The word in the singular."""
 
 
 class AbbreviationReader:
-    """Reads abbreviated names with the words of one TBox."""
+    """Expands abbreviated names, for one TBox."""
 
     def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._tbox_words = {word: count for word, count in lexicon.vocabulary.items() if len(word) > 1}
         self._tbox_total = sum(self._tbox_words.values())
-        self._rate, self._gather = self._rating, self._gathering
-        """One function for all scenes: each remembers what it was told by it."""
-        self._seconds = lru_cache(maxsize=4096)(self._second_words)
-        self._of_parent = lru_cache(maxsize=1024)(self._choices_of_parent)
+        # Scenes cache the results of these two functions by identity, so that each is one object.
+        self._rate, self._gather = self._rate_word, self._gather_words
+        self._bonuses = lru_cache(maxsize=4096)(self._follower_bonuses)
+        self._parent_choices = lru_cache(maxsize=1024)(self._choices_of_parent)
         self._known = lru_cache(maxsize=2048)(self._known_piece)
 
     def read(
@@ -97,20 +87,20 @@ class AbbreviationReader:
         spelled: Container[str] = (),
         parent: str = "",
     ) -> list[Reading]:
-        """Return the likeliest readings of a name, best first.
+        """Return the most probable readings of a name, best first.
 
         Args:
-            tokens: its runs of letters, lower case; each may hold several words.
-            neighbourhood: the other objects of the stage, whose names may hold the same words.
-            spelled: the tokens that are words in full, which stand for nothing else.
-            parent: the name of the prim above, whose words may stand in this one too.
+            tokens: its runs of letters, lower case; each may be several words.
+            neighbourhood: the other objects of the stage, whose names may have the same words.
+            spelled: the tokens that are words in full.
+            parent: the name of the prim above, which may have the same words.
         """
         letters = "".join(tokens)
         ends = list(accumulate(map(len, tokens)))
         borders = [end for end, token in zip(ends, tokens, strict=True) for _ in token]
         whole = {end - len(token): token for end, token in zip(ends, tokens, strict=True) if token in spelled}
         near = self._near(neighbourhood, parent)
-        beam = Beam(self._seconds, _MOST_BONUS)
+        beam = Beam(self._bonuses, _MAX_BONUS)
         paths = [ROOT]
         arcs: list[list[Arc]] = [[] for _ in range(len(letters) + 1)]
         for at in range(len(letters)):
@@ -131,34 +121,34 @@ class AbbreviationReader:
         return _readings(scored)
 
     def _near(self, neighbourhood: Neighbourhood | None, parent: str) -> _Near:
-        """Return a function that gives what a form may be by the other names of the stage, None for nothing."""
+        """Return a function from a form to what it may be by other names of the stage; None for nothing."""
         if neighbourhood is None:
-            beside: _Near = _nothing_near
+            by_stage: _Near = _nothing_near
         else:
-            beside = neighbourhood.words_by_form(forms_of, self._rate, self._gather, _CHOICES)
-        above = self._of_parent(parent)
-        if not above:
-            return beside
+            by_stage = neighbourhood.words_by_form(forms_of, self._rate, self._gather, CHANNEL.max_choices)
+        by_parent = self._parent_choices(parent)
+        if not by_parent:
+            return by_stage
 
         def near(form: str) -> Piece | None:
-            piece = beside(form)
-            return piece if form not in above else _with_choices(piece or self._known(form), above[form])
+            piece = by_stage(form)
+            return piece if form not in by_parent else _with_choices(piece or self._known(form), by_parent[form])
 
         return near
 
     def _choices_of_parent(self, parent: str) -> dict[str, list[Choice]]:
-        """Return form → the words of the name of a parent that may be written so."""
+        """Return form → words of a parent's name that it may abbreviate."""
         words = sorted({self._taxonomy.singular(word) for word in words_of(parent) if word.isalpha()})
         found: dict[str, list[Choice]] = {}
         for word in words:
             for form, score in forms_of(word):
-                found.setdefault(form, []).append(Choice(math.log(_PARENT_SHARE / len(words)) + score, word))
+                found.setdefault(form, []).append(Choice(math.log(CHANNEL.parent_share / len(words)) + score, word))
         return found
 
     def _pieces(self, letters: str, start: int, border: int, near: _Near) -> Iterator[tuple[int, Piece]]:
-        """Yield the ends of the pieces that begin at a letter, with what they may be."""
+        """Yield (end, what the letters from `start` to it may be)."""
         is_begun = True
-        for end in range(start + 1, min(border, start + _LONGEST_PIECE) + 1):
+        for end in range(start + 1, min(border, start + CHANNEL.max_piece_letters) + 1):
             form = letters[start:end]
             piece = near(form)
             if is_begun:
@@ -171,61 +161,66 @@ class AbbreviationReader:
                 yield end, _NO_WORD
 
     def _known_piece(self, form: str) -> Piece | None:
-        """Return what a form may be, the stage apart; None if nothing that begins so is a form either."""
+        """Return what a form may be without the stage; None if it begins no form either."""
         choices = self._index.choices(form)
         usual = usual_abbreviations().get(form)
         if usual is not None:
-            choices = [*(choices or ()), Choice(_USUAL, usual)]
-        if choices is None and form not in _usual_beginnings():
+            choices = [*(choices or ()), Choice(_LOG_COMMON_ABBREVIATION, usual)]
+        if choices is None and form not in _abbreviation_prefixes():
             return None
         return _with_choices(None, choices or ())
 
-    def _gathering(self, form: str, written: list[_Written]) -> Piece:
-        """Return what a form may be, with the words of the stage that may be written so."""
+    def _gather_words(self, form: str, written: list[_StageWord]) -> Piece:
+        """Return what a form may be, with words of the stage."""
         return _with_choices(self._known(form), [Choice(-found.loss, found.noun) for found in written])
 
     @cached_property
     def _index(self) -> FormIndex:
-        """The words of the TBox and the taxonomy, but for the rarest."""
-        names = load_written_names().counts
-        words = {*self._taxonomy.words(_THINGS), *self._taxonomy.adjectives, *self._tbox_words, *names}
+        """Index of the words of the TBox, the taxonomy and names, without the rarest."""
+        names = load_name_bigrams().counts
+        words = {*self._taxonomy.words(_NOUN_DOMAINS), *self._taxonomy.adjectives, *self._tbox_words, *names}
         priors = {word: self._prior(word) for word in words if len(word) > 2 or word in self._tbox_words}
-        return FormIndex({word: prior for word, prior in priors.items() if prior > _RAREST}, _CHOICES)
+        return FormIndex(
+            {word: prior for word, prior in priors.items() if prior > CHANNEL.min_log_prior}, CHANNEL.max_choices
+        )
 
     def _prior(self, word: str) -> float:
-        """Return the log probability of a word in a name, the stage apart."""
-        prior = thing_prior(word) + (_ADJECTIVE if word in self._taxonomy.adjectives else 0.0) + _GENERAL
-        if word in load_written_names().counts:
-            prior = log_sum(prior, math.log(_NAMES_SHARE) + load_written_names().log_share(word))
+        """Return log P(word) in a name, without the stage and the parent."""
+        prior = log_prior(word) + _LOG_NOUN_SHARE
+        if word in self._taxonomy.adjectives:
+            # `log_prior` is about head nouns.
+            prior += _ADJECTIVE_LOG_FACTOR
+        if word in load_name_bigrams().counts:
+            prior = log_sum(prior, math.log(CHANNEL.bigram_share) + load_name_bigrams().log_share(word))
         if word not in self._tbox_words:
             return prior
-        # A word is the likelier the more terms hold it, and likelier where people use it.
-        return log_sum(prior, math.log(_TBOX_SHARE * self._tbox_words[word] / self._tbox_total))
+        return log_sum(prior, math.log(CHANNEL.tbox_share * self._tbox_words[word] / self._tbox_total))
 
-    def _second_words(self, first: str) -> dict[str, float]:
-        """Return the words that are likelier behind a word, and how much: they make a compound, or are so in names."""
+    def _follower_bonuses(self, first: str) -> dict[str, float]:
+        """Return next word → log factor on its prior, for compounds and bigrams of names."""
         start, end = find_range(self._compounds, first)
         rests = (key[len(first) :] for key in self._compounds[start:end])
-        found = dict.fromkeys(filter(self._index.__contains__, rests), _COMPOUND)
-        for word, share in load_written_names().followers(first).items():
-            bonus = math.log(1 - _TOLD_BY_NAMES + _TOLD_BY_NAMES * share / math.exp(self._prior(word)))
+        found = dict.fromkeys(filter(self._index.__contains__, rests), _COMPOUND_BONUS)
+        for word, share in load_name_bigrams().followers(first).items():
+            ratio = share / math.exp(self._prior(word))
+            bonus = math.log(1 - CHANNEL.bigram_trust + CHANNEL.bigram_trust * ratio)
             if bonus > found.get(word, 0.0):
-                found[word] = min(bonus, _MOST_BONUS)
+                found[word] = min(bonus, _MAX_BONUS)
         return found
 
     @cached_property
     def _compounds(self) -> list[str]:
-        # The parts of a word that people write as one are no words of a name.
+        # Only compounds of several written words: names do not abbreviate the parts of “bookcase” separately.
         terms = (key for key, term in self._lexicon.terms.items() if " " in term.text)
         return sorted([*terms, *self._taxonomy.phrases()])
 
-    def _rating(self, word: str, share: float, score: float) -> _Written:
-        score = math.log(_STAGE_SHARE * min(1.0, share)) + score
-        return _Written(-score, word, self._taxonomy.singular(word))
+    def _rate_word(self, word: str, share: float, score: float) -> _StageWord:
+        score = math.log(CHANNEL.stage_share * min(1.0, share)) + score
+        return _StageWord(-score, word, self._taxonomy.singular(word))
 
 
 @lru_cache(maxsize=1)
-def _usual_beginnings() -> frozenset[str]:
+def _abbreviation_prefixes() -> frozenset[str]:
     return frozenset(short[:end] for short in usual_abbreviations() for end in range(1, len(short) + 1))
 
 
@@ -234,7 +229,7 @@ def _nothing_near(_form: str) -> Piece | None:
 
 
 def _with_choices(piece: Piece | None, choices: Iterable[Choice]) -> Piece:
-    """Return what letters may be by some choices besides."""
+    """Return a piece with further choices."""
     reasons = {word: [*scores] for word, scores in piece.reasons.items()} if piece is not None else {}
     for score, word in choices:
         if word in reasons:
@@ -251,5 +246,5 @@ def _readings(scored: list[tuple[float, tuple[str, ...]]]) -> list[Reading]:
     weights = [math.exp(score - scored[0][0]) for score, _ in scored]
     total = sum(weights)
     readings = [Reading(words, weight / total) for (_, words), weight in zip(scored, weights, strict=True)]
-    # That it is no word at all is a reading too.
+    # One reading is that the letters are no word; it keeps its share.
     return [reading for reading in readings if reading.words]

@@ -1,25 +1,25 @@
-"""What the words of an object's view are, one source after the other, and which of them a program made up."""
+"""Texts of an object that may name it, by source; and names that modelling programs generate."""
 
 import re
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.settings import EVIDENCE
+from usd2kg.knowledge import word_set
 from usd2kg.words import words_of
 
 __all__ = ["is_generated_name", "texts_of"]
 
-_PRIMITIVES = frozenset(
-    ["box", "cube", "sphere", "cylinder", "capsule", "cone", "plane", "torus", "convex", "hull", "poly", "surface"]
-)
-"""Parts named after a geometric primitive say how a thing was modelled, not what it is."""
+_PRIMITIVES = word_set("lexical", "primitives")
+_ARTICLES = word_set("lexical", "articles")
+_RELATION_WORDS = word_set("lexical", "relation_words")
 _NUMBERED_BOX = re.compile(r"[a-z]_?\d{3,}$", re.IGNORECASE)
 
 
 def is_generated_name(name: str) -> bool:
-    """Return whether a modelling program made the name up from a primitive: `pCube3`, `polySurface12`.
+    """Return whether a modelling program named an object after a primitive: `pCube3`, `polySurface12`, `Box003`.
 
-    A `Box_3` may be a box; programs write `Box003`.
+    `Box_3` may be a box.
     """
     words = words_of(name)
     return _PRIMITIVES.issuperset(words) and bool(
@@ -28,11 +28,11 @@ def is_generated_name(name: str) -> bool:
 
 
 def texts_of(view: ObjectView) -> list[tuple[str, str]]:
-    """Return (evidence group, text) in the order in which they are asked."""
+    """Return (evidence group, text) of the sources of words, the most reliable first."""
     texts = [("name", view.name), ("name", view.display_name)]
     texts += [("asset", asset) for asset in view.asset]
     texts += [("labels", label) for label in view.labels]
-    texts.append(("documentation", _first_phrase(view.documentation)))
+    texts.append(("documentation", _first_noun_phrase(view.documentation)))
     texts += [("hierarchy", group) for group in reversed(view.groups) if _is_plural(group)]
     texts += [
         ("parts", part) for part in view.parts[: EVIDENCE.max_parts] if not _PRIMITIVES.issuperset(words_of(part))
@@ -40,14 +40,14 @@ def texts_of(view: ObjectView) -> list[tuple[str, str]]:
     return [(group, text) for group, text in dict.fromkeys(texts) if text]
 
 
-def _first_phrase(documentation: str) -> str:
-    """Return the beginning of a description up to the first mark or relation: `A stool for the bar.` → stool."""
+def _first_noun_phrase(documentation: str) -> str:
+    """Return the first words of a description, at most 6, up to punctuation or a word such as “for” or “with”."""
     words: list[str] = []
     for word in documentation.replace("\n", " ").split():
         bare = word.strip(".,;:!?()\"'").lower()
-        if words and bare in {"for", "of", "with", "in", "on", "to", "from", "that", "which", "by", "is", "at"}:
+        if words and bare in _RELATION_WORDS:
             break
-        if bare not in {"a", "an", "the", "this", "is", "one", "some"}:
+        if bare not in _ARTICLES:
             words.append(bare)
         if word[-1:] in ".,;:!?":
             break
@@ -55,6 +55,6 @@ def _first_phrase(documentation: str) -> str:
 
 
 def _is_plural(name: str) -> bool:
-    """Return whether a group is named after what it holds (`mugs`, `wallUnits`) and not after a place."""
+    """Return whether a group is named after its members (`mugs`, `wallUnits`) rather than a place."""
     words = words_of(name)
     return bool(words) and load_taxonomy().singular(words[-1]) != words[-1]

@@ -1,7 +1,7 @@
-"""Which word of a name says what the thing is: the bowl of `bowl_salad_oak`, the table of `dining_table`.
+"""Likelihood that a word is the head noun of a name: the bowl of `bowl_salad_oak`, the table of `dining_table`.
 
-A conditional logit over the words at which the phrase proper may end (McFadden, 1974): the weight of an end is
-exp(Σ weight · feature). The weights are in `data/head_noun.json`, written by `tools/fit_head_noun.py`.
+A conditional logit over the words of the name (McFadden, 1974): the weight of a word is exp(Σ weight · feature).
+`tools/fit_head_noun.py` fits the weights and writes them to `data/head_noun.json`.
 """
 
 import json
@@ -19,56 +19,56 @@ __all__ = ["HeadFeatures", "head_likelihood", "head_log_odds"]
 
 
 class HeadFeatures(NamedTuple):
-    """What is known of one end."""
+    """Features of a word as the head noun; truth values are 0 or 1, and “behind” is to the right of the word."""
 
     score: float = 0.0
-    """Logarithm of the score of the best class at this end."""
+    """Logarithm of the score of the best class."""
     telling: float = 0.0
-    """Logarithm of how likely the head itself does more than describe, for a single word."""
+    """Logarithm of the probability that a single word is not a modifier."""
     compound: float = 0.0
-    """Whether a term of several words ends here."""
+    """Whether a known compound ends here."""
     compound_within: float = 0.0
-    """Whether one ends here and words stand behind it, as behind the `sink area` of `sink_area_drawer`."""
+    """Whether a known compound ends here and words are behind it: the sink area of `sink_area_drawer`."""
     size: float = 0.0
-    """Logarithm of how much likelier the size makes it that a thing is called so."""
+    """Log-likelihood ratio of the size for such an object."""
     no_usual_size: float = 0.0
-    """Whether nothing is known of the usual size of what is called so."""
+    """Whether the size is known and the usual size of such an object is not."""
     guessed: float = 0.0
-    """Whether the head was misspelt: a brand or a word of another language may look like it."""
+    """Whether the spelling was corrected: brands and foreign words may look like the noun."""
     behind: float = 0.0
-    """Whether words stand behind it."""
+    """Whether words are behind it."""
     glued: float = 0.0
-    """Number of words that are written on to the head, as in `RoomWindow`."""
+    """Number of words that follow without a separator, as in `RoomWindow`."""
     propensity: float = 0.0
-    """`propensity` of the head, for a single word."""
+    """`head_log_odds` of a single word."""
     propensity_behind: float = 0.0
-    """Mean `propensity` of the words behind it."""
+    """Mean `head_log_odds` of the words behind it."""
     linked: float = 0.0
-    """Whether a term that ends later holds the head, as `swab jar` does in `cotton_swab_jar`."""
+    """Whether a later compound contains it: the swab of `cotton_swab_jar`."""
     turned: float = 0.0
-    """Whether the word that tells its kind stands behind the head, as in `plate_dinner`."""
+    """Whether its modifier is behind it, as in `plate_dinner`."""
     place: float = 0.0
-    """Whether it is a place, after which things are called."""
+    """Whether it is a place, which names often begin with."""
     shared: float = 0.0
-    """Whether the name begins with the parent's words up to the head: below `fridge_main` a `fridge_interior_lamp`."""
+    """Whether the parent's name has the words up to it: below `fridge_main` the fridge of `fridge_interior_lamp`."""
     repeated: float = 0.0
-    """Whether the parent's name holds the head, and words stand before it: below `sinkUnit` a `doorSink` is a door."""
+    """Whether the parent's name has it and words are before it: below `sinkUnit` the sink of `doorSink`."""
 
 
 def head_likelihood(features: HeadFeatures) -> float:
-    """Return how likely a phrase ends where these features were read, up to a factor that all its ends share."""
+    """Return the likelihood of a head noun up to a factor common to all words of the name."""
     return math.exp(sum(map(mul, _weights(), features)))
 
 
 @lru_cache(maxsize=16384)
 def head_log_odds(word: str) -> float:
-    """Return the logarithm of how many times oftener a word ends a name of several words than stands within one.
+    """Return the log-odds of a word to be last in a compound rather than before, in the home vocabulary.
 
     >>> head_log_odds("frame") > 0 > head_log_odds("porcelain")
     True
     """
-    ends, within = _counts()
-    return math.log((ends[word] + 1) / (within[word] + 1))
+    last, before = _counts()
+    return math.log((last[word] + 1) / (before[word] + 1))
 
 
 @lru_cache(maxsize=1)
@@ -80,5 +80,4 @@ def _counts() -> tuple[Counter[str], Counter[str]]:
 
 @lru_cache(maxsize=1)
 def _weights() -> HeadFeatures:
-    text = read_text("head_noun.json")
-    return HeadFeatures(**json.loads(text)["weights"])
+    return HeadFeatures(**json.loads(read_text("head_noun.json"))["weights"])

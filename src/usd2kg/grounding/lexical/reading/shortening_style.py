@@ -1,8 +1,8 @@
-"""Whether the words of a name are shortened alike: who writes `spn` for a spoon writes `frk` for a fork, not `for`.
+"""Likelihood that all words of a name are shortened in one way: `spn` for spoon goes with `frk` for fork, not `for`.
 
-A way to shorten words is a style and a number of letters, see `shortening`. The channel of `AbbreviationReader` takes
-each word for itself, P(written | words) = Π_i Σ_s P(s) P(written_i | word_i, s). Of names of several words it says more
-that most have one way for all of them, Σ_s P(s) Π_i P(written_i | word_i, s).
+A way of shortening is a style and a number of letters, see `shortening`. The channel of `AbbreviationReader` shortens
+words independently: P(written | words) = Π_i Σ_s P(s) P(written_i | word_i, s). Most names use one way for all words:
+Σ_s P(s) Π_i P(written_i | word_i, s). This module returns the log ratio of a mixture of both to the first.
 """
 
 import math
@@ -11,46 +11,44 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.reading.shortening import log_probability, usual_abbreviations, ways_of
+from usd2kg.grounding.lexical.settings import CHANNEL
 
 __all__ = ["log_consistency"]
 
-_CONSISTENT = 0.7
-"""How often the words of one name are all shortened in the same way."""
-_LONGEST_GAP = 6
-_GAP = math.log(0.05)
-"""About what a letter costs that belongs to no word."""
-_USUAL = math.log(0.01)
-"""About what an abbreviation costs that people have agreed on."""
+_LOG_GAP_LETTER = math.log(CHANNEL.gap_letter)
+_LOG_COMMON_FORM = math.log(CHANNEL.common_form)
 _ANY_WAY = -1
-"""All bits: nothing is told of the way."""
+"""All bits set: no evidence of the way."""
 
 
 class _Parse(NamedTuple):
-    """Words laid on letters."""
+    """An alignment of words with letters."""
 
     score: float
-    """Logarithm of how likely the words are written so, each taken for itself."""
-    told: float
-    """The same of those words alone that tell of a way."""
+    """Log probability of the forms, words independent."""
+    informative: float
+    """The same for the words that are evidence of a way."""
     ways: int
-    """The ways in which all words may be shortened, a bit for each."""
+    """The ways that all words may have in common, one bit each."""
 
 
 def log_consistency(letters: str, words: Sequence[str], whole: Mapping[int, str]) -> float:
-    """Return the logarithm of how much likelier words are written so than if each was shortened for itself.
+    """Return log (P(written | words) with the mixture / P(written | words) with independent words).
 
     Args:
         letters: the name.
-        words: what it is read as, in order.
-        whole: place → word of those that stand in full for certain, and tell nothing of how others are shortened.
+        words: its reading, in order.
+        whole: index in `letters` → word of those certainly written in full, which are no evidence of a way.
     """
-    parse = _parse(letters, words, whole, longest_gap=0) or _parse(letters, words, whole, longest_gap=_LONGEST_GAP)
-    alike = 0.0 if parse is None else math.exp(log_probability(parse.ways) - parse.told)
-    return math.log(1 - _CONSISTENT + _CONSISTENT * alike)
+    parse = _parse(letters, words, whole, longest_gap=0) or _parse(
+        letters, words, whole, longest_gap=CHANNEL.max_gap_letters
+    )
+    alike = 0.0 if parse is None else math.exp(log_probability(parse.ways) - parse.informative)
+    return math.log(1 - CHANNEL.consistent_share + CHANNEL.consistent_share * alike)
 
 
 def _parse(letters: str, words: Sequence[str], whole: Mapping[int, str], longest_gap: int) -> _Parse | None:
-    """Return the likeliest way to lay words on letters, with gaps between them; None if there is none."""
+    """Return the most probable alignment of words with letters, with gaps between words; None if there is none."""
     ends = {0: _Parse(0.0, 0.0, _ANY_WAY)}
     for word in words:
         begun, ends = _with_gaps(ends, longest_gap), {}
@@ -59,8 +57,8 @@ def _parse(letters: str, words: Sequence[str], whole: Mapping[int, str], longest
                 if letters.startswith(form, start):
                     end, score = start + len(form), parse.score + log
                     if end not in ends or ends[end].score < score:
-                        told = log if ways else 0.0
-                        ends[end] = _Parse(score, parse.told + told, parse.ways & (ways or _ANY_WAY))
+                        informative = log if ways else 0.0
+                        ends[end] = _Parse(score, parse.informative + informative, parse.ways & (ways or _ANY_WAY))
     return _with_gaps(ends, longest_gap).get(len(letters))
 
 
@@ -68,7 +66,7 @@ def _with_gaps(ends: dict[int, _Parse], longest: int) -> dict[int, _Parse]:
     found = dict(ends) if longest else ends
     for end, parse in ends.items():
         for gap in range(1, longest + 1):
-            score = parse.score + gap * _GAP
+            score = parse.score + gap * _LOG_GAP_LETTER
             if end + gap not in found or found[end + gap].score < score:
                 found[end + gap] = parse._replace(score=score)
     return found
@@ -76,9 +74,9 @@ def _with_gaps(ends: dict[int, _Parse], longest: int) -> dict[int, _Parse]:
 
 @lru_cache(maxsize=2048)
 def _written(word: str) -> tuple[tuple[str, float, int], ...]:
-    """Return (form, log probability, ways) of all forms of a word; no ways for one that people have agreed on."""
+    """Return (form, log probability, ways) of all forms of a word; ways are 0 for common abbreviations."""
     forms = [(form, log_probability(ways), ways) for form, ways in ways_of(word).items()]
-    return (*forms, *((short, _USUAL, 0) for short in _short_forms().get(word, ())))
+    return (*forms, *((short, _LOG_COMMON_FORM, 0) for short in _short_forms().get(word, ())))
 
 
 @lru_cache(maxsize=1)

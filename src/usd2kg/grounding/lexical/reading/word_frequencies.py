@@ -1,4 +1,4 @@
-"""How common a word is in English text, and as the name of a thing in a scene."""
+"""Frequency of a word in English text, and its prior as the name of an object in a scene."""
 
 import gzip
 import math
@@ -7,15 +7,15 @@ from functools import lru_cache
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.knowledge import read_bytes
 
-__all__ = ["UNKNOWN_FREQUENCY", "thing_prior", "word_frequency"]
+__all__ = ["UNKNOWN_FREQUENCY", "log_prior", "word_frequency"]
 
 UNKNOWN_FREQUENCY = 1.0
-"""Zipf score of a word that no list has: ten uses in a billion words, where SCOWL's class 70 ends, rounded down."""
+"""Zipf score of a word in no list: ten uses in a billion words, the end of SCOWL's class 70, rounded down."""
 
 _DISCOUNT = 0.75
-"""Power of a word's frequency: names in scenes are spread more evenly than words in texts.
+"""Power of a word's frequency: names in scenes are distributed more evenly than words in text.
 
-The value that word2vec draws words with (Mikolov et al., NeurIPS 2013, section 2.2).
+The value of word2vec's negative sampling (Mikolov et al., NeurIPS 2013, section 2.2).
 """
 
 _DOMAIN_WEIGHTS = {
@@ -33,24 +33,24 @@ _DOMAIN_WEIGHTS = {
     "phenomenon": 0.01,
     "top": 0.01,
 }
-"""WordNet's domain → how much rarer than an artifact its members stand, named so, in homes and factories."""
+"""WordNet's domain → frequency in scenes relative to artifacts. Chosen by hand."""
 
 _TOTAL_WEIGHT = 2509746.600651732
-"""Sum of the weights of the vocabulary, written down because it takes half a second to add up; a test does."""
+"""Sum of the weights of the vocabulary, stored because it takes half a second to compute; a test verifies it."""
 
 _OTHER_WEIGHT = 0.003
-"""The same for persons, acts, times and all that is not in the taxonomy, and for uses that are no nouns."""
+"""The same for domains outside the taxonomy (acts, times) and for other parts of speech."""
 
 _NEW_WEIGHT = 0.5
-"""The same for a word that WordNet lacks and that a label of the home TBox ends with (`cooktop`)."""
+"""The same for a word outside WordNet that ends a label of the home TBox (`cooktop`)."""
 
 _UNLISTED = f"{10 * UNKNOWN_FREQUENCY:.0f}/"
-"""The entry of a word that the data do not list."""
+"""The entry of an unlisted word."""
 
 
 @lru_cache(maxsize=1)
 def _load_entries() -> dict[str, str]:
-    """Return word → "tenths of Zipf/percent of uses as a common noun", taken apart only where asked for."""
+    """Return word → “tenths of Zipf score/percent of uses as a common noun”, parsed on access."""
     data = read_bytes("frequencies.txt.gz")
     words, entries = gzip.decompress(data).decode("ascii").splitlines()
     return dict(zip(words.split(), entries.split(), strict=True))
@@ -70,25 +70,24 @@ def word_frequency(word: str) -> float:
     return int(_load_entries().get(word, _UNLISTED).partition("/")[0]) / 10
 
 
-def thing_prior(word: str) -> float:
-    """Return the natural logarithm of the probability that an object in an indoor or industrial scene is called so.
+def log_prior(word: str) -> float:
+    """Return log P(word) as the name of an object in an indoor or industrial scene, natural logarithm.
 
-    p(w) = f(w)^0.75 · t(w) / Z, with f the uses in a billion words. The thing share t weighs what the word stands for:
+    P(w) = f(w)^0.75 · t(w) / Z, with f the uses in a billion words, and t the share of uses for physical objects:
 
         t(w) = n(w) · (Σ_s weight(domain(s)) / rank(s)) / (Σ_s 1 / rank(s)) + (1 - n(w)) · 0.003
 
-    n is the share of uses as a common noun. The meanings s of the noun run down to its last one in the taxonomy, used
-    the less the later they rank (after Zipf); one that the taxonomy leaves out (person, act, time…) weighs 0.003, an
-    artifact 1. Where WordNet lacks the word and a label of the home TBox ends with it, t = 0.5. Z makes the sum over
-    the vocabulary 1: the single-word nouns and the adjectives of the taxonomy, and the English words of the home TBox.
-    Any other word has the unknown word's f and comes on top of the sum, so compare it, but do not add.
+    n is the share of uses as a common noun, s a sense of the noun; 1 / rank is Zipf's law. A sense outside the taxonomy
+    has the weight 0.003, an artifact 1. A word outside WordNet that ends a label of the home TBox has t = 0.5. Z
+    normalises over the vocabulary: nouns and adjectives of the taxonomy, and the English words of the home TBox. Other
+    words have the frequency of an unknown word and are not part of Z: their priors compare, but do not add up.
     """
     return _prior(_load_entries().get(word, _UNLISTED), load_taxonomy().kinds(word))
 
 
 @lru_cache(maxsize=8192)
 def _prior(entry: str, kinds: str) -> float:
-    """Return the prior of the words that share an entry and the kinds of their meanings, which many do."""
+    """Return the prior by entry and senses, which many words share."""
     tenths, _, percent = entry.partition("/")
     weight = float(10 ** (_DISCOUNT * (int(tenths) / 10)) * _thing_share(percent, kinds))
     return math.log(weight / _TOTAL_WEIGHT)
@@ -108,7 +107,7 @@ def _noun_weight(kinds: str) -> float:
     senses = load_taxonomy().parse_kinds(kinds)
     if not senses:
         return _OTHER_WEIGHT
-    # Meanings share a rank where a compound is written in two ways (back door, backdoor); the first one stands.
+    # Two spellings of a compound (back door, backdoor) have senses of the same rank; the first one counts.
     weights = {rank: _DOMAIN_WEIGHTS[domain] for rank, domain in reversed(senses)}
     ranks = range(1, senses[-1][0] + 1)
     return sum(weights.get(rank, _OTHER_WEIGHT) / rank for rank in ranks) / sum(1 / rank for rank in ranks)

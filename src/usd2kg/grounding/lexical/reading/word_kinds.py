@@ -1,145 +1,127 @@
-"""What a single word of a name is: whether it describes, names a place or a thing, or is not known at all."""
+"""Kind of a word in a name: modifier, material, place or noun, or unknown."""
 
 from functools import lru_cache
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, home_names
-from usd2kg.grounding.lexical.concepts.senses import sense_weight
+from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
-from usd2kg.grounding.lexical.reading.name_bigrams import load_written_names
+from usd2kg.grounding.lexical.reading.name_bigrams import load_name_bigrams
+from usd2kg.grounding.lexical.settings import MODIFIER
+from usd2kg.knowledge import word_set
 
 __all__ = ["AREAS", "PLACEMENTS", "THING_DOMAINS", "WordKinds"]
 
-PLACEMENTS = frozenset(
-    """
-    top bottom middle mid left right front back rear upper lower inner outer center centre side corner end north
-    south east west open closed main big small large long short tall mini new single double half full one two
-    three four five six first second third type var variant alt empty used set grey gray beige body assembly part
-    stack pile pair bunch heap row scan scanned lowpoly highpoly poly simplified decimated textured
-    """.split()
-)
-_PLACES = frozenset(["room", "building", "passageway", "land", "location", "tract", "facility", "establishment"])
-AREAS = frozenset(["area", "zone", "section", "region", "exit"])
-"""Places within a room: the drawer in the `sink_area_drawer`, the sign of an `exit_sign`."""
-_MATERIALS = frozenset(["fabric", "cloth", "material", "leather", "paper", "ceramic ware", "ceramic"])
-_STUFFS = frozenset(["metallic element", "alloy", "building material", "wood", "fabric", "material", "coating", "cane"])
-"""What things are made of, though it may be the name of a thing too: iron, stone, denim."""
-_DESCRIBES, _CODE, _FLAVOUR, _OTHER_THING = 0.93, 0.8, 0.6, 0.15
-_PLACE = 0.4
-_STUFF_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
+PLACEMENTS = word_set("lexical", "placements")
+AREAS = word_set("lexical", "areas")
+_MODIFYING_DOMAINS = frozenset({"substance", "shape", "phenomenon", "top"})
+"""WordNet domains of materials, colours and shapes."""
 _CONTENT_DOMAINS = frozenset({"food", "plant"})
-_SOLID_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "person", "substance", "object", "shape"})
+"""WordNet domains of contents and flavours."""
+_PHYSICAL_DOMAINS = frozenset({"artifact", "food", "plant", "animal", "person", "substance", "object", "shape"})
 THING_DOMAINS = frozenset({"artifact", "food"})
-_WOODS = frozenset(["wood"])
-_OFTEN = 0.5
-"""How many times as often as before other words a word stands last in names that may but describe there."""
-_SHORTEST_PARTICIPLE = 5
+"""WordNet domains of objects that are often in scenes."""
 
 
 class WordKinds:
-    """Knows the words of one lexicon and the taxonomy."""
+    """Kinds of words, for one lexicon and the taxonomy."""
 
     def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
-        # What a word is depends on nothing else, and is asked for over and over.
+        # Names repeat the same words.
         self.is_modifier = lru_cache(maxsize=16384)(self._is_modifier)
         self.is_place = lru_cache(maxsize=16384)(self._is_place)
-        self._describes = lru_cache(maxsize=16384)(self._describing)
-        self._is_material = taxonomy.below(_MATERIALS)
-        self._is_wood = taxonomy.below(_WOODS)
-        self._is_stuff = taxonomy.below(_STUFFS)
-        self._is_kind_of_place = taxonomy.below(_PLACES)
+        self._modifier_share = lru_cache(maxsize=16384)(self._compute_modifier_share)
+        self._is_material = taxonomy.below(word_set("lexical", "material_hypernyms"))
+        self._is_substance = taxonomy.below(word_set("lexical", "substance_hypernyms"))
+        self._is_kind_of_place = taxonomy.below(word_set("lexical", "place_hypernyms"))
 
     def is_known(self, word: str) -> bool:
-        """Return whether a word is a term of the TBox, or a noun or adjective of the taxonomy."""
+        """Return whether a word is a term of the TBox, or a noun, adjective or participle."""
         return (
             word in self._lexicon.terms
             or word in self._lexicon.vocabulary
             or word in self._taxonomy
-            or word in self._taxonomy.adjectives
-            or word in PLACEMENTS
-            or self._is_participle(word)
+            or self._is_adjective(word)
         )
 
+    def _is_adjective(self, word: str) -> bool:
+        return word in PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word)
+
     def _is_participle(self, word: str) -> bool:
-        """Return whether a word is no noun and looks like a participle of one that is known: `lidded`, `docking`."""
+        """Return whether a word looks like a participle of a known noun, and is no noun itself: `lidded`, `docking`."""
         ending = next((ending for ending in ("ed", "ing") if word.endswith(ending)), "")
-        if not ending or len(word) < _SHORTEST_PARTICIPLE or word in self._taxonomy:
+        if not ending or len(word) < MODIFIER.min_participle_letters or word in self._taxonomy:
             return False
         stem = word.removesuffix(ending)
         stems = {stem, stem + "e", stem[:-1] if stem[-1] == stem[-2] else stem, stem[:-1] + "y"}
-        return any(found in self._taxonomy for found in stems)
+        return any(noun in self._taxonomy for noun in stems)
 
     def _is_modifier(self, word: str) -> bool:
-        """Return whether a word, at the end of a name, describes and does not say what the thing is."""
+        """Return whether a word describes an object and does not name one, even at the end of a name."""
         if word in self._lexicon.terms:
             return False
-        if word in PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
+        if self._is_adjective(word):
             return True
         senses = self._taxonomy.senses(word)
-        return bool(senses) and all(sense.domain in _STUFF_DOMAINS for sense in senses)
+        return bool(senses) and all(sense.domain in _MODIFYING_DOMAINS for sense in senses)
 
     def is_noun(self, word: str) -> bool:
-        """Return whether the taxonomy knows a word as a noun for something physical."""
+        """Return whether a word is a noun of the taxonomy."""
         return word in self._taxonomy
 
     def modifier_share(self, word: str, *, is_last: bool = True) -> float:
-        """Return how likely a word, behind the head of a name, does no more than describe: `table_oak`.
+        """Return the probability that a word behind the head noun only modifies it: `table_oak`.
 
-        A share of names by the word's first meaning, set by hand: materials, colours and shapes nearly always, codes
-        mostly, flavours and places often, other things seldom. Before the last word only the first kind does.
+        By the first physical sense: highest for adjectives, materials, colours and shapes, lower for codes, flavours,
+        places and other objects. Before the last word only the first group modifies.
         """
-        share = self._describes(word)
-        return share if is_last or share == _DESCRIBES else 0.0
+        share = self._modifier_share(word)
+        return share if is_last or share == MODIFIER.adjective_share else 0.0
 
-    def _describing(self, word: str) -> float:
-        if word in PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word):
-            return _DESCRIBES
+    def _compute_modifier_share(self, word: str) -> float:
+        if self._is_adjective(word):
+            return MODIFIER.adjective_share
         senses = self._taxonomy.senses(word)
         if not senses:
-            return _OTHER_THING if word in self._lexicon.terms else _CODE
-        first = next((sense for sense in senses if sense.domain in _SOLID_DOMAINS), senses[0])
-        is_content = first.domain in _CONTENT_DOMAINS
-        # What is called after a tree is made of it sooner than flavoured with its fruit.
-        is_wood = is_content and any(self._is_wood(sense.synset) for sense in senses)
-        if first.domain in _STUFF_DOMAINS or self._is_material(first.synset) or is_wood:
-            return _DESCRIBES
-        if is_content:
-            return _FLAVOUR
-        return _PLACE if self.is_place(word) else _OTHER_THING
+            return MODIFIER.object_share if word in self._lexicon.terms else MODIFIER.code_share
+        first = next((sense for sense in senses if sense.domain in _PHYSICAL_DOMAINS), senses[0])
+        if first.domain in _MODIFYING_DOMAINS or self._is_material(first.synset):
+            return MODIFIER.adjective_share
+        if first.domain in _CONTENT_DOMAINS:
+            return MODIFIER.content_share
+        return MODIFIER.place_share if self.is_place(word) else MODIFIER.object_share
 
     def _is_place(self, word: str) -> bool:
-        """Return whether a word stands for a room, a building or an area by its likeliest meaning: a box does not."""
-        sense = max(self._taxonomy.senses(word), key=sense_weight, default=None)
+        """Return whether a word means a room, a building or an area in its usual sense."""
+        sense = usual_sense(word, self._taxonomy)
         return word in AREAS or (sense is not None and self._is_kind_of_place(sense.synset))
 
-    def may_describe(self, word: str) -> bool:
-        """Return whether a word beside those of its parent may but describe: below `Desk` a `desk_oak` is a desk.
+    def may_modify_parent(self, word: str) -> bool:
+        """Return whether a word beside those of the parent's name may only modify them: a `desk_oak` below `Desk`.
 
-        Stuff that things are made of may, but where people call a thing so, and seldom end other names with it.
+        Substances do, unless objects are often named so.
         """
         if self.is_modifier(word):
             return True
-        is_stuff = self._describes(word) >= _CODE or any(
-            self._is_stuff(sense.synset) for sense in self._taxonomy.senses(word)
+        is_substance = self._modifier_share(word) >= MODIFIER.code_share or any(
+            self._is_substance(sense.synset) for sense in self._taxonomy.senses(word)
         )
-        return is_stuff and (word not in _single_names() or load_written_names().odds_of_last(word) > _OFTEN)
+        is_name = word in _single_home_names() and load_name_bigrams().odds_of_last(word) <= MODIFIER.max_last_odds
+        return is_substance and not is_name
 
-    def is_flavour(self, word: str) -> bool:
-        """Return whether a word may tell of what kind something is: what it holds, or is made of or called."""
-        return self._describes(word) >= _FLAVOUR
-
-    def names_thing(self, word: str) -> bool:
-        """Return whether a word is a term of the TBox or a noun for something that stands in scenes."""
+    def is_object(self, word: str) -> bool:
+        """Return whether a word is a term of the TBox or a noun for an object that is often in scenes."""
         if word in self._lexicon.terms:
             return True
-        # A plank is a substance to WordNet.
         senses = self._taxonomy.senses(word)
-        return any(sense.domain in THING_DOMAINS and sense.rank <= 3 for sense in senses) or (
-            bool(senses) and senses[0].domain == "substance"
+        has_object_sense = any(
+            sense.domain in THING_DOMAINS and sense.rank <= MODIFIER.max_object_rank for sense in senses
         )
+        # A plank is a substance in WordNet.
+        return has_object_sense or (bool(senses) and senses[0].domain == "substance")
 
 
 @lru_cache(maxsize=1)
-def _single_names() -> frozenset[str]:
+def _single_home_names() -> frozenset[str]:
     return frozenset(name.lower() for names in home_names().values() for name in names if " " not in name)
