@@ -1,126 +1,136 @@
-"""What changed, as text for a person."""
+"""The changes between two versions of a scene as text."""
 
 import posixpath
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from usd2kg.cli.object_rows import numbers_text, size_text
-from usd2kg.cli.output import printable
+from usd2kg.cli.limits import CHANGES_PER_KIND, MOVES_TO_GROUP
+from usd2kg.cli.object_text import numbers_text, size_text
+from usd2kg.cli.output import count_noun, replace_controls, single_line
 
 if TYPE_CHECKING:
     from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
 
-__all__ = ["report_text"]
+__all__ = ["changes_text"]
 
-_MANY = 5
-"""So many things that moved by the same are told in one line."""
-_WORDS = {"part-of": "part of", "next-to": "next to", "room": "in the room", "left": "left of", "right": "right of"}
-_TELLING = ("on", "inside", "part-of", "room")
+_RELATION_NAMES = {
+    "part-of": "part of",
+    "next-to": "next to",
+    "room": "in the room",
+    "left": "left of",
+    "right": "right of",
+}
+_PLACE_KINDS = frozenset({"on", "inside", "part-of", "room"})
+"""Relations that say where an added or removed object is."""
 
 
-def report_text(changes: "Changes", tolerances: "Tolerances", title: str, most: int | None = None) -> str:
-    """Return the changes in groups of lines, at most `most` of each, and a last line that counts them all."""
+def changes_text(changes: "Changes", tolerances: "Tolerances", title: str, *, is_complete: bool) -> str:
+    """Return the changes by kind, and a last line that counts them.
+
+    Args:
+        changes: the changes.
+        tolerances: those of the comparison, to explain matches.
+        title: first line.
+        is_complete: whether all changes are shown, or `CHANGES_PER_KIND` of each kind, moves by the same grouped.
+    """
+    limit = None if is_complete else CHANGES_PER_KIND
     changed = changes.changed
     shifted = [change for change in changed if change.move or change.turned_degrees]
     sections = {
-        f"Added, {_count(changes.added)}": [_tell_thing(thing) for thing in changes.added],
-        f"Removed, {_count(changes.removed)}": [_tell_thing(thing) for thing in changes.removed],
-        f"Under another path, {_count([c for c in changed if c.is_renamed])}": list(_renamed(changed, tolerances)),
-        f"Moved or turned, {_count(shifted)}": list(_moved(shifted, is_short=most is not None)),
-        f"Resized, {_count([c for c in changed if c.resized])}": list(_resized(changed)),
-        f"Of another class, {_count([c for c in changed if c.reclassified])}": list(_reclassified(changed)),
-        f"Of another mass or asset, {_count([c for c in changed if c.mass or c.assets])}": list(_facts(changed)),
-        f"With other relations, {_count([c for c in changed if c.gained or c.lost])}": list(_related(changed)),
+        f"Added, {_count(changes.added)}": list(map(_thing_line, changes.added)),
+        f"Removed, {_count(changes.removed)}": list(map(_thing_line, changes.removed)),
+        f"Renamed, {_count([c for c in changed if c.is_renamed])}": list(_renamed_lines(changed, tolerances)),
+        f"Moved or turned, {_count(shifted)}": list(_moved_lines(shifted, is_grouped=not is_complete)),
+        f"Resized, {_count([c for c in changed if c.resized])}": list(_resized_lines(changed)),
+        f"Reclassified, {_count([c for c in changed if c.reclassified])}": list(_reclassified_lines(changed)),
+        f"Mass or asset changed, {_count([c for c in changed if c.mass or c.assets])}": list(_property_lines(changed)),
+        f"Relations changed, {_count([c for c in changed if c.gained or c.lost])}": list(_relation_lines(changed)),
     }
-    blocks = ["\n".join(_section(name, lines, most)) for name, lines in sections.items() if lines]
-    return "\n\n".join([printable(title), *blocks, _summary_text(changes)]) + "\n"
-
-
-def _summary_text(changes: "Changes") -> str:
-    """Return one line that counts what changed."""
-    if changes.is_empty:
-        return f"no thing differs: {changes.old_count} {_things(changes.old_count)}"
-    counted = ", ".join(f"{count} {name}" for name, count in changes.counts.items() if count)
-    same = len(changes.matches) - len(changes.changed)
-    return (
-        f"{changes.old_count} {_things(changes.old_count)} before, {changes.new_count} now: {counted}; {same} the same"
-    )
-
-
-def _things(count: int) -> str:
-    return "thing" if count == 1 else "things"
+    blocks = ["\n".join(_section(name, lines, limit)) for name, lines in sections.items() if lines]
+    return "\n\n".join([replace_controls(title), *blocks, _summary_line(changes)]) + "\n"
 
 
 def _count(found: "Sequence[Thing | Change]") -> str:
-    return f"{len(found)} {_things(len(found))}"
+    return count_noun(len(found), "object")
 
 
-def _section(name: str, lines: Sequence[str], most: int | None) -> Iterator[str]:
+def _section(name: str, lines: Sequence[str], limit: int | None) -> Iterator[str]:
     yield name
-    yield from (f"  {_line(line)}" for line in lines[:most])
-    rest = len(lines) - len(lines[:most])
-    if rest:
-        yield f"  … {rest} more (--all shows them)"
+    yield from (f"  {single_line(line)}" for line in lines[:limit])
+    hidden = len(lines) - len(lines[:limit])
+    if hidden:
+        yield f"  … {hidden} more (--all shows them)"
 
 
-def _line(text: str) -> str:
-    return printable(" ".join(text.split()))
+def _summary_line(changes: "Changes") -> str:
+    if changes.is_empty:
+        return f"no changes in {count_noun(changes.old_count, 'object')}"
+    counts = ", ".join(f"{count} {name}" for name, count in changes.counts.items() if count)
+    unchanged = len(changes.matches) - len(changes.changed)
+    return (
+        f"{count_noun(changes.old_count, 'object')} before, {changes.new_count} after: {counts}; {unchanged} unchanged"
+    )
 
 
-def _class(thing: "Thing") -> str:
-    return thing.class_label or "no class"
-
-
-def _who(change: "Change") -> str:
+def _name(change: "Change") -> str:
+    """Return the current path of a changed object with its class."""
     new = change.match.new
     return f"{new.prim_path} ({new.class_label})" if new.class_label else new.prim_path
 
 
-def _tell_thing(thing: "Thing") -> str:
-    where = ", ".join(_tell_link(link) for link in sorted(thing.links) if link.kind in _TELLING)
-    known = [f" ({thing.class_label})" if thing.class_label else "", f": {where}" if where else ""]
-    return thing.prim_path + "".join(known)
+def _thing_line(thing: "Thing") -> str:
+    place = ", ".join(_link_text(link) for link in sorted(thing.links) if link.kind in _PLACE_KINDS)
+    return "".join(
+        [
+            thing.prim_path,
+            f" ({thing.class_label})" if thing.class_label else "",
+            f": {place}" if place else "",
+        ]
+    )
 
 
-def _tell_link(link: "Link") -> str:
-    return f"{_WORDS.get(link.kind, link.kind)} {link.anchor}"
+def _link_text(link: "Link") -> str:
+    return f"{_RELATION_NAMES.get(link.kind, link.kind)} {link.anchor}"
 
 
-def _renamed(changed: "Iterable[Change]", tolerances: "Tolerances") -> Iterator[str]:
-    """Yield a line for each thing, and one for all that only a group's path changed."""
-    from usd2kg.diff import tell_match  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+def _renamed_lines(changed: "Iterable[Change]", tolerances: "Tolerances") -> Iterator[str]:
+    """Yield a line for each renamed group with several objects, then one for each other renamed object."""
+    from usd2kg.diff import tell_match  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.diff.paths import stems_of  # noqa: PLC0415
 
     renamed = [(stems_of(c.match.old.prim_path, c.match.new.prim_path), c) for c in changed if c.is_renamed]
     counts = Counter(stems for stems, _ in renamed)
     for (before, after), count in counts.items():
         if count > 1:
-            yield f"{before or '/'} → {after or '/'}: {count} things below it have the same names as before"
+            yield f"{before or '/'} → {after or '/'}: {count} objects below keep their relative paths"
     for stems, change in renamed:
         if counts[stems] == 1:
-            yield f"{change.match.old.prim_path} → {_who(change)}: {tell_match(change.match, tolerances)}"
+            yield f"{change.match.old.prim_path} → {_name(change)}: {tell_match(change.match, tolerances)}"
 
 
-def _moved(shifted: "Iterable[Change]", *, is_short: bool) -> Iterator[str]:
-    """Yield a line for each thing that moved by itself, with the number of those that it took along."""
+def _moved_lines(shifted: "Iterable[Change]", *, is_grouped: bool) -> Iterator[str]:
+    """Yield a line for each object that was not carried by another, with the number of objects it carried.
+
+    If grouped, `MOVES_TO_GROUP` objects or more with the same displacement share a line.
+    """
     by_path = {change.match.new.prim_path: change for change in shifted}
-    taken = Counter(_first_carrier(change, by_path) for change in by_path.values() if change.carrier)
-    alone = [change for change in by_path.values() if change.carrier is None]
-    steps = Counter(map(_step, alone))
-    told: set[str] = set()
-    for change in alone:
-        step = _step(change)
-        if is_short and step is not None and steps[step] >= _MANY:
-            if step not in told:
-                told.add(step)
-                paths = [c.match.new.prim_path for c in alone if _step(c) == step]
-                count = len(paths) + sum(taken[path] for path in paths)
-                yield f"{count} things below {posixpath.commonpath(paths)}: all by {step} m (--all shows them)"
-            continue
-        with_it = taken[change.match.new.prim_path]
-        rest = f"; with it {with_it} {_things(with_it)} on, in or below it" if with_it else ""
-        yield f"{_who(change)}: {' and '.join(_motion(change))}{rest}"
+    carried = Counter(_first_carrier(change, by_path) for change in by_path.values() if change.carrier)
+    movers = [change for change in by_path.values() if change.carrier is None]
+    groups: dict[str, list[str]] = {}
+    for change in movers:
+        if is_grouped and (displacement := _displacement(change)) is not None:
+            groups.setdefault(displacement, []).append(change.match.new.prim_path)
+    groups = {displacement: paths for displacement, paths in groups.items() if len(paths) >= MOVES_TO_GROUP}
+    for change in movers:
+        paths = groups.get(displacement := _displacement(change) or "")
+        path = change.match.new.prim_path
+        if paths is None:
+            others = f"; with {count_noun(carried[path], 'object')} on, in or below it" if carried[path] else ""
+            yield f"{_name(change)}: {' and '.join(_motion(change))}{others}"
+        elif path == paths[0]:
+            count = len(paths) + sum(carried[path] for path in paths)
+            yield f"{count} objects below {posixpath.commonpath(paths)}: all by {displacement} m (--all shows them)"
 
 
 def _first_carrier(change: "Change", by_path: "dict[str, Change]") -> str:
@@ -131,8 +141,8 @@ def _first_carrier(change: "Change", by_path: "dict[str, Change]") -> str:
     return path
 
 
-def _step(change: "Change") -> str | None:
-    """Return by how much a thing moved without a turn, to the centimetre."""
+def _displacement(change: "Change") -> str | None:
+    """Return the displacement of an object, rounded to centimetres; None if it was turned or did not move."""
     if change.move is None or change.turned_degrees:
         return None
     return numbers_text([b - a for a, b in zip(change.move.start, change.move.end, strict=True)])
@@ -146,34 +156,35 @@ def _motion(change: "Change") -> Iterator[str]:
         yield f"turned by {change.turned_degrees:.1f}°"
 
 
-def _reclassified(changed: "Iterable[Change]") -> Iterator[str]:
+def _reclassified_lines(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
         if change.reclassified:
-            yield f"{change.match.new.prim_path}: {_class(change.match.old)} → {_class(change.match.new)}"
+            before, after = (thing.class_label or "no class" for thing in (change.match.old, change.match.new))
+            yield f"{change.match.new.prim_path}: {before} → {after}"
 
 
-def _resized(changed: "Iterable[Change]") -> Iterator[str]:
+def _resized_lines(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
         if change.resized is not None:
             before, after = map(size_text, change.resized)
-            why = "; things nested below it changed, which its box goes around" if change.holds_changes else ""
-            yield f"{_who(change)}: {before} m → {after} m{why}"
+            reason = "; its box includes objects below it that changed" if change.holds_changes else ""
+            yield f"{_name(change)}: {before} m → {after} m{reason}"
 
 
-def _facts(changed: "Iterable[Change]") -> Iterator[str]:
+def _property_lines(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
-        told = []
+        parts = []
         if change.mass is not None:
-            told.append("mass " + " → ".join("unknown" if m is None else f"{m:.3g} kg" for m in change.mass))
+            parts.append("mass " + " → ".join("unknown" if m is None else f"{m:.3g} kg" for m in change.mass))
         if change.assets is not None:
-            told.append("asset " + " → ".join(", ".join(sorted(names)) or "none" for names in change.assets))
-        if told:
-            yield f"{_who(change)}: {'; '.join(told)}"
+            parts.append("asset " + " → ".join(", ".join(sorted(names)) or "none" for names in change.assets))
+        if parts:
+            yield f"{_name(change)}: {'; '.join(parts)}"
 
 
-def _related(changed: "Iterable[Change]") -> Iterator[str]:
+def _relation_lines(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
-        gained, lost = (", ".join(map(_tell_link, links)) for links in (change.gained, change.lost))
-        told = [f"now {gained}" if gained else "", f"no longer {lost}" if lost else ""]
+        gained, lost = (", ".join(map(_link_text, links)) for links in (change.gained, change.lost))
+        parts = [f"now {gained}" if gained else "", f"no longer {lost}" if lost else ""]
         if gained or lost:
-            yield f"{_who(change)}: {'; '.join(filter(None, told))}"
+            yield f"{_name(change)}: {'; '.join(filter(None, parts))}"
