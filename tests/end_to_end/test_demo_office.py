@@ -1,4 +1,4 @@
-"""The demo office: its script, its objects and its hand labels agree."""
+"""The office benchmark: scripts, scene and gold labels agree."""
 
 import csv
 import subprocess
@@ -24,17 +24,17 @@ def _gold() -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_every_gold_path_is_an_object_and_every_object_has_a_row(office: Scene) -> None:
+def test_objects_are_those_of_the_gold_labels(office: Scene) -> None:
     paths = [row["path"] for row in _gold()]
     assert len(paths) == len(set(paths)) >= 150
     assert {obj.prim_path for obj in office.objects} == set(paths)
 
 
-def test_the_stage_is_z_up_in_metres_and_room_sized(office: Scene) -> None:
+def test_boxes_are_in_metres_with_z_up(office: Scene) -> None:
     boxes = {obj.prim_path: obj.box for obj in office.objects}
     floor = boxes["/OfficeFloor_02/Shell/Floor_Carpet_grey"]
     assert floor is not None
-    # 13 m by 9.6 m, its upper face at height 0.
+    # 13 m × 9.6 m, upper face at height 0.
     assert floor.lower == pytest.approx((-6.5, -4.8, -0.1), abs=1e-4)
     assert floor.upper == pytest.approx((6.5, 4.8, 0.0), abs=1e-4)
     desk = boxes["/OfficeFloor_02/OpenPlan/Desk_A1/Desk_160x80"]
@@ -42,15 +42,15 @@ def test_the_stage_is_z_up_in_metres_and_room_sized(office: Scene) -> None:
     assert desk.upper[2] - desk.lower[2] == pytest.approx(0.74, abs=1e-3)
 
 
-def test_an_asset_in_centimetres_is_put_right_by_its_reference(office: Scene) -> None:
+def test_reference_scales_an_asset_in_centimetres(office: Scene) -> None:
     tap = next(obj for obj in office.objects if obj.name == "tap_mixer")
     assert tap.box is not None
-    # Stands on a worktop of 0.90 m and is 0.30 m high, plus its tube's radius.
+    # On a worktop at 0.90 m, with a height of 0.30 m plus the radius of its tube.
     assert tap.box.lower[2] == pytest.approx(0.90, abs=0.005)
     assert tap.box.upper[2] - tap.box.lower[2] == pytest.approx(0.31, abs=0.02)
 
 
-def test_only_things_of_the_print_room_have_no_kind(office: Scene) -> None:
+def test_only_objects_of_the_print_room_have_no_kind(office: Scene) -> None:
     without = {obj.prim_path for obj in office.objects if not obj.kind}
     assert without == {path for path in (o.prim_path for o in office.objects) if "/print_room/" in path}
     assert len(without) >= 15
@@ -64,7 +64,7 @@ def test_gold_classes_are_in_the_scope() -> None:
     assert all(row["class"] not in row["also"].split("|") for row in _gold())
 
 
-def test_copies_of_a_model_are_labelled_alike(office: Scene) -> None:
+def test_copies_of_an_asset_have_the_same_label(office: Scene) -> None:
     labels = {row["path"]: (row["class"], row["also"]) for row in _gold()}
     by_asset: dict[tuple[str, ...], set[tuple[str, str]]] = {}
     for obj in office.objects:
@@ -73,7 +73,7 @@ def test_copies_of_a_model_are_labelled_alike(office: Scene) -> None:
     assert {asset for asset, rows in by_asset.items() if len(rows) > 1} == set()
 
 
-def test_the_scripts_write_the_scene_that_ships(tmp_path: Path) -> None:
+def test_scripts_write_the_committed_scene(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "examples.demo_office.make", str(tmp_path)], check=True, cwd=ROOT)
     names = {str(path.relative_to(OFFICE)) for path in OFFICE.rglob("*") if path.is_file()}
     made = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}

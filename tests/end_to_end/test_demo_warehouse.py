@@ -1,4 +1,4 @@
-"""The warehouse benchmark: the script writes what is committed, and labels and objects match."""
+"""The warehouse benchmark: scripts, scene and gold labels agree."""
 
 import csv
 import subprocess
@@ -26,7 +26,7 @@ def gold() -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_the_script_writes_the_scene_that_is_committed(tmp_path: Path) -> None:
+def test_scripts_write_the_committed_scene(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "examples.demo_warehouse.make", str(tmp_path)], check=True, cwd=ROOT)
     names = {str(path.relative_to(WAREHOUSE)) for path in WAREHOUSE.rglob("*") if path.is_file()}
     made = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
@@ -34,7 +34,7 @@ def test_the_script_writes_the_scene_that_is_committed(tmp_path: Path) -> None:
     assert all((tmp_path / name).read_bytes() == (WAREHOUSE / name).read_bytes() for name in names)
 
 
-def test_the_benchmark_stays_small() -> None:
+def test_scene_stays_small() -> None:
     assert sum(path.stat().st_size for path in WAREHOUSE.rglob("*") if path.is_file()) < 700 * 1024
 
 
@@ -49,7 +49,7 @@ def test_every_object_has_a_gold_row(scene: usd2kg.Scene, gold: list[dict[str, s
     assert {obj.prim_path for obj in scene.objects} - set(paths) == set()
 
 
-def test_what_is_no_object_is_left_out_for_its_reason(scene: usd2kg.Scene) -> None:
+def test_counts_left_out_prims_by_reason(scene: usd2kg.Scene) -> None:
     assert scene.left_out["camera"] == 2
     assert scene.left_out["light"] == 4
     assert scene.left_out["invisible"] == 1
@@ -57,7 +57,7 @@ def test_what_is_no_object_is_left_out_for_its_reason(scene: usd2kg.Scene) -> No
     assert not scene.diagnostics
 
 
-def test_masses_and_sizes_are_read_in_kilograms_and_metres(scene: usd2kg.Scene) -> None:
+def test_reads_masses_in_kilograms_and_sizes_in_metres(scene: usd2kg.Scene) -> None:
     objects = {obj.prim_path: obj for obj in scene.objects}
     assert objects["/Warehouse_Full/workshop/hammer_claw"].mass_kg == pytest.approx(0.72)
     assert objects["/Warehouse_Full/goods_in/Forklift_Main"].mass_kg == pytest.approx(3900)
@@ -66,7 +66,7 @@ def test_masses_and_sizes_are_read_in_kilograms_and_metres(scene: usd2kg.Scene) 
     assert sorted(pallet.box.size) == pytest.approx([0.144, 0.8, 1.2])
 
 
-def test_labels_name_classes_of_the_tbox(gold: list[dict[str, str]], home_tbox: TBox) -> None:
+def test_gold_classes_resolve(gold: list[dict[str, str]], home_tbox: TBox) -> None:
     for row in gold:
         names = [row["class"], *filter(None, row["also"].split("|"))]
         assert len(names) == len(set(names))
@@ -74,7 +74,7 @@ def test_labels_name_classes_of_the_tbox(gold: list[dict[str, str]], home_tbox: 
             home_tbox.resolve(name)
 
 
-def test_labels_stay_in_the_scope(gold: list[dict[str, str]]) -> None:
+def test_gold_classes_are_in_the_scope(gold: list[dict[str, str]]) -> None:
     lines = shared_file("reference/soma_home_scope.txt").read_text(encoding="utf-8").split()
     scope = {iri.rsplit("#", 1)[1] for iri in lines}
     assert len(scope) == 102

@@ -1,4 +1,4 @@
-"""The test flat: its script, its objects and its labels agree. What the grounder makes of it is not looked at."""
+"""The flat benchmark: scripts, scene and gold labels agree. The flat is a blind test: nothing here grounds it."""
 
 import csv
 import subprocess
@@ -28,7 +28,7 @@ def gold() -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_the_script_writes_the_scene_that_is_committed(tmp_path: Path) -> None:
+def test_scripts_write_the_committed_scene(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "examples.test_flat.make", str(tmp_path)], check=True, cwd=ROOT)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["flat.usda", "gold.csv"]
     assert sorted(path.name for path in FLAT.iterdir()) == ["flat.usda", "gold.csv"]
@@ -37,7 +37,7 @@ def test_the_script_writes_the_scene_that_is_committed(tmp_path: Path) -> None:
     assert (FLAT / "flat.usda").stat().st_size < 250 * 1024
 
 
-def test_every_gold_path_is_an_object_and_every_object_has_a_row(flat: Scene, gold: list[dict[str, str]]) -> None:
+def test_objects_are_those_of_the_gold_labels(flat: Scene, gold: list[dict[str, str]]) -> None:
     paths = [row["path"] for row in gold]
     assert len(paths) == len(set(paths)) == 190
     assert paths == sorted(paths)
@@ -45,9 +45,9 @@ def test_every_gold_path_is_an_object_and_every_object_has_a_row(flat: Scene, go
     assert not flat.diagnostics
 
 
-def test_things_lie_within_the_flat_in_metres(flat: Scene) -> None:
+def test_boxes_are_within_the_flat_in_metres(flat: Scene) -> None:
     boxes = {obj.prim_path: obj.box for obj in flat.objects}
-    # Inside 7 m by 7 m, outer walls 10 cm and the ceiling 12 cm thick.
+    # Interior 7 m × 7 m, outer walls 10 cm and ceiling 12 cm thick.
     for box in boxes.values():
         assert box is not None
         assert min(box.lower) >= -0.1 - 1e-4
@@ -59,7 +59,7 @@ def test_things_lie_within_the_flat_in_metres(flat: Scene) -> None:
     assert worktop.upper == pytest.approx((3.0, 0.61, 0.9), abs=1e-4)
 
 
-def test_copies_of_a_thing_have_the_same_size(flat: Scene) -> None:
+def test_copies_of_an_object_have_the_same_size(flat: Scene) -> None:
     chairs = [obj.box for obj in flat.objects if obj.name.startswith("FoldingChair_")]
     assert len(chairs) == 2
     for box in chairs:
@@ -78,7 +78,7 @@ def test_gold_classes_are_in_the_scope(gold: list[dict[str, str]]) -> None:
 
 
 @pytest.mark.parametrize("form", ["table", "mug", "goblet", "bike", "tray"])
-def test_the_meshes_of_a_form_are_closed_and_point_outwards(form: str) -> None:
+def test_meshes_are_closed_and_face_outwards(form: str) -> None:
     for part in make_parts(form, (0.6, 0.4, 0.5)):
         edges = Counter((a, b) for face in part.faces for a, b in zip(face, face[1:] + face[:1], strict=True))
         assert set(edges.values()) == {1}
@@ -86,21 +86,21 @@ def test_the_meshes_of_a_form_are_closed_and_point_outwards(form: str) -> None:
         assert _volume(part.points, part.faces) > 0
 
 
-def test_merged_parts_enclose_the_sum_of_their_volumes() -> None:
+def test_merged_parts_have_the_sum_of_the_volumes() -> None:
     parts = make_parts("table", (1.0, 1.0, 1.0))
     whole = merge(parts, "geo")
-    # Top 1 x 1 x 0.05, four legs 0.05 x 0.08 x 0.95.
+    # Top 1 × 1 × 0.05, four legs 0.05 × 0.08 × 0.95.
     assert _volume(whole.points, whole.faces) == pytest.approx(0.05 + 4 * 0.05 * 0.08 * 0.95)
     assert not whole.is_block
     assert all(part.is_block for part in parts)
 
 
-def test_profiles_stay_in_their_box() -> None:
+def test_profiles_are_within_the_unit_box() -> None:
     assert all(0 <= value <= 1 for rings in PROFILES.values() for ring in rings for value in ring)
 
 
 def _volume(points: list[tuple[float, float, float]], faces: list[tuple[int, ...]]) -> float:
-    """Signed volume by the divergence theorem; positive where faces turn counter-clockwise seen from outside."""
+    """Return the signed volume by the divergence theorem, positive if faces are counter-clockwise from outside."""
     total = 0.0
     for face in faces:
         (ax, ay, az) = points[face[0]]
