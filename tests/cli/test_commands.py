@@ -125,7 +125,9 @@ class TestBuild:
         assert sum("#reifies> <<( " in line for line in lines) == 7, "four types and three relations"
         assert not [line for line in lines if "annotatedSource" in line]
 
-    def test_takes_the_time_stamp_from_option_or_environment(self, run: Run, room: Path, monkeypatch: pytest.MonkeyPatch):
+    def test_takes_the_time_stamp_from_option_or_environment(
+        self, run: Run, room: Path, monkeypatch: pytest.MonkeyPatch
+    ):
         ended = "SELECT ?t { ?r prov:endedAtTime ?t }"
         assert run("build", room, "-o", "g.ttl", "--time-of-run", "2026-07-15T14:00:00+02:00").code == 0
         assert load_graph(Path("g.ttl")).sparql(ended).rows == (("2026-07-15T12:00:00Z",),)

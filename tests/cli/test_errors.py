@@ -126,9 +126,7 @@ def test_rejects_an_unwritable_folder(run: Run, room: Path, tmp_path: Path, monk
     assert list(locked.iterdir()) == []
 
 
-def test_keeps_the_old_graph_if_the_disk_is_full(
-    run: Run, room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
+def test_keeps_the_old_graph_if_the_disk_is_full(run: Run, room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     target = write(tmp_path / "room.ttl", b"old")
 
     def fail(*_: object) -> None:

@@ -12,7 +12,9 @@ DECISIONS = "path,decision\n/Room/coffee_mug,Cup\n"
 @pytest.mark.parametrize("option", ["-o", "--queue", "--unplaced", "--carried"])
 @pytest.mark.parametrize("command", ["ground", "build"])
 @pytest.mark.parametrize("input_file", ["decisions.csv", "room.ttl", "room.usda"])
-def test_ground_and_build_overwrite_no_input(run: Run, room: Path, graph: Path, command: str, option: str, input_file: str):
+def test_ground_and_build_overwrite_no_input(
+    run: Run, room: Path, graph: Path, command: str, option: str, input_file: str
+):
     decisions = room.parent / "decisions.csv"
     decisions.write_text(DECISIONS)
     target = room.parent / input_file

@@ -1,9 +1,8 @@
-"""The command as a process: fast help, exit codes, pipes."""
+"""The command as a process: help, exit codes, pipes."""
 
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -43,35 +42,10 @@ def test_help_loads_no_heavy_module(command: list[str]):
     assert done.stdout.splitlines()[-1] == "LOADED []"
 
 
-def test_help_is_fast():
-    # Below 0.5 s on an idle machine; the limit allows for a busy one.
-    start = time.perf_counter()
-    done = process("--help")
-    assert time.perf_counter() - start < 2
-    assert done.returncode == 0
-    for command in ("build", "inspect", "ground", "query", "demo", "ontology"):
-        assert f"  {command} " in done.stdout
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["build"],
-        ["inspect"],
-        ["ground"],
-        ["query"],
-        ["demo"],
-        ["ontology"],
-        ["ontology", "show"],
-        ["ontology", "scope"],
-        ["ontology", "linearize"],
-    ],
-)
-def test_every_command_has_help(run: Run, command: list[str]):
-    done = run(*command, "--help")
+def test_short_and_long_help_option_are_the_same(run: Run):
+    done = run("build", "--help")
     assert (done.code, done.err) == (0, "")
-    assert f"usd2kg {' '.join(command)} " in done.out.splitlines()[0]
-    assert run(*command, "-h") == done
+    assert run("build", "-h") == done
 
 
 def test_process_exit_codes(room: Path, tmp_path: Path):
@@ -115,7 +89,9 @@ def test_closed_pipe_is_no_error(room: Path):
 def test_output_is_utf_8_in_every_locale(room: Path, tmp_path: Path):
     scene = tmp_path / "küche.usda"
     scene.write_bytes(room.read_bytes().replace(b"Room", "Küche".encode()))
-    environment = {key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG", "PYTHONIO", "PYTHONUTF8"))}
+    environment = {
+        key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG", "PYTHONIO", "PYTHONUTF8"))
+    }
     environment["LC_ALL"] = "C"
     done = subprocess.run(
         [sys.executable, "-m", "usd2kg", "ground", str(scene)],

@@ -30,7 +30,7 @@ from usd2kg.cli import (
     store,
     validate,
 )
-from usd2kg.cli.output import emit, notify, single_line
+from usd2kg.cli.output import emit, notify, to_single_line
 from usd2kg.errors import Usd2kgError
 
 __all__ = ["app", "main"]
@@ -101,5 +101,5 @@ def main() -> None:
     except Usd2kgError as error:
         if is_verbose:
             traceback.print_exc()
-        notify(f"usd2kg: {single_line(str(error))}")
+        notify(f"usd2kg: {to_single_line(str(error))}")
         sys.exit(2)

@@ -14,7 +14,7 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Share the c
 
 
 @app.command("export")
-def export_command(
+def export_completions(
     recording: Annotated[
         Path, typer.Argument(help="JSON Lines file to write: a prompt and its completions on each line.")
     ],
@@ -28,7 +28,7 @@ def export_command(
 
 
 @app.command("import")
-def import_command(
+def import_completions(
     recording: Annotated[Path, typer.Argument(help="Recording written by usd2kg completions export.")],
     completions: CompletionCacheFile = None,
 ) -> None:

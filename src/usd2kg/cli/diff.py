@@ -10,7 +10,7 @@ from usd2kg.cli.limits import CHANGES_PER_KIND
 from usd2kg.cli.options.bundles import OptionBundle, check_files, expand_bundles
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, TextFile
 from usd2kg.cli.options.stage import StageOptions
-from usd2kg.cli.output import emit, notify, notify_notes, print_json, single_line
+from usd2kg.cli.output import emit, notify, notify_notes, print_json, to_single_line
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def diff_command(
     options = VersionOptions(reading.read_options(), kinds, base, is_grounded=not no_ground)
     before, after = read_versions(old, new, lambda: _open_tbox(ontology), options)
     if file_format == "sparql":
-        title = f"{single_line(str(old))} -> {single_line(str(new))}"
+        title = f"{to_single_line(str(old))} -> {to_single_line(str(new))}"
         is_same = _write_update(before, after, title, graph, output)
     else:
         if any(thing.classes for thing in before.things) != any(thing.classes for thing in after.things):
@@ -120,7 +120,7 @@ def diff_command(
         if file_format == "json":
             print_json(changes_json(changes, limits, str(old), str(new)), output)
         else:
-            title = f"{single_line(str(old))} → {single_line(str(new))}"
+            title = f"{to_single_line(str(old))} → {to_single_line(str(new))}"
             emit(changes_text(changes, limits, title, is_complete=every), output)
     if not is_same:
         raise typer.Exit(1)

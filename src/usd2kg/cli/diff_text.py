@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from usd2kg.cli.limits import CHANGES_PER_KIND, MOVES_TO_GROUP
-from usd2kg.cli.object_text import numbers_text, size_text
-from usd2kg.cli.output import count_noun, replace_controls, single_line
+from usd2kg.cli.object_text import box_size_text, numbers_text
+from usd2kg.cli.output import count_noun, replace_controls, to_single_line
 
 if TYPE_CHECKING:
     from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
@@ -57,7 +57,7 @@ def _count(found: "Sequence[Thing | Change]") -> str:
 
 def _section(name: str, lines: Sequence[str], limit: int | None) -> Iterator[str]:
     yield name
-    yield from (f"  {single_line(line)}" for line in lines[:limit])
+    yield from (f"  {to_single_line(line)}" for line in lines[:limit])
     hidden = len(lines) - len(lines[:limit])
     if hidden:
         yield f"  … {hidden} more (--all shows them)"
@@ -166,7 +166,7 @@ def _reclassified_lines(changed: "Iterable[Change]") -> Iterator[str]:
 def _resized_lines(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
         if change.resized is not None:
-            before, after = map(size_text, change.resized)
+            before, after = map(box_size_text, change.resized)
             reason = "; its box includes objects below it that changed" if change.holds_changes else ""
             yield f"{_name(change)}: {before} m → {after} m{reason}"
 

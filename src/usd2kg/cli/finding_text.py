@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from usd2kg.cli.limits import FINDINGS_PER_RULE
-from usd2kg.cli.output import count_noun, single_line
+from usd2kg.cli.output import count_noun, to_single_line
 
 if TYPE_CHECKING:
     from usd2kg.validation import Finding
@@ -35,11 +35,13 @@ def findings_text(findings: "Sequence[Finding]", checked: int, noun: str, *, is_
 
 
 def _lines(finding: "Finding") -> Iterator[str]:
-    subject = f"{single_line(finding.label)} {single_line(finding.prim_path)}".strip() or single_line(finding.iri)
+    subject = f"{to_single_line(finding.label)} {to_single_line(finding.prim_path)}".strip() or to_single_line(
+        finding.iri
+    )
     yield f"{finding.severity} [{finding.rule}] {subject}".rstrip()
-    yield f"  found:    {single_line(finding.found)}"
-    yield f"  expected: {single_line(finding.expected)}"
-    yield f"  do:       {single_line(finding.advice)}"
+    yield f"  found:    {to_single_line(finding.found)}"
+    yield f"  expected: {to_single_line(finding.expected)}"
+    yield f"  do:       {to_single_line(finding.advice)}"
 
 
 def _count(findings: "Sequence[Finding]") -> str:

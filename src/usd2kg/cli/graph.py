@@ -16,7 +16,7 @@ app = typer.Typer(no_args_is_help=True, help="Draw and convert graphs.")
 
 
 @app.command("draw")
-def draw(
+def draw_command(
     graph: GraphSource,
     thing: Annotated[
         str | None,
@@ -57,7 +57,7 @@ def draw(
 
 
 @app.command("convert")
-def convert(
+def convert_command(
     graph: Annotated[
         Path,
         typer.Argument(
@@ -86,7 +86,7 @@ def convert(
 
 
 @app.command("export")
-def export(
+def export_command(
     graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="Graph written by usd2kg build.")],
     target: Annotated[str, typer.Option("--to", help="Database to export to: neo4j.")] = "neo4j",
     output: Annotated[

@@ -11,6 +11,7 @@ import typer
 
 from usd2kg.cli.limits import NAMES_PER_CELL, SIMILAR_DIAGNOSTICS
 from usd2kg.cli.object_text import (
+    box_size_text,
     capacity_text,
     joint_rows,
     jointed_objects,
@@ -18,13 +19,12 @@ from usd2kg.cli.object_text import (
     numbers_text,
     object_rows,
     shape_rows,
-    size_text,
     tight_size_text,
 )
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import JsonOutput, SceneFile
 from usd2kg.cli.options.stage import StageOptions
-from usd2kg.cli.output import count_noun, emit, format_table, print_json, replace_controls, single_line
+from usd2kg.cli.output import count_noun, emit, format_table, print_json, replace_controls, to_single_line
 from usd2kg.errors import SceneError
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def _explain(source: Path, path: str, options: "ReadOptions", *, is_json: bool) 
         if is_json:
             print_json({"path": path, "why": reason, "object": None})
         else:
-            emit(single_line(reason) + "\n")
+            emit(to_single_line(reason) + "\n")
         return
     shapes = describe_shapes(source, scene, [path])
     joints = [joint for joint in scene.joints if path in jointed_objects(joint, scene)]
@@ -99,7 +99,7 @@ def _explain(source: Path, path: str, options: "ReadOptions", *, is_json: bool) 
         return
     rows = [*object_rows(obj), *joint_rows(joints, path, scene), *shape_rows(shapes.get(path))]
     rows += [("note", f"{note.code}: {note.message}") for note in scene.diagnostics if note.prim_path == path]
-    emit(single_line(reason) + "\n\n" + format_table(rows[0], rows[1:]))
+    emit(to_single_line(reason) + "\n\n" + format_table(rows[0], rows[1:]))
 
 
 def _scene_json(scene: "Scene", shapes: "Mapping[str, ShapeDescriptors] | None") -> dict[str, Any]:
@@ -157,7 +157,7 @@ def _scene_text(scene: "Scene", shapes: "Mapping[str, ShapeDescriptors] | None")
 def _object_cells(obj: "SceneObject") -> list[str | None]:
     return [
         obj.prim_path,
-        size_text(obj.box.size) if obj.box else "no geometry",
+        box_size_text(obj.box.size) if obj.box else "no geometry",
         f"{obj.mass_kg:.3g}" if obj.mass_kg is not None else None,
         numbers_text(obj.position) if obj.position else None,
         ", ".join(obj.asset),

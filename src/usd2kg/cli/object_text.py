@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from usd2kg.scene import Box, Joint, Label, MaterialDetails, Scene, SceneObject, ShapeDescriptors
 
 __all__ = [
+    "box_size_text",
     "capacity_text",
     "joint_rows",
     "jointed_objects",
@@ -15,7 +16,6 @@ __all__ = [
     "numbers_text",
     "object_rows",
     "shape_rows",
-    "size_text",
     "tight_size_text",
 ]
 
@@ -60,7 +60,7 @@ def _measure_rows(obj: "SceneObject") -> Rows:
     if obj.own_box and obj.own_box != obj.box:
         yield "own box", f"{_box_text(obj.own_box)}, without the objects inside"
     if obj.oriented_size:
-        yield "along own axes", f"{size_text(obj.oriented_size)} m"
+        yield "along own axes", f"{box_size_text(obj.oriented_size)} m"
     if obj.position:
         yield "position", f"{numbers_text(obj.position)} m"
     if obj.orientation and abs(obj.orientation[3]) < _UNROTATED:
@@ -70,13 +70,13 @@ def _measure_rows(obj: "SceneObject") -> Rows:
 
 
 def _box_text(box: "Box") -> str:
-    return f"{size_text(box.size)} m (w×d×h), centre at {numbers_text(box.center)} m"
+    return f"{box_size_text(box.size)} m (w×d×h), centre at {numbers_text(box.center)} m"
 
 
-def size_text(sides: Sequence[float]) -> str:
+def box_size_text(sides: Sequence[float]) -> str:
     """Return the sides of a box, rounded to centimetres.
 
-    >>> size_text((1.6, 0.8, 0.7))
+    >>> box_size_text((1.6, 0.8, 0.7))
     '1.60 × 0.80 × 0.70'
     """
     return " × ".join(f"{side:.2f}" for side in sides)

@@ -35,7 +35,7 @@ _Registry = Annotated[
 
 
 @app.command("show")
-def show(
+def show_command(
     file: _File = None,
     root: _Roots = None,
     comments: Annotated[bool, typer.Option(help="Show the comments of the classes; default: names only.")] = False,
@@ -52,7 +52,7 @@ def show(
 
 
 @app.command("linearize")
-def linearize(
+def linearize_command(
     file: _File = None,
     root: _Roots = None,
     tree: Annotated[bool, typer.Option(help="Print a tree; default: an alphabetical list.")] = False,
@@ -65,7 +65,7 @@ def linearize(
 
 
 @app.command("scope")
-def scope(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> None:
+def scope_command(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> None:
     """Print the IRIs of the classes in scope."""
     tbox = _load(file, root)
     iris = [cls.iri for cls in tbox.classes]
@@ -76,7 +76,9 @@ def scope(file: _File = None, root: _Roots = None, json: JsonOutput = False) -> 
 
 
 @app.command("check")
-def check(file: _File = None, root: _Roots = None, every: AllFindings = False, json: JsonOutput = False) -> None:
+def check_command(
+    file: _File = None, root: _Roots = None, every: AllFindings = False, json: JsonOutput = False
+) -> None:
     """Report how well an ontology suits grounding, and what to add. Exit code 1 if there are errors or warnings."""
     from usd2kg.readiness import check_ontology  # noqa: PLC0415
     from usd2kg.validation import Severity  # noqa: PLC0415 - loads OpenUSD, too slow for --help
@@ -92,7 +94,7 @@ def check(file: _File = None, root: _Roots = None, every: AllFindings = False, j
 
 
 @app.command("known")
-def known(registry: _Registry = None, json: JsonOutput = False) -> None:
+def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
     """List the ontologies that `ontology fetch` can download."""
     from usd2kg.ontology import read_registry  # noqa: PLC0415
     from usd2kg.ontology.fetch import shown_address  # noqa: PLC0415
@@ -109,7 +111,7 @@ def known(registry: _Registry = None, json: JsonOutput = False) -> None:
 
 
 @app.command("fetch")
-def fetch(
+def fetch_command(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of an ontology, as listed by `ontology known`.")],
     into: Annotated[
         Path | None, typer.Option("--into", help="Folder for the documents; default: a new folder called NAME.")
@@ -132,7 +134,7 @@ def fetch(
 
 
 @app.command("vocabulary")
-def vocabulary() -> None:
+def vocabulary_command() -> None:
     """Print the usd2kg vocabulary, an OWL ontology, as Turtle."""
     from usd2kg.graph import vocabulary_text  # noqa: PLC0415 - loads the RDF parser
 
@@ -140,7 +142,7 @@ def vocabulary() -> None:
 
 
 @app.command("shapes")
-def shapes(
+def shapes_command(
     profile: Annotated[str, typer.Option("--profile", help="Profile of the graphs: soma or plain.")] = "soma",
 ) -> None:
     """Print the SHACL shapes of the graphs that usd2kg builds, as Turtle."""

@@ -21,12 +21,13 @@ __all__ = [
     "Progress",
     "count_noun",
     "emit",
+    "format_optional",
     "format_table",
     "notify",
     "notify_notes",
     "print_json",
     "replace_controls",
-    "single_line",
+    "to_single_line",
 ]
 
 _TERMINAL_CONTROLS = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
@@ -75,7 +76,7 @@ def replace_controls(text: str) -> str:
     return "".join(c if c.isprintable() or c in "\t\n" else "\ufffd" for c in text)
 
 
-def single_line(text: str) -> str:
+def to_single_line(text: str) -> str:
     """Return text on one line without control characters."""
     return replace_controls(" ".join(text.split()))
 
@@ -87,6 +88,11 @@ def count_noun(count: int, noun: str) -> str:
     ('1 object', '2 classes')
     """
     return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('s') else 's'}"
+
+
+def format_optional(value: float | None, spec: str) -> str | None:
+    """Return a number in a format specification; None for None."""
+    return None if value is None else format(value, spec)
 
 
 def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:

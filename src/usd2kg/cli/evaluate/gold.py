@@ -5,9 +5,8 @@ from typing import Annotated
 
 import typer
 
-from usd2kg.cli.evaluate.texts import number_text, short_name
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile, TextFile
-from usd2kg.cli.output import emit, format_table, print_json
+from usd2kg.cli.output import emit, format_optional, format_table, print_json
 from usd2kg.errors import EvaluationError
 
 __all__ = ["agreement_command", "annotate_command"]
@@ -49,6 +48,7 @@ def agreement_command(
     """Measure the agreement of two gold files: exact, Cohen's kappa, accepting second labels, hierarchical."""
     from usd2kg.evaluation import read_gold  # noqa: PLC0415
     from usd2kg.evaluation.metrics import agreement as metric  # noqa: PLC0415
+    from usd2kg.ontology import local_name  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     tbox = open_tbox(ontology)
@@ -56,7 +56,7 @@ def agreement_command(
         found = metric.agreement(read_gold(first, tbox), read_gold(second, tbox), tbox)
     except ValueError as error:
         raise EvaluationError(f"{first} and {second}: {error}; compare gold files of the same scene") from error
-    rows = [(a.prim_path, short_name(a.target), short_name(b.target)) for a, b in found.disagreements]
+    rows = [(a.prim_path, local_name(a.target), local_name(b.target)) for a, b in found.disagreements]
     if json:
         print_json(
             {
@@ -75,7 +75,7 @@ def agreement_command(
         ("labelled by both", str(found.n)),
         ("only in A, only in B", f"{len(found.only_first)}, {len(found.only_second)}"),
         ("same class", f"{found.exact:.3f}"),
-        ("Cohen's kappa", number_text(found.kappa, ".3f")),
+        ("Cohen's kappa", format_optional(found.kappa, ".3f")),
         ("accepting second labels", f"{found.accepted:.3f}"),
         ("hierarchical F1", f"{found.hierarchical_f1:.3f}"),
     ]

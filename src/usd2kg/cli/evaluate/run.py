@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from usd2kg.cli.evaluate.texts import number_text
 from usd2kg.cli.grounder_session import open_session
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
-from usd2kg.cli.output import emit, format_table, print_json
+from usd2kg.cli.output import emit, format_optional, format_table, print_json
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
@@ -87,11 +86,11 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         ("  each distinct name once %", f"{s.ema_by_name:.1f}", _interval_text(s.ema_by_name_interval)),
         ("  accepting a second label %", f"{s.ema_also:.1f}", _interval_text(s.ema_also_interval)),
         ("hierarchical F1 (HF1)", f"{s.hf1:.3f}", f"{s.hf1_interval.lower:.3f} to {s.hf1_interval.upper:.3f}"),
-        ("calibration error", number_text(s.calibration_error, ".3f"), None),
-        ("EMA of the most confident 80 %", number_text(s.accuracy_at_80, ".1f"), None),
-        ("  accepting a second label %", number_text(s.accepted_at_80, ".1f"), None),
+        ("calibration error", format_optional(s.calibration_error, ".3f"), None),
+        ("EMA of the most confident 80 %", format_optional(s.accuracy_at_80, ".1f"), None),
+        ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f"), None),
         ("object selection recall", f"{selection.recall:.3f}", None),
-        ("object selection precision", number_text(selection.precision, ".3f"), "if the gold labels are complete"),
+        ("object selection precision", format_optional(selection.precision, ".3f"), "if the gold labels are complete"),
         ("seconds", f"{result.seconds:.3f}", None),
     ]
     misses = [(kind, str(count), None) for kind, count in s.misses.items() if count]

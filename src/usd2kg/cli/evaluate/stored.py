@@ -6,9 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from usd2kg.cli.evaluate.texts import number_text, short_name
 from usd2kg.cli.options.common import JsonOutput
-from usd2kg.cli.output import emit, format_table, notify, print_json
+from usd2kg.cli.output import emit, format_optional, format_table, notify, print_json
 from usd2kg.errors import EvaluationError
 
 __all__ = ["calibrate_command", "compare_command"]
@@ -46,8 +45,8 @@ def calibrate_command(
     emit(scaling.as_json(), output)
     before, after = calibration_error(scores), calibration_error(scaled)
     notify(
-        f"fitted on {scaling.answers} answers: calibration error {number_text(before, '.3f')} before, "
-        f"{number_text(after, '.3f')} after, on the same answers"
+        f"fitted on {scaling.answers} answers: calibration error {format_optional(before, '.3f')} before, "
+        f"{format_optional(after, '.3f')} after, on the same answers"
     )
 
 
@@ -59,6 +58,7 @@ def compare_command(
     """Compare two runs object by object, with McNemar's exact test."""
     from usd2kg.evaluation.metrics.intervals import mcnemar  # noqa: PLC0415
     from usd2kg.evaluation.stored import read_run  # noqa: PLC0415
+    from usd2kg.ontology import local_name  # noqa: PLC0415
 
     a, b = read_run(first), read_run(second)
     if a.ontology_hash != b.ontology_hash:
@@ -86,7 +86,8 @@ def compare_command(
         f"{data['n']} objects; only A right: {test.only_first}, only B right: {test.only_second}; "
         f"McNemar's exact p {_p_value_text(test.p_value)}\n"
     )
-    rows = [(x.id, short_name(x.target), short_name(x.answer), short_name(y.answer)) for x, y in differing]
+    names = [[local_name(iri) if iri else None for iri in (x.target, x.answer, y.answer)] for x, y in differing]
+    rows = [(x.id, *row) for (x, _), row in zip(differing, names, strict=True)]
     emit(head + (format_table(("differs", "gold", "A", "B"), rows) if rows else ""))
 
 
