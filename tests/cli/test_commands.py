@@ -138,21 +138,6 @@ class TestBuild:
         assert run("build", room, "-o", "g.ttl").code == 0
         assert load_graph(Path("g.ttl")).sparql(ended).rows == ()
 
-    @pytest.mark.parametrize(
-        ("arguments", "message"),
-        [
-            (["--time-of-run", "noon"], "time 'noon'"),
-            (["--annotations", "rdfstar"], "annotations 'rdfstar' is unknown; expected one of owl, rdf12"),
-            (["--colors", "rgb"], "colors 'rgb' is unknown; expected one of usd, knowrob"),
-        ],
-    )
-    def test_rejects_an_unknown_value(self, run: Run, room: Path, arguments: list[str], message: str):
-        done = run("build", room, *arguments)
-        assert done.code == 2
-        assert done.err.startswith(f"usd2kg: {message}")
-        assert len(done.err.splitlines()) == 1
-        assert list(Path().iterdir()) == []
-
     def test_merges_imports(self, run: Run, room: Path, lab: Path):
         done = run("build", room, "--ontology", lab, "--merge-imports", "-o", "g.ttl")
         assert (done.code, "missing-import" in done.err) == (0, False)

@@ -92,6 +92,9 @@ def test_rejects_invalid_grounding_options(run: Run, room: Path, command: str, a
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
+        (["--time-of-run", "noon"], "time 'noon'"),
+        (["--annotations", "rdfstar"], "annotations 'rdfstar' is unknown; expected one of owl, rdf12"),
+        (["--colors", "rgb"], "colors 'rgb' is unknown; expected one of usd, knowrob"),
         (["--profile", "owl"], "profile 'owl' is unknown; expected one of auto, soma, plain"),
         (["--base", "kitchen"], "base 'kitchen': expected an absolute IRI"),
         (["--base", ":/"], "base ':/': expected an absolute IRI"),
