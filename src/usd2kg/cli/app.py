@@ -11,6 +11,7 @@ import traceback
 from typing import Annotated
 
 import typer
+from typer import Option
 
 from usd2kg.cli import (
     assistant,
@@ -74,11 +75,10 @@ def _print_version(is_wanted: bool) -> None:
 @app.callback()
 def _options(
     version: Annotated[
-        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True, callback=_print_version)
+        bool, Option("--version", help="Print the version and exit.", is_eager=True, callback=_print_version)
     ] = False,
     verbose: Annotated[
-        bool,
-        typer.Option("--verbose", help="Log each step, and show the traceback of an error. Accepted anywhere."),
+        bool, Option("--verbose", help="Log each step, and show the traceback of an error. Accepted anywhere.")
     ] = False,
 ) -> None:
     level = logging.INFO if verbose else logging.WARNING

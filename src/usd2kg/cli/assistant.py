@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.model import MODEL_NAMES, CompletionCacheFile
@@ -25,10 +25,10 @@ _PICTURE_SIZE = (512, 384)
 
 def ask_command(
     graph: GraphSource,
-    words: Annotated[list[str], typer.Argument(metavar="QUESTION...", help="Question in plain English.")],
+    words: Annotated[list[str], Argument(metavar="QUESTION...", help="Question in plain English.")],
     model: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--model",
             help=f"Language model that writes the query: {MODEL_NAMES}; default: the predefined questions, offline.",
         ),
@@ -64,8 +64,7 @@ def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | N
 def mcp_command(
     graph: GraphSource,
     stage: Annotated[
-        Path | None,
-        typer.Option("--stage", help="Stage of the graph, to render pictures of objects; default: no pictures."),
+        Path | None, Option("--stage", help="Stage of the graph, to render pictures of objects; default: no pictures.")
     ] = None,
     scene: SceneName = None,
 ) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
 from usd2kg.cli.build_summary import summarize_build, summary_text
 from usd2kg.cli.grounder_session import open_session
@@ -29,7 +30,7 @@ __all__ = ["build_command"]
 
 @expand_bundles
 def build_command(
-    scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="One or more USD stages.")],
+    scenes: Annotated[list[Path], Argument(metavar="SCENE...", help="One or more USD stages.")],
     grounding: GroundingOptions,
     carry_over: CarryOverOptions,
     reading: StageOptions,
@@ -38,19 +39,18 @@ def build_command(
     ontology: OntologyFile = None,
     base: BaseIri = None,
     profile: Annotated[
-        str,
-        typer.Option("--profile", help="Modelling pattern: soma, plain, or auto (soma if the ontology uses SOMA)."),
+        str, Option("--profile", help="Modelling pattern: soma, plain, or auto (soma if the ontology uses SOMA).")
     ] = "auto",
     merge_imports: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--merge-imports",
             help="Add the ontology, its imports and the usd2kg vocabulary, so the graph needs no other file.",
         ),
     ] = False,
     output: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--output",
             "-o",
             help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .jsonld, .ofn or .graphml, compressed if .gz follows; a "

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Argument
 
 from usd2kg.cli.options.model import CompletionCacheFile
 from usd2kg.cli.output import notify
@@ -15,9 +16,7 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Share the c
 
 @app.command("export")
 def export_completions(
-    recording: Annotated[
-        Path, typer.Argument(help="JSON Lines file to write: a prompt and its completions on each line.")
-    ],
+    recording: Annotated[Path, Argument(help="JSON Lines file to write: a prompt and its completions on each line.")],
     completions: CompletionCacheFile = None,
 ) -> None:
     """Write all cached completions to a recording, which others can replay without keys."""
@@ -29,7 +28,7 @@ def export_completions(
 
 @app.command("import")
 def import_completions(
-    recording: Annotated[Path, typer.Argument(help="Recording written by usd2kg completions export.")],
+    recording: Annotated[Path, Argument(help="Recording written by usd2kg completions export.")],
     completions: CompletionCacheFile = None,
 ) -> None:
     """Add the completions of a recording to the cache."""

@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Option
 
 from usd2kg.cli.build_summary import summarize_build, summary_text
 from usd2kg.cli.limits import DEMO_ROWS
@@ -18,7 +18,7 @@ _QUESTIONS = ("on dining table", "in refrigerator", "all of appliance")
 
 
 def demo_command(
-    output: Annotated[Path, typer.Option("--output", "-o", help="Graph to write.")] = Path("kitchen.ttl"),
+    output: Annotated[Path, Option("--output", "-o", help="Graph to write.")] = Path("kitchen.ttl"),
     json: JsonOutput = False,
 ) -> None:
     """Build the knowledge graph of the built-in demo kitchen and ask it three questions."""

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
 from usd2kg.cli.limits import CHANGES_PER_KIND
 from usd2kg.cli.options.bundles import OptionBundle, check_files, expand_bundles
@@ -27,22 +28,17 @@ _FORMATS = ("text", "json", "sparql")
 class _ToleranceOptions(OptionBundle):
     """Differences up to which objects count as unchanged."""
 
-    moved: Annotated[float, typer.Option("--moved", help="Metres; an object farther from its old place has moved.")] = (
-        0.01
-    )
-    turned: Annotated[float, typer.Option("--turned", help="Degrees; an object turned by more has turned.")] = 1.0
+    moved: Annotated[float, Option("--moved", help="Metres; an object farther from its old place has moved.")] = 0.01
+    turned: Annotated[float, Option("--turned", help="Degrees; an object turned by more has turned.")] = 1.0
     resized: Annotated[
-        float, typer.Option("--resized", help="Metres; an object with a side that differs by more is resized.")
+        float, Option("--resized", help="Metres; an object with a side that differs by more is resized.")
     ] = 0.01
     resized_percent: Annotated[
-        float,
-        typer.Option("--resized-percent", help="Per cent; an object with a side that differs by more is resized, too."),
+        float, Option("--resized-percent", help="Per cent; an object with a side that differs by more is resized, too.")
     ] = 1.0
     match_within: Annotated[
         float,
-        typer.Option(
-            "--match-within", help="Metres within which an object with a new path is matched by asset and size."
-        ),
+        Option("--match-within", help="Metres within which an object with a new path is matched by asset and size."),
     ] = 2.0
 
     def tolerances(self) -> "Tolerances":
@@ -59,39 +55,37 @@ class _ToleranceOptions(OptionBundle):
 @expand_bundles
 def diff_command(
     old: Annotated[
-        Path, typer.Argument(metavar="OLD", help="Earlier version: a graph written by usd2kg build, or a USD stage.")
+        Path, Argument(metavar="OLD", help="Earlier version: a graph written by usd2kg build, or a USD stage.")
     ],
-    new: Annotated[Path, typer.Argument(metavar="NEW", help="Later version: a graph or a stage.")],
+    new: Annotated[Path, Argument(metavar="NEW", help="Later version: a graph or a stage.")],
     tolerances: _ToleranceOptions,
     reading: StageOptions,
     file_format: Annotated[
-        str,
-        typer.Option("--format", help="text, json, or sparql: an update that turns the old graph into the new one."),
+        str, Option("--format", help="text, json, or sparql: an update that turns the old graph into the new one.")
     ] = "text",
     json: JsonOutput = False,
     output: TextFile = None,
     graph: Annotated[
         str | None,
-        typer.Option("--graph", help="IRI of the named graph that the update changes; default: the default graph."),
+        Option("--graph", help="IRI of the named graph that the update changes; default: the default graph."),
     ] = None,
     relations: Annotated[
-        str,
-        typer.Option("--relations", help="Comma-separated kinds of relations to compare, or all, or none."),
+        str, Option("--relations", help="Comma-separated kinds of relations to compare, or all, or none.")
     ] = "on,inside,part-of,room",
     no_ground: Annotated[
-        bool, typer.Option("--no-ground", help="Do not ground the objects of a stage; faster, without classes.")
+        bool, Option("--no-ground", help="Do not ground the objects of a stage; faster, without classes.")
     ] = False,
     ontology: OntologyFile = None,
     base: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--base",
             help="Namespace of the individuals of a stage; default: that of the graph it is compared with, else "
             "derived from the name of OLD.",
         ),
     ] = None,
     every: Annotated[
-        bool, typer.Option("--all", help=f"Show every change; default: the first {CHANGES_PER_KIND} of each kind.")
+        bool, Option("--all", help=f"Show every change; default: the first {CHANGES_PER_KIND} of each kind.")
     ] = False,
 ) -> None:
     """Show the changes between two graphs or scenes. Exit code 1 if there are any, as in diff."""

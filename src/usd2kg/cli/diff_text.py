@@ -82,11 +82,7 @@ def _name(change: "Change") -> str:
 def _thing_line(thing: "Thing") -> str:
     place = ", ".join(_link_text(link) for link in sorted(thing.links) if link.kind in _PLACE_KINDS)
     return "".join(
-        [
-            thing.prim_path,
-            f" ({thing.class_label})" if thing.class_label else "",
-            f": {place}" if place else "",
-        ]
+        [thing.prim_path, f" ({thing.class_label})" if thing.class_label else "", f": {place}" if place else ""]
     )
 
 

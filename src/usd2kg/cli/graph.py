@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import notify
@@ -20,13 +21,11 @@ def draw_command(
     graph: GraphSource,
     thing: Annotated[
         str | None,
-        typer.Argument(
-            metavar="[OBJECT]", help="Object to draw, by label, class or prim path; default: the whole room."
-        ),
+        Argument(metavar="[OBJECT]", help="Object to draw, by label, class or prim path; default: the whole room."),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="SVG or PNG file to write; default: GRAPH.svg in the current folder."),
+        Option("--output", "-o", help="SVG or PNG file to write; default: GRAPH.svg in the current folder."),
     ] = None,
     scene: SceneName = None,
 ) -> None:
@@ -60,13 +59,11 @@ def draw_command(
 def convert_command(
     graph: Annotated[
         Path,
-        typer.Argument(
-            metavar="GRAPH", help="Graph to read: .ttl, .trig, .nt, .nq, .rdf, .owl or .jsonld, or with .gz."
-        ),
+        Argument(metavar="GRAPH", help="Graph to read: .ttl, .trig, .nt, .nq, .rdf, .owl or .jsonld, or with .gz."),
     ],
     output: Annotated[
         Path,
-        typer.Option(
+        Option(
             "--output",
             "-o",
             help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .owl, .jsonld, .ofn or .graphml, compressed if .gz "
@@ -87,11 +84,10 @@ def convert_command(
 
 @app.command("export")
 def export_command(
-    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="Graph written by usd2kg build.")],
-    target: Annotated[str, typer.Option("--to", help="Database to export to: neo4j.")] = "neo4j",
+    graph: Annotated[Path, Argument(metavar="GRAPH", help="Graph written by usd2kg build.")],
+    target: Annotated[str, Option("--to", help="Database to export to: neo4j.")] = "neo4j",
     output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder to write; default: GRAPH-neo4j in the current folder."),
+        Path | None, Option("--output", "-o", help="Folder to write; default: GRAPH-neo4j in the current folder.")
     ] = None,
 ) -> None:
     """Write a graph as a property graph: nodes.csv, relationships.csv and a script that loads them."""

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Option
 
 from usd2kg.cli.grounder_session import GrounderSession, open_session
 from usd2kg.cli.options.bundles import check_files, expand_bundles
@@ -37,11 +38,11 @@ def ground_command(
     abbreviated_length: AbbreviatedLength = 4,
     paths: Annotated[
         Path | None,
-        typer.Option("--paths", help="CSV file with a column path: ground these prims only; default: all objects."),
+        Option("--paths", help="CSV file with a column path: ground these prims only; default: all objects."),
     ] = None,
     file_format: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--format",
             help="csv, json, or sssom, which --base, --license and --mapping-date describe; default: by the file "
             "ending (.json, .tsv), else csv.",
@@ -49,10 +50,10 @@ def ground_command(
     ] = None,
     base: BaseIri = None,
     license_iri: Annotated[
-        str | None, typer.Option("--license", help="IRI of the licence of the mapping; default: unspecified.")
+        str | None, Option("--license", help="IRI of the licence of the mapping; default: unspecified.")
     ] = None,
     mapping_date: Annotated[
-        str | None, typer.Option("--mapping-date", help="Date of the mapping, like 2026-07-15; default: none.")
+        str | None, Option("--mapping-date", help="Date of the mapping, like 2026-07-15; default: none.")
     ] = None,
     output: TextFile = None,
 ) -> None:

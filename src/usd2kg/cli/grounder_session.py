@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from usd2kg.cli.carried_decisions import carry_over_decisions
 from usd2kg.cli.options.grounding import GroundingOptions
 from usd2kg.cli.options.review import CarryOverOptions
-from usd2kg.cli.output import Progress
+from usd2kg.cli.output import Progress, emit, notify
 from usd2kg.errors import GroundingError, SceneError
 
 if TYPE_CHECKING:
@@ -44,12 +45,16 @@ class GrounderSession:
     def report(self, grounding: "Grounding", tbox: "TBox") -> None:
         """Print to stderr what each tier decided and cost, and write the review queue."""
         from usd2kg.cli.model_report import report_cost, report_tiers  # noqa: PLC0415
+        from usd2kg.grounding import format_queue, unsure_of  # noqa: PLC0415
 
         if self.cascade is not None or self.decisions:
             report_tiers(grounding, self.cascade, self.model)
         if self.model is not None:
             report_cost(self.model.report, grounding)
-        self.options.review.write_queue(grounding, tbox)
+        if (queue := self.options.review.queue) is not None:
+            waiting = unsure_of(grounding, self.options.review.person)
+            emit(format_queue(waiting, tbox), queue)
+            notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
 
 
 @contextmanager
@@ -79,7 +84,7 @@ def open_session(
     decisions: Mapping[str, ClassIRI] = options.review.read(tbox)
     carried: Mapping[str, Carried] = {}
     if carry_over is not None:
-        decisions, carried = carry_over.carry_over(decisions, scene, reading)
+        decisions, carried = carry_over_decisions(decisions, scene, reading, carry_over)
     is_llm = grounding.is_llm_name(options.grounder)
     if not is_llm:
         options.model.check_without_model()
@@ -100,11 +105,7 @@ def open_session(
 
 @contextmanager
 def _open_model(
-    options: GroundingOptions,
-    scene: "Scene",
-    decisions: "Mapping[str, ClassIRI]",
-    source: Path,
-    reading: "ReadOptions",
+    options: GroundingOptions, scene: "Scene", decisions: "Mapping[str, ClassIRI]", source: Path, reading: "ReadOptions"
 ) -> "Iterator[LLMGrounder]":
     from usd2kg.grounding.llm.examples import choose_examples  # noqa: PLC0415
     from usd2kg.grounding.llm.settings import open_llm_grounder  # noqa: PLC0415

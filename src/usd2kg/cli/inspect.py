@@ -7,7 +7,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+from typer import Option
 
 from usd2kg.cli.limits import NAMES_PER_CELL, SIMILAR_DIAGNOSTICS
 from usd2kg.cli.object_text import (
@@ -42,7 +42,7 @@ def inspect_command(
     reading: StageOptions,
     why: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--why",
             metavar="PATH",
             help="Explain why the prim at this path is an object or not, and show all of the object's properties; "
@@ -50,7 +50,7 @@ def inspect_command(
         ),
     ] = None,
     shapes: Annotated[
-        bool, typer.Option("--shapes", help="Measure the geometry, too: tight box, volume, capacity, roundness.")
+        bool, Option("--shapes", help="Measure the geometry, too: tight box, volume, capacity, roundness.")
     ] = False,
     json: JsonOutput = False,
 ) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer import Argument, Option
 from typer.core import TyperGroup
 
 from usd2kg.cli.finding_text import findings_text
@@ -46,14 +47,14 @@ def write_command(
     scene: SceneFile,
     run: Annotated[
         Path,
-        typer.Argument(
+        Argument(
             metavar="RUN",
             help="Mapping written by usd2kg ground, review queue with decisions, or graph (.csv, .json, .ttl, …).",
         ),
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--output",
             "-o",
             help="Layer to write: .usda, .usdc or .usd; default: SCENE.labels.usda in the current folder.",
@@ -62,7 +63,7 @@ def write_command(
     ontology: OntologyFile = None,
     encoding: Annotated[
         str,
-        typer.Option(
+        Option(
             "--encoding",
             help="Comma-separated encodings: semantics (UsdSemantics), isaac (legacy attributes of Isaac and "
             "Replicator), multiverse (tags that target class prims).",
@@ -70,32 +71,28 @@ def write_command(
     ] = "semantics",
     mode: Annotated[
         str,
-        typer.Option(
+        Option(
             "--mode",
             help="new: label only prims without labels; overwrite: replace class labels in all encodings; skip: keep "
             "all labels, add missing encodings and taxonomies.",
         ),
     ] = "new",
     at_least: Annotated[
-        float, typer.Option("--at-least", min=0, max=1, help="Confidence from which a class is written.")
+        float, Option("--at-least", min=0, max=1, help="Confidence from which a class is written.")
     ] = 0.0,
     names: Annotated[
         str,
-        typer.Option(
-            "--names",
-            help="Class names: local (last part of the IRI), label, or snake (the label in snake_case).",
-        ),
+        Option("--names", help="Class names: local (last part of the IRI), label, or snake (the label in snake_case)."),
     ] = "local",
     ancestors: Annotated[
-        bool, typer.Option("--ancestors", help="Write the superclasses, too, the most general first.")
+        bool, Option("--ancestors", help="Write the superclasses, too, the most general first.")
     ] = False,
     bare: Annotated[
-        bool,
-        typer.Option("--bare", help="Write a layer of labels only; default: a root layer with the scene as sublayer."),
+        bool, Option("--bare", help="Write a layer of labels only; default: a root layer with the scene as sublayer.")
     ] = False,
     de_instance: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--de-instance", help="Turn off instancing where prims inside an instance get labels; default: skip them."
         ),
     ] = False,
@@ -182,8 +179,7 @@ def lint_command(
     reading: StageOptions,
     ontology: OntologyFile = None,
     run: Annotated[
-        Path | None,
-        typer.Option("--run", help="Mapping or graph of the scene, to find stale labels; default: none."),
+        Path | None, Option("--run", help="Mapping or graph of the scene, to find stale labels; default: none.")
     ] = None,
     every: AllFindings = False,
     json: JsonOutput = False,

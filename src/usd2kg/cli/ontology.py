@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer import Argument, Option
 
 from usd2kg.cli.finding_text import findings_text
 from usd2kg.cli.options.common import AllFindings, JsonOutput
@@ -22,15 +23,13 @@ app = typer.Typer(
     help="Show, check and fetch ontologies, and print the vocabulary and shapes of usd2kg.",
 )
 
-_File = Annotated[Path | None, typer.Argument(metavar="[FILE]", help="OWL file; default: the built-in home ontology.")]
+_File = Annotated[Path | None, Argument(metavar="[FILE]", help="OWL file; default: the built-in home ontology.")]
 _Roots = Annotated[
     list[str] | None,
-    typer.Option(
-        "--root", help="IRI or CURIE of a class; the scope is its subclasses and itself. Repeatable; default: all."
-    ),
+    Option("--root", help="IRI or CURIE of a class; the scope is its subclasses and itself. Repeatable; default: all."),
 ]
 _Registry = Annotated[
-    Path | None, typer.Option("--registry", help="TOML file of known ontologies; default: the built-in list.")
+    Path | None, Option("--registry", help="TOML file of known ontologies; default: the built-in list.")
 ]
 
 
@@ -38,7 +37,7 @@ _Registry = Annotated[
 def show_command(
     file: _File = None,
     root: _Roots = None,
-    comments: Annotated[bool, typer.Option(help="Show the comments of the classes; default: names only.")] = False,
+    comments: Annotated[bool, Option(help="Show the comments of the classes; default: names only.")] = False,
     json: JsonOutput = False,
 ) -> None:
     """Show the classes in scope as a tree."""
@@ -55,7 +54,7 @@ def show_command(
 def linearize_command(
     file: _File = None,
     root: _Roots = None,
-    tree: Annotated[bool, typer.Option(help="Print a tree; default: an alphabetical list.")] = False,
+    tree: Annotated[bool, Option(help="Print a tree; default: an alphabetical list.")] = False,
 ) -> None:
     """Print the classes in scope as in the prompt of a language model, one on each line."""
     from usd2kg.ontology import linearize_flat, linearize_tree  # noqa: PLC0415
@@ -112,13 +111,12 @@ def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
 
 @app.command("fetch")
 def fetch_command(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of an ontology, as listed by `ontology known`.")],
+    name: Annotated[str, Argument(metavar="NAME", help="Name of an ontology, as listed by `ontology known`.")],
     into: Annotated[
-        Path | None, typer.Option("--into", help="Folder for the documents; default: a new folder called NAME.")
+        Path | None, Option("--into", help="Folder for the documents; default: a new folder called NAME.")
     ] = None,
     changed: Annotated[
-        bool,
-        typer.Option("--changed", help="Accept documents that differ from the known version; default: reject them."),
+        bool, Option("--changed", help="Accept documents that differ from the known version; default: reject them.")
     ] = False,
     registry: _Registry = None,
 ) -> None:
@@ -143,7 +141,7 @@ def vocabulary_command() -> None:
 
 @app.command("shapes")
 def shapes_command(
-    profile: Annotated[str, typer.Option("--profile", help="Profile of the graphs: soma or plain.")] = "soma",
+    profile: Annotated[str, Option("--profile", help="Profile of the graphs: soma or plain.")] = "soma",
 ) -> None:
     """Print the SHACL shapes of the graphs that usd2kg builds, as Turtle."""
     from usd2kg.validation import shapes_text  # noqa: PLC0415 - loads the RDF parser

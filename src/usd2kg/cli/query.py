@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.stores import OptionalGraphSource, SceneName
@@ -20,23 +20,22 @@ def query_command(
     graph: OptionalGraphSource = None,
     words: Annotated[
         list[str] | None,
-        typer.Argument(
+        Argument(
             metavar="[QUESTION]...",
             help="on X, in X, near X, above X, parts of X, where is X, or all of CLASS (with its subclasses).",
         ),
     ] = None,
     sparql: Annotated[
-        str | None, typer.Option("--sparql", help="SPARQL query, or @FILE; common prefixes are predefined.")
+        str | None, Option("--sparql", help="SPARQL query, or @FILE; common prefixes are predefined.")
     ] = None,
     question: Annotated[
-        str | None, typer.Option("--question", "-q", metavar="ID", help="Predefined question from --list.")
+        str | None, Option("--question", "-q", metavar="ID", help="Predefined question from --list.")
     ] = None,
     given: Annotated[
-        list[str] | None,
-        typer.Option("--with", metavar="NAME=VALUE", help="Value of a parameter of --question. Repeatable."),
+        list[str] | None, Option("--with", metavar="NAME=VALUE", help="Value of a parameter of --question. Repeatable.")
     ] = None,
     is_list: Annotated[
-        bool, typer.Option("--list", help="List the predefined questions and their parameters, and exit.")
+        bool, Option("--list", help="List the predefined questions and their parameters, and exit.")
     ] = False,
     scene: SceneName = None,
     json: JsonOutput = False,

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import SceneFile
 from usd2kg.cli.options.stage import MetresPerUnit, TimeCode, UpAxis
@@ -21,16 +21,15 @@ _GEOMETRY_CODES = frozenset({"mesh", "copies"})
 def render_command(
     scene: SceneFile,
     path: Annotated[
-        str | None, typer.Argument(metavar="[PATH]", help="Prim path of an object; default: the whole scene.")
+        str | None, Argument(metavar="[PATH]", help="Prim path of an object; default: the whole scene.")
     ] = None,
     output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="PNG file to write; default: NAME.png in the current folder."),
+        Path | None, Option("--output", "-o", help="PNG file to write; default: NAME.png in the current folder.")
     ] = None,
-    context: Annotated[bool, typer.Option("--context", help="Show the object highlighted in its place.")] = False,
+    context: Annotated[bool, Option("--context", help="Show the object highlighted in its place.")] = False,
     size: Annotated[
         str | None,
-        typer.Option("--size", help="WIDTHxHEIGHT in pixels; default: 256x256 for an object, 800x600 for a scene."),
+        Option("--size", help="WIDTHxHEIGHT in pixels; default: 256x256 for an object, 800x600 for a scene."),
     ] = None,
     metres_per_unit: MetresPerUnit = None,
     up_axis: UpAxis = None,

@@ -4,7 +4,7 @@ import ipaddress
 import signal
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.output import notify
 
@@ -13,26 +13,24 @@ __all__ = ["serve_command"]
 
 def serve_command(
     graph: Annotated[
-        str, typer.Argument(metavar="GRAPH|FOLDER", help="Graph written by usd2kg build, or folder of a store.")
+        str, Argument(metavar="GRAPH|FOLDER", help="Graph written by usd2kg build, or folder of a store.")
     ],
     host: Annotated[
-        str, typer.Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")
+        str, Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")
     ] = "127.0.0.1",
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; 0 chooses a free one.")] = 7878,
+    port: Annotated[int, Option("--port", min=0, max=65535, help="Port; 0 chooses a free one.")] = 7878,
     time_limit: Annotated[
-        float, typer.Option("--time-limit", min=0.1, help="Seconds after which a query is cancelled.")
+        float, Option("--time-limit", min=0.1, help="Seconds after which a query is cancelled.")
     ] = 10.0,
     max_rows: Annotated[
-        int, typer.Option("--max-rows", min=1, help="Rows or triples of an answer; more are cut off.")
+        int, Option("--max-rows", min=1, help="Rows or triples of an answer; more are cut off.")
     ] = 10_000,
-    max_body: Annotated[int, typer.Option("--max-body", min=1, help="Bytes of a request.")] = 1_048_576,
-    memory_limit: Annotated[
-        int, typer.Option("--memory-limit", min=16, help="MiB of memory for a query, on Linux.")
-    ] = 1024,
-    workers: Annotated[int, typer.Option("--workers", min=1, max=256, help="Queries that run in parallel.")] = 2,
+    max_body: Annotated[int, Option("--max-body", min=1, help="Bytes of a request.")] = 1_048_576,
+    memory_limit: Annotated[int, Option("--memory-limit", min=16, help="MiB of memory for a query, on Linux.")] = 1024,
+    workers: Annotated[int, Option("--workers", min=1, max=256, help="Queries that run in parallel.")] = 2,
     cors: Annotated[
         list[str] | None,
-        typer.Option(
+        Option(
             "--cors",
             metavar="ORIGIN",
             help="Web origin that may send requests, like https://my.lab, or *. Repeatable; default: none.",
@@ -40,7 +38,7 @@ def serve_command(
     ] = None,
     allow_host: Annotated[
         list[str] | None,
-        typer.Option(
+        Option(
             "--allow-host",
             metavar="NAME",
             help="Host name accepted in requests in addition to localhost. Repeatable; default: none.",

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.stores import DataAddress, RequiredStore, UpdateAddress
@@ -53,11 +54,11 @@ def check_graph_names(iris: Sequence[str]) -> None:
 
 @app.command("load")
 def load_command(
-    graphs: Annotated[list[Path], typer.Argument(metavar="GRAPH...", help="Graphs written by usd2kg build.")],
+    graphs: Annotated[list[Path], Argument(metavar="GRAPH...", help="Graphs written by usd2kg build.")],
     place: RequiredStore,
     scene: Annotated[
         str | None,
-        typer.Option("--scene", metavar="IRI", help="IRI of the graph in the store; default: as stated in the graph."),
+        Option("--scene", metavar="IRI", help="IRI of the graph in the store; default: as stated in the graph."),
     ] = None,
     update: UpdateAddress = None,
     data: DataAddress = None,
@@ -99,7 +100,7 @@ def list_command(place: RequiredStore, json: JsonOutput = False) -> None:
 
 @app.command("remove")
 def remove_command(
-    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes, named as in usd2kg store list.")],
+    scenes: Annotated[list[str], Argument(metavar="SCENE...", help="Scenes, named as in usd2kg store list.")],
     place: RequiredStore,
     update: UpdateAddress = None,
 ) -> None:
@@ -116,7 +117,7 @@ def remove_command(
 @app.command("update")
 def update_command(
     sparql: Annotated[
-        str, typer.Argument(metavar="UPDATE", help="SPARQL 1.1 update, or @FILE; common prefixes are predefined.")
+        str, Argument(metavar="UPDATE", help="SPARQL 1.1 update, or @FILE; common prefixes are predefined.")
     ],
     place: RequiredStore,
     update: UpdateAddress = None,

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Option
 
 from usd2kg.cli.finding_text import findings_text
 from usd2kg.cli.options.common import AllFindings, JsonOutput, OntologyFile
@@ -25,14 +26,12 @@ def validate_command(
     ontology: OntologyFile = None,
     rules: Annotated[
         Path | None,
-        typer.Option(
-            "--rules", help="TOML file that overrides thresholds, classes and texts; default: the built-in rules."
-        ),
+        Option("--rules", help="TOML file that overrides thresholds, classes and texts; default: the built-in rules."),
     ] = None,
     every: AllFindings = False,
     reasoner: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--reasoner",
             help="Reasoner that checks the consistency of the graph: elk, which needs Java 17 and its jars; default: "
             "none.",
@@ -40,10 +39,10 @@ def validate_command(
     ] = None,
     elk_jars: Annotated[
         Path | None,
-        typer.Option("--elk-jars", help="Folder with the jars of ELK; default: $USD2KG_ELK_JARS, else build/elk."),
+        Option("--elk-jars", help="Folder with the jars of ELK; default: $USD2KG_ELK_JARS, else build/elk."),
     ] = None,
     reasoner_limit: Annotated[
-        float, typer.Option("--reasoner-limit", min=1, help="Seconds after which the reasoner is stopped.")
+        float, Option("--reasoner-limit", min=1, help="Seconds after which the reasoner is stopped.")
     ] = 600,
     scene: SceneName = None,
     json: JsonOutput = False,

@@ -4,9 +4,7 @@ import typer
 
 from usd2kg.cli.evaluate import gold, matrix, run, stored
 
-__all__ = [
-    "app",
-]
+__all__ = ["app"]
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Evaluate grounding against gold labels.")
 app.command("run")(run.run_command)

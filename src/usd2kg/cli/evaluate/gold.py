@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile, TextFile
 from usd2kg.cli.output import emit, format_optional, format_table, print_json
@@ -16,10 +16,10 @@ def annotate_command(
     scene: SceneFile,
     output: TextFile = None,
     force: Annotated[
-        bool, typer.Option("--force", help="Overwrite an existing file with its labels; default: refuse.")
+        bool, Option("--force", help="Overwrite an existing file with its labels; default: refuse.")
     ] = False,
     suggest: Annotated[
-        bool, typer.Option("--suggest", help="Fill in the classes of the lexical grounder; default: leave them empty.")
+        bool, Option("--suggest", help="Fill in the classes of the lexical grounder; default: leave them empty.")
     ] = False,
     ontology: OntologyFile = None,
 ) -> None:
@@ -40,8 +40,8 @@ def annotate_command(
 
 
 def agreement_command(
-    first: Annotated[Path, typer.Argument(metavar="A", help="Gold file of one annotator.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Gold file of another annotator for the same scene.")],
+    first: Annotated[Path, Argument(metavar="A", help="Gold file of one annotator.")],
+    second: Annotated[Path, Argument(metavar="B", help="Gold file of another annotator for the same scene.")],
     ontology: OntologyFile = None,
     json: JsonOutput = False,
 ) -> None:

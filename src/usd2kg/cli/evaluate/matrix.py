@@ -5,7 +5,7 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import OntologyFile, ReportFolder
 from usd2kg.cli.output import emit, notify
@@ -21,10 +21,10 @@ _OBJECTS_IN_STUDY = 125
 
 
 def reproduce_command(
-    matrix: Annotated[Path, typer.Argument(metavar="MATRIX", help="TOML file; see docs/evaluation.md.")],
+    matrix: Annotated[Path, Argument(metavar="MATRIX", help="TOML file; see docs/evaluation.md.")],
     output: ReportFolder = Path("results"),
     refresh: Annotated[
-        bool, typer.Option("--refresh", help="Compute every result again; default: use stored results.")
+        bool, Option("--refresh", help="Compute every result again; default: use stored results.")
     ] = False,
 ) -> None:
     """Evaluate scenes × grounders × regimes × ablations and write tables, plots and a report.
@@ -60,9 +60,9 @@ def _progress(total: int) -> "Callable[[CellResult], None]":
 
 
 def kitchen_set_command(
-    folder: Annotated[Path, typer.Argument(metavar="PATH", help="Folder of the unpacked Kitchen Set.")],
+    folder: Annotated[Path, Argument(metavar="PATH", help="Folder of the unpacked Kitchen Set.")],
     gold: Annotated[
-        Path | None, typer.Option("--gold", help="Gold labels; default: none, only check the scene and list objects.")
+        Path | None, Option("--gold", help="Gold labels; default: none, only check the scene and list objects.")
     ] = None,
     ontology: OntologyFile = None,
     output: ReportFolder = Path("kitchen_set_results"),

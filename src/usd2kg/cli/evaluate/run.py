@@ -4,7 +4,7 @@ import json as jsonlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Option
 
 from usd2kg.cli.grounder_session import open_session
 from usd2kg.cli.options.bundles import check_files, expand_bundles
@@ -24,15 +24,13 @@ __all__ = ["run_command"]
 @expand_bundles
 def run_command(
     scene: SceneFile,
-    gold: Annotated[Path, typer.Option("--gold", help="Gold labels: CSV path,class,also.")],
+    gold: Annotated[Path, Option("--gold", help="Gold labels: CSV path,class,also.")],
     grounding: GroundingOptions,
     ontology: OntologyFile = None,
     abbreviated_length: AbbreviatedLength = 4,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "--output", "-o", help="JSON file of the run, for eval compare and eval calibrate; default: none."
-        ),
+        Option("--output", "-o", help="JSON file of the run, for eval compare and eval calibrate; default: none."),
     ] = None,
     json: JsonOutput = False,
 ) -> None:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.output import emit, format_optional, format_table, notify, print_json
@@ -18,10 +18,9 @@ _SMALLEST_P = 0.0001
 
 def calibrate_command(
     runs: Annotated[
-        list[Path],
-        typer.Argument(metavar="RUN...", help="Runs of one grounder, written by usd2kg eval run --output."),
+        list[Path], Argument(metavar="RUN...", help="Runs of one grounder, written by usd2kg eval run --output.")
     ],
-    output: Annotated[Path, typer.Option("--output", "-o", help="Calibration to write, for --calibration.")],
+    output: Annotated[Path, Option("--output", "-o", help="Calibration to write, for --calibration.")],
 ) -> None:
     """Fit a calibration of a language model's confidence to its runs (Platt scaling).
 
@@ -51,8 +50,8 @@ def calibrate_command(
 
 
 def compare_command(
-    first: Annotated[Path, typer.Argument(metavar="A", help="Run written by usd2kg eval run --output.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Another run on the same scene and ontology.")],
+    first: Annotated[Path, Argument(metavar="A", help="Run written by usd2kg eval run --output.")],
+    second: Annotated[Path, Argument(metavar="B", help="Another run on the same scene and ontology.")],
     json: JsonOutput = False,
 ) -> None:
     """Compare two runs object by object, with McNemar's exact test."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Option
 
 from usd2kg.cli.options.bundles import OptionBundle
 
@@ -22,7 +22,7 @@ class SpatialOptions(OptionBundle):
 
     relation_kinds: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--relation-kinds",
             help="Comma-separated spatial relations to find: on, inside, above, below, touching, next-to, near, room, "
             "part-of, between, or all; default: all of these but between.",
@@ -30,7 +30,7 @@ class SpatialOptions(OptionBundle):
     ] = None
     relation_rules: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--relations",
             help="TOML file that overrides thresholds and class lists; default: the built-in rules, see "
             "docs/relations.md.",
@@ -38,7 +38,7 @@ class SpatialOptions(OptionBundle):
     ] = None
     viewpoint: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--viewpoint",
             help="Point x,y,z in metres, z up, from which left, right, front and behind are found, within 40 degrees; "
             "x,y,z,dx,dy,dz sets the viewing direction. Default: none, no such relations.",
@@ -68,7 +68,7 @@ class AnnotationOptions(OptionBundle):
 
     annotations: Annotated[
         str,
-        typer.Option(
+        Option(
             "--annotations",
             help="Annotation of statements with confidence and reason: owl, or rdf12 (RDF 1.2 triple terms, which OWL "
             "tools do not read).",
@@ -76,14 +76,14 @@ class AnnotationOptions(OptionBundle):
     ] = "owl"
     colors: Annotated[
         str,
-        typer.Option(
+        Option(
             "--colors",
             help="Colours in the soma profile: usd, or knowrob (as KnowRob reads them; inconsistent with SOMA).",
         ),
     ] = "usd"
     time_of_run: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--time-of-run",
             help="Time stamp of the graph: now, or ISO 8601 with a time zone; default: SOURCE_DATE_EPOCH if set, else "
             "none, so that the same input gives the same bytes.",

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Option
 
 from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.cli.options.model import MODEL_NAMES, ModelOptions
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["AbbreviatedLength", "GroundingOptions"]
 
 AbbreviatedLength = Annotated[
-    int, typer.Option("--abbreviated-length", min=1, help="Letters kept of each word in the abbreviated regime.")
+    int, Option("--abbreviated-length", min=1, help="Letters kept of each word in the abbreviated regime.")
 ]
 
 
@@ -26,7 +26,7 @@ class GroundingOptions(OptionBundle):
 
     grounder: Annotated[
         str,
-        typer.Option(
+        Option(
             "--grounder",
             help="Grounder: lexical, dictionary, embedding, volume, or a language model. llm-A:MODEL sends names, "
             "llm-B:MODEL context too, llm-C:MODEL asks for written reasoning first, llm-auto:MODEL chooses by each "
@@ -35,27 +35,23 @@ class GroundingOptions(OptionBundle):
     ] = "lexical"
     dictionary: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--dictionary", help="CSV file name,class for the dictionary grounder; default: the pairs of Multiverse."
         ),
     ] = None
     abstain: Annotated[
-        bool,
-        typer.Option("--abstain", help="Let the lexical grounder answer a superclass where its candidates are close."),
+        bool, Option("--abstain", help="Let the lexical grounder answer a superclass where its candidates are close.")
     ] = False
     class_sizes: Annotated[
         Path | None,
-        typer.Option(
-            "--class-sizes", help="CSV file of class sizes for the volume grounder; default: the built-in table."
-        ),
+        Option("--class-sizes", help="CSV file of class sizes for the volume grounder; default: the built-in table."),
     ] = None
     regime: Annotated[
-        str,
-        typer.Option("--regime", help="Naming regime: semantic, abbreviated, opaque or opaque-anonymous."),
+        str, Option("--regime", help="Naming regime: semantic, abbreviated, opaque or opaque-anonymous.")
     ] = "semantic"
     evidence: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--evidence",
             help="Comma-separated evidence groups to use: name, geometry, position, hierarchy, asset, materials, "
             "parts; default: all.",

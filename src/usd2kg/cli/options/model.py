@@ -5,7 +5,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Option
 
 from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.errors import GroundingError
@@ -23,10 +23,7 @@ MODEL_NAMES = (
 
 CompletionCacheFile = Annotated[
     Path | None,
-    typer.Option(
-        "--completions",
-        help="File of cached completions; default: $USD2KG_CACHE, else a file in the user's cache folder.",
-    ),
+    Option("--completions", help="Cache of completions; default: $USD2KG_CACHE, else in the user's cache folder."),
 ]
 
 
@@ -35,99 +32,81 @@ class ModelOptions(OptionBundle):
     """Prompts, sampling, limits and cache of a language model."""
 
     objects_per_prompt: Annotated[
-        int, typer.Option("--objects-per-prompt", min=1, help="Objects that one prompt asks about.")
+        int, Option("--objects-per-prompt", min=1, help="Objects that one prompt asks about.")
     ] = 1
     class_tree: Annotated[
-        bool, typer.Option("--class-tree", help="List the classes in the prompt as a tree instead of alphabetically.")
+        bool, Option("--class-tree", help="List the classes in the prompt as a tree instead of alphabetically.")
     ] = False
-    thinking: Annotated[bool, typer.Option("--thinking", help="Turn on the model's own reasoning.")] = False
+    thinking: Annotated[bool, Option("--thinking", help="Turn on the model's own reasoning.")] = False
     each_object: Annotated[
-        bool,
-        typer.Option("--each-object", help="Ask about each object; default: once for objects with the same evidence."),
+        bool, Option("--each-object", help="Ask about each object; default: once for objects with the same evidence.")
     ] = False
     more_evidence: Annotated[
-        bool,
-        typer.Option(
-            "--more-evidence", help="Add asset, labels, materials, parts and documentation of objects to the prompt."
-        ),
+        bool, Option("--more-evidence", help="Add asset, labels, materials, parts and documentation to the prompt.")
     ] = False
-    thumbnails: Annotated[
-        bool, typer.Option("--thumbnails", help="Add a rendered picture of each object to the prompt.")
-    ] = False
+    thumbnails: Annotated[bool, Option("--thumbnails", help="Add pictures of objects to the prompt.")] = False
     shuffle: Annotated[
-        int | None, typer.Option("--shuffle", help="Seed to shuffle the classes in the prompt; default: not shuffled.")
+        int | None, Option("--shuffle", help="Seed to shuffle the classes in the prompt; default: not shuffled.")
     ] = None
     shortlist: Annotated[
         int | None,
-        typer.Option(
-            "--shortlist",
-            min=1,
-            help="Number of classes to offer, those that the lexical grounder ranks highest; default: all.",
-        ),
+        Option("--shortlist", min=1, help="Number of classes to offer, by the lexical grounder's rank; default: all."),
     ] = None
     cascade: Annotated[
         float | None,
-        typer.Option(
+        Option(
             "--cascade",
             min=0,
             max=1,
-            help="Ask the model only where the confidence of the lexical grounder is below this; default: everywhere.",
+            help="Ask only where the lexical grounder's confidence is lower; default: everywhere.",
         ),
     ] = None
     samples: Annotated[
-        int, typer.Option("--samples", min=1, help="Completions per prompt; the majority class is the answer.")
+        int, Option("--samples", min=1, help="Completions per prompt; the majority class is the answer.")
     ] = 1
     first_sample: Annotated[
-        int,
-        typer.Option("--first-sample", min=0, help="Number of the first sample, to draw new samples in repeated runs."),
+        int, Option("--first-sample", min=0, help="Number of the first sample, to draw new samples in repeated runs.")
     ] = 0
     temperature: Annotated[
         float | None,
-        typer.Option(
-            "--temperature", min=0, max=2, help="Sampling temperature; default: 0, or 0.7 with several samples."
-        ),
+        Option("--temperature", min=0, max=2, help="Sampling temperature; default: 0, or 0.7 with several samples."),
     ] = None
     calibration: Annotated[
         Path | None,
-        typer.Option(
-            "--calibration",
-            help="File written by usd2kg eval calibrate, to calibrate the model's confidence; default: uncalibrated.",
+        Option(
+            "--calibration", help="Calibration written by usd2kg eval calibrate; default: confidence is uncalibrated."
         ),
     ] = None
     examples: Annotated[
-        int, typer.Option("--examples", min=0, help="Number of --decisions to show in the prompt as examples.")
+        int, Option("--examples", min=0, help="Number of --decisions to show in the prompt as examples.")
     ] = 0
     token_budget: Annotated[
-        int | None,
-        typer.Option("--token-budget", min=1, help="Tokens after which no request is sent; default: no limit."),
+        int | None, Option("--token-budget", min=1, help="Tokens after which no request is sent; default: no limit.")
     ] = None
     budget: Annotated[
-        float | None,
-        typer.Option("--budget", min=0, help="US dollars after which no request is sent; default: no limit."),
+        float | None, Option("--budget", min=0, help="US dollars after which no request is sent; default: no limit.")
     ] = None
     price: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--price",
             metavar="INPUT/OUTPUT",
-            help="US dollars per million input and output tokens; default: the list price, where known.",
+            help="US dollars per million tokens; default: the list price, where known.",
         ),
     ] = None
     concurrency: Annotated[
-        int, typer.Option("--concurrency", min=1, max=64, help="Prompts in progress at the same time.")
+        int, Option("--concurrency", min=1, max=64, help="Prompts in progress at the same time.")
     ] = 4
     requests_per_minute: Annotated[
-        int | None, typer.Option("--requests-per-minute", min=1, help="Requests per minute; default: no limit.")
+        int | None, Option("--requests-per-minute", min=1, help="Requests per minute; default: no limit.")
     ] = None
     completions: CompletionCacheFile = None
-    refresh: Annotated[
-        bool, typer.Option("--refresh", help="Request new completions instead of using cached ones.")
-    ] = False
+    refresh: Annotated[bool, Option("--refresh", help="Request new completions instead of using cached ones.")] = False
     replay: Annotated[
-        bool, typer.Option("--replay", help="Use cached completions only; needs no key and sends no request.")
+        bool, Option("--replay", help="Use cached completions only; needs no key and sends no request.")
     ] = False
     dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Print the prompts and their estimated tokens; send no request.")
+        bool, Option("--dry-run", help="Print the prompts and their estimated tokens; send no request.")
     ] = False
 
     def settings(self, grounder: str) -> "LLMSettings":

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Option
 
 from usd2kg.cli.options.bundles import OptionBundle
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 __all__ = ["MetresPerUnit", "StageOptions", "TimeCode", "UpAxis"]
 
 MetresPerUnit = Annotated[
-    float | None, typer.Option("--metres-per-unit", help="Metres per stage unit; default: as authored.")
+    float | None, Option("--metres-per-unit", help="Metres per stage unit; default: as authored.")
 ]
-UpAxis = Annotated[str | None, typer.Option("--up-axis", help="Up axis, Y or Z; default: as authored.")]
+UpAxis = Annotated[str | None, Option("--up-axis", help="Up axis, Y or Z; default: as authored.")]
 TimeCode = Annotated[
-    float | None, typer.Option("--time", help="Time code to read; default: the earliest sample of each attribute.")
+    float | None, Option("--time", help="Time code to read; default: the earliest sample of each attribute.")
 ]
 
 
@@ -30,33 +30,30 @@ class StageOptions(OptionBundle):
     up_axis: UpAxis = None
     time_code: TimeCode = None
     expand_instancers: Annotated[
-        bool, typer.Option("--expand-instancers", help="Make every instance of a point instancer an object.")
+        bool, Option("--expand-instancers", help="Make every instance of a point instancer an object.")
     ] = False
     include: Annotated[
         list[str] | None,
-        typer.Option(
-            "--include",
-            help="Path pattern (* within a name, ** across names): matching prims are objects. Repeatable.",
+        Option(
+            "--include", help="Path pattern (* within a name, ** across names): matching prims are objects. Repeatable."
         ),
     ] = None
     exclude: Annotated[
         list[str] | None,
-        typer.Option(
-            "--exclude", help="Path pattern: matching prims and their descendants are no objects. Repeatable."
-        ),
+        Option("--exclude", help="Path pattern: matching prims and their descendants are no objects. Repeatable."),
     ] = None
     kind: Annotated[
         list[str] | None,
-        typer.Option("--kind", help="Model kind of the prims that are objects; default: component. Repeatable."),
+        Option("--kind", help="Model kind of the prims that are objects; default: component. Repeatable."),
     ] = None
     objects: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--objects", help="CSV file with a column path: exactly these prims are objects; default: by the rules."
         ),
     ] = None
     every_prim: Annotated[
-        bool, typer.Option("--every-prim", help="Make every prim with geometry, its own or below it, an object.")
+        bool, Option("--every-prim", help="Make every prim with geometry, its own or below it, an object.")
     ] = False
 
     def read_options(self) -> "ReadOptions":

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 __all__ = [
     "DataAddress",
@@ -14,13 +14,11 @@ __all__ = [
     "UpdateAddress",
 ]
 
-_GRAPH = typer.Argument(
-    metavar="GRAPH", help="Graph written by usd2kg build, folder of a store, or URL of a SPARQL server."
-)
+_GRAPH = Argument(metavar="GRAPH", help="Graph written by usd2kg build, folder of a store, or URL of a SPARQL server.")
 GraphSource = Annotated[str, _GRAPH]
 OptionalGraphSource = Annotated[str | None, _GRAPH]
 
-_STORE = typer.Option(
+_STORE = Option(
     "--store",
     metavar="FOLDER|URL",
     help="Store of graphs: a folder, or the URL of a SPARQL 1.1 server. Credentials are read from the environment: "
@@ -30,19 +28,14 @@ RequiredStore = Annotated[str, _STORE]
 OptionalStore = Annotated[str | None, _STORE]
 SceneName = Annotated[
     str | None,
-    typer.Option(
-        "--scene",
-        metavar="NAME",
-        help="Scene of a store, by IRI, last part of the IRI, or label; default: all scenes.",
+    Option(
+        "--scene", metavar="NAME", help="Scene of a store, by IRI, last part of the IRI, or label; default: all scenes."
     ),
 ]
 UpdateAddress = Annotated[
-    str | None,
-    typer.Option("--store-update", metavar="URL", help="Update endpoint of the server; default: discovered."),
+    str | None, Option("--store-update", metavar="URL", help="Update endpoint of the server; default: discovered.")
 ]
 DataAddress = Annotated[
     str | None,
-    typer.Option(
-        "--store-data", metavar="URL", help="Graph Store Protocol endpoint of the server; default: discovered."
-    ),
+    Option("--store-data", metavar="URL", help="Graph Store Protocol endpoint of the server; default: discovered."),
 ]
