@@ -34,7 +34,7 @@ def draw_command(
     name = Path((scene or graph).rstrip("/#")).stem
     target = output or Path(f"{name}.svg")
     if target.suffix.lower() not in {".svg", ".png"}:
-        raise OutputError(f"{target}: expected a file name that ends in .svg or .png")
+        raise OutputError(f"{target}: expected a file name ending in .svg or .png")
     check_writable(target)
     check_apart([target], [graph])
     from usd2kg.diagrams import draw_room, draw_surroundings, to_png  # noqa: PLC0415

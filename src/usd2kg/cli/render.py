@@ -41,7 +41,7 @@ def render_command(
         raise OutputError("--context shows one object in its place; expected the PATH of an object after the scene")
     target = output or Path(f"{_file_name(path) if path else scene.stem}.png")
     if target.suffix.lower() != ".png":
-        raise OutputError(f"{target}: expected a file name that ends in .png")
+        raise OutputError(f"{target}: expected a file name ending in .png")
     check_writable(target)
     from usd2kg.render import Renderer  # noqa: PLC0415
     from usd2kg.scene import ReadOptions  # noqa: PLC0415 - loads OpenUSD, too slow for --help
