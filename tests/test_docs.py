@@ -1,4 +1,4 @@
-"""What the documents say is what the software does."""
+"""The documents agree with the software."""
 
 import doctest
 import subprocess
@@ -12,43 +12,43 @@ from tests.conftest import shared_file
 ROOT = Path(__file__).parents[1]
 
 
-def test_the_command_line_page_is_up_to_date() -> None:
+def test_cli_page_is_up_to_date() -> None:
     subprocess.run([sys.executable, "tools/write_cli_docs.py", "--check"], check=True, cwd=ROOT)
 
 
-def test_the_table_of_our_own_terms_is_what_the_ontology_says() -> None:
+def test_vocabulary_page_is_up_to_date() -> None:
     subprocess.run([sys.executable, "tools/write_vocabulary_docs.py", "--check"], check=True, cwd=ROOT)
 
 
-def test_the_answers_in_the_page_of_questions_are_those_of_the_demo_kitchen() -> None:
+def test_questions_page_is_up_to_date() -> None:
     subprocess.run([sys.executable, "tools/write_questions_docs.py", "--check"], check=True, cwd=ROOT)
 
 
 @pytest.mark.parametrize("command", ["make demo", "make test"])
-def test_the_readme_shows_how_to_start(command: str) -> None:
+def test_readme_shows_how_to_start(command: str) -> None:
     assert command in (ROOT / "README.md").read_text("utf-8")
 
 
-def test_the_readme_begins_with_what_a_build_says(tmp_path: Path) -> None:
+def test_readme_shows_the_output_of_build(tmp_path: Path) -> None:
     scene, graph = shared_file("scenes/aws_robomaker/small_house.usdc"), tmp_path / "house.ttl"
-    said = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-m", "usd2kg", "build", str(scene), "-o", str(graph)],
         check=True,
         capture_output=True,
         text=True,
     )
-    counted, confidence, relations, _written = (said.stdout + said.stderr).splitlines()
-    told = (ROOT / "README.md").read_text("utf-8")
-    # How many seconds it took is another matter.
+    counted, confidence, relations, _written = (done.stdout + done.stderr).splitlines()
+    readme = (ROOT / "README.md").read_text("utf-8")
+    # The duration after " in " varies.
     for line in (
         f"small_house.usdc:{counted.partition('small_house.usdc:')[2]}",
         confidence,
         relations.partition(" in ")[0],
     ):
-        assert f"\n{line}" in told
+        assert f"\n{line}" in readme
 
 
-def test_the_page_for_python_runs() -> None:
+def test_python_page_runs() -> None:
     flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
     done = doctest.testfile(
         str(ROOT / "docs" / "python.md"), module_relative=False, optionflags=flags, encoding="utf-8"

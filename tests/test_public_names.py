@@ -1,4 +1,4 @@
-"""The public names: few, listed, sorted, and all there."""
+"""`__all__` of every module: complete, sorted, without private names."""
 
 import ast
 import importlib
@@ -16,7 +16,7 @@ PACKAGES = [name for name in MODULES if hasattr(importlib.import_module(name), "
 
 
 def as_sorted(names: list[str]) -> list[str]:
-    """Return names as import sorters do: CONSTANTS, Classes, functions."""
+    """Return names in the order of import sorters: CONSTANTS, Classes, functions."""
     return sorted(names, key=lambda name: (0 if name.isupper() else 1 if name[0].isupper() else 2, name))
 
 
@@ -30,7 +30,7 @@ def syntax(module: ModuleType) -> ast.Module:
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_the_list_is_sorted_without_repeats_and_resolves(name: str):
+def test_all_is_sorted_and_resolves(name: str):
     module = importlib.import_module(name)
     names = listed(module)
     assert names == as_sorted(names)
@@ -40,7 +40,7 @@ def test_the_list_is_sorted_without_repeats_and_resolves(name: str):
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_every_public_function_and_class_is_listed(name: str):
+def test_all_lists_public_functions_and_classes(name: str):
     module = importlib.import_module(name)
     kinds = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
     defined = {node.name for node in syntax(module).body if isinstance(node, kinds) and not is_command(node)}
@@ -48,14 +48,14 @@ def test_every_public_function_and_class_is_listed(name: str):
 
 
 def is_command(node: ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) -> bool:
-    """Return whether a function is public by its name on the command line only."""
+    """Return whether a function is a command, which no module imports."""
     return any(ast.unparse(decorator).startswith("app.command(") for decorator in node.decorator_list)
 
 
 @pytest.mark.parametrize("name", [name for name in PACKAGES if name != "usd2kg"])
-def test_a_package_lists_what_it_gathers_from_its_modules(name: str):
+def test_all_of_a_package_lists_its_imports(name: str):
     module = importlib.import_module(name)
-    # Names that load when they are used are imported for type checkers only.
+    # Lazily loaded names are imported under TYPE_CHECKING.
     blocks = [syntax(module).body, *(node.body for node in syntax(module).body if isinstance(node, ast.If))]
     gathered = {
         alias.asname or alias.name
@@ -64,7 +64,7 @@ def test_a_package_lists_what_it_gathers_from_its_modules(name: str):
         for alias in node.names
     }
     defined = {node.name for node in syntax(module).body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
-    # A package of commands lists what it hangs them on.
+    # Command packages also list their Typer app.
     defined |= {
         target.id
         for node in syntax(module).body
@@ -75,7 +75,7 @@ def test_a_package_lists_what_it_gathers_from_its_modules(name: str):
     assert set(listed(module)) == gathered | {item for item in defined if not item.startswith("_")}
 
 
-def test_the_top_level_names_are_those_of_their_packages():
+def test_top_level_names_come_from_their_packages():
     for public in usd2kg.__all__:
         found = getattr(usd2kg, public)
         home = importlib.import_module(found.__module__.rpartition(".")[0])
@@ -84,14 +84,14 @@ def test_the_top_level_names_are_those_of_their_packages():
     assert as_sorted(usd2kg.__all__) == usd2kg.__all__
 
 
-def test_every_lazy_name_is_listed_and_every_listed_name_is_typed():
-    # Type checkers read the imports under TYPE_CHECKING, Python the table: they must not part.
+def test_lazy_names_are_typed():
+    # Type checkers read the imports under TYPE_CHECKING, Python reads the table of lazy names.
     (block,) = [node for node in syntax(usd2kg).body if isinstance(node, ast.If)]
     typed = {alias.name for node in block.body if isinstance(node, ast.ImportFrom) for alias in node.names}
     assert typed == set(usd2kg.__all__)
 
 
 @pytest.mark.parametrize("name", ["usd2kg", "usd2kg.scene"])
-def test_an_unknown_name_is_an_attribute_error(name: str):
+def test_unknown_name_is_an_attribute_error(name: str):
     with pytest.raises(AttributeError, match=f"module '{name}' has no attribute 'biuld'"):
         importlib.import_module(name).biuld  # noqa: B018

@@ -1,78 +1,55 @@
-"""Write docs/cli.md from the commands' own help texts.
+"""Write docs/cli.md from the help texts of all commands.
 
 Usage: python tools/write_cli_docs.py [--check]
 """
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
+import typer
 from typer.testing import CliRunner
 
 from usd2kg.cli.app import app
 
 OUTPUT = Path(__file__).parent.parent / "docs/cli.md"
-COMMANDS = (
-    (),
-    ("build",),
-    ("inspect",),
-    ("ground",),
-    ("query",),
-    ("validate",),
-    ("label",),
-    ("label", "write"),
-    ("label", "lint"),
-    ("graph",),
-    ("graph", "draw"),
-    ("render",),
-    ("serve",),
-    ("store",),
-    ("store", "load"),
-    ("store", "list"),
-    ("store", "remove"),
-    ("store", "update"),
-    ("ontology",),
-    ("ontology", "show"),
-    ("ontology", "linearize"),
-    ("ontology", "scope"),
-    ("ontology", "vocabulary"),
-    ("ontology", "shapes"),
-    ("eval",),
-    ("eval", "run"),
-    ("eval", "reproduce"),
-    ("eval", "compare"),
-    ("eval", "annotate"),
-    ("eval", "agreement"),
-    ("eval", "kitchen-set"),
-    ("demo",),
-)
 INTRODUCTION = """\
 # Command line
 
-Written by `tools/write_cli_docs.py` from the help texts. Data goes to stdout, talk and progress to stderr.
+Written by `tools/write_cli_docs.py` from the help texts. Data goes to stdout, messages and progress go to stderr.
 
 | exit code | meaning |
 | --- | --- |
-| 0 | done |
-| 2 | wrong usage, or an input or output that cannot be used; one line on stderr says which and what to do |
+| 0 | success |
+| 1 | `validate`, `label lint` or `ontology check` has findings, or `diff` has differences |
+| 2 | wrong usage, or an input or output cannot be used; one line on stderr states what to do |
+| 130 | `ground` was interrupted; the mapping has the objects that were grounded before |
 """
+
+
+def command_names(command: object, names: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Yield the names of a command and of all its subcommands, in the order of the help text."""
+    yield names
+    for name, subcommand in getattr(command, "commands", {}).items():
+        yield from command_names(subcommand, (*names, name))
 
 
 def page() -> str:
     """Return the page."""
     sections = [INTRODUCTION]
-    for command in COMMANDS:
-        result = CliRunner().invoke(app, [*command, "--help"], prog_name="usd2kg", env={"COLUMNS": "100"})
+    for names in command_names(typer.main.get_command(app)):
+        result = CliRunner().invoke(app, [*names, "--help"], prog_name="usd2kg", env={"COLUMNS": "100"})
         if result.exit_code:
-            raise SystemExit(f"{command}: {result.output}")
-        sections.append(f"## usd2kg {' '.join(command)}".rstrip() + f"\n\n```text\n{result.output.strip()}\n```\n")
+            raise SystemExit(f"{' '.join(names)}: {result.output}")
+        sections.append(f"## {' '.join(['usd2kg', *names])}\n\n```text\n{result.output.strip()}\n```\n")
     return "\n".join(sections)
 
 
 def main() -> None:
-    """Write the page, or check that it is what would be written."""
+    """Write the page, or check that it is up to date."""
     if "--check" in sys.argv:
         if OUTPUT.read_text("utf-8") != page():
-            raise SystemExit(f"{OUTPUT} is not what the help texts say; run python tools/write_cli_docs.py")
+            raise SystemExit(f"{OUTPUT} differs from the help texts; run python tools/write_cli_docs.py")
         return
     OUTPUT.write_text(page(), "utf-8")
 

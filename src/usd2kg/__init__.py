@@ -1,4 +1,4 @@
-"""usd2kg: from an OpenUSD scene to a knowledge graph.
+"""Turn an OpenUSD scene into an OWL knowledge graph.
 
 >>> import usd2kg
 >>> usd2kg.__all__[:3]
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from usd2kg.scene import Scene, read_scene
     from usd2kg.tables import Tables, to_tables
 
-_HOMES = {
+_PACKAGES = {
     "BuildResult": "pipeline",
     "Grounding": "grounding",
     "KnowledgeGraph": "graph",
@@ -67,9 +67,9 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version  # noqa: PLC0415
 
         return version("usd2kg")
-    # Names load when they are used: `usd2kg --help` must not wait for OpenUSD.
-    if name not in _HOMES:
+    # Lazy loading, so that `usd2kg --help` does not load OpenUSD.
+    if name not in _PACKAGES:
         raise AttributeError(f"module 'usd2kg' has no attribute {name!r}")
     from importlib import import_module  # noqa: PLC0415
 
-    return getattr(import_module(f"usd2kg.{_HOMES[name]}"), name)
+    return getattr(import_module(f"usd2kg.{_PACKAGES[name]}"), name)

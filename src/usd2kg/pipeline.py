@@ -1,4 +1,4 @@
-"""build: the whole chain, scene + ontology → knowledge graph."""
+"""The whole pipeline: scene + ontology → knowledge graph."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ __all__ = ["BuildResult", "build", "open_tbox"]
 
 @dataclass(frozen=True)
 class BuildResult:
-    """The record of each step."""
+    """The result of each step."""
 
     scene: Scene
     tbox: TBox
@@ -40,7 +40,7 @@ def build(
     relations: RelationOptions | None = None,
     merges_imports: bool = False,
 ) -> BuildResult:
-    """Return the knowledge graph of a USD scene, with the records of all steps.
+    """Return the knowledge graph of a USD scene, with the results of all steps.
 
     Args:
         scene: root layer of a stage, or a scene that is already read.
@@ -50,16 +50,16 @@ def build(
         evidence: names of the evidence groups to use; default: all.
         paths: prims to treat as objects, regardless of the selection rules; only if the scene is read here.
         decisions: prim path → class that a person chose.
-        carried: prim path → origin of a decision that was made for another path.
-        base: base IRI of individuals.
-        profile: auto, soma or plain.
-        options: overrides for reading the stage; only if the scene is read here.
-        graph_options: options for writing the graph.
+        carried: prim path → origin of a decision that was made for another prim path.
+        base: namespace of the individuals, ending in `/` or `#`; default: derived from the file name.
+        profile: modelling pattern: auto, soma or plain.
+        options: units, time code and object selection; only if the scene is read here.
+        graph_options: annotations, colours and time stamp of the graph.
         relations: kinds, rules and viewpoint of spatial relations; default: the default kinds with the built-in rules.
         merges_imports: include the ontology, its imports and the usd2kg vocabulary in the graph.
 
     Raises:
-        Usd2kgError: an input cannot be read.
+        Usd2kgError: an input cannot be read, or an option is invalid.
     """
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)

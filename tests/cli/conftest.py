@@ -1,4 +1,4 @@
-"""A small stage, and the command line run in this process, as quickly as a function."""
+"""A small stage, and a function that runs the command line in this process."""
 
 import sys
 from collections.abc import Callable
@@ -13,7 +13,7 @@ Run = Callable[..., "Finished"]
 
 
 class Finished(NamedTuple):
-    """What a command left behind."""
+    """Exit code and output of a command."""
 
     code: int
     out: str
@@ -22,7 +22,7 @@ class Finished(NamedTuple):
 
 @pytest.fixture
 def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
-    """A function that runs `usd2kg` with arguments, in an empty folder; it sees what lands on the terminal."""
+    """Return a function that runs `usd2kg` with arguments in an empty folder."""
     folder = tmp_path / "here"
     folder.mkdir()
     monkeypatch.chdir(folder)
@@ -67,13 +67,13 @@ ROOM = (
 
 @pytest.fixture
 def room(write_stage: Callable[..., Path]) -> Path:
-    """A table with a mug and a bowl on it, an apple in the bowl, and a camera."""
+    """Return a stage: a table with a mug and a bowl on it, an apple in the bowl, and a camera."""
     return write_stage(ROOM, "room.usda")
 
 
 @pytest.fixture
 def graph(run: Run, room: Path) -> Path:
-    """The graph of the room."""
+    """Return the graph of the room."""
     path = room.parent / "room.ttl"
     assert run("build", room, "-o", path).code == 0
     return path

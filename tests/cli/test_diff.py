@@ -1,4 +1,4 @@
-"""usd2kg diff and usd2kg build --previous: what a person reads, what a program reads, and the exit codes."""
+"""usd2kg diff and the decisions that usd2kg build --previous carries over."""
 
 import json
 from collections.abc import Callable
@@ -14,7 +14,7 @@ WriteStage = Callable[..., Path]
 
 @pytest.fixture
 def edited(write_stage: WriteStage) -> Path:
-    """The room with another name for the mug, the apple gone, and the bowl 20 cm aside."""
+    """Return the room with the mug renamed, the apple removed, and the bowl moved by 20 cm."""
     renamed = ROOM.replace("coffee_mug", "teaMug")
     start, end = (renamed.index(text) for text in ('    def Xform "Apple"', '    def Camera "view"'))
     text = renamed[:start] + renamed[end:]
@@ -25,21 +25,21 @@ def edited(write_stage: WriteStage) -> Path:
     return write_stage(text, "edited.usda")
 
 
-def test_two_scenes(run: Run, room: Path, edited: Path) -> None:
+def test_prints_changes_of_two_scenes(run: Run, room: Path, edited: Path) -> None:
     done = run("diff", room, edited)
     assert done.code == 1
     assert done.err == ""
     lines = done.out.splitlines()
     assert lines[0] == f"{room} → {edited}"
-    assert "Removed, 1 thing" in lines
+    assert "Removed, 1 object" in lines
     assert "  /Room/coffee_mug → /Room/teaMug (cup): renamed: same size, same class, in place" in lines
     assert any(line.startswith("  /Room/FruitBowl (bowl): 0.20 m, from ") for line in lines)
-    assert lines[-1] == "4 things before, 3 now: 1 removed, 1 renamed, 1 moved; 1 the same"
+    assert lines[-1] == "4 objects before, 3 after: 1 removed, 1 renamed, 1 moved; 1 unchanged"
 
 
-def test_a_scene_and_itself_as_text_json_and_update(run: Run, room: Path) -> None:
+def test_reports_no_change_in_every_format(run: Run, room: Path) -> None:
     done = run("diff", room, room)
-    assert (done.code, done.out.splitlines()[-1]) == (0, "no thing differs: 4 things")
+    assert (done.code, done.out.splitlines()[-1]) == (0, "no changes in 4 objects")
     done = run("diff", room, room, "--json", "--no-ground")
     assert done.code == 0
     assert json.loads(done.out)["changed"] == []
@@ -48,7 +48,7 @@ def test_a_scene_and_itself_as_text_json_and_update(run: Run, room: Path) -> Non
     assert "0 statements deleted, 0 inserted" in done.err
 
 
-def test_json_gives_pairs_of_iris(run: Run, graph: Path, edited: Path) -> None:
+def test_json_has_pairs_of_iris(run: Run, graph: Path, edited: Path) -> None:
     done = run("diff", graph, edited, "--json")
     assert done.code == 1
     data = json.loads(done.out)
@@ -63,7 +63,7 @@ def test_json_gives_pairs_of_iris(run: Run, graph: Path, edited: Path) -> None:
 
 
 @pytest.mark.parametrize("profile", ["soma", "plain"])
-def test_the_update_turns_the_old_store_into_the_new(run: Run, room: Path, edited: Path, profile: str) -> None:
+def test_update_turns_the_old_store_into_the_new(run: Run, room: Path, edited: Path, profile: str) -> None:
     for scene in (room, edited):
         options = ("--base", "https://my.lab/k/", "--profile", profile, "-o", f"{scene.stem}.ttl")
         assert run("build", scene, *options).code == 0
@@ -80,44 +80,44 @@ def test_the_update_turns_the_old_store_into_the_new(run: Run, room: Path, edite
     assert both[0] == both[1]
 
 
-def test_a_scene_is_written_as_the_graph_it_is_compared_with(run: Run, room: Path) -> None:
+def test_builds_a_stage_like_the_graph_it_is_compared_with(run: Run, room: Path) -> None:
     assert run("build", room, "--profile", "plain", "--annotations", "rdf12", "-o", "room.ttl").code == 0
     assert run("diff", "room.ttl", room, "--format", "sparql").code == 0
 
 
-def test_other_bases_are_told(run: Run, room: Path, edited: Path) -> None:
+def test_reports_different_bases(run: Run, room: Path, edited: Path) -> None:
     for scene in (room, edited):
         assert run("build", scene, "-o", f"{scene.stem}.ttl").code == 0
-    assert "4 things before, 3 now" in run("diff", "room.ttl", "edited.ttl").out
-    told = run("diff", "room.ttl", "edited.ttl", "--format", "sparql").err
-    assert "base: the individuals lie under <https://example.org/room/> and <https://example.org/edited/>" in told
+    assert "4 objects before, 3 after" in run("diff", "room.ttl", "edited.ttl").out
+    message = run("diff", "room.ttl", "edited.ttl", "--format", "sparql").err
+    assert "base: the namespaces of the individuals differ, <https://example.org/room/> and <https" in message
 
 
-def test_classes_of_one_side_only_are_told(run: Run, graph: Path, room: Path) -> None:
+def test_reports_versions_without_classes(run: Run, graph: Path, room: Path) -> None:
     done = run("diff", graph, room, "--no-ground", "--relations", "none")
-    assert (done.code, done.out.splitlines()[-1]) == (0, "no thing differs: 4 things")
-    assert "classes: only one side has any" in done.err
+    assert (done.code, done.out.splitlines()[-1]) == (0, "no changes in 4 objects")
+    assert "classes: only one version has classes" in done.err
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "message"),
     [
         (["--format", "xml"], "format 'xml' is unknown; expected one of text, json, sparql"),
-        (["--graph", "https://my.lab/g"], "--graph is about the update; expected it with --format sparql"),
+        (["--graph", "https://my.lab/g"], "--graph names the graph of an update; use it with --format sparql"),
         (["--graph", "g", "--format", "sparql"], "graph 'g' is no absolute IRI"),
         (["--relations", "on,under"], "relations: kind 'under' is unknown; expected a list of on, inside"),
         (["--moved", "-1"], "moved m -1.0: expected a number that is not negative"),
         (["-o", "no/such/file"], "the folder no/such does not exist"),
     ],
 )
-def test_wrong_usage(run: Run, graph: Path, options: list[str], told: str) -> None:
+def test_rejects_invalid_options(run: Run, graph: Path, options: list[str], message: str) -> None:
     done = run("diff", graph, graph, *options)
     assert done.code == 2
-    assert told in done.err
+    assert message in done.err
     assert done.err.count("\n") == 1
 
 
-def test_many_changes_are_cut_and_shown_on_request(run: Run, write_stage: WriteStage) -> None:
+def test_limits_changes_of_a_kind_without_all(run: Run, write_stage: WriteStage) -> None:
     def scene(name: str, shift: float) -> Path:
         cubes = "".join(
             f'def Cube "Cup_{i}" ( kind = "component" ) {{\ndouble size = 0.1\n double3 xformOp:translate = '
@@ -134,18 +134,18 @@ def test_many_changes_are_cut_and_shown_on_request(run: Run, write_stage: WriteS
     assert whole.out.count(" m, from ") == 30
 
 
-def test_decisions_go_with_what_was_renamed(run: Run, room: Path, edited: Path) -> None:
+def test_carries_decisions_over_to_renamed_objects(run: Run, room: Path, edited: Path) -> None:
     Path("decisions.csv").write_text("path,decision\n/Room/coffee_mug,Bowl\n/Room/Apple,Cup\n/Room/Table_1,Table\n")
     files = ("--unplaced", "unplaced.csv", "--carried", "carried.csv")
     done = run("build", edited, "-o", "edited.ttl", "--decisions", "decisions.csv", "--previous", room, *files)
     assert done.code == 0
-    told = done.err.splitlines()
-    assert "decision: /Room/coffee_mug → /Room/teaMug (renamed: same size, in place)" in told
-    assert any(line.startswith("decision not placed: /Room/Apple <") for line in told)
-    assert "3 decisions: 1 kept, 1 carried over, 1 not placed" in told
+    messages = done.err.splitlines()
+    assert "decision: /Room/coffee_mug → /Room/teaMug (renamed: same size, in place)" in messages
+    assert any(line.startswith("decision not placed: /Room/Apple <") for line in messages)
+    assert "3 decisions: 1 kept, 1 carried over, 1 not placed" in messages
     assert 'decidedFor "/Room/coffee_mug"' in Path("edited.ttl").read_text("utf-8")
     assert Path("unplaced.csv").read_text().splitlines()[1].startswith("/Room/Apple,http")
-    # From now on the carried decisions do without the scene before.
+    # The carried decisions need no earlier scene.
     again = run("build", edited, "-o", "again.ttl", "--decisions", "carried.csv")
     assert again.code == 0
     same = run("diff", "edited.ttl", "again.ttl")
@@ -156,19 +156,19 @@ def test_decisions_go_with_what_was_renamed(run: Run, room: Path, edited: Path) 
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "message"),
     [
-        (["--previous", "old.ttl"], "--previous is about decisions of a person; say where they are with --decisions"),
-        (["--unplaced", "lost.csv"], "--unplaced and --carried need the scene before; say where with --previous OLD"),
+        (["--previous", "old.ttl"], "--previous needs decisions of a person; name their file with --decisions"),
+        (["--unplaced", "lost.csv"], "--unplaced and --carried need the earlier scene; name it with --previous OLD"),
     ],
 )
-def test_previous_needs_decisions(run: Run, room: Path, options: list[str], told: str) -> None:
+def test_previous_needs_decisions(run: Run, room: Path, options: list[str], message: str) -> None:
     done = run("build", room, *options)
     assert done.code == 2
-    assert told in done.err
+    assert message in done.err
 
 
-def test_a_packed_graph_is_compared(run: Run, graph: Path):
+def test_reads_a_compressed_graph(run: Run, graph: Path):
     packed = graph.parent / "packed.ttl.gz"
     run("graph", "convert", graph, "-o", packed)
     assert run("diff", graph, packed).code == 0

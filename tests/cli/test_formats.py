@@ -1,4 +1,4 @@
-"""Formats on the command line: mapping files, graphs in other formats, property graphs."""
+"""Formats of mappings and graphs, and the export to property graphs."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from usd2kg.query import load_graph
 
 
 class TestGround:
-    def test_sssom_is_written_and_read_back_as_decisions(self, run: Run, room: Path):
+    def test_sssom_reads_back_as_decisions(self, run: Run, room: Path):
         first = run("ground", room, "--format", "sssom", "--base", "https://my.lab/k/", "-o", "m.sssom.tsv")
         assert (first.code, first.out) == (0, "")
         path = Path("m.sssom.tsv")
@@ -30,7 +30,7 @@ class TestGround:
         assert "/Room/coffee_mug,http://www.ease-crc.org/ont/SOMA.owl#Bowl,bowl,1.0000,reviewed,person" in second.out
         assert second.out.count(",reviewed,") == 1
 
-    def test_the_ending_chooses_the_format(self, run: Run, room: Path):
+    def test_file_ending_selects_the_format(self, run: Run, room: Path):
         for name in ("m.json", "m.TSV", "m.csv", "m.txt"):
             assert run("ground", room, "-o", name).code == 0
         assert read_grounding(Path("m.json")).by_path["/Room/coffee_mug"].explanation
@@ -38,16 +38,16 @@ class TestGround:
         for name in ("m.csv", "m.txt"):
             assert Path(name).read_text("utf-8").startswith("path,class,label,")
 
-    def test_a_format_that_is_asked_for_goes_before_the_ending(self, run: Run, room: Path):
+    def test_format_option_overrides_the_ending(self, run: Run, room: Path):
         assert run("ground", room, "--format", "csv", "-o", "m.json").code == 0
         assert Path("m.json").read_text("utf-8").startswith("path,class,label,")
 
-    def test_options_of_sssom_alone_are_refused_elsewhere(self, run: Run, room: Path):
+    def test_rejects_sssom_options_with_other_formats(self, run: Run, room: Path):
         done = run("ground", room, "--license", "https://x.org/l")
         assert done.code == 2
-        assert "belong to --format sssom" in done.err
+        assert "need --format sssom" in done.err
 
-    def test_an_unknown_format_names_all(self, run: Run, room: Path):
+    def test_rejects_an_unknown_format(self, run: Run, room: Path):
         done = run("ground", room, "--format", "xml")
         assert done.code == 2
         assert "expected one of csv, json, or sssom with usd2kg ground" in done.err
@@ -55,13 +55,13 @@ class TestGround:
 
 class TestBuild:
     @pytest.mark.parametrize("name", ["g.trig", "g.nq", "g.rdf", "g.jsonld", "g.ttl.gz"])
-    def test_questions_are_answered_from_any_format_of_rdf(self, run: Run, room: Path, name: str):
+    def test_every_rdf_format_can_be_queried(self, run: Run, room: Path, name: str):
         assert run("build", room, "-o", name).code == 0
         assert load_graph(Path(name)).ask(["in", "bowl"]).rows[0][0] == "Apple"
 
 
 class TestConvert:
-    def test_there_and_back_is_the_same_file(self, run: Run, graph: Path):
+    def test_round_trip_gives_the_same_bytes(self, run: Run, graph: Path):
         for source, target in (("g.ttl", "g.nq"), ("g.nq", "g.rdf"), ("g.rdf", "again.ttl")):
             done = run("graph", "convert", graph if source == "g.ttl" else source, "-o", target)
             assert (done.code, done.out) == (0, "")
@@ -83,7 +83,7 @@ class TestConvert:
             (None, "none/g.nt", "the folder none does not exist"),
         ],
     )
-    def test_errors_are_one_line(self, run: Run, graph: Path, source: str | None, target: str, message: str):
+    def test_rejects_invalid_files(self, run: Run, graph: Path, source: str | None, target: str, message: str):
         done = run("graph", "convert", source or graph, "-o", target)
         assert done.code == 2
         assert message in done.err
@@ -91,19 +91,19 @@ class TestConvert:
 
 
 class TestExport:
-    def test_neo4j_gets_three_files(self, run: Run, graph: Path):
+    def test_writes_three_files_for_neo4j(self, run: Run, graph: Path):
         done = run("graph", "export", graph, "--to", "neo4j", "-o", "out")
         assert done.code == 0
         assert "4 nodes and" in done.err
         assert sorted(path.name for path in Path("out").iterdir()) == ["load.cypher", "nodes.csv", "relationships.csv"]
         assert ",Thing;Object;" in Path("out/nodes.csv").read_text("utf-8")
 
-    def test_another_database_is_an_error(self, run: Run, graph: Path):
+    def test_rejects_another_database(self, run: Run, graph: Path):
         done = run("graph", "export", graph, "--to", "oracle")
         assert done.code == 2
         assert "expected neo4j" in done.err
 
-    def test_a_file_in_place_of_the_folder_is_an_error(self, run: Run, graph: Path):
+    def test_rejects_a_file_as_output_folder(self, run: Run, graph: Path):
         done = run("graph", "export", graph, "-o", graph)
         assert done.code == 2
         assert "is not a folder" in done.err
@@ -115,7 +115,7 @@ class TestExport:
 
 
 @pytest.mark.parametrize(
-    ("ending", "told"),
+    ("ending", "reason"),
     [
         (
             ".ofn",
@@ -124,7 +124,7 @@ class TestExport:
         (".graphml", "graphs are not read from GraphML, an export format"),
     ],
 )
-def test_what_is_written_only_is_refused_with_its_readers(run: Run, graph: Path, ending: str, told: str):
+def test_rejects_export_formats_as_input(run: Run, graph: Path, ending: str, reason: str):
     other = graph.with_suffix(ending)
     assert run("graph", "convert", graph, "-o", other).code == 0
     convert = ["graph", "convert", other, "-o", "x.ttl"]
@@ -132,10 +132,10 @@ def test_what_is_written_only_is_refused_with_its_readers(run: Run, graph: Path,
     for command in (["validate", other], ["query", other, "where is", "Table_1"], ["diff", other, graph], convert):
         done = run(*command)
         assert done.code == 2
-        assert done.err == f"usd2kg: {other}: {told}; expected the same graph as one of {endings}\n"
+        assert done.err == f"usd2kg: {other}: {reason}; expected the same graph as one of {endings}\n"
 
 
-def test_functional_syntax_is_read_for_its_classes(run: Run, graph: Path):
+def test_reads_classes_from_functional_syntax(run: Run, graph: Path):
     other = graph.with_suffix(".ofn")
     run("graph", "convert", graph, "-o", other)
     done = run("ontology", "show", other)

@@ -1,4 +1,4 @@
-"""usd2kg inspect: shapes, what is counted, all that is known of one object, and diagnostics that say the same."""
+"""usd2kg inspect: shapes, counts, the properties of one object, and similar diagnostics."""
 
 import json
 from itertools import takewhile
@@ -37,7 +37,7 @@ HINGE = prim(
 
 @pytest.fixture
 def kitchen(write_stage):
-    """A cupboard with a labelled, painted body and a door on a hinge; a drawer that is an open box; an empty thing."""
+    """Return a stage: a labelled cupboard with a hinged door, a stool, and an object without geometry."""
     paint = prim("Cube", "board", "double size = 2", BOUND, meta=[BINDS])
     made = 'custom string maker = "Oak and Sons"'
     cupboard = rigid(
@@ -51,7 +51,7 @@ def kitchen(write_stage):
 
 
 class TestShapes:
-    def test_columns(self, run: Run, kitchen):
+    def test_adds_columns(self, run: Run, kitchen):
         done = run("inspect", kitchen, "--shapes")
         assert (done.code, done.err) == (0, "")
         header, cupboard, *_ = done.out.splitlines()
@@ -61,7 +61,7 @@ class TestShapes:
         assert " 8000 " in cupboard
         assert " 0.81 " in cupboard
 
-    def test_json_has_a_shape_with_units_in_its_keys(self, run: Run, kitchen):
+    def test_json_has_shapes(self, run: Run, kitchen):
         objects = {
             item["path"]: item for item in json.loads(run("inspect", kitchen, "--shapes", "--json").out)["objects"]
         }
@@ -70,11 +70,11 @@ class TestShapes:
         assert shape["capacity_m3"] == 0
         assert objects["/Room/Lost"]["shape"] is None
 
-    def test_none_unless_asked_for(self, run: Run, kitchen):
+    def test_are_not_measured_by_default(self, run: Run, kitchen):
         assert "tight box" not in run("inspect", kitchen).out
         assert all("shape" not in item for item in json.loads(run("inspect", kitchen, "--json").out)["objects"])
 
-    def test_what_holds_water(self, run: Run, write_stage):
+    def test_measures_the_capacity_of_a_vessel(self, run: Run, write_stage):
         walls = [
             prim(
                 "Cube",
@@ -99,20 +99,20 @@ class TestShapes:
         assert shape["capacity_m3"] == pytest.approx(0.8 * 0.8 * 0.9, rel=0.03)
         assert " litres of water as it stands, openness 0.5" in run("inspect", scene, "--why", "/Tub").out
 
-    def test_a_note_is_there_once(self, run: Run, kitchen):
+    def test_does_not_repeat_diagnostics(self, run: Run, kitchen):
         notes = json.loads(run("inspect", kitchen, "--shapes", "--json").out)["diagnostics"]
         assert len({json.dumps(note) for note in notes}) == len(notes)
 
 
 class TestCounts:
-    def test_labels_joints_and_texts(self, run: Run, kitchen):
-        # The label of the room is inherited by all four objects, and is one label.
+    def test_counts_labels_joints_and_texts(self, run: Run, kitchen):
+        # All four objects inherit the label of the room; it counts once.
         assert (
             "also read: 3 labels on 4 objects (3 UsdSemantics), 1 joint (1 revolute), 1 text on 1 object; "
             "--why PATH shows those of one object\n"
         ) in run("inspect", kitchen).out
 
-    def test_variants(self, run: Run, write_stage):
+    def test_counts_variants(self, run: Run, write_stage):
         cup = 'def Xform "Cup" ( kind = "component"\nvariants = { string size = "big" }\n' + (
             'prepend variantSets = "size" )\n{ def Cube "c" {}\nvariantSet "size" = {\n"big" {}\n"small" {}\n}\n}\n'
         )
@@ -120,10 +120,10 @@ class TestCounts:
         assert "also read: 1 chosen variant on 1 object;" in run("inspect", scene).out
         assert "variants   size = big\n" in run("inspect", scene, "--why", "/Cup").out
 
-    def test_nothing_of_the_kind(self, run: Run, room):
+    def test_prints_no_counts_of_zero(self, run: Run, room):
         assert "also read" not in run("inspect", room).out
 
-    def test_long_lists_of_parts_are_cut_in_the_table_only(self, run: Run, write_stage):
+    def test_shortens_lists_of_parts_in_the_table_only(self, run: Run, write_stage):
         scene = write_stage(METRES + component("Shelf", *(cube(f"board_{i}", at=(0, 0, 2 * i)) for i in range(9))))
         assert "board_5, … (9 in all)" in run("inspect", scene).out
         assert "board_5, board_6, board_7, board_8\n" in run("inspect", scene, "--why", "/Shelf").out
@@ -132,22 +132,22 @@ class TestCounts:
 class TestWhy:
     @pytest.fixture
     def rows(self, run: Run, kitchen):
-        """A function that returns the first line on a path and the rows below, by what they say."""
+        """Return a function from a prim path to the first line and the rows by property."""
 
         def read(path):
             done = run("inspect", kitchen, "--why", path)
             assert (done.code, done.err) == (0, "")
             first, _, *lines = done.out.splitlines()
             width = next(i for i, c in enumerate(lines[0]) if i > len("name") and c != " ")
-            found, what = {}, ""
+            found, name = {}, ""
             for line in lines:
-                what = line[:width].strip() or what
-                found.setdefault(what, []).append(line[width:])
+                name = line[:width].strip() or name
+                found.setdefault(name, []).append(line[width:])
             return first, found
 
         return read
 
-    def test_all_that_is_known(self, rows):
+    def test_shows_all_properties(self, rows):
         first, found = rows("/Room/Cupboard")
         assert first == "/Room/Cupboard is an object: rigid body"
         assert found["name"] == ["Cupboard"]
@@ -167,36 +167,36 @@ class TestWhy:
         assert found["volume"] == ["8000 litres enclosed, 8000 litres in its convex hull"]
         assert found["holds"] == ["no water as it stands"]
 
-    def test_from_the_side_of_what_moves(self, rows):
+    def test_describes_a_joint_from_either_object(self, rows):
         joint = rows("/Room/Cupboard_Door")[1]["joints"]
         assert joint == [
             "revolute: it moves against /Room/Cupboard, about a vertical axis, from 0° to 90° (joint /Room/hinge)"
         ]
 
-    def test_object_without_geometry(self, rows):
+    def test_shows_an_object_without_geometry(self, rows):
         found = rows("/Room/Lost")[1]
         assert found["box"] == ["no geometry"]
         assert any(note.startswith("empty-box: ") for note in found["note"])
         assert "tight box" not in found
 
-    def test_prim_that_is_no_object(self, run: Run, kitchen):
+    def test_explains_a_prim_that_is_no_object(self, run: Run, kitchen):
         done = run("inspect", kitchen, "--why", "/Room/Cupboard/board")
         assert done.code == 0
         assert done.out.count("\n") == 1
         assert done.out.startswith("/Room/Cupboard/board is no object: ")
 
-    def test_stage_without_objects(self, run: Run, write_stage):
+    def test_explains_a_prim_on_a_stage_without_objects(self, run: Run, write_stage):
         done = run("inspect", write_stage('def Camera "view" {}\n'), "--why", "/view")
         assert (done.code, done.err) == (0, "")
         assert done.out.startswith("/view is no object: ")
 
     @pytest.mark.parametrize("path", ["/Nowhere", "/Room/Cupboard[0]"])
-    def test_no_such_prim(self, run: Run, kitchen, path):
+    def test_rejects_an_unknown_prim(self, run: Run, kitchen, path):
         done = run("inspect", kitchen, "--why", path)
         assert (done.code, done.out) == (2, "")
         assert path in done.err
 
-    def test_copy_of_a_point_instancer(self, run: Run, write_stage):
+    def test_shows_an_instance_of_a_point_instancer(self, run: Run, write_stage):
         instancer = prim(
             "PointInstancer",
             "I",
@@ -210,7 +210,7 @@ class TestWhy:
         assert done.code == 0
         assert "centre at 5.00 0.00 0.00 m" in done.out
 
-    def test_json(self, run: Run, kitchen):
+    def test_prints_json(self, run: Run, kitchen):
         data = json.loads(run("inspect", kitchen, "--why", "/Room/Cupboard_Door", "--json").out)
         assert (data["path"], data["why"]) == ("/Room/Cupboard_Door", "/Room/Cupboard_Door is an object: rigid body")
         assert data["object"]["shape"]["volume_m3"] == pytest.approx(1)
@@ -222,7 +222,7 @@ class TestWhy:
 class TestDiagnostics:
     @pytest.fixture
     def broken(self, write_stage):
-        """A function that writes a stage with cups, each with a placeholder for a label and without the schema."""
+        """Return a function that writes a stage with cups whose labels are the taxonomy name."""
 
         def write(count):
             cups = (component(f"Cup{i}", cube("c", at=(2 * i, 0, 0)), f'{LABELLED}"class"]') for i in range(count))
@@ -235,7 +235,7 @@ class TestDiagnostics:
         first = next(i for i, line in enumerate(lines) if "a name of a taxonomy" in line)
         return list(takewhile(lambda line: "is not applied" not in line, lines[first:]))
 
-    def test_those_that_say_the_same_are_told_three_times(self, run: Run, broken):
+    def test_shows_three_similar_diagnostics(self, run: Run, broken):
         scene = broken(12)
         lines = self.label_lines(run, scene)
         assert [line.split()[1] for line in lines[:3]] == ["/Cup0", "/Cup1", "/Cup2"]
@@ -245,14 +245,14 @@ class TestDiagnostics:
         assert len([note for note in notes if "a name of a taxonomy" in note["message"]]) == 12
 
     @pytest.mark.parametrize("count", [1, 3, 4])
-    def test_few_are_all_told(self, run: Run, broken, count):
+    def test_shows_up_to_four_similar_diagnostics(self, run: Run, broken, count):
         lines = self.label_lines(run, broken(count))
         assert len(lines) == count
         assert not any("more like it" in line for line in lines)
 
 
 class TestUntrustedText:
-    def test_nothing_steers_the_terminal(self, run: Run, write_stage):
+    def test_replaces_control_characters(self, run: Run, write_stage):
         meta = ['displayName = "a\\x1b[2Jb\\nc"', 'doc = "\\x07d\u202ee"', 'kind = "x\\x1b]0;y"']
         scene = write_stage(METRES + component("Cup", cube("c"), f'{LABELLED}"\\x1b[31mred"]', meta=meta))
         for arguments in ((), ("--why", "/Cup"), ("--shapes",)):
@@ -261,7 +261,7 @@ class TestUntrustedText:
             assert all(c.isprintable() or c == "\n" for c in done.out + done.err)
             assert not any(line.startswith("c") for line in done.out.splitlines())
 
-    def test_json_escapes_what_steers_a_terminal_and_keeps_the_text(self, run: Run, write_stage):
+    def test_json_escapes_control_characters(self, run: Run, write_stage):
         name = "a\x9b2Jb\u202ec"
         scene = write_stage(METRES + component("Cup", cube("c"), meta=[f'displayName = "{name}"']))
         done = run("inspect", scene, "--json")

@@ -1,4 +1,4 @@
-"""usd2kg label: layers from runs, the messages about them, and the linter's exit codes."""
+"""usd2kg label: layers from runs, reports, and the exit codes of the linter."""
 
 import json
 from pathlib import Path
@@ -24,7 +24,7 @@ def classes(path: Path) -> dict[str, list[str]]:
     return {prim: list(attribute.Get()) for prim, attribute in found.items() if attribute}
 
 
-def test_a_scene_and_its_mapping(run: Run, room: Path, mapping: Path):
+def test_writes_labels_of_a_mapping(run: Run, room: Path, mapping: Path):
     before = room.read_bytes()
     done = run("label", room, mapping)
     assert (done.code, done.out) == (0, "")
@@ -35,7 +35,7 @@ def test_a_scene_and_its_mapping(run: Run, room: Path, mapping: Path):
 
 
 @pytest.mark.parametrize("kind", ["json", "ttl"])
-def test_other_runs_give_the_same_layer(run: Run, room: Path, mapping: Path, kind: str):
+def test_every_kind_of_run_gives_the_same_layer(run: Run, room: Path, mapping: Path, kind: str):
     other = room.parent / f"room.{kind}"
     if kind == "json":
         run("ground", room, "--format", "json", "-o", other)
@@ -46,7 +46,7 @@ def test_other_runs_give_the_same_layer(run: Run, room: Path, mapping: Path, kin
     assert classes(Path("a.usda")) == classes(Path("b.usda"))
 
 
-def test_what_gets_no_label_is_told_with_the_reason(run: Run, room: Path):
+def test_reports_why_prims_get_no_label(run: Run, room: Path):
     chosen = room.parent / "some.csv"
     chosen.write_text(
         "path,class,confidence,status\n/Room/Table_1,Table,0.4,grounded\n/Room/coffee_mug,,,refused\n"
@@ -66,7 +66,7 @@ def test_what_gets_no_label_is_told_with_the_reason(run: Run, room: Path):
     assert report["prims"][0] == {"prim_path": "/Room/Apple", "outcome": "written", "reason": ""}
 
 
-def test_options_of_the_layer(run: Run, room: Path, mapping: Path):
+def test_writes_names_ancestors_and_encodings_as_asked(run: Run, room: Path, mapping: Path):
     done = run("label", "write", room, mapping, "--names", "snake", "--ancestors", "--bare", "-o", "x.usda",
                "--encoding", "semantics,isaac,multiverse")  # fmt: skip
     assert done.code == 0
@@ -77,7 +77,7 @@ def test_options_of_the_layer(run: Run, room: Path, mapping: Path):
     assert 'string rdf:conceptName = "Table"' in text
 
 
-def test_a_second_run_keeps_overwrites_or_completes(run: Run, room: Path, mapping: Path):
+def test_modes_keep_replace_or_complete_labels(run: Run, room: Path, mapping: Path):
     run("label", room, mapping, "-o", "a.usda")
     other = room.parent / "other.csv"
     other.write_text("path,class\n/Room/Table_1,Bottle\n")
@@ -96,33 +96,33 @@ def test_a_second_run_keeps_overwrites_or_completes(run: Run, room: Path, mappin
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--encoding", "rdf"], "--encoding rdf: expected some of semantics, isaac, multiverse"),
+        (["--encoding", "rdf"], "--encoding rdf: expected a comma-separated list of semantics, isaac, multiverse"),
         (["--mode", "append"], "--mode append: expected one of new, overwrite, skip"),
         (["--names", "camel"], "class names 'camel' are unknown; expected one of local, label, snake"),
         (["-o", "x.usdz"], "a layer of labels ends in one of .usda, .usdc, .usd"),
         (["-o", "none/x.usda"], "the folder none does not exist"),
     ],
 )
-def test_wrong_options(run: Run, room: Path, mapping: Path, arguments: list[str], message: str):
+def test_rejects_invalid_options(run: Run, room: Path, mapping: Path, arguments: list[str], message: str):
     done = run("label", room, mapping, *arguments)
     assert (done.code, done.out) == (2, "")
     assert message in done.err
     assert done.err.count("\n") == 1
 
 
-def test_the_source_is_refused_as_output(run: Run, room: Path, mapping: Path):
+def test_rejects_the_source_as_output(run: Run, room: Path, mapping: Path):
     done = run("label", room, mapping, "-o", room)
     assert done.code == 2
     assert "is an input, too, and would be overwritten" in done.err
 
 
-def test_files_that_are_not_there(run: Run, room: Path, mapping: Path):
+def test_rejects_missing_files(run: Run, room: Path, mapping: Path):
     assert "no such file" in run("label", "none.usda", mapping).err
     assert run("label", room, "none.csv").code == 2
     assert run("label", "lint", "none.usda").code == 2
 
 
-def test_the_demo_kitchen_labelled_by_its_gold(run: Run):
+def test_labels_the_demo_kitchen_by_its_gold(run: Run):
     done = run("label", demo_scene(), demo_gold(), "-o", "k.usda", "--encoding", "semantics,isaac,multiverse")
     assert done.code == 0
     assert done.err.startswith("294 prims: 294 written\n")
@@ -130,7 +130,7 @@ def test_the_demo_kitchen_labelled_by_its_gold(run: Run):
     assert run("label", "lint", "k.usda").out == "0 findings on 294 labelled prims\n"
 
 
-def test_the_house_labelled_by_its_own_grounding(run: Run):
+def test_labels_a_house_by_its_grounding(run: Run):
     house = shared_file("scenes/aws_robomaker/small_house.usdc")
     assert run("ground", house, "-o", "house.csv").code == 0
     done = run("label", house, "house.csv", "--at-least", "0.8", "-o", "house.usda", "--ancestors")

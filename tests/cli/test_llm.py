@@ -1,4 +1,4 @@
-"""usd2kg ground --grounder llm-B:MODEL: a language model behind a real local server."""
+"""Language models on the command line, behind a local server."""
 
 import csv
 import io
@@ -42,7 +42,7 @@ def cup(count: int = 1) -> str:
     return json.dumps({str(number): {"class": "Cup"} for number in range(1, count + 1)})
 
 
-def test_a_model_grounds_a_scene_and_a_rerun_costs_nothing(run: Run, kitchen: Path):
+def test_rerun_uses_cached_completions(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
         model = f"llm-B:openai:test@{server.url}/v1"
         first = run("ground", kitchen, "--grounder", model)
@@ -51,14 +51,14 @@ def test_a_model_grounds_a_scene_and_a_rerun_costs_nothing(run: Run, kitchen: Pa
     assert first.code == again.code == 0
     assert classes(first.out) == {f"/Kitchen/{name}": "Cup" for name in ("mug_1", "mug_2", "jar")}
     assert again.out == first.out
-    # The mugs differ in a number alone.
+    # The two mugs have the same evidence.
     assert asked == len(server.received) == 2
-    assert "2 completions asked for, 0 known before" in first.err
-    assert "0 completions asked for, 2 known before" in again.err
+    assert "2 new completions, 0 cached" in first.err
+    assert "0 new completions, 2 cached" in again.err
     assert KEY not in first.out + first.err
 
 
-def test_the_schema_on_the_wire_offers_the_classes_of_the_ontology_alone(run: Run, kitchen: Path):
+def test_response_schema_offers_only_classes_of_the_ontology(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
         run("ground", kitchen, "--grounder", f"llm-c:openai:test@{server.url}/v1")
         body = server.received[0].body
@@ -69,14 +69,14 @@ def test_the_schema_on_the_wire_offers_the_classes_of_the_ontology_alone(run: Ru
     assert body["temperature"] == 0
 
 
-def test_many_objects_in_a_prompt_save_prompts(run: Run, kitchen: Path):
+def test_one_prompt_can_ask_about_several_objects(run: Run, kitchen: Path):
     with serve(openai_reply(cup(2))) as server:
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--objects-per-prompt", "10")
         assert len(server.received) == 1
     assert set(classes(done.out).values()) == {"Cup"}
 
 
-def test_a_dry_run_prints_prompts_and_asks_nobody(run: Run, kitchen: Path):
+def test_dry_run_prints_prompts_without_requests(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--dry-run")
         assert server.received == []
@@ -87,9 +87,9 @@ def test_a_dry_run_prints_prompts_and_asks_nobody(run: Run, kitchen: Path):
 
 
 class TestPrice:
-    """The server counts 100 tokens in and 7 out for each of two prompts."""
+    """Two prompts, each with 100 input and 7 output tokens by the count of the server."""
 
-    def test_a_stated_price_is_told(self, run: Run, kitchen: Path):
+    def test_reports_cost_at_the_given_price(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             first = run("ground", kitchen, "--grounder", model, "--price", "10/100")
@@ -98,12 +98,12 @@ class TestPrice:
         assert "14 output tokens, $0.0034, " in first.err
         assert "0 output tokens, $0, " in again.err
 
-    def test_a_server_of_ones_own_has_none(self, run: Run, kitchen: Path):
+    def test_price_of_a_private_server_is_unknown(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             done = run("ground", kitchen, "--grounder", f"llm-A:openai:gpt-4o@{server.url}/v1")
         assert "14 output tokens, price unknown, " in done.err
 
-    def test_a_budget_that_is_spent_asks_nothing(self, run: Run, kitchen: Path):
+    def test_spent_budget_sends_no_request(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             done = run("ground", kitchen, "--grounder", model, "--price", "10/100", "--budget", "0", "--format", "json")
@@ -112,7 +112,7 @@ class TestPrice:
         assert done.code == 0
         assert {p["explanation"] for p in found} == {"not asked: $0 are spent of a budget of $0; raise --budget"}
 
-    def test_a_budget_stops_and_keeps_what_is_done(self, run: Run, kitchen: Path):
+    def test_budget_stops_the_run_and_keeps_its_results(self, run: Run, kitchen: Path):
         options = ("--each-object", "--price", "10/100", "--budget", "0.001", "--concurrency", "1")
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
@@ -121,10 +121,10 @@ class TestPrice:
         found = json.loads(done.out)["predictions"]
         assert done.code == 0
         assert [p["status"] for p in found].count("grounded") == 1
-        told = "not asked: $0.0017 are spent of a budget of $0.0010; raise --budget"
-        assert [p["explanation"] for p in found].count(told) == 2
+        explanation = "not asked: $0.0017 are spent of a budget of $0.0010; raise --budget"
+        assert [p["explanation"] for p in found].count(explanation) == 2
 
-    def test_a_budget_without_a_price_is_told(self, run: Run, kitchen: Path):
+    def test_rejects_a_budget_without_price(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             done = run("ground", kitchen, "--grounder", model, "--budget", "1")
@@ -132,14 +132,14 @@ class TestPrice:
         assert (done.code, done.out) == (2, "")
         assert "its price is not known; expected one for --budget, state it with --price INPUT/OUTPUT" in done.err
 
-    def test_a_dry_run_estimates_it(self, run: Run, kitchen: Path):
+    def test_dry_run_estimates_the_list_price(self, run: Run, kitchen: Path):
         done = run("ground", kitchen, "--grounder", "llm-A:google:gemini-2.5-flash", "--dry-run")
-        told = re.search(r"about ([\d,]+) input tokens \(.*\) and (\d+) output tokens, about \$(0\.\d{4})$", done.err)
-        assert told is not None
-        paid_in, paid_out = (int(told[group].replace(",", "")) for group in (1, 2))
-        assert float(told[3]) == pytest.approx((0.30 * paid_in + 2.50 * paid_out) / 1e6, abs=0.0001)
+        found = re.search(r"about ([\d,]+) input tokens \(.*\) and (\d+) output tokens, about \$(0\.\d{4})$", done.err)
+        assert found is not None
+        paid_in, paid_out = (int(found[group].replace(",", "")) for group in (1, 2))
+        assert float(found[3]) == pytest.approx((0.30 * paid_in + 2.50 * paid_out) / 1e6, abs=0.0001)
 
-    def test_a_dry_run_takes_a_stated_price(self, run: Run, kitchen: Path):
+    def test_dry_run_uses_the_given_price(self, run: Run, kitchen: Path):
         model = "llm-A:openai:test@http://localhost:1/v1"
         unknown = run("ground", kitchen, "--grounder", model, "--dry-run")
         stated = run("ground", kitchen, "--grounder", model, "--dry-run", "--price", "0/1000000")
@@ -150,48 +150,48 @@ class TestPrice:
 
 
 class TestTraffic:
-    def test_requests_and_waits_are_told(self, run: Run, kitchen: Path):
+    def test_reports_requests_and_waits(self, run: Run, kitchen: Path):
         with serve(refuse(429, "slow down", Retry_After="0"), openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             done = run("ground", kitchen, "--grounder", model, "--concurrency", "1")
-        assert "; 3 requests sent, 1 of them again, 1 waits of 0.0 s in all; " in done.err
+        assert "; 3 requests sent, 1 retries, 1 waits of 0.0 s in total; " in done.err
 
-    def test_a_rate_spaces_them(self, run: Run, kitchen: Path):
+    def test_limits_the_request_rate(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             done = run("ground", kitchen, "--grounder", model, "--requests-per-minute", "600", "--each-object")
-        # A tenth of a second and two, less what it took to get there.
-        assert re.search(r"; 3 requests sent, 0 of them again, [12] waits of 0\.[123] s in all; ", done.err)
+        # The second and third request are due after 0.1 s and 0.2 s.
+        assert re.search(r"; 3 requests sent, 0 retries, [12] waits of 0\.[123] s in total; ", done.err)
 
     @pytest.mark.parametrize("most", [1, 3])
-    def test_no_more_are_on_their_way_at_once_than_said(self, run: Run, kitchen: Path, most: int):
+    def test_limits_concurrent_requests(self, run: Run, kitchen: Path, most: int):
         with serve(replace(openai_reply(cup()), pause_s=0.05)) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             run("ground", kitchen, "--grounder", model, "--each-object", "--concurrency", str(most))
             assert server.most_at_once == most
 
-    def test_a_replay_sends_nothing(self, run: Run, kitchen: Path):
+    def test_replay_sends_no_request(self, run: Run, kitchen: Path):
         done = run("ground", kitchen, "--grounder", "llm-A:openai:gpt-4o", "--replay")
-        assert "; 0 requests sent, 0 of them again, 0 waits of 0.0 s in all; " in done.err
+        assert "; 0 requests sent, 0 retries, 0 waits of 0.0 s in total; " in done.err
 
 
-def test_a_model_that_loops_is_cut_off_and_its_tokens_are_told_as_estimated(run: Run, kitchen: Path):
+def test_cuts_off_a_degenerate_completion_and_estimates_its_tokens(run: Run, kitchen: Path):
     with serve(Reply(events=lambda: openai_events(repeat("la la la ")))) as server:
         done = run("ground", kitchen, "--grounder", f"llm-A:openai:test@{server.url}/v1", "--format", "json")
     assert {found["status"] for found in json.loads(done.out)["predictions"]} == {"unreadable"}
-    # Two prompts and their repairs.
+    # Two prompts and a repair of each.
     assert "2 repairs, 4 degenerate" in done.err
     assert re.search(r" output tokens \([0-9,]+ of all estimated\), ", done.err)
 
 
-def test_confidence_is_what_the_server_tells_of_the_class(run: Run, kitchen: Path):
+def test_confidence_is_the_probability_of_the_class_tokens(run: Run, kitchen: Path):
     tokens = [('{"1": {"class": "', -0.5), ("C", -0.25), ("up", -0.25), ('"}}', -0.5)]
     with serve(openai_reply(cup(), tokens=tokens)) as server:
         done = run("ground", kitchen, "--grounder", f"llm-A:openai:test@{server.url}/v1", "--format", "json")
     assert {found["confidence"] for found in json.loads(done.out)["predictions"]} == {0.6065}
 
 
-def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run, kitchen: Path):
+def test_reports_a_server_error_for_each_object(run: Run, kitchen: Path):
     with serve(refuse(401, f"bad key {KEY}")) as server:
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--format", "json")
     predictions = json.loads(done.out)["predictions"]
@@ -202,27 +202,28 @@ def test_a_server_that_refuses_fails_the_objects_and_says_why_once_each(run: Run
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "message"),
     [
         (("--grounder", "llm-B:nobody:model"), "expected google:NAME, anthropic:NAME or openai:NAME"),
         (
             ("--grounder", "llm-D:openai:x@http://localhost:1/v1"),
             "expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or llm-auto:MODEL",
         ),
-        (("--dry-run",), "--dry-run is about asking a model; say which one with --grounder"),
-        (("--budget", "0"), "--budget is about asking a model; say which one with --grounder"),
-        (("--price", "1/2"), "--price is about asking a model; say which one with --grounder"),
+        (("--dry-run",), "--dry-run needs a language model; name one with --grounder"),
+        (("--cascade", "0.5"), "--cascade needs a language model; name one with --grounder"),
+        (("--budget", "0"), "--budget needs a language model; name one with --grounder"),
+        (("--price", "1/2"), "--price needs a language model; name one with --grounder"),
         (("--grounder", "llm-A:openai:x@http://localhost:1/v1", "--price", "1"), "--price '1': no two prices in it"),
     ],
 )
-def test_what_cannot_be_asked_is_told_before_anything_is_read(run: Run, kitchen: Path, arguments, told: str):
+def test_rejects_invalid_model_options(run: Run, kitchen: Path, arguments, message: str):
     done = run("ground", kitchen, *arguments)
     assert done.code == 2
-    assert told in done.err
+    assert message in done.err
     assert done.out == ""
 
 
-def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, write_stage):
+def test_cascade_asks_only_about_uncertain_objects(run: Run, write_stage):
     things = component("Cup", cube("mesh", size=0.1)), component("xqzv", cube("mesh", size=7))
     scene = write_stage(xform("Kitchen", *things))
     with serve(openai_reply(json.dumps({"1": {"class": "Bowl"}}))) as server:
@@ -236,7 +237,7 @@ def test_a_cascade_asks_only_what_the_embedded_grounder_is_unsure_of(run: Run, w
     assert [line.split()[:2] for line in done.err.splitlines()[1:3]] == [["lexical", "1"], ["llm", "1"]]
 
 
-def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
+def test_shortlist_limits_the_offered_classes(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
         model = f"llm-B:openai:test@{server.url}/v1"
         run("ground", kitchen, "--grounder", model, "--shortlist", "3")
@@ -246,7 +247,7 @@ def test_a_shortlist_offers_few_classes(run: Run, kitchen: Path):
     assert all("DesignedArtifact" in names and len(names) < 25 for names in offered)
 
 
-def test_a_recording_is_replayed_without_key_or_server(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):
+def test_replays_a_recording_without_key_or_server(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):
     with serve(openai_reply(cup())) as server:
         model = f"llm-B:openai:test@{server.url}/v1"
         first = run("ground", kitchen, "--grounder", model)
@@ -263,13 +264,7 @@ def test_a_recording_is_replayed_without_key_or_server(run: Run, kitchen: Path, 
     assert any("is not kept; leave out --replay" in text for text in explanations)
 
 
-def test_a_cascade_without_a_model_is_told(run: Run, kitchen: Path):
-    done = run("ground", kitchen, "--cascade", "0.5")
-    assert (done.code, done.out) == (2, "")
-    assert "--cascade is about asking a model; say which one with --grounder" in done.err
-
-
-def test_building_and_scoring_take_a_model_too(run: Run, kitchen: Path):
+def test_build_and_eval_run_accept_a_model(run: Run, kitchen: Path):
     Path("gold.csv").write_text("path,class,also\n/Kitchen/mug_1,Cup,\n/Kitchen/jar,Jar,\n", "utf-8")
     with serve(openai_reply(cup())) as server:
         model = f"llm-B:openai:test@{server.url}/v1"
@@ -289,22 +284,22 @@ def test_building_and_scoring_take_a_model_too(run: Run, kitchen: Path):
         ("llm:openai:x", ("openai:x", Strategy.CONTEXT)),
     ],
 )
-def test_a_grounder_is_named_by_strategy_and_model(name: str, expected: tuple[str, Strategy]):
+def test_parses_strategy_and_model(name: str, expected: tuple[str, Strategy]):
     assert parse_llm_name(name) == expected
 
 
 @pytest.mark.parametrize("name", ["llm-D:openai:x", "llm-AB:openai:x", "llm-B:", "llm-B"])
-def test_other_names_are_refused(name: str):
+def test_rejects_other_grounder_names(name: str):
     with pytest.raises(GroundingError, match="expected llm-A:MODEL"):
         parse_llm_name(name)
 
 
-def test_what_a_person_decides_is_asked_no_more_and_shown_as_examples(run: Run, kitchen: Path, tmp_path: Path):
+def test_decided_objects_become_examples(run: Run, kitchen: Path, tmp_path: Path):
     queue, filled = tmp_path / "queue.csv", tmp_path / "filled.csv"
     with serve(*repeat(openai_reply(cup()), 5)) as server:
         model = ("--grounder", f"llm-B:openai:test@{server.url}/v1")
         first = run("ground", kitchen, *model, "--queue", queue, "--person", "1")
-        assert "3 objects wait for a person" in first.err
+        assert "3 objects to review in" in first.err
         rows = list(csv.DictReader(queue.read_text("utf-8").splitlines()))
         assert {row["answer"] for row in rows} == {"Cup"}
         text = queue.read_text("utf-8").replace("/Kitchen/jar,,", "/Kitchen/jar,Jar,")
@@ -314,12 +309,12 @@ def test_what_a_person_decides_is_asked_no_more_and_shown_as_examples(run: Run, 
         (request,) = server.received
     assert classes(second.out)["/Kitchen/jar"] == "Jar"
     assert [line.split()[:2] for line in second.err.splitlines()[1:3]] == [["llm", "2"], ["person", "1"]]
-    told = request.body["messages"][0]["content"]
-    assert 'example 1\nname: "jar"' in told
-    assert "class: Jar\n</examples>" in told
+    prompt = request.body["messages"][0]["content"]
+    assert 'example 1\nname: "jar"' in prompt
+    assert "class: Jar\n</examples>" in prompt
 
 
-def test_pictures_are_sent_to_a_model_that_sees(run: Run, kitchen: Path):
+def test_sends_thumbnails(run: Run, kitchen: Path):
     with serve(*repeat(openai_reply(cup()), 2)) as server:
         run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--thumbnails")
         parts = server.received[0].body["messages"][-1]["content"]
@@ -328,7 +323,7 @@ def test_pictures_are_sent_to_a_model_that_sees(run: Run, kitchen: Path):
     assert urls[0].startswith("data:image/png;base64,iVBOR")
 
 
-def test_several_samples_vote(run: Run, kitchen: Path):
+def test_majority_of_samples_wins(run: Run, kitchen: Path):
     said = [openai_reply(json.dumps({"1": {"class": name}})) for name in ("Bowl", "Cup", "Cup")]
     with serve(*said, *said) as server:
         model = f"llm-A:openai:test@{server.url}/v1"
@@ -338,7 +333,7 @@ def test_several_samples_vote(run: Run, kitchen: Path):
     assert set(confidences.values()) == {0.6667} or set(confidences.values()) == {2 / 3}
 
 
-def test_build_takes_the_same_options(run: Run, kitchen: Path, tmp_path: Path):
+def test_build_reads_decisions_and_rejects_dry_run(run: Run, kitchen: Path, tmp_path: Path):
     decided = tmp_path / "decided.csv"
     decided.write_text("path,class\n/Kitchen/jar,Bowl\n", "utf-8")
     done = run("build", kitchen, "--decisions", decided, "-o", tmp_path / "graph.ttl")
@@ -349,10 +344,10 @@ def test_build_takes_the_same_options(run: Run, kitchen: Path, tmp_path: Path):
     assert any(str(row["c"].value).endswith("#Bowl") for row in kinds)
     refused = run("build", kitchen, "--grounder", "llm-B:openai:x@http://localhost:1/v1", "--dry-run")
     assert refused.code == 2
-    assert "expected it with usd2kg ground" in refused.err
+    assert "use it with usd2kg ground" in refused.err
 
 
-def test_a_cascade_is_scored_by_tier_and_a_model_calibrated(run: Run, write_stage, tmp_path: Path):
+def test_scores_tiers_and_calibrates_a_model(run: Run, write_stage, tmp_path: Path):
     classes_of = {
         f"{word}_{letter}": cls for letter in "abcdefghijkl" for word, cls in (("cup", "Cup"), ("xqzv", "Bowl"))
     }

@@ -1,16 +1,15 @@
-"""The program as a process: help that answers at once, exit codes, pipes."""
+"""The command as a process: help, exit codes, pipes."""
 
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import Run
 
-# Exits with the names of the heavy modules that asking for help has loaded.
+# Prints the names of the heavy modules that --help loads.
 HELP = """
 import sys
 from usd2kg.cli.app import main
@@ -36,45 +35,20 @@ def process(*arguments: object, code: str | None = None, **options: object) -> s
 
 
 @pytest.mark.parametrize("command", [[], ["build"], ["ground"], ["ontology", "show"]])
-def test_help_loads_nothing_heavy(command: list[str]):
+def test_help_loads_no_heavy_module(command: list[str]):
     done = process(*command, code=HELP)
     assert done.returncode == 0
     assert "Usage: usd2kg" in done.stdout
     assert done.stdout.splitlines()[-1] == "LOADED []"
 
 
-def test_help_answers_at_once():
-    # Well under half a second where nothing else runs; two are allowed for a busy machine.
-    start = time.perf_counter()
-    done = process("--help")
-    assert time.perf_counter() - start < 2
-    assert done.returncode == 0
-    for command in ("build", "inspect", "ground", "query", "demo", "ontology"):
-        assert f"  {command} " in done.stdout
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["build"],
-        ["inspect"],
-        ["ground"],
-        ["query"],
-        ["demo"],
-        ["ontology"],
-        ["ontology", "show"],
-        ["ontology", "scope"],
-        ["ontology", "linearize"],
-    ],
-)
-def test_every_command_has_help(run: Run, command: list[str]):
-    done = run(*command, "--help")
+def test_short_and_long_help_option_are_the_same(run: Run):
+    done = run("build", "--help")
     assert (done.code, done.err) == (0, "")
-    assert f"usd2kg {' '.join(command)} " in done.out.splitlines()[0]
-    assert run(*command, "-h") == done
+    assert run("build", "-h") == done
 
 
-def test_exit_codes_of_the_process(room: Path, tmp_path: Path):
+def test_process_exit_codes(room: Path, tmp_path: Path):
     good = process("build", room, "-o", tmp_path / "room.ttl")
     assert (good.returncode, good.stdout) == (0, "")
     assert (tmp_path / "room.ttl").is_file()
@@ -84,8 +58,8 @@ def test_exit_codes_of_the_process(room: Path, tmp_path: Path):
     assert not (tmp_path / "none.ttl").exists()
 
 
-def test_openusd_does_not_write_on_the_terminal(write_stage, tmp_path: Path):
-    # A missing reference and an unknown schema: OpenUSD warns, and we say so in our own words.
+def test_openusd_warnings_become_diagnostics(write_stage, tmp_path: Path):
+    # OpenUSD warns about a missing reference and an unknown schema.
     scene = write_stage(
         'def Xform "a" ( kind = "component"\n references = @none.usda@ )\n'
         '{\n    def Cube "c" {}\n    def Nonsense "d" {}\n}\n'
@@ -96,7 +70,7 @@ def test_openusd_does_not_write_on_the_terminal(write_stage, tmp_path: Path):
     assert "diagnostics" in done.stderr
 
 
-def test_a_reader_that_has_enough_is_no_error(room: Path):
+def test_closed_pipe_is_no_error(room: Path):
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "wb") as closed:
@@ -112,11 +86,12 @@ def test_a_reader_that_has_enough_is_no_error(room: Path):
     assert done.stderr == ""
 
 
-def test_output_is_utf_8_whatever_the_locale(room: Path, tmp_path: Path):
+def test_output_is_utf_8_in_every_locale(room: Path, tmp_path: Path):
     scene = tmp_path / "küche.usda"
     scene.write_bytes(room.read_bytes().replace(b"Room", "Küche".encode()))
-    # As on a bare server or in a container.
-    environment = {key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG", "PYTHON"))}
+    environment = {
+        key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG", "PYTHONIO", "PYTHONUTF8"))
+    }
     environment["LC_ALL"] = "C"
     done = subprocess.run(
         [sys.executable, "-m", "usd2kg", "ground", str(scene)],

@@ -1,4 +1,4 @@
-"""Stores from the command line."""
+"""usd2kg store, and the commands that read a store."""
 
 import json
 from pathlib import Path
@@ -10,20 +10,20 @@ from tests.cli.conftest import Run
 
 @pytest.fixture
 def folder(run: Run, room: Path) -> Path:
-    """A store with the room, and the ontology beside it."""
+    """Return a store with the room and its ontology."""
     place = room.parent / "store"
     done = run("build", room, "--store", place, "--merge-imports")
     assert done.code == 0, done.err
-    assert f"{place}: holds <https://example.org/room>" in done.err
+    assert f"{place}: loaded <https://example.org/room>" in done.err
     assert f"written to {place}" in done.err
     return place
 
 
-def test_a_build_into_a_store_writes_no_file(folder: Path):
+def test_build_into_a_store_writes_no_file(folder: Path):
     assert [path.name for path in Path().iterdir()] == []
 
 
-def test_what_a_store_holds_is_listed(run: Run, folder: Path):
+def test_lists_scenes_and_ontologies(run: Run, folder: Path):
     rows = json.loads(run("store", "list", "--store", folder, "--json").out)
     assert [(row["name"], row["kind"], row["objects"]) for row in rows] == [
         ("room", "scene", 4),
@@ -32,7 +32,7 @@ def test_what_a_store_holds_is_listed(run: Run, folder: Path):
     assert run("store", "list", "--store", folder).out.splitlines()[1].split()[:3] == ["room", "scene", "4"]
 
 
-def test_a_store_is_asked_checked_and_drawn(run: Run, folder: Path, graph: Path):
+def test_query_validate_and_draw_read_a_store(run: Run, folder: Path, graph: Path):
     assert run("store", "remove", "SOMA-HOME.owl", "--store", folder).code == 0
     for question in (["on", "Table_1"], ["--sparql", "SELECT ?p { ?o u2k:primPath ?p } ORDER BY ?p"]):
         asked = run("query", folder, *question)
@@ -43,10 +43,10 @@ def test_a_store_is_asked_checked_and_drawn(run: Run, folder: Path, graph: Path)
     assert Path("room.svg").read_text("utf-8").startswith("<svg")
 
 
-def test_loading_removing_and_updating(run: Run, graph: Path, tmp_path: Path):
+def test_loads_removes_and_updates_graphs(run: Run, graph: Path, tmp_path: Path):
     place = tmp_path / "new" / "store"
-    assert "holds <https://example.org/room>" in run("store", "load", graph, "--store", place).err
-    assert "holds <urn:mine>" in run("store", "load", graph, "--store", place, "--scene", "urn:mine").err
+    assert "loaded <https://example.org/room>" in run("store", "load", graph, "--store", place).err
+    assert "loaded <urn:mine>" in run("store", "load", graph, "--store", place, "--scene", "urn:mine").err
     update = "DELETE WHERE { GRAPH <urn:mine> { ?s ?p ?o } }"
     assert run("store", "update", update, "--store", place).err == f"{place}: updated\n"
     assert run("store", "remove", "room", "--store", place).code == 0
@@ -74,7 +74,7 @@ def test_loading_removing_and_updating(run: Run, graph: Path, tmp_path: Path):
         (["serve", "no.ttl", "--port", "0"], "no.ttl: no such file"),
     ],
 )
-def test_what_cannot_be_done_is_one_line(run: Run, arguments: list[str], message: str):
+def test_rejects_invalid_stores(run: Run, arguments: list[str], message: str):
     done = run(*arguments)
     assert done.code == 2
     assert done.err.startswith("usd2kg: ")
@@ -83,13 +83,13 @@ def test_what_cannot_be_done_is_one_line(run: Run, arguments: list[str], message
     assert "secret" not in done.err
 
 
-def test_a_bad_file_among_several_loads_none(run: Run, graph: Path, tmp_path: Path):
+def test_loads_no_graph_if_one_file_is_invalid(run: Run, graph: Path, tmp_path: Path):
     (tmp_path / "bad.ttl").write_text("<urn:a> <urn:b> 1 .")
     done = run("store", "load", graph, tmp_path / "bad.ttl", "--store", tmp_path / "s")
     assert (done.code, "names no graph; expected one that usd2kg build wrote" in done.err) == (2, True)
     assert not (tmp_path / "s").exists()
 
 
-def test_two_scenes_of_one_name_do_not_replace_each_other(run: Run, room: Path, tmp_path: Path):
+def test_rejects_two_graphs_with_the_same_iri(run: Run, room: Path, tmp_path: Path):
     done = run("build", room, room, "--store", tmp_path / "s")
-    assert (done.code, "two graphs are called <https://example.org/room/>" in done.err) == (2, True)
+    assert (done.code, "two graphs have the IRI <https://example.org/room/>" in done.err) == (2, True)

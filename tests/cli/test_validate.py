@@ -1,4 +1,4 @@
-"""usd2kg validate: what a person reads, what a program reads, and the exit codes."""
+"""usd2kg validate: text, JSON and exit codes."""
 
 import json
 from pathlib import Path
@@ -12,7 +12,7 @@ from tests.validation.test_elk import ELK, missing_elk
 from usd2kg.graph import write_graph
 from usd2kg.ontology import TBox
 
-LOOSE = thing("/Fork\u202e", (-2, -2, 0), (3.0, 0.3, 0.1), display_name="Fork\x1b[31m\n  error [x]")
+LARGE_FORK = thing("/Fork\u202e", (-2, -2, 0), (3.0, 0.3, 0.1), display_name="Fork\x1b[31m\n  error [x]")
 
 
 @pytest.fixture
@@ -25,19 +25,19 @@ def good(home_tbox: TBox, tmp_path: Path) -> Path:
 @pytest.fixture
 def odd(home_tbox: TBox, tmp_path: Path) -> Path:
     path = tmp_path / "odd.ttl"
-    write_graph(build_graph(home_tbox, [*ROOM, (LOOSE, "Fork")]), path)
+    write_graph(build_graph(home_tbox, [*ROOM, (LARGE_FORK, "Fork")]), path)
     return path
 
 
-def test_a_good_graph(run: Run, good: Path):
+def test_valid_graph_has_no_findings(run: Run, good: Path):
     done = run("validate", good)
     assert (done.code, done.out) == (0, "0 findings on 7 objects\n")
 
 
-def test_findings_as_lines(run: Run, odd: Path):
+def test_prints_findings_as_text(run: Run, odd: Path):
     done = run("validate", odd)
     assert done.code == 1
-    # Names are untrusted: no escape, no line of their own, no change of direction.
+    # Escape sequences, newlines and bidirectional controls in names are replaced.
     assert done.out.splitlines() == [
         "warning [unusual-size] Fork\ufffd[31m error [x] /Fork\ufffd",
         "  found:    its longest extent is 3 m (3 × 0.3 × 0.1 m), and it is a fork",
@@ -49,7 +49,7 @@ def test_findings_as_lines(run: Run, odd: Path):
     ]
 
 
-def test_findings_as_json(run: Run, odd: Path):
+def test_prints_findings_as_json(run: Run, odd: Path):
     done = run("validate", odd, "--json")
     assert done.code == 1
     assert "\x1b" not in done.out
@@ -59,7 +59,7 @@ def test_findings_as_json(run: Run, odd: Path):
     assert report["findings"][0]["rule"] == "unusual-size"
 
 
-def test_rules_of_ones_own(run: Run, odd: Path, tmp_path: Path):
+def test_rules_file_overrides_thresholds(run: Run, odd: Path, tmp_path: Path):
     rules = tmp_path / "rules.toml"
     rules.write_text("[unusual-size]\nfactor = 40.0\n")
     assert run("validate", odd, "--rules", rules).code == 0
@@ -69,7 +69,7 @@ def test_rules_of_ones_own(run: Run, odd: Path, tmp_path: Path):
     assert "has no key 'faktor'; expected enabled, severity, factor" in done.err
 
 
-def test_many_findings_are_cut_and_shown_on_request(run: Run, home_tbox: TBox, tmp_path: Path):
+def test_limits_findings_of_a_rule_without_all(run: Run, home_tbox: TBox, tmp_path: Path):
     path = tmp_path / "many.ttl"
     forks = [(thing(f"/Fork{i:02}", (i, 2, 0), (3.0, 0.3, 0.1)), "Fork") for i in range(25)]
     write_graph(build_graph(home_tbox, forks), path)
@@ -81,23 +81,23 @@ def test_many_findings_are_cut_and_shown_on_request(run: Run, home_tbox: TBox, t
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "told"),
+    ("name", "text", "message"),
     [
         ("none.ttl", None, "no such file"),
         ("empty.ttl", "", "holds no object"),
         ("broken.ttl", "<a", "does not parse"),
     ],
 )
-def test_bad_input(run: Run, tmp_path: Path, name: str, text: str | None, told: str):
+def test_rejects_invalid_graphs(run: Run, tmp_path: Path, name: str, text: str | None, message: str):
     path = tmp_path / name
     if text is not None:
         path.write_text(text)
     done = run("validate", path)
     assert (done.code, done.out) == (2, "")
-    assert told in done.err
+    assert message in done.err
 
 
-def test_another_ontology_than_the_graphs_is_told(run: Run, good: Path, tmp_path: Path):
+def test_reports_another_ontology(run: Run, good: Path, tmp_path: Path):
     lab = tmp_path / "lab.ttl"
     lab.write_text(
         "@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
@@ -114,14 +114,14 @@ def test_another_ontology_than_the_graphs_is_told(run: Run, good: Path, tmp_path
 
 
 @pytest.mark.parametrize("profile", ["soma", "plain"])
-def test_the_shapes_can_be_had(run: Run, profile: str):
+def test_prints_the_shapes(run: Run, profile: str):
     done = run("ontology", "shapes", "--profile", profile)
     assert done.code == 0
     assert "rule:object-label a sh:PropertyShape" in done.out
     assert run("ontology", "shapes", "--profile", "rdf").code == 2
 
 
-def test_a_reasoner_that_is_unknown_or_not_there(run: Run, good: Path, tmp_path: Path):
+def test_rejects_an_unknown_or_missing_reasoner(run: Run, good: Path, tmp_path: Path):
     done = run("validate", good, "--reasoner", "pellet")
     assert (done.code, done.err) == (2, "usd2kg: reasoner 'pellet' is unknown; expected elk\n")
     done = run("validate", good, "--reasoner", "elk", "--elk-jars", tmp_path)
@@ -131,7 +131,7 @@ def test_a_reasoner_that_is_unknown_or_not_there(run: Run, good: Path, tmp_path:
 
 @pytest.mark.slow
 @pytest.mark.skipif(bool(missing_elk()), reason=missing_elk())
-def test_a_reasoner_that_says_no(run: Run, good: Path):
+def test_reports_an_inconsistency_found_by_elk(run: Run, good: Path):
     done = run("validate", good, "--reasoner", "elk", "--elk-jars", ELK)
     assert done.code == 0
     assert "\nelk: consistent; " in done.err

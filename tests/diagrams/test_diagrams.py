@@ -151,8 +151,8 @@ class TestCommand:
     @pytest.mark.parametrize(
         ("arguments", "message"),
         [
-            (["table", "-o", "x.gif"], "pictures of graphs are SVG or PNG, expected a name ending in .svg or .png"),
-            (["dinner plate", "-o", "x.svg"], "means 4 objects; expected one, by its prim path"),
+            (["table", "-o", "x.gif"], "expected a file name ending in .svg or .png"),
+            (["dinner plate", "-o", "x.svg"], "matches 4 objects; expected a prim path"),
             (["unicorn", "-o", "x.svg"], "nothing is called 'unicorn'"),
         ],
     )

@@ -1,4 +1,4 @@
-"""Relations found in two real scenes against those judged by eye; floors lie a little below what is measured."""
+"""Relations found in two real scenes against visual judgements, with limits below the measured values."""
 
 import csv
 import math
@@ -18,9 +18,9 @@ STAGES = {
     "small_house": "scenes/aws_robomaker/small_house.usdc",
 }
 FLOORS = {
-    # scene → kind → least precision, least recall. Measured for the apartment: on 7 of 7 and 9 of 11; inside all;
-    # part-of 68 of 69 and 66 of 68; room 82 of 82 and 82 of 95; touching 10 of 10 and 10 of 14. For the house: on 44
-    # of 45, both ways; inside 1 of 1 and 1 of 4, as a coffee table holds nothing by its class; touching 2 of 4.
+    # scene → kind → lowest precision, lowest recall. Measured precision and recall of the apartment: on 7/7 and 9/11;
+    # inside 1 and 1; part-of 68/69 and 66/68; room 82/82 and 82/95; touching 10/10 and 10/14. Of the house: on 44/45
+    # and 44/45; inside 1/1 and 1/4, since a coffee table is no container by its class; touching recall 2/4.
     "apartment": {
         "on": (0.9, 0.8),
         "inside": (0.95, 0.95),
@@ -33,17 +33,17 @@ FLOORS = {
 
 
 @pytest.mark.parametrize("scene", FLOORS)
-def test_what_is_found_is_what_was_judged(scene: str):
+def test_found_relations_agree_with_judgements(scene: str):
     tallies = compare(read_judged(SCENES[scene].judged), usd2kg.build(shared_file(STAGES[scene])).graph.relations)
     assert tallies.keys() == FLOORS[scene].keys()
     for kind, (precision, recall) in FLOORS[scene].items():
-        told = "\n".join([kind, *errors(tallies)])
-        assert tallies[kind].precision >= precision, told
-        assert tallies[kind].recall >= recall, told
+        message = "\n".join([kind, *errors(tallies)])
+        assert tallies[kind].precision >= precision, message
+        assert tallies[kind].recall >= recall, message
 
 
 @pytest.mark.parametrize("scene", FLOORS)
-def test_the_lists_are_well_formed(scene: str):
+def test_judgements_are_well_formed(scene: str):
     with (JUDGED / f"{scene}.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len({row["subject"] for row in rows}) >= 60
@@ -54,7 +54,7 @@ def test_the_lists_are_well_formed(scene: str):
 
 
 @pytest.mark.parametrize("scene", FLOORS)
-def test_the_lists_name_prims_of_the_scenes(scene: str):
+def test_judgements_name_objects_of_the_scenes(scene: str):
     objects = {obj.prim_path for obj in usd2kg.read_scene(shared_file(STAGES[scene])).objects}
     facts = read_judged(SCENES[scene].judged)
     assert {fact.subject for fact in facts} <= objects
@@ -67,7 +67,7 @@ def holds(target: str, kind: str, anchor: str) -> Relation:
     return Relation(kind, target, anchor, "on/1", {})
 
 
-def test_what_is_counted_by_hand():
+def test_counts_agree_with_a_hand_worked_example():
     facts = [
         Fact("cup", ("on",), ("table",), False),
         Fact("cup", ("touching",), ("jar",), False),
@@ -80,12 +80,12 @@ def test_what_is_counted_by_hand():
     ]
     found = [
         holds("cup", "on", "table"),  # right
-        holds("jar", "touching", "cup"),  # right: it holds both ways
-        holds("hob", "part-of", "top"),  # right: one of the two is enough
-        holds("door", "on", "floor"),  # left open
-        holds("lamp", "on", "table"),  # wrong: it is on nothing
-        holds("jar", "inside", "crate"),  # right: either will do
-        holds("cup", "touching", "seam"),  # left open, whatever it touches
+        holds("jar", "touching", "cup"),  # right: touching is symmetric
+        holds("hob", "part-of", "top"),  # right: one of the two kinds is enough
+        holds("door", "on", "floor"),  # undecided
+        holds("lamp", "on", "table"),  # wrong: judged to be on nothing
+        holds("jar", "inside", "crate"),  # right: one of the two anchors is enough
+        holds("cup", "touching", "seam"),  # undecided for every anchor
         holds("cat", "on", "mat"),  # not judged
         holds("cup", "near", "jar"),  # a kind that is not judged
     ]
@@ -93,7 +93,7 @@ def test_what_is_counted_by_hand():
     assert list(tallies) == ["on", "inside", "part-of", "touching"]
     on = tallies["on"]
     assert (on.judged, on.right, on.wrong, on.open) == (3, [("cup", "table")], [("lamp", "table")], [("door", "floor")])
-    # The hob was found as a part, which is as good; the book was not found.
+    # The hob was found as part-of, the other accepted kind; the book was not found.
     assert on.missed == [("book", "shelf")]
     assert (on.precision, on.recall) == (0.5, pytest.approx(2 / 3))
     assert (tallies["inside"].precision, tallies["inside"].recall) == (1, 1)
@@ -106,8 +106,8 @@ def test_what_is_counted_by_hand():
 
 @pytest.mark.parametrize(
     ("right", "count", "lower", "upper"),
-    # Worked by hand from the formula: 9 of 10 with z = 1.96 gives a middle of 0.789 and half a width of 0.193.
+    # By hand, 9 of 10 with z = 1.96: centre 0.789, half width 0.193.
     [(9, 10, 0.5958, 0.9821), (10, 10, 0.7225, 1.0), (0, 10, 0.0, 0.2775)],
 )
-def test_intervals(right: int, count: int, lower: float, upper: float):
+def test_wilson_interval(right: int, count: int, lower: float, upper: float):
     assert wilson(right, count) == pytest.approx((lower, upper), abs=1e-3)

@@ -1,7 +1,7 @@
 """The command `usd2kg`.
 
-Exit codes: 0 done, 1 `validate`, `label lint` or `ontology check` has findings or `diff` finds differences, 2 wrong
-usage or an input or output that cannot be used.
+Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, or `diff` has differences; 2 wrong
+usage, or an input or output cannot be used; 130 `ground` was interrupted and wrote a partial mapping.
 """
 
 import io
@@ -11,6 +11,7 @@ import traceback
 from typing import Annotated
 
 import typer
+from typer import Option
 
 from usd2kg.cli import (
     assistant,
@@ -30,7 +31,7 @@ from usd2kg.cli import (
     store,
     validate,
 )
-from usd2kg.cli.output import emit, talk
+from usd2kg.cli.output import emit, notify, to_single_line
 from usd2kg.errors import Usd2kgError
 
 __all__ = ["app", "main"]
@@ -42,7 +43,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
-    help="From an OpenUSD scene to a knowledge graph: grounds every object to a class of your OWL ontology.",
+    help="Turn an OpenUSD scene into a knowledge graph: ground every object to a class of an OWL ontology.",
 )
 app.command("build")(build.build_command)
 app.command("inspect")(inspect.inspect_command)
@@ -67,18 +68,17 @@ def _print_version(is_wanted: bool) -> None:
     if is_wanted:
         from importlib.metadata import version  # noqa: PLC0415
 
-        emit(f"usd2kg {version('usd2kg')}\n", None)
+        emit(f"usd2kg {version('usd2kg')}\n")
         raise typer.Exit
 
 
 @app.callback()
 def _options(
     version: Annotated[
-        bool, typer.Option("--version", help="Print the version and stop.", is_eager=True, callback=_print_version)
+        bool, Option("--version", help="Print the version and exit.", is_eager=True, callback=_print_version)
     ] = False,
     verbose: Annotated[
-        bool,
-        typer.Option("--verbose", help="Say what is done, and show the traceback of an error; may stand anywhere."),
+        bool, Option("--verbose", help="Log each step, and show the traceback of an error. Accepted anywhere.")
     ] = False,
 ) -> None:
     level = logging.INFO if verbose else logging.WARNING
@@ -86,20 +86,20 @@ def _options(
 
 
 def main() -> None:
-    """Run the command line; an error that a user can mend becomes one line and exit code 2."""
+    """Run the command line; a `Usd2kgError` becomes one line on stderr and exit code 2."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            # A terminal that cannot show a name shows its code instead, and the run goes on.
+            # Escape characters that the terminal's encoding lacks instead of failing.
             stream.reconfigure(errors="backslashreplace")
     arguments = sys.argv[1:]
     is_verbose = "--verbose" in arguments
     if is_verbose:
-        # It belongs to the whole program, but people add it to the end of the command that just failed.
+        # Click takes a global option only before the command; users append it to the command that failed.
         arguments = ["--verbose", *(argument for argument in arguments if argument != "--verbose")]
     try:
         app(args=arguments, prog_name="usd2kg")
     except Usd2kgError as error:
         if is_verbose:
             traceback.print_exc()
-        talk(f"usd2kg: {' '.join(str(error).split())}")
+        notify(f"usd2kg: {to_single_line(str(error))}")
         sys.exit(2)

@@ -1,15 +1,16 @@
-"""usd2kg ask and usd2kg mcp: questions in plain words, from people and from assistants."""
+"""usd2kg ask and usd2kg mcp: questions in plain English, from people and from AI assistants."""
 
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Argument, Option
 
-from usd2kg.cli.model_options import CompletionsFile
-from usd2kg.cli.options import GraphPlace, JsonOutput, SceneName
-from usd2kg.cli.output import emit, print_json, talk
-from usd2kg.cli.query import answer_text
+from usd2kg.cli.options.common import JsonOutput
+from usd2kg.cli.options.model import MODEL_NAMES, CompletionCacheFile
+from usd2kg.cli.options.stores import GraphSource, SceneName
+from usd2kg.cli.output import emit, notify, print_json
+from usd2kg.cli.query import answer_rows, answer_text
 from usd2kg.errors import Usd2kgError
 
 if TYPE_CHECKING:
@@ -18,36 +19,37 @@ if TYPE_CHECKING:
 
 __all__ = ["ask_command", "mcp_command"]
 
+_PICTURE_SIZE = (512, 384)
+"""Width and height in pixels of the pictures for an assistant."""
+
 
 def ask_command(
-    graph: GraphPlace,
-    words: Annotated[list[str], typer.Argument(metavar="QUESTION...", help="A question in plain English.")],
+    graph: GraphSource,
+    words: Annotated[list[str], Argument(metavar="QUESTION...", help="Question in plain English.")],
     model: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--model",
-            help="Let a language model write the query: google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL or "
-            "gguf:FILE; default: the ready questions, offline.",
+            help=f"Language model that writes the query: {MODEL_NAMES}; default: the predefined questions, offline.",
         ),
     ] = None,
-    completions: CompletionsFile = None,
+    completions: CompletionCacheFile = None,
     scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
-    """Ask a graph in plain English: 'what is on the table?', 'how many cups are there?'."""
+    """Answer a question in plain English: 'what is on the table?', 'how many cups are there?'."""
     from usd2kg.assistant import ask_offline  # noqa: PLC0415
-    from usd2kg.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     store, text = open_graph(graph, scene), " ".join(words)
     asked = ask_offline(store, text) if model is None else _ask_model(store, text, model, completions)
-    talk(f"understood as: {asked.understood}")
+    notify(f"understood as: {asked.understood}")
     if model is not None:
-        talk(asked.answer.sparql.strip())
+        notify(asked.answer.sparql.strip())
     if json:
-        rows = [dict(zip(asked.answer.columns, row, strict=True)) for row in asked.answer.values]
-        print_json({**asked.as_json(), "sparql": asked.answer.sparql, "rows": rows})
-        return
-    emit(asked.summary() + answer_text(asked.answer), None)
+        print_json({**asked.as_json(), "sparql": asked.answer.sparql, "rows": answer_rows(asked.answer)})
+    else:
+        emit(asked.summary() + answer_text(asked.answer))
 
 
 def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "AskedAnswer":
@@ -60,35 +62,35 @@ def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | N
 
 
 def mcp_command(
-    graph: GraphPlace,
+    graph: GraphSource,
     stage: Annotated[
-        Path | None, typer.Option("--stage", help="The stage that the graph was built from: gives pictures of things.")
+        Path | None, Option("--stage", help="Stage of the graph, to render pictures of objects; default: no pictures.")
     ] = None,
     scene: SceneName = None,
 ) -> None:
-    """Offer a graph to an assistant, as tools over the Model Context Protocol on stdin and stdout."""
+    """Serve a graph to an AI assistant as tools of the Model Context Protocol, on stdin and stdout."""
     try:
         from usd2kg.assistant.server import make_server  # noqa: PLC0415
     except ModuleNotFoundError as error:
-        raise Usd2kgError("mcp: the protocol's SDK is not installed; run: pip install 'usd2kg[mcp]'") from error
+        raise Usd2kgError("mcp: the MCP SDK is not installed; run: pip install 'usd2kg[mcp]'") from error
     from usd2kg.endpoint import BoundedQueries  # noqa: PLC0415
     from usd2kg.stores import open_graph  # noqa: PLC0415
 
     store = open_graph(graph, scene)
-    picture = None if stage is None else _picture_of(store, stage)
+    picture = None if stage is None else _object_renderer(store, stage)
     with BoundedQueries(store) as run:
         make_server(store, run=run, picture=picture).run("stdio")
 
 
-def _picture_of(graph: "GraphStore", stage: Path) -> Callable[[str], bytes]:
-    """Return what draws a thing of the graph where it stands; the first, where several are called so."""
+def _object_renderer(graph: "GraphStore", stage: Path) -> Callable[[str], bytes]:
+    """Return a function from the name of an object to a PNG of it in context; of several, the first is drawn."""
     from usd2kg.render import Renderer  # noqa: PLC0415
 
     renderer = Renderer(stage)
 
-    def draw(thing: str) -> bytes:
-        answer = graph.where_is(thing)
+    def render(name: str) -> bytes:
+        answer = graph.where_is(name)
         path = answer.rows[0][answer.columns.index("path")]
-        return renderer.render_object(path or "", size=(512, 384), in_context=True)
+        return renderer.render_object(path or "", size=_PICTURE_SIZE, in_context=True)
 
-    return draw
+    return render

@@ -1,137 +1,131 @@
-"""usd2kg build: the whole chain."""
+"""usd2kg build: the knowledge graphs of scenes."""
 
 import time
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
-from usd2kg.cli.carry_options import CarryOptions
-from usd2kg.cli.grounding_run import GroundingOptions, check_files_apart, open_run
-from usd2kg.cli.groups import with_groups
-from usd2kg.cli.model_options import ModelOptions
-from usd2kg.cli.options import (
-    DataAddress,
-    JsonOutput,
-    MergeImports,
-    OntologyFile,
-    ReadingOptions,
-    RelatingOptions,
-    StorePlace,
-    UpdateAddress,
-    WritingOptions,
-)
-from usd2kg.cli.output import print_json, talk
-from usd2kg.cli.store import check_names, open_place, store_graphs
+from usd2kg.cli.build_summary import summarize_build, summary_text
+from usd2kg.cli.grounder_session import open_session
+from usd2kg.cli.options.bundles import check_files, expand_bundles
+from usd2kg.cli.options.common import BaseIri, JsonOutput, OntologyFile
+from usd2kg.cli.options.graph import AnnotationOptions, SpatialOptions
+from usd2kg.cli.options.grounding import GroundingOptions
+from usd2kg.cli.options.review import CarryOverOptions
+from usd2kg.cli.options.stage import StageOptions
+from usd2kg.cli.options.stores import DataAddress, OptionalStore, UpdateAddress
+from usd2kg.cli.output import notify, notify_notes, print_json
+from usd2kg.cli.store import check_graph_names, load_graphs, open_for_loading
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
 if TYPE_CHECKING:
     from usd2kg.pipeline import BuildResult
     from usd2kg.stores import SceneStore
 
-__all__ = ["build_command", "summarize", "summary_text"]
-
-_CONFIDENCE_BANDS = ((0.8, "0.8 and more"), (0.5, "0.5 to 0.8"), (0.0, "below 0.5"))
+__all__ = ["build_command"]
 
 
-@with_groups
+@expand_bundles
 def build_command(
-    scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="One or more USD stages.")],
-    chosen: GroundingOptions,
-    asked: ModelOptions,
-    carrying: CarryOptions,
-    reading: ReadingOptions,
-    relating: RelatingOptions,
-    writing: WritingOptions,
+    scenes: Annotated[list[Path], Argument(metavar="SCENE...", help="One or more USD stages.")],
+    grounding: GroundingOptions,
+    carry_over: CarryOverOptions,
+    reading: StageOptions,
+    spatial: SpatialOptions,
+    annotation: AnnotationOptions,
     ontology: OntologyFile = None,
-    base: Annotated[
-        str | None,
-        typer.Option("--base", help="IRI under which the individuals lie, ending in / or #; default: by file name."),
-    ] = None,
+    base: BaseIri = None,
     profile: Annotated[
-        str, typer.Option("--profile", help="How objects are written: auto (default), soma or plain.")
+        str, Option("--profile", help="Modelling pattern: soma, plain, or auto (soma if the ontology uses SOMA).")
     ] = "auto",
-    merge_imports: MergeImports = False,
+    merge_imports: Annotated[
+        bool,
+        Option(
+            "--merge-imports",
+            help="Add the ontology, its imports and the usd2kg vocabulary, so the graph needs no other file.",
+        ),
+    ] = False,
     output: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--output",
             "-o",
-            help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .jsonld, .ofn or .graphml, packed with .gz after it; a "
-            "folder for several scenes; default: SCENE.ttl here, or no file beside --store.",
+            help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .jsonld, .ofn or .graphml, compressed if .gz follows; a "
+            "folder for several scenes; default: SCENE.ttl in the current folder, or no file with --store.",
         ),
     ] = None,
-    store: StorePlace = None,
+    store: OptionalStore = None,
     store_update: UpdateAddress = None,
     store_data: DataAddress = None,
     json: JsonOutput = False,
 ) -> None:
-    """Build the knowledge graph of a scene: read it, ground its objects, relate them, write RDF."""
+    """Build the knowledge graph of a scene: read it, ground its objects, find relations, write RDF."""
     from usd2kg.graph.iris import default_base  # noqa: PLC0415
-    from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
-    if asked.dry_run:
-        raise GroundingError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
-    carrying.check(asked.decisions, len(scenes))
-    targets: Sequence[Path | None] = [None] * len(scenes)
-    if store is None or output is not None:
-        targets = _targets(scenes, output)
-    check_files_apart(targets, [*scenes, ontology, reading.objects, relating.relation_rules], chosen, asked, carrying)
-    keeper = None
+    if grounding.model.dry_run:
+        raise GroundingError("--dry-run prints the prompts of one scene; use it with usd2kg ground")
+    carry_over.check(grounding.review.decisions, len(scenes))
+    is_filed = store is None or output is not None
+    targets: Sequence[Path | None] = _choose_targets(scenes, output) if is_filed else [None] * len(scenes)
+    check_files(targets, [*scenes, ontology], grounding, carry_over, reading, spatial)
+    opened = None
     if store is not None:
-        check_names([base or default_base(str(scene)) for scene in scenes])
-        keeper = open_place(store, store_update, store_data)
-    groups, naming_regime = chosen.groups, chosen.naming_regime
-    options = reading.read_options()
-    relations = relating.relation_options()
-    written = writing.graph_options()
+        check_graph_names([base or default_base(str(scene)) for scene in scenes])
+        opened = open_for_loading(store, store_update, store_data)
+    evidence, regime = grounding.evidence_groups, grounding.naming_regime
+    read_options, relations = reading.read_options(), spatial.relation_options()
+    graph_options = annotation.graph_options()
     tbox = open_tbox(ontology)
-    for note in tbox.notes:
-        talk(f"{note.code}: {note.message}")
-    summaries, failures = [], []
-    for scene, target in zip(scenes, targets, strict=True):
+    notify_notes(tbox)
+    summaries, has_failed = [], False
+    for source, target in zip(scenes, targets, strict=True):
         start = time.perf_counter()
         try:
-            read = read_scene(scene, options=options)
-            with open_run(chosen, asked, read, tbox, scene, options, carrying) as run:
+            scene = read_scene(source, options=read_options)
+            with open_session(grounding, scene, tbox, source, read_options, carry_over) as session:
                 result = build(
-                    read,
+                    scene,
                     tbox,
-                    grounder=run.grounder,
-                    regime=naming_regime,
-                    evidence=groups,
-                    decisions=run.decisions,
-                    carried=run.carried,
+                    grounder=session.grounder,
+                    regime=regime,
+                    evidence=evidence,
+                    decisions=session.decisions,
+                    carried=session.carried,
                     base=base,
                     profile=profile,
-                    graph_options=written,
+                    graph_options=graph_options,
                     relations=relations,
                 )
-            _keep(result, merge_imports, target, keeper)
-            run.tell(result.grounding, asked, tbox)
+            _save(result, merge_imports, target, opened)
+            session.report(result.grounding, tbox)
         except Usd2kgError as error:
-            # One bad scene must not cost the others; with one scene it is simply the error.
+            # Of several scenes, the others are still built.
             if len(scenes) == 1:
                 raise
-            talk(f"usd2kg: {error}")
-            failures.append(scene)
+            notify(f"usd2kg: {error}")
+            has_failed = True
             continue
-        written_to = str(target or store)
-        summary = {**summarize(result), "output": written_to, "seconds": round(time.perf_counter() - start, 3)}
-        summaries.append(summary)
+        summaries.append(summarize_build(result, str(target or store), time.perf_counter() - start))
         if not json:
-            talk(summary_text(summary))
+            notify(summary_text(summaries[-1]))
     if json:
         print_json(summaries if len(scenes) > 1 else summaries[0])
-    if failures:
+    if has_failed:
         raise typer.Exit(2)
 
 
-def _targets(scenes: list[Path], output: Path | None) -> list[Path]:
-    """Return where each scene's graph goes, checked before any work is spent."""
+def _choose_targets(scenes: list[Path], output: Path | None) -> list[Path]:
+    """Return the file for each scene's graph.
+
+    Raises:
+        OutputError: a file cannot be written, or two scenes have the same one.
+        GraphError: its ending names no format.
+    """
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.graph import graph_format  # noqa: PLC0415
 
@@ -145,7 +139,7 @@ def _targets(scenes: list[Path], output: Path | None) -> list[Path]:
         targets = [folder / f"{scene.stem}.ttl" for scene in scenes]
     if len(set(targets)) < len(targets):
         raise OutputError(
-            "two scenes have the same file name, so their graphs would overwrite each other; build them apart"
+            "two scenes have the same file name, so their graphs would overwrite each other; build them separately"
         )
     for target in targets:
         graph_format(target)
@@ -153,64 +147,22 @@ def _targets(scenes: list[Path], output: Path | None) -> list[Path]:
     return targets
 
 
-def _keep(result: "BuildResult", merges: bool, target: Path | None, keeper: "SceneStore | None") -> None:
-    """Write the graph to a file, put it into a store, or both.
+def _save(result: "BuildResult", is_merged: bool, target: Path | None, store: "SceneStore | None") -> None:
+    """Write a graph to a file, to a store, or to both.
 
-    What is merged in stands in the file with the scene; in a store it is a graph of its own, which scenes share.
+    Merged imports become part of the graph in a file. A store keeps them in a graph of their own, which its scenes
+    share.
     """
     from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
     from usd2kg.ontology import read_closure  # noqa: PLC0415
     from usd2kg.stores import named_graph, ontology_graph  # noqa: PLC0415
 
-    closure = read_closure(result.tbox, result.graph.imports) if merges else None
+    closure = read_closure(result.tbox, result.graph.imports) if is_merged else None
     for iri in closure.missing if closure is not None else ():
-        talk(f"missing-import: <{iri}> is not at hand, so it is not merged in; put it beside the ontology's file")
+        notify(f"missing-import: <{iri}> is not available and not merged; put its file beside the ontology")
     if target is not None:
         write_graph(result.graph if closure is None else merge_imports(result.graph, closure), target)
-    if keeper is not None:
-        # Asked together, the ontology comes first, so that no scene is there whose classes are not.
+    if store is not None:
+        # The ontology first, so that the store never holds a scene without its classes.
         shared = [ontology_graph(result.tbox, closure)] if closure is not None else []
-        store_graphs(keeper, [*shared, named_graph(result.graph)])
-
-
-def summarize(result: "BuildResult") -> dict[str, Any]:
-    """Return what a build gave, in numbers."""
-    from usd2kg.relations import ALL_KINDS  # noqa: PLC0415
-
-    predictions = result.grounding.predictions
-    found = Counter(relation.kind for relation in result.graph.relations)
-    bands = dict.fromkeys((label for _, label in _CONFIDENCE_BANDS), 0)
-    for p in predictions:
-        if p.confidence is not None:
-            bands[next(label for floor, label in _CONFIDENCE_BANDS if p.confidence >= floor)] += 1
-    status: dict[str, int] = {}
-    for p in predictions:
-        status[p.status.value] = status.get(p.status.value, 0) + 1
-    return {
-        "scene": result.scene.source,
-        "prims": result.scene.prim_count,
-        "objects": len(result.scene.objects),
-        "classes": len(result.graph.classes),
-        "status": status,
-        "confidence": bands,
-        "is_calibrated": result.grounding.is_calibrated,
-        "relations": {kind: found[kind] for kind in ALL_KINDS if found[kind]},
-        "triples": len(result.graph.triples),
-        "diagnostics": len(result.scene.diagnostics),
-    }
-
-
-def summary_text(summary: dict[str, Any]) -> str:
-    """Return the numbers of a build as a few lines."""
-    relations = ", ".join(f"{count} {kind}" for kind, count in summary["relations"].items()) or "none"
-    bands = ", ".join(f"{count} at {band}" for band, count in summary["confidence"].items() if count) or "none"
-    status = ", ".join(f"{count} {name}" for name, count in summary["status"].items())
-    calibration = "" if summary["is_calibrated"] else " (not calibrated: it only ranks)"
-    lines = [
-        f"{summary['scene']}: {summary['objects']} objects of {summary['classes']} classes ({status})",
-        f"  confidence: {bands}{calibration}",
-        f"  relations: {relations}; {summary['triples']} triples in {summary['seconds']:.2f} s",
-    ]
-    if summary["diagnostics"]:
-        lines.append(f"  {summary['diagnostics']} diagnostics: usd2kg inspect {summary['scene']}")
-    return "\n".join([*lines, f"  written to {summary['output']}"])
+        load_graphs(store, [*shared, named_graph(result.graph)])

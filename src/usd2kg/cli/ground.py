@@ -1,114 +1,140 @@
-"""usd2kg ground: the mapping of prims to classes, without a graph."""
+"""usd2kg ground: the class of each object, without a graph."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Option
 
-from usd2kg.cli.carry_options import CarryOptions
-from usd2kg.cli.grounding_run import GroundingOptions, check_files_apart, open_run
-from usd2kg.cli.groups import with_groups
-from usd2kg.cli.model_options import ModelOptions
-from usd2kg.cli.options import AbbreviatedLength, OntologyFile, ReadingOptions, SceneFile
-from usd2kg.cli.output import emit, talk
+from usd2kg.cli.grounder_session import GrounderSession, open_session
+from usd2kg.cli.options.bundles import check_files, expand_bundles
+from usd2kg.cli.options.common import BaseIri, OntologyFile, SceneFile, TextFile
+from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
+from usd2kg.cli.options.review import CarryOverOptions
+from usd2kg.cli.options.stage import StageOptions
+from usd2kg.cli.output import emit, notify
 from usd2kg.errors import GroundingError
+
+if TYPE_CHECKING:
+    from usd2kg.grounding import Grounding
+    from usd2kg.ontology import TBox
+    from usd2kg.scene import Scene
 
 __all__ = ["ground_command"]
 
 _CSV, _SSSOM = "csv", "sssom"
-_FORMATS = {".json": "json", ".tsv": _SSSOM}
-"""Ending of a file → the format that it has where none is asked for."""
+_FORMAT_OF_SUFFIX = {".json": "json", ".tsv": _SSSOM}
 _INTERRUPTED = 130
-"""Exit code of a program that the user stopped: 128 and the signal's number."""
+"""Exit code after SIGINT, by the convention of shells: 128 and the number of the signal."""
 
 
-@with_groups
+@expand_bundles
 def ground_command(
     scene: SceneFile,
-    chosen: GroundingOptions,
-    asked: ModelOptions,
-    carrying: CarryOptions,
-    reading: ReadingOptions,
+    grounding: GroundingOptions,
+    carry_over: CarryOverOptions,
+    reading: StageOptions,
     ontology: OntologyFile = None,
     abbreviated_length: AbbreviatedLength = 4,
     paths: Annotated[
-        Path | None, typer.Option("--paths", help="Answer only for the prims in the column 'path' of this CSV file.")
+        Path | None,
+        Option("--paths", help="CSV file with a column path: ground these prims only; default: all objects."),
     ] = None,
     file_format: Annotated[
         str | None,
-        typer.Option("--format", help="csv, json or sssom; default: by the file ending (.json, .tsv), else csv."),
+        Option(
+            "--format",
+            help="csv, json, or sssom, which --base, --license and --mapping-date describe; default: by the file "
+            "ending (.json, .tsv), else csv.",
+        ),
     ] = None,
-    base: Annotated[
-        str | None,
-        typer.Option("--base", help="For sssom: IRI under which the individuals lie; default: by file name."),
-    ] = None,
+    base: BaseIri = None,
     license_iri: Annotated[
-        str | None, typer.Option("--license", help="For sssom: IRI of the mapping's licence; default: unspecified.")
+        str | None, Option("--license", help="IRI of the licence of the mapping; default: unspecified.")
     ] = None,
     mapping_date: Annotated[
-        str | None,
-        typer.Option("--mapping-date", help="For sssom: when the mapping was made, as 2026-07-15; default: not told."),
+        str | None, Option("--mapping-date", help="Date of the mapping, like 2026-07-15; default: none.")
     ] = None,
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write; default: stdout.")] = None,
+    output: TextFile = None,
 ) -> None:
     """Ground the objects of a scene: print path, class, label, confidence, status and grounder of each."""
-    from usd2kg import grounding  # noqa: PLC0415
-    from usd2kg.cli.model_run import show_plan  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
-    from usd2kg.graph import UNSPECIFIED_LICENSE, format_sssom  # noqa: PLC0415
-    from usd2kg.grounding import view_objects  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.grounding import check_format, format_mapping, ground, read_paths  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
-    from usd2kg.scene import read_scene  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.scene import read_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-    groups, naming_regime = chosen.groups, chosen.naming_regime
+    evidence, regime = grounding.evidence_groups, grounding.naming_regime
     if file_format is None:
-        file_format = _FORMATS.get(output.suffix.lower() if output is not None else "", _CSV)
+        file_format = _FORMAT_OF_SUFFIX.get(output.suffix.lower() if output is not None else "", _CSV)
     if file_format != _SSSOM:
-        grounding.check_format(file_format)
+        check_format(file_format)
         if base or license_iri or mapping_date:
-            raise GroundingError("--base, --license and --mapping-date belong to --format sssom; leave them out")
-    carrying.check(asked.decisions, 1)
-    for target in (output, asked.queue):
+            raise GroundingError("--base, --license and --mapping-date need --format sssom; leave them out")
+    carry_over.check(grounding.review.decisions, 1)
+    for target in (output, grounding.review.queue):
         if target is not None:
             check_writable(target)
-    check_files_apart([output], [scene, ontology, paths, reading.objects], chosen, asked, carrying)
-    wanted = grounding.read_paths(paths) if paths is not None else None
+    check_files([output], [scene, ontology, paths], grounding, carry_over, reading)
+    wanted = read_paths(paths) if paths is not None else None
     tbox = open_tbox(ontology)
-    options = reading.read_options()
-    found = read_scene(scene, paths=wanted, options=options)
-    with open_run(chosen, asked, found, tbox, scene, options, carrying) as run:
-        if run.model is not None and asked.dry_run:
-            views = view_objects(found, naming_regime, groups, abbreviated_length)
-            shown = [(obj.prim_path, view) for obj, view in views if wanted is None or obj.prim_path in wanted]
-            open_views = run.unsure(shown, tbox)
-            show_plan(run.model.plan(open_views, tbox), len(open_views), run.model.tariff, output)
+    read_options = reading.read_options()
+    found = read_scene(scene, paths=wanted, options=read_options)
+    with open_session(grounding, found, tbox, scene, read_options, carry_over) as session:
+        if session.model is not None and grounding.model.dry_run:
+            _print_dry_run(session, found, tbox, wanted, abbreviated_length, output)
             return
-        result = grounding.ground(
+        result = ground(
             found,
             tbox,
-            run.grounder,
-            regime=naming_regime,
-            evidence=groups,
+            session.grounder,
+            regime=regime,
+            evidence=evidence,
             paths=wanted,
-            decisions=run.decisions,
-            carried=run.carried,
+            decisions=session.decisions,
+            carried=session.carried,
             abbreviated_length=abbreviated_length,
         )
     if file_format == _SSSOM:
-        names = {obj.prim_path: obj.display_name or obj.name for obj in found.objects}
-        text = format_sssom(
-            result,
-            tbox,
-            names,
-            base=base,
-            license_iri=license_iri or UNSPECIFIED_LICENSE,
-            mapping_date=mapping_date,
-        )
+        emit(_format_sssom(result, tbox, found, base, license_iri, mapping_date), output)
     else:
-        text = grounding.format_mapping(result, tbox, file_format)
-    emit(text, output)
+        emit(format_mapping(result, tbox, file_format), output)
     for path in found.missing_paths:
-        talk(f"{scene}: there is no prim {path}; its row has the status missing")
-    run.tell(result, asked, tbox)
-    if run.model is not None and run.model.report.is_interrupted:
+        notify(f"{scene}: no prim {path}; its row has the status missing")
+    session.report(result, tbox)
+    if session.model is not None and session.model.report.is_interrupted:
         raise typer.Exit(_INTERRUPTED)
+
+
+def _print_dry_run(
+    session: GrounderSession,
+    scene: "Scene",
+    tbox: "TBox",
+    paths: list[str] | None,
+    abbreviated_length: int,
+    output: Path | None,
+) -> None:
+    """Print the prompts that the model would get for the prims in `paths`, or for all objects."""
+    from usd2kg.cli.model_report import print_prompts  # noqa: PLC0415
+    from usd2kg.grounding import view_objects  # noqa: PLC0415
+
+    assert session.model is not None
+    options = session.options
+    views = view_objects(scene, options.naming_regime, options.evidence_groups, abbreviated_length)
+    wanted = [(obj.prim_path, view) for obj, view in views if paths is None or obj.prim_path in paths]
+    views_for_model = session.views_for_model(wanted, tbox)
+    print_prompts(session.model.plan(views_for_model, tbox), len(views_for_model), session.model.tariff, output)
+
+
+def _format_sssom(
+    grounding: "Grounding",
+    tbox: "TBox",
+    scene: "Scene",
+    base: str | None,
+    license_iri: str | None,
+    mapping_date: str | None,
+) -> str:
+    from usd2kg.graph import UNSPECIFIED_LICENSE, format_sssom  # noqa: PLC0415
+
+    names = {obj.prim_path: obj.display_name or obj.name for obj in scene.objects}
+    license_iri = license_iri or UNSPECIFIED_LICENSE
+    return format_sssom(grounding, tbox, names, base=base, license_iri=license_iri, mapping_date=mapping_date)

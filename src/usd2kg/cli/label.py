@@ -1,17 +1,20 @@
-"""usd2kg label: the classes of a run as labels on the stage, and what is wrong with the labels of a stage."""
+"""usd2kg label: the classes of a run as semantic labels on the stage, and a linter for labels."""
 
-from collections import Counter
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer import Argument, Option
 from typer.core import TyperGroup
 
-from usd2kg.cli.findings import MOST_OF_A_RULE, findings_text
-from usd2kg.cli.groups import with_groups
-from usd2kg.cli.options import JsonOutput, OntologyFile, ReadingOptions, SceneFile
-from usd2kg.cli.output import emit, print_json, talk
+from usd2kg.cli.finding_text import findings_text
+from usd2kg.cli.limits import PATHS_PER_REASON
+from usd2kg.cli.options.bundles import expand_bundles
+from usd2kg.cli.options.common import AllFindings, JsonOutput, OntologyFile, SceneFile
+from usd2kg.cli.options.stage import StageOptions
+from usd2kg.cli.output import count_noun, emit, notify, print_json
 from usd2kg.errors import OutputError
 
 if TYPE_CHECKING:
@@ -20,91 +23,91 @@ if TYPE_CHECKING:
 __all__ = ["app"]
 
 _ENCODINGS = {"semantics": "UsdSemantics", "isaac": "Isaac", "multiverse": "Multiverse"}
-_MOST_PATHS = 3
 
 
-class _WritesByDefault(TyperGroup):
-    """A group whose command `write` may be left away: `usd2kg label SCENE RUN`."""
+class _DefaultsToWrite(TyperGroup):
+    """A command group whose default command is `write`: `usd2kg label SCENE RUN`."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Put the command in front where no command, and no call for help, stands there."""
+        """Insert `write` unless the first argument is a command or asks for help."""
         if args and args[0] not in {*self.commands, *ctx.help_option_names}:
             args = ["write", *args]
         return super().parse_args(ctx, args)
 
 
 app = typer.Typer(
-    cls=_WritesByDefault,
+    cls=_DefaultsToWrite,
     no_args_is_help=True,
-    help="Write classes back onto the stage as semantic labels, and check labels that are there.",
+    help="Write classes to the stage as semantic labels, and check existing labels.",
 )
-
-RunFile = Annotated[
-    Path,
-    typer.Argument(
-        metavar="RUN",
-        help="What usd2kg ground wrote (.csv, .json), a queue with decisions (.csv), or a graph (.ttl…).",
-    ),
-]
 
 
 @app.command("write")
 def write_command(
     scene: SceneFile,
-    run: RunFile,
+    run: Annotated[
+        Path,
+        Argument(
+            metavar="RUN",
+            help="Mapping written by usd2kg ground, review queue with decisions, or graph (.csv, .json, .ttl, …).",
+        ),
+    ],
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Layer to write: .usda, .usdc or .usd; default: SCENE.labels.usda here."),
+        Option(
+            "--output",
+            "-o",
+            help="Layer to write: .usda, .usdc or .usd; default: SCENE.labels.usda in the current folder.",
+        ),
     ] = None,
     ontology: OntologyFile = None,
     encoding: Annotated[
         str,
-        typer.Option(
+        Option(
             "--encoding",
-            help="How labels are written, comma-separated: semantics (OpenUSD's own, default), isaac (the older "
-            "attributes of Isaac and Replicator), multiverse (tags that point to class prims).",
+            help="Comma-separated encodings: semantics (UsdSemantics), isaac (legacy attributes of Isaac and "
+            "Replicator), multiverse (tags that target class prims).",
         ),
     ] = "semantics",
     mode: Annotated[
         str,
-        typer.Option(
+        Option(
             "--mode",
-            help="new (default): label only prims that have no label; overwrite: replace what says a prim's class, in "
-            "all encodings; skip: keep all labels, add the encodings and taxonomies that are missing.",
+            help="new: label only prims without labels; overwrite: replace class labels in all encodings; skip: keep "
+            "all labels, add missing encodings and taxonomies.",
         ),
     ] = "new",
     at_least: Annotated[
-        float, typer.Option("--at-least", min=0, max=1, help="Label only what is this sure; default: all.")
+        float, Option("--at-least", min=0, max=1, help="Confidence from which a class is written.")
     ] = 0.0,
     names: Annotated[
         str,
-        typer.Option(
-            "--names",
-            help="How a class is written: local (the end of its IRI, default), label, or snake (its label in lower "
-            "case, with underscores).",
-        ),
+        Option("--names", help="Class names: local (last part of the IRI), label, or snake (the label in snake_case)."),
     ] = "local",
     ancestors: Annotated[
-        bool, typer.Option("--ancestors", help="Write the classes above, too, the most general first.")
+        bool, Option("--ancestors", help="Write the superclasses, too, the most general first.")
     ] = False,
     bare: Annotated[
-        bool, typer.Option("--bare", help="Write the labels alone; default: a root layer over the scene.")
+        bool, Option("--bare", help="Write a layer of labels only; default: a root layer with the scene as sublayer.")
     ] = False,
     de_instance: Annotated[
-        bool, typer.Option("--de-instance", help="Break up instances inside which parts are to be labelled.")
+        bool,
+        Option(
+            "--de-instance", help="Turn off instancing where prims inside an instance get labels; default: skip them."
+        ),
     ] = False,
     json: JsonOutput = False,
 ) -> None:
-    """Write a layer over a scene in which prims carry their classes as labels. `write` may be left away."""
+    """Write a layer over a scene that labels prims with their classes. This is the default command."""
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
-    from usd2kg.labels import label_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.labels import label_stage, read_run  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     target = output or Path(f"{scene.stem}.labels.usda")
     check_writable(target)
     check_apart([target], [scene, run, ontology])
     tbox = open_tbox(ontology)
-    options = _options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
+    options = _label_options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
     report = label_stage(
         scene,
         read_run(run, tbox),
@@ -126,18 +129,19 @@ def write_command(
             }
         )
         return
-    for line in _told(report):
-        talk(line)
-    talk(f"written to {target}")
+    for line in _report_lines(report):
+        notify(line)
+    notify(f"written to {target}")
 
 
-def _options(encoding: str, mode: str, is_bare: bool, de_instances: bool, provenance: dict[str, str]) -> "LabelOptions":
+def _label_options(
+    encoding: str, mode: str, is_bare: bool, de_instances: bool, provenance: dict[str, str]
+) -> "LabelOptions":
     from usd2kg.labels import LABEL_MODES, LabelOptions  # noqa: PLC0415
 
     wanted = [name.strip().lower() for name in encoding.split(",") if name.strip()]
-    unknown = [name for name in wanted if name not in _ENCODINGS]
-    if unknown or not wanted:
-        raise OutputError(f"--encoding {encoding}: expected some of {', '.join(_ENCODINGS)}, comma-separated")
+    if not wanted or not _ENCODINGS.keys() >= set(wanted):
+        raise OutputError(f"--encoding {encoding}: expected a comma-separated list of {', '.join(_ENCODINGS)}")
     chosen = next((known for known in LABEL_MODES if known == mode), None)
     if chosen is None:
         raise OutputError(f"--mode {mode}: expected one of {', '.join(LABEL_MODES)}")
@@ -145,46 +149,43 @@ def _options(encoding: str, mode: str, is_bare: bool, de_instances: bool, proven
     return LabelOptions(encodings, chosen, is_bare, de_instances, provenance)
 
 
-def _told(report: "LabelReport") -> list[str]:
-    """Return what became of the prims: counts, and for each reason how many prims and the first of them."""
+def _report_lines(report: "LabelReport") -> Iterator[str]:
+    """Yield the counts of outcomes and, for each reason, the number of prims and the first of them."""
     from usd2kg.labels import OUTCOMES  # noqa: PLC0415
 
-    total = len(report.outcomes)
-    parts = ", ".join(f"{report.counts[outcome]} {outcome}" for outcome in OUTCOMES if outcome in report.counts)
-    lines = [f"{total} {'prim' if total == 1 else 'prims'}: {parts or 'none'}"]
-    reasons = Counter((entry.outcome, _general(entry.reason)) for entry in report.outcomes if entry.reason)
-    for (outcome, reason), count in reasons.most_common():
-        paths = [e.prim_path for e in report.outcomes if (e.outcome, _general(e.reason)) == (outcome, reason)]
-        shown = ", ".join(paths[:_MOST_PATHS]) + ("…" if count > _MOST_PATHS else "")
-        lines.append(f"  {count} {outcome}, {reason}: {shown}")
+    counts = ", ".join(f"{report.counts[outcome]} {outcome}" for outcome in OUTCOMES if outcome in report.counts)
+    yield f"{count_noun(len(report.outcomes), 'prim')}: {counts or 'none'}"
+    paths: dict[tuple[str, str], list[str]] = {}
+    for entry in report.outcomes:
+        if entry.reason:
+            paths.setdefault((entry.outcome, _reason_kind(entry.reason)), []).append(entry.prim_path)
+    for (outcome, reason), found in sorted(paths.items(), key=lambda item: -len(item[1])):
+        more = "…" if len(found) > PATHS_PER_REASON else ""
+        yield f"  {len(found)} {outcome}, {reason}: {', '.join(found[:PATHS_PER_REASON])}{more}"
     if report.de_instanced:
-        shown = ", ".join(report.de_instanced[:_MOST_PATHS])
-        lines.append(f"  {len(report.de_instanced)} instances broken up: {shown}")
-    return lines
+        instances = ", ".join(report.de_instanced[:PATHS_PER_REASON])
+        yield f"  {len(report.de_instanced)} instances no longer instanced: {instances}"
 
 
-def _general(reason: str) -> str:
-    """Return a reason without the labels and instances that it names, so that alike ones are told together."""
-    return reason.partition(": ")[0] if not reason.startswith("the run has") else reason
+def _reason_kind(reason: str) -> str:
+    """Return a reason without the labels or instance it names after a colon, to group similar ones."""
+    return reason if reason.startswith("the run has") else reason.partition(": ")[0]
 
 
 @app.command("lint")
-@with_groups
+@expand_bundles
 def lint_command(
     scene: SceneFile,
-    reading: ReadingOptions,
+    reading: StageOptions,
     ontology: OntologyFile = None,
     run: Annotated[
-        Path | None,
-        typer.Option("--run", help="A mapping or graph of this scene: labels that say another class are stale."),
+        Path | None, Option("--run", help="Mapping or graph of the scene, to find stale labels; default: none.")
     ] = None,
-    every: Annotated[
-        bool, typer.Option("--all", help=f"Show every finding; default: the first {MOST_OF_A_RULE} of each rule.")
-    ] = False,
+    every: AllFindings = False,
     json: JsonOutput = False,
 ) -> None:
-    """Find labels that are wrong, stale or contradict each other. Exit code 1 if there are any."""
-    from usd2kg.labels import lint_stage, read_run  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    """Find labels that are wrong, stale or contradictory. Exit code 1 if there are any."""
+    from usd2kg.labels import lint_stage, read_run  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     tbox = open_tbox(ontology)
@@ -193,7 +194,6 @@ def lint_command(
         findings = [asdict(finding) for finding in lint.findings]
         print_json({"scene": str(scene), "prims": lint.prims, "counts": lint.counts(), "findings": findings})
     else:
-        most = None if every else MOST_OF_A_RULE
-        emit(findings_text(lint.findings, lint.prims, "labelled prim", most), None)
+        emit(findings_text(lint.findings, lint.prims, "labelled prim", is_complete=every))
     if lint.findings:
         raise typer.Exit(1)

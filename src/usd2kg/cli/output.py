@@ -1,4 +1,4 @@
-"""Printing: data on stdout, talk on stderr."""
+"""Output: data to stdout or a file, messages and progress to stderr."""
 
 import json
 import os
@@ -10,31 +10,55 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from usd2kg.cli.limits import CELL_WIDTH
 from usd2kg.files import write_whole
 
 if TYPE_CHECKING:
     from usd2kg.grounding.llm.asking import RunReport
+    from usd2kg.ontology import TBox
 
-__all__ = ["Progress", "emit", "format_table", "print_json", "printable", "talk"]
+__all__ = [
+    "Progress",
+    "count_noun",
+    "emit",
+    "format_optional",
+    "format_table",
+    "notify",
+    "notify_notes",
+    "print_json",
+    "replace_controls",
+    "to_single_line",
+]
 
-_WIDEST = 60
-_STEERING = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
-"""Controls beyond ASCII's, which JSON escapes by itself, and changes of direction."""
+_TERMINAL_CONTROLS = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""Control characters that JSON does not escape (DEL, C1), line separators and bidirectional controls."""
+_CLEAR_LINE = "\r\x1b[K"
+"""Carriage return and the ANSI sequence that erases the rest of the line."""
 
 
-def talk(message: str) -> None:
-    """Print a line for the person at the terminal, on stderr."""
-    print(printable(message), file=sys.stderr)  # noqa: T201
+def notify(message: str) -> None:
+    """Print a message to stderr."""
+    print(replace_controls(message), file=sys.stderr)  # noqa: T201
+
+
+def notify_notes(tbox: "TBox") -> None:
+    """Print the notes of an ontology to stderr."""
+    for note in tbox.notes:
+        notify(f"{note.code}: {note.message}")
 
 
 def print_json(data: Any, path: Path | None = None) -> None:
-    """Write data as JSON, to stdout if there is no file; readable: only what could steer a terminal is escaped."""
+    """Write data as JSON to a file, or to stdout; characters that control a terminal are escaped."""
     text = json.dumps(data, indent=1, ensure_ascii=False)
-    emit(_STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text) + "\n", path)
+    emit(_TERMINAL_CONTROLS.sub(lambda match: f"\\u{ord(match[0]):04x}", text) + "\n", path)
 
 
-def emit(text: str, path: Path | None) -> None:
-    """Write text to a file, whole or not at all; to stdout if there is none."""
+def emit(text: str, path: Path | None = None) -> None:
+    """Write text to a file, atomically, or to stdout.
+
+    Raises:
+        OutputError: the file cannot be written.
+    """
     if path is not None:
         write_whole(path, text.encode("utf-8"))
         return
@@ -42,27 +66,46 @@ def emit(text: str, path: Path | None) -> None:
         sys.stdout.write(text)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of our output has enough (`| head`): that is no error of ours.
+        # The reader closed the pipe (`| head`), which is no error. Python would flush the closed pipe at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
 
 
-def printable(text: str) -> str:
-    """Return text without control characters: names on a stage must not steer a terminal."""
+def replace_controls(text: str) -> str:
+    """Return text with U+FFFD in place of control characters, since names on a stage are untrusted."""
     return "".join(c if c.isprintable() or c in "\t\n" else "\ufffd" for c in text)
+
+
+def to_single_line(text: str) -> str:
+    """Return text on one line without control characters."""
+    return replace_controls(" ".join(text.split()))
+
+
+def count_noun(count: int, noun: str) -> str:
+    """Return a count with its noun in the singular or plural.
+
+    >>> count_noun(1, "object"), count_noun(2, "class")
+    ('1 object', '2 classes')
+    """
+    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('s') else 's'}"
+
+
+def format_optional(value: float | None, spec: str) -> str | None:
+    """Return a number in a format specification; None for None."""
+    return None if value is None else format(value, spec)
 
 
 def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:
     """Return rows as aligned text.
 
-    On a terminal, long cells but the last are cut in the middle, where paths say least; what is piped is whole.
+    On a terminal, long cells are shortened in the middle, except in the last column.
 
     >>> print(format_table(("name", "size"), [("mug", "0.09"), ("table", None)]), end="")
     name   size
     mug    0.09
     table
     """
-    cells = [[" ".join(printable(cell or "").splitlines()) for cell in row] for row in [columns, *rows]]
+    cells = [[" ".join(replace_controls(cell or "").splitlines()) for cell in row] for row in [columns, *rows]]
     if sys.stdout.isatty():
         cells = [[*map(_shorten, row[:-1]), row[-1]] for row in cells]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
@@ -71,14 +114,15 @@ def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -
 
 
 def _shorten(text: str) -> str:
-    if len(text) <= _WIDEST:
+    """Return text cut to `CELL_WIDTH`; a third is its start, since the end of a path says most."""
+    if len(text) <= CELL_WIDTH:
         return text
-    head = _WIDEST // 3
-    return f"{text[:head]}…{text[len(text) - (_WIDEST - head - 1) :]}"
+    head = CELL_WIDTH // 3
+    return f"{text[:head]}…{text[len(text) - (CELL_WIDTH - head - 1) :]}"
 
 
 class Progress:
-    """A line on stderr that tells how far a run is; only where a person watches, and gone when the run is over."""
+    """A progress line on stderr, only on a terminal, erased at the end."""
 
     def __init__(self) -> None:
         self._start = time.monotonic()
@@ -92,25 +136,25 @@ class Progress:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if self._is_shown:
-            sys.stderr.write("\r\x1b[K")
+            sys.stderr.write(_CLEAR_LINE)
 
     def follow(self, report: "RunReport") -> None:
-        """Tell what this report counts, too."""
+        """Show tokens and price of this report, too."""
         self._report = report
 
-    def objects(self, done: int, count: int) -> None:
-        """Show that so many objects of so many are done."""
+    def update(self, done: int, count: int) -> None:
+        """Show the number of objects that are done, of `count`."""
         if self._is_shown:
-            sys.stderr.write(f"\r\x1b[K{self.line(done, count)}")
+            sys.stderr.write(_CLEAR_LINE + self.line(done, count))
             sys.stderr.flush()
 
     def line(self, done: int, count: int) -> str:
-        """Return the line: objects, their rate, and what they cost so far."""
-        rate = done / max(1e-9, time.monotonic() - self._start)
-        told = [f"{done} of {count} objects", f"{rate:.1f} a second"]
+        """Return the line: objects, rate, tokens and price."""
+        elapsed = time.monotonic() - self._start
+        parts = [f"{done} of {count} objects", f"{done / elapsed if elapsed else 0:.1f} a second"]
         if self._report is not None:
             usage = self._report.usage
-            told.append(f"{usage.input_tokens + usage.output_tokens:,} tokens")
+            parts.append(f"{usage.input_tokens + usage.output_tokens:,} tokens")
             if self._report.price is not None:
-                told.append(f"${self._report.price:.4f}")
-        return ", ".join(told)
+                parts.append(f"${self._report.price:.4f}")
+        return ", ".join(parts)

@@ -1,53 +1,46 @@
-"""usd2kg query: ask a graph."""
+"""usd2kg query: answers from a graph."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+from typer import Argument, Option
 
-from usd2kg.cli.options import JsonOutput, SceneName
-from usd2kg.cli.output import emit, format_table, print_json
+from usd2kg.cli.options.common import JsonOutput
+from usd2kg.cli.options.stores import OptionalGraphSource, SceneName
+from usd2kg.cli.output import count_noun, emit, format_table, print_json
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
     from usd2kg.query import Answer
 
-__all__ = ["answer_text", "query_command", "query_text"]
+__all__ = ["answer_rows", "answer_text", "query_command", "read_sparql"]
 
 
 def query_command(
-    graph: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="GRAPH",
-            help="A graph that usd2kg build wrote, the folder of a store, or the address of a server; not needed for "
-            "--list.",
-        ),
-    ] = None,
+    graph: OptionalGraphSource = None,
     words: Annotated[
         list[str] | None,
-        typer.Argument(
+        Argument(
             metavar="[QUESTION]...",
-            help="on X, in X, near X, above X, parts of X, where is X, or all of CLASS (subclasses included).",
+            help="on X, in X, near X, above X, parts of X, where is X, or all of CLASS (with its subclasses).",
         ),
     ] = None,
     sparql: Annotated[
-        str | None, typer.Option("--sparql", help="A SPARQL query, or @FILE to read one; usual prefixes are known.")
+        str | None, Option("--sparql", help="SPARQL query, or @FILE; common prefixes are predefined.")
     ] = None,
     question: Annotated[
-        str | None, typer.Option("--question", "-q", metavar="ID", help="One of the questions of --list.")
+        str | None, Option("--question", "-q", metavar="ID", help="Predefined question from --list.")
     ] = None,
     given: Annotated[
-        list[str] | None,
-        typer.Option("--with", metavar="NAME=VALUE", help="Value for a parameter of --question; repeatable."),
+        list[str] | None, Option("--with", metavar="NAME=VALUE", help="Value of a parameter of --question. Repeatable.")
     ] = None,
     is_list: Annotated[
-        bool, typer.Option("--list", help="List the questions with their parameters, and stop.")
+        bool, Option("--list", help="List the predefined questions and their parameters, and exit.")
     ] = False,
     scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
-    """Ask a graph: a ready question in words, one of the listed questions, or a SPARQL query."""
+    """Query a graph by a question in words, a predefined question, or SPARQL."""
     from usd2kg.stores import chosen_graphs, is_store, open_graph, open_store  # noqa: PLC0415
 
     if is_list:
@@ -59,28 +52,28 @@ def query_command(
             "or --sparql with a query"
         )
     if given and question is None:
-        raise GraphError("query: --with gives a value to a parameter of --question; expected --question ID beside it")
+        raise GraphError("query: --with sets a parameter of --question; expected --question ID beside it")
     if sparql is not None and is_store(graph):
-        # A server answers by itself: what it holds may be more than this machine's memory.
-        kept = open_store(graph)
-        answer = kept.query(query_text(sparql), chosen_graphs(kept, scene))
+        # A server evaluates the query itself; its graphs may exceed the memory here.
+        store = open_store(graph)
+        answer = store.query(read_sparql(sparql), chosen_graphs(store, scene))
     elif sparql is not None:
-        answer = open_graph(graph, scene).sparql(query_text(sparql))
+        answer = open_graph(graph, scene).sparql(read_sparql(sparql))
     elif question is not None:
-        answer = open_graph(graph, scene).answer(question, dict(map(_parse_given, given or [])))
+        answer = open_graph(graph, scene).answer(question, dict(map(_parse_parameter, given or [])))
     else:
         answer = open_graph(graph, scene).ask(words or [])
     if json:
-        print_json([dict(zip(answer.columns, row, strict=True)) for row in answer.values])
+        print_json(answer_rows(answer))
     else:
-        emit(answer_text(answer), None)
+        emit(answer_text(answer))
 
 
-def _print_questions(as_json: bool) -> None:
+def _print_questions(is_json: bool) -> None:
     from usd2kg.query.questions import list_questions  # noqa: PLC0415
 
     questions = list_questions()
-    if as_json:
+    if is_json:
         print_json(
             [
                 {
@@ -97,35 +90,44 @@ def _print_questions(as_json: bool) -> None:
         (question.id, " ".join(_parameter_text(p.name, p.kind, p.default) for p in question.parameters), question.text)
         for question in questions
     ]
-    emit(format_table(("id", "parameters", "question"), rows), None)
+    emit(format_table(("id", "parameters", "question"), rows))
 
 
 def _parameter_text(name: str, kind: str, default: str | None) -> str:
-    """Return a parameter as a person would give it: its default, or its kind where it must be given."""
+    """Return a parameter as on the command line: in brackets with its default, or with its kind if required."""
     unit = f" {kind}" if kind in {"m", "kg"} else ""
     return f"{name}={kind.upper()}" if default is None else f"[{name}={default}{unit}]"
 
 
-def _parse_given(text: str) -> tuple[str, str]:
+def _parse_parameter(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals or not value.strip():
         raise GraphError(f"--with {text}: expected NAME=VALUE, like --with thing=table")
     return name.strip(), value.strip()
 
 
-def query_text(sparql: str) -> str:
-    """Return a query as it was given, or read from the file in @FILE."""
-    if not sparql.startswith("@"):
-        return sparql
+def read_sparql(text: str) -> str:
+    """Return a query as given, or the content of a file named as @FILE.
+
+    Raises:
+        GraphError: the file cannot be read.
+    """
+    if not text.startswith("@"):
+        return text
     try:
-        return Path(sparql[1:]).read_text("utf-8")
+        return Path(text[1:]).read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise GraphError(f"{sparql[1:]}: cannot be read as a query ({error})") from error
+        raise GraphError(f"{text[1:]}: cannot be read as a query ({error})") from error
 
 
-def answer_text(answer: "Answer", most: int | None = None) -> str:
-    """Return an answer as a table of at most `most` rows, with a last line that counts them all."""
-    count = f"{len(answer.rows)} {'row' if len(answer.rows) == 1 else 'rows'}\n"
-    shown = answer.rows[:most]
-    rest = f"… {len(answer.rows) - len(shown)} more\n" if len(shown) < len(answer.rows) else ""
-    return (format_table(answer.columns, shown) if shown else "") + rest + count
+def answer_rows(answer: "Answer") -> list[dict[str, Any]]:
+    """Return the rows of an answer by column."""
+    return [dict(zip(answer.columns, row, strict=True)) for row in answer.values]
+
+
+def answer_text(answer: "Answer", limit: int | None = None) -> str:
+    """Return an answer as a table of at most `limit` rows, and a last line that counts all rows."""
+    shown = answer.rows[:limit]
+    hidden = len(answer.rows) - len(shown)
+    table = format_table(answer.columns, shown) if shown else ""
+    return table + (f"… {hidden} more\n" if hidden else "") + count_noun(len(answer.rows), "row") + "\n"

@@ -1,56 +1,61 @@
-"""usd2kg render: pictures of a scene and of its objects."""
+"""usd2kg render: pictures of a scene and its objects."""
 
 import re
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
-from usd2kg.cli.options import MetresPerUnit, SceneFile, TimeCode, UpAxis
-from usd2kg.cli.output import talk
+from usd2kg.cli.options.common import SceneFile
+from usd2kg.cli.options.stage import MetresPerUnit, TimeCode, UpAxis
+from usd2kg.cli.output import notify
 from usd2kg.errors import OutputError
 from usd2kg.files import check_writable, write_whole
 
 __all__ = ["render_command"]
 
+_GEOMETRY_CODES = frozenset({"mesh", "copies"})
+"""Codes of the diagnostics about geometry that the picture lacks."""
+
 
 def render_command(
     scene: SceneFile,
     path: Annotated[
-        str | None, typer.Argument(metavar="[PATH]", help="Prim path of an object; default: the whole scene.")
+        str | None, Argument(metavar="[PATH]", help="Prim path of an object; default: the whole scene.")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="PNG file to write; default: NAME.png here.")
+        Path | None, Option("--output", "-o", help="PNG file to write; default: NAME.png in the current folder.")
     ] = None,
-    context: Annotated[bool, typer.Option("--context", help="Show the object highlighted where it stands.")] = False,
+    context: Annotated[bool, Option("--context", help="Show the object highlighted in its place.")] = False,
     size: Annotated[
-        str | None, typer.Option("--size", help="WIDTHxHEIGHT in pixels; default: 256x256, a scene 800x600.")
+        str | None,
+        Option("--size", help="WIDTHxHEIGHT in pixels; default: 256x256 for an object, 800x600 for a scene."),
     ] = None,
     metres_per_unit: MetresPerUnit = None,
     up_axis: UpAxis = None,
     time_code: TimeCode = None,
 ) -> None:
-    """Draw an object, or the whole scene from above, as a PNG picture."""
-    pixels = _parse_size(size or ("256x256" if path else "800x600"))
+    """Render an object, or the whole scene from above, as a PNG picture."""
+    pixels = {} if size is None else {"size": _parse_size(size)}
     if context and path is None:
-        raise OutputError("--context shows one object where it stands; expected the PATH of an object after the scene")
+        raise OutputError("--context shows one object in its place; expected the PATH of an object after the scene")
     target = output or Path(f"{_file_name(path) if path else scene.stem}.png")
     if target.suffix.lower() != ".png":
-        raise OutputError(f"{target}: pictures are PNG files, expected a name ending in .png")
+        raise OutputError(f"{target}: expected a file name ending in .png")
     check_writable(target)
     from usd2kg.render import Renderer  # noqa: PLC0415
-    from usd2kg.scene import ReadOptions  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.scene import ReadOptions  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     renderer = Renderer(scene, ReadOptions(metres_per_unit=metres_per_unit, up_axis=up_axis, time=time_code))
     if path is None:
-        picture = renderer.render_scene(size=pixels)
+        picture = renderer.render_scene(**pixels)
     else:
-        picture = renderer.render_object(path, size=pixels, in_context=context)
+        picture = renderer.render_object(path, **pixels, in_context=context)
     write_whole(target, picture)
     for note in renderer.diagnostics:
-        if note.code in {"mesh", "copies"}:
-            talk(f"{note.prim_path}: {note.message}")
-    talk(f"written to {target}")
+        if note.code in _GEOMETRY_CODES:
+            notify(f"{note.prim_path}: {note.message}")
+    notify(f"written to {target}")
 
 
 def _file_name(path: str) -> str:

@@ -1,66 +1,81 @@
-"""usd2kg store: graphs of many scenes in one folder or on one server."""
+"""usd2kg store: graphs of many scenes in a folder or on a server."""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
-from usd2kg.cli.options import DataAddress, JsonOutput, UpdateAddress
-from usd2kg.cli.output import emit, format_table, print_json, talk
-from usd2kg.cli.query import query_text
+from usd2kg.cli.options.common import JsonOutput
+from usd2kg.cli.options.stores import DataAddress, RequiredStore, UpdateAddress
+from usd2kg.cli.output import emit, format_table, notify, print_json
+from usd2kg.cli.query import read_sparql
 from usd2kg.errors import OutputError, StoreError
 
 if TYPE_CHECKING:
     from usd2kg.stores import NamedGraph, SceneStore
 
-__all__ = ["app", "check_names", "open_place", "store_graphs"]
+__all__ = ["app", "check_graph_names", "load_graphs", "open_for_loading"]
 
-_Place = Annotated[str, typer.Option("--store", metavar="FOLDER|URL", help="A folder, or the address of a server.")]
-
-app = typer.Typer(no_args_is_help=True, help="Keep the graphs of many scenes in one folder or on one server.")
+app = typer.Typer(no_args_is_help=True, help="Keep the graphs of many scenes in a folder or on a SPARQL server.")
 
 
-def open_place(place: str, update: str | None = None, data: str | None = None) -> "SceneStore":
-    """Return a store that is ready for graphs, before any work is spent on them."""
-    from usd2kg.stores import open_store  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+def open_for_loading(place: str, update: str | None = None, data: str | None = None) -> "SceneStore":
+    """Return a store after a check that graphs can be loaded into it.
+
+    Raises:
+        StoreError: they cannot.
+    """
+    from usd2kg.stores import open_store  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     store = open_store(place, update=update, data=data)
     store.check()
     return store
 
 
-def store_graphs(store: "SceneStore", graphs: Sequence["NamedGraph"]) -> None:
-    """Put graphs into a store, and say so."""
+def load_graphs(store: "SceneStore", graphs: Sequence["NamedGraph"]) -> None:
+    """Load graphs into a store, each in place of the graph with the same IRI."""
     for graph in graphs:
         store.load(graph)
-        talk(f"{store.address}: holds <{graph.iri}>, {len(graph.triples)} triples")
+        notify(f"{store.address}: loaded <{graph.iri}>, {len(graph.triples)} triples")
+
+
+def check_graph_names(iris: Sequence[str]) -> None:
+    """Check that no two graphs have the same IRI; the second would replace the first.
+
+    Raises:
+        OutputError: two have.
+    """
+    repeated = sorted({iri for iri in iris if iris.count(iri) > 1})
+    if repeated:
+        raise OutputError(f"two graphs have the IRI <{repeated[0]}>, one would replace the other; build with --base")
 
 
 @app.command("load")
 def load_command(
-    graphs: Annotated[list[Path], typer.Argument(metavar="GRAPH...", help="Graphs that usd2kg build wrote.")],
-    place: _Place,
+    graphs: Annotated[list[Path], Argument(metavar="GRAPH...", help="Graphs written by usd2kg build.")],
+    place: RequiredStore,
     scene: Annotated[
         str | None,
-        typer.Option("--scene", metavar="IRI", help="Name of the graph in the store; default: as it names itself."),
+        Option("--scene", metavar="IRI", help="IRI of the graph in the store; default: as stated in the graph."),
     ] = None,
     update: UpdateAddress = None,
     data: DataAddress = None,
 ) -> None:
-    """Put graphs into a store, each in place of what the store has under its name, as a whole or not at all."""
+    """Load graphs into a store, each as one transaction; a graph with the same IRI is replaced."""
     from usd2kg.stores import read_named_graph  # noqa: PLC0415
 
     if scene is not None and len(graphs) > 1:
-        raise StoreError("--scene names one graph; expected one file with it, or load the files one by one")
-    # All are read before the first is loaded, so that a bad file changes nothing.
-    read = [read_named_graph(path, scene) for path in graphs]
-    check_names([graph.iri for graph in read])
-    store_graphs(open_place(place, update, data), read)
+        raise StoreError(f"--scene names one graph, found {len(graphs)} files; load them one by one")
+    # All files are read before the first is loaded, so that a broken one changes nothing.
+    named = [read_named_graph(path, scene) for path in graphs]
+    check_graph_names([graph.iri for graph in named])
+    load_graphs(open_for_loading(place, update, data), named)
 
 
 @app.command("list")
-def list_command(place: _Place, json: JsonOutput = False) -> None:
+def list_command(place: RequiredStore, json: JsonOutput = False) -> None:
     """List the scenes and ontologies of a store."""
     from usd2kg.stores import open_store  # noqa: PLC0415
 
@@ -80,42 +95,37 @@ def list_command(place: _Place, json: JsonOutput = False) -> None:
         print_json(rows)
     else:
         columns = ("name", "kind", "objects", "triples", "iri")
-        emit(format_table(columns, [tuple(str(row[column]) for column in columns) for row in rows]), None)
+        emit(format_table(columns, [tuple(str(row[column]) for column in columns) for row in rows]))
 
 
 @app.command("remove")
 def remove_command(
-    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes, as store list names them.")],
-    place: _Place,
+    scenes: Annotated[list[str], Argument(metavar="SCENE...", help="Scenes, named as in usd2kg store list.")],
+    place: RequiredStore,
     update: UpdateAddress = None,
 ) -> None:
-    """Take scenes out of a store."""
+    """Remove scenes from a store."""
     from usd2kg.stores import choose_graph, open_store  # noqa: PLC0415
 
     store = open_store(place, update=update)
     graphs = store.graphs()
     for graph in [choose_graph(graphs, scene, place) for scene in scenes]:
         store.remove(graph.iri)
-        talk(f"{store.address}: no longer holds <{graph.iri}>")
+        notify(f"{store.address}: removed <{graph.iri}>")
 
 
 @app.command("update")
 def update_command(
-    sparql: Annotated[str, typer.Argument(metavar="UPDATE", help="A SPARQL 1.1 update, or @FILE to read one.")],
-    place: _Place,
+    sparql: Annotated[
+        str, Argument(metavar="UPDATE", help="SPARQL 1.1 update, or @FILE; common prefixes are predefined.")
+    ],
+    place: RequiredStore,
     update: UpdateAddress = None,
 ) -> None:
-    """Change a store by a SPARQL 1.1 update, all of it or nothing; usual prefixes are known."""
+    """Change a store by a SPARQL 1.1 update, as one transaction."""
     from usd2kg.stores import open_store  # noqa: PLC0415
 
-    text = query_text(sparql)
+    text = read_sparql(sparql)
     store = open_store(place, update=update)
     store.update(text)
-    talk(f"{store.address}: updated")
-
-
-def check_names(iris: Sequence[str]) -> None:
-    """Raise OutputError if two graphs have one name, so that the second would replace the first."""
-    twice = sorted({iri for iri in iris if iris.count(iri) > 1})
-    if twice:
-        raise OutputError(f"two graphs are called <{twice[0]}>, so one would replace the other; build them with --base")
+    notify(f"{store.address}: updated")

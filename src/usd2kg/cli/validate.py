@@ -1,14 +1,16 @@
-"""usd2kg validate: what is wrong with a graph."""
+"""usd2kg validate: findings on a graph."""
 
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Option
 
-from usd2kg.cli.findings import MOST_OF_A_RULE, findings_text
-from usd2kg.cli.options import GraphPlace, JsonOutput, SceneName
-from usd2kg.cli.output import emit, print_json, talk
+from usd2kg.cli.finding_text import findings_text
+from usd2kg.cli.options.common import AllFindings, JsonOutput, OntologyFile
+from usd2kg.cli.options.stores import GraphSource, SceneName
+from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
@@ -20,38 +22,33 @@ __all__ = ["validate_command"]
 
 
 def validate_command(
-    graph: GraphPlace,
-    ontology: Annotated[
-        Path | None,
-        typer.Option("--ontology", help="The OWL file that it was built with; default: the built-in home ontology."),
-    ] = None,
+    graph: GraphSource,
+    ontology: OntologyFile = None,
     rules: Annotated[
         Path | None,
-        typer.Option("--rules", help="A TOML file with thresholds, classes and texts in place of our own."),
+        Option("--rules", help="TOML file that overrides thresholds, classes and texts; default: the built-in rules."),
     ] = None,
-    every: Annotated[
-        bool, typer.Option("--all", help=f"Show every finding; default: the first {MOST_OF_A_RULE} of each rule.")
-    ] = False,
+    every: AllFindings = False,
     reasoner: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--reasoner",
-            help="Ask a reasoner, too, whether the graph is consistent: elk, which needs Java 17 and its jars; "
-            "default: none.",
+            help="Reasoner that checks the consistency of the graph: elk, which needs Java 17 and its jars; default: "
+            "none.",
         ),
     ] = None,
     elk_jars: Annotated[
         Path | None,
-        typer.Option("--elk-jars", help="Folder with ELK's jars; default: $USD2KG_ELK_JARS, else build/elk."),
+        Option("--elk-jars", help="Folder with the jars of ELK; default: $USD2KG_ELK_JARS, else build/elk."),
     ] = None,
     reasoner_limit: Annotated[
-        float, typer.Option("--reasoner-limit", min=1, help="Seconds after which a reasoner is given up; default: 600.")
+        float, Option("--reasoner-limit", min=1, help="Seconds after which the reasoner is stopped.")
     ] = 600,
     scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
-    """Check a graph: its shape, against its ontology, and for what is hard to believe. Exit code 1 if it finds any."""
-    from usd2kg.stores import open_graph  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    """Check a graph: its shapes, its ontology, and its plausibility. Exit code 1 if there are findings."""
+    from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.validation import elk_jars as find_elk_jars  # noqa: PLC0415
     from usd2kg.validation import read_rules, validate_graph  # noqa: PLC0415
 
@@ -62,7 +59,7 @@ def validate_command(
     chosen = read_rules(rules)
     store = open_graph(graph, scene)
     closure = _open_closure(store, ontology)
-    answer = _ask(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
+    answer = _ask_elk(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
     report = validate_graph(store, closure, chosen, answer)
     if json:
         print_json(
@@ -76,14 +73,16 @@ def validate_command(
             }
         )
     else:
-        most = None if every else MOST_OF_A_RULE
-        emit(findings_text(report.findings, report.objects, "object", most), None)
+        emit(findings_text(report.findings, report.objects, "object", is_complete=every))
     if report.findings:
         raise typer.Exit(1)
 
 
 def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None":
-    """Return the ontology to check against; None, told on stderr, where the graph names one that is not given."""
+    """Return the ontology to check against, with its imports.
+
+    None, with a message, if the graph states an ontology other than the built-in one and no file is given.
+    """
     from usd2kg.ontology import read_closure  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.validation import imports_of, ontology_of  # noqa: PLC0415
@@ -92,30 +91,28 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
     stated = ontology_of(store)
     if stated is not None and stated != tbox.ontology_iri:
         if ontology is None:
-            talk(f"ontology: the graph was built with <{stated}>; name its file with --ontology to check against it")
+            notify(f"ontology: the graph was built with <{stated}>; name its file with --ontology to check against it")
             return None
-        talk(f"ontology: the graph was built with <{stated}>, and {ontology} is <{tbox.ontology_iri}>")
+        notify(f"ontology: the graph was built with <{stated}>, and {ontology} is <{tbox.ontology_iri}>")
     closure = read_closure(tbox, imports_of(store))
     for iri in closure.missing:
-        talk(f"missing-import: <{iri}> is not at hand, so what it states is not checked; name its file with --ontology")
+        notify(f"missing-import: <{iri}> is not available, its axioms are not checked; name its file with --ontology")
     return closure
 
 
-def _ask(store: "GraphStore", closure: "Closure | None", jars: Path | None, limit: float) -> "ElkAnswer":
-    """Return what ELK says; what it did not hear, and what is the ontology's own fault, is told on stderr."""
+def _ask_elk(store: "GraphStore", closure: "Closure | None", jars: Path | None, limit: float) -> "ElkAnswer":
+    """Return the answer of ELK; prints unsupported axioms and unsatisfiable classes to stderr."""
     from usd2kg.ontology import compact_iri  # noqa: PLC0415
     from usd2kg.validation import ask_elk  # noqa: PLC0415
 
     if closure is None:
-        raise GraphError(
-            f"{store.source}: a reasoner needs the ontology that it was built with; name it with --ontology"
-        )
+        raise GraphError(f"{store.source}: a reasoner needs the ontology of the graph; name its file with --ontology")
     answer = ask_elk(store, closure, jars=jars, limit=limit)
     verdict = "consistent" if answer.is_consistent else "inconsistent"
-    talk(f"elk: {verdict}; {answer.beyond} of {answer.axioms} axioms are beyond OWL 2 EL and were not heard")
+    notify(f"elk: {verdict}; {answer.beyond} of {answer.axioms} axioms are not in OWL 2 EL and were ignored")
     if answer.impossible:
         named = ", ".join(compact_iri(iri) for iri in answer.impossible)
-        talk(f"elk: by the ontology itself {named} can have no member; that matters only to what is of such a class")
+        notify(f"elk: unsatisfiable by the ontology alone: {named}; this affects individuals of these classes only")
     if answer.followers:
-        talk(f"elk: {answer.followers} more individuals cannot be only because they are related to those found")
+        notify(f"elk: {answer.followers} more individuals are inconsistent only through their relations to those found")
     return answer

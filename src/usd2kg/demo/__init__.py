@@ -1,4 +1,4 @@
-"""The demo kitchen: a scene authored for this project, with gold labels and true relations."""
+"""The demo kitchen: a scene made for this project, with gold labels and true relations."""
 
 from importlib.resources import files
 from pathlib import Path
@@ -26,5 +26,5 @@ def demo_relations() -> Path:
 
 
 def _file(name: str) -> Path:
-    # The stage references its assets by relative paths, so it must be in a real folder.
+    # The stage references its assets by relative paths, so it cannot be read from a zip file.
     return Path(str(files("usd2kg.demo") / "kitchen" / name))

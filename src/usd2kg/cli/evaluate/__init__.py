@@ -1,14 +1,12 @@
-"""usd2kg eval: measure grounding against gold labels."""
+"""usd2kg eval: evaluation of grounding against gold labels."""
 
 import typer
 
 from usd2kg.cli.evaluate import gold, matrix, run, stored
 
-__all__ = [
-    "app",
-]
+__all__ = ["app"]
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Measure grounding against gold labels.")
+app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Evaluate grounding against gold labels.")
 app.command("run")(run.run_command)
 app.command("calibrate")(stored.calibrate_command)
 app.command("reproduce")(matrix.reproduce_command)

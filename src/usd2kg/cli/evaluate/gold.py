@@ -1,13 +1,12 @@
-"""usd2kg eval annotate, eval agreement: making gold labels, and how far two people's agree."""
+"""usd2kg eval annotate and eval agreement: gold labels, and how far two annotators agree."""
 
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
-from usd2kg.cli.evaluate.texts import number_text, short_name
-from usd2kg.cli.options import JsonOutput, OntologyFile, SceneFile
-from usd2kg.cli.output import emit, format_table, print_json
+from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile, TextFile
+from usd2kg.cli.output import emit, format_optional, format_table, print_json
 from usd2kg.errors import EvaluationError
 
 __all__ = ["agreement_command", "annotate_command"]
@@ -15,12 +14,16 @@ __all__ = ["agreement_command", "annotate_command"]
 
 def annotate_command(
     scene: SceneFile,
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write.")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Write over an existing file, labels and all.")] = False,
-    suggest: Annotated[bool, typer.Option("--suggest", help="Fill in the default grounder's answers.")] = False,
+    output: TextFile = None,
+    force: Annotated[
+        bool, Option("--force", help="Overwrite an existing file with its labels; default: refuse.")
+    ] = False,
+    suggest: Annotated[
+        bool, Option("--suggest", help="Fill in the classes of the lexical grounder; default: leave them empty.")
+    ] = False,
     ontology: OntologyFile = None,
 ) -> None:
-    """Make a gold file to fill in: a row for each object, with what helps to decide."""
+    """Write a template for gold labels: a row for each object, with its evidence."""
     from usd2kg import grounding  # noqa: PLC0415
     from usd2kg.evaluation.template import gold_template  # noqa: PLC0415
     from usd2kg.files import check_apart  # noqa: PLC0415
@@ -28,9 +31,7 @@ def annotate_command(
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
     if output is not None and output.exists() and not force:
-        raise EvaluationError(
-            f"{output}: exists, and may hold labels that took a person hours; choose another or --force"
-        )
+        raise EvaluationError(f"{output}: exists and may hold labels; choose another file, or overwrite with --force")
     check_apart([output], [scene, ontology])
     found = read_scene(scene)
     tbox = open_tbox(ontology)
@@ -39,22 +40,23 @@ def annotate_command(
 
 
 def agreement_command(
-    first: Annotated[Path, typer.Argument(metavar="A", help="A gold file.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Another person's gold file for the same scene.")],
+    first: Annotated[Path, Argument(metavar="A", help="Gold file of one annotator.")],
+    second: Annotated[Path, Argument(metavar="B", help="Gold file of another annotator for the same scene.")],
     ontology: OntologyFile = None,
     json: JsonOutput = False,
 ) -> None:
-    """Say how far two gold files agree: exactly, beyond chance, accepting second labels, hierarchically."""
+    """Measure the agreement of two gold files: exact, Cohen's kappa, accepting second labels, hierarchical."""
     from usd2kg.evaluation import read_gold  # noqa: PLC0415
-    from usd2kg.evaluation.metrics import agreement as measure  # noqa: PLC0415
+    from usd2kg.evaluation.metrics import agreement as metric  # noqa: PLC0415
+    from usd2kg.ontology import local_name  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     tbox = open_tbox(ontology)
     try:
-        found = measure.agreement(read_gold(first, tbox), read_gold(second, tbox), tbox)
+        found = metric.agreement(read_gold(first, tbox), read_gold(second, tbox), tbox)
     except ValueError as error:
-        raise EvaluationError(f"{first} and {second}: {error}; compare files for the same scene") from error
-    rows = [(a.prim_path, short_name(a.target), short_name(b.target)) for a, b in found.disagreements]
+        raise EvaluationError(f"{first} and {second}: {error}; compare gold files of the same scene") from error
+    rows = [(a.prim_path, local_name(a.target), local_name(b.target)) for a, b in found.disagreements]
     if json:
         print_json(
             {
@@ -73,10 +75,10 @@ def agreement_command(
         ("labelled by both", str(found.n)),
         ("only in A, only in B", f"{len(found.only_first)}, {len(found.only_second)}"),
         ("same class", f"{found.exact:.3f}"),
-        ("Cohen's kappa", number_text(found.kappa, ".3f")),
+        ("Cohen's kappa", format_optional(found.kappa, ".3f")),
         ("accepting second labels", f"{found.accepted:.3f}"),
         ("hierarchical F1", f"{found.hierarchical_f1:.3f}"),
     ]
-    emit(format_table(("measure", "value"), measures), None)
+    emit(format_table(("measure", "value"), measures))
     if rows:
-        emit("\n" + format_table(("disagreement", "A", "B"), rows), None)
+        emit("\n" + format_table(("disagreement", "A", "B"), rows))

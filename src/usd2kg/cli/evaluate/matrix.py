@@ -1,12 +1,14 @@
-"""usd2kg eval reproduce, eval kitchen-set: whole studies, with reports."""
+"""usd2kg eval reproduce and eval kitchen-set: evaluation matrices with reports."""
 
+from collections.abc import Callable
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Argument, Option
 
-from usd2kg.cli.options import OntologyFile
-from usd2kg.cli.output import emit, talk
+from usd2kg.cli.options.common import OntologyFile, ReportFolder
+from usd2kg.cli.output import emit, notify
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
@@ -14,52 +16,58 @@ if TYPE_CHECKING:
 
 __all__ = ["kitchen_set_command", "reproduce_command"]
 
+_OBJECTS_IN_STUDY = 125
+"""Objects of the Kitchen Set in the study."""
+
 
 def reproduce_command(
-    matrix: Annotated[Path, typer.Argument(metavar="MATRIX", help="A TOML file; see docs/evaluation.md.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="Folder for answers and reports.")] = Path("results"),
-    refresh: Annotated[bool, typer.Option("--refresh", help="Ask again, whatever is stored.")] = False,
+    matrix: Annotated[Path, Argument(metavar="MATRIX", help="TOML file; see docs/evaluation.md.")],
+    output: ReportFolder = Path("results"),
+    refresh: Annotated[
+        bool, Option("--refresh", help="Compute every result again; default: use stored results.")
+    ] = False,
 ) -> None:
-    """Run scenes × grounders × regimes × ablations and write tables, plots and a report.
+    """Evaluate scenes × grounders × regimes × ablations and write tables, plots and a report.
 
-    It resumes after an interruption and asks for no answer twice.
+    Results are stored, so an interrupted run resumes.
     """
     from usd2kg import evaluation  # noqa: PLC0415
     from usd2kg.evaluation.report import write_report  # noqa: PLC0415
 
     plan = evaluation.read_matrix(matrix)
-    total = sum(1 for cell in plan.cells() if cell.scene.missing is None)
     for scene in plan.scenes:
         if scene.missing is not None:
-            talk(f"{scene.name} is left out: {scene.missing} does not exist")
-    done = 0
+            notify(f"{scene.name} is left out: {scene.missing} does not exist")
+    total = sum(1 for cell in plan.cells() if cell.scene.missing is None)
+    results = evaluation.run_matrix(plan, output, refresh=refresh, progress=_progress(total))
+    if not results:
+        raise EvaluationError(f"{matrix}: none of its scenes exists; correct the paths")
+    for path in write_report(results, plan.title, output):
+        emit(f"{path}\n")
 
-    def tell(result: "CellResult") -> None:
-        nonlocal done
-        done += 1
+
+def _progress(total: int) -> "Callable[[CellResult], None]":
+    """Return a function that prints a result with its number of `total`."""
+    numbers = count(1)
+
+    def report(result: "CellResult") -> None:
         cell, summary = result.cell, result.evaluation.summary
         stored = " (stored)" if result.was_stored else ""
         figures = f"EMA {summary.ema:.1f} HF1 {summary.hf1:.2f}"
-        talk(f"[{done}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}")
+        notify(f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}")
 
-    results = evaluation.run_matrix(plan, output, refresh=refresh, progress=tell)
-    if not results:
-        raise EvaluationError(f"{matrix}: no scene of it is here; mend the paths")
-    for path in write_report(results, plan.title, output):
-        emit(f"{path}\n", None)
+    return report
 
 
 def kitchen_set_command(
-    folder: Annotated[Path, typer.Argument(metavar="PATH", help="Where your download of the Kitchen Set is unpacked.")],
+    folder: Annotated[Path, Argument(metavar="PATH", help="Folder of the unpacked Kitchen Set.")],
     gold: Annotated[
-        Path | None, typer.Option("--gold", help="Your gold labels; without them, only check and list the objects.")
+        Path | None, Option("--gold", help="Gold labels; default: none, only check the scene and list objects.")
     ] = None,
     ontology: OntologyFile = None,
-    output: Annotated[Path, typer.Option("--output", "-o", help="Folder for answers and reports.")] = Path(
-        "kitchen_set_results"
-    ),
+    output: ReportFolder = Path("kitchen_set_results"),
 ) -> None:
-    """Check your download of Pixar's Kitchen Set, and run the study's matrix on it with your gold labels."""
+    """Check a download of Pixar's Kitchen Set, and evaluate the study's matrix on it with your gold labels."""
     from usd2kg.evaluation import run_matrix  # noqa: PLC0415
     from usd2kg.evaluation.kitchen_set import check_kitchen_set, kitchen_matrix  # noqa: PLC0415
     from usd2kg.evaluation.report import write_report  # noqa: PLC0415
@@ -67,11 +75,12 @@ def kitchen_set_command(
 
     found = check_kitchen_set(folder)
     scene = read_scene(found.root)
-    talk(f"{found.root}: {found.layer_count} layers, {len(scene.objects)} objects (the study has 125)")
+    counts = f"{found.layer_count} layers, {len(scene.objects)} objects (the study has {_OBJECTS_IN_STUDY})"
+    notify(f"{found.root}: {counts}")
     if gold is None:
-        emit("".join(f"{obj.prim_path}\n" for obj in scene.objects), None)
-        talk("label them with usd2kg eval annotate, then come back with --gold")
+        emit("".join(f"{obj.prim_path}\n" for obj in scene.objects))
+        notify("label these objects with usd2kg eval annotate, then run this command with --gold")
         return
     plan = kitchen_matrix(found, gold, ontology)
     for path in write_report(run_matrix(plan, output), plan.title, output):
-        emit(f"{path}\n", None)
+        emit(f"{path}\n")

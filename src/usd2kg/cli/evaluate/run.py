@@ -1,17 +1,16 @@
-"""usd2kg eval run: score one grounder on one scene."""
+"""usd2kg eval run: evaluation of one grounder on one scene."""
 
 import json as jsonlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+from typer import Option
 
-from usd2kg.cli.evaluate.texts import number_text
-from usd2kg.cli.grounding_run import GroundingOptions, check_files_apart, open_run
-from usd2kg.cli.groups import with_groups
-from usd2kg.cli.model_options import ModelOptions
-from usd2kg.cli.options import AbbreviatedLength, JsonOutput, OntologyFile, SceneFile
-from usd2kg.cli.output import emit, format_table, print_json
+from usd2kg.cli.grounder_session import open_session
+from usd2kg.cli.options.bundles import check_files, expand_bundles
+from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile
+from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
+from usd2kg.cli.output import emit, format_optional, format_table, print_json
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
@@ -22,48 +21,48 @@ if TYPE_CHECKING:
 __all__ = ["run_command"]
 
 
-@with_groups
+@expand_bundles
 def run_command(
     scene: SceneFile,
-    gold: Annotated[Path, typer.Option("--gold", help="Gold labels: CSV path,class,also.")],
-    chosen: GroundingOptions,
-    asked: ModelOptions,
+    gold: Annotated[Path, Option("--gold", help="Gold labels: CSV path,class,also.")],
+    grounding: GroundingOptions,
     ontology: OntologyFile = None,
     abbreviated_length: AbbreviatedLength = 4,
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="File to write.")] = None,
+    output: Annotated[
+        Path | None,
+        Option("--output", "-o", help="JSON file of the run, for eval compare and eval calibrate; default: none."),
+    ] = None,
     json: JsonOutput = False,
 ) -> None:
-    """Score one grounder on one scene; --output keeps every score for eval compare and eval calibrate."""
-    from usd2kg import evaluation  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    """Evaluate one grounder on one scene."""
+    from usd2kg import evaluation  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import ReadOptions, read_scene  # noqa: PLC0415
 
-    if asked.dry_run:
-        raise EvaluationError("--dry-run shows the prompts of one scene; expected it with usd2kg ground")
+    if grounding.model.dry_run:
+        raise EvaluationError("--dry-run prints the prompts of one scene; use it with usd2kg ground")
     if output is not None:
         check_writable(output)
-    check_files_apart([output], [scene, gold, ontology], chosen, asked)
-    groups, naming_regime = chosen.groups, chosen.naming_regime
+    check_files([output], [scene, gold, ontology], grounding)
+    evidence, regime = grounding.evidence_groups, grounding.naming_regime
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)
     found = read_scene(scene, paths=[label.prim_path for label in labels])
     if len(found.missing_paths) == len(labels):
-        raise EvaluationError(
-            f"{gold}: none of its {len(labels)} paths is on {scene}; is it the gold of another scene?"
-        )
-    with open_run(chosen, asked, found, tbox, scene, ReadOptions()) as opened:
+        raise EvaluationError(f"{gold}: none of its {len(labels)} paths is in {scene}; expected the gold of this scene")
+    with open_session(grounding, found, tbox, scene, ReadOptions()) as session:
         result = evaluation.evaluate(
             found,
             labels,
             tbox,
-            opened.grounder,
-            regime=naming_regime,
-            evidence=groups,
-            decisions=opened.decisions,
+            session.grounder,
+            regime=regime,
+            evidence=evidence,
+            decisions=session.decisions,
             abbreviated_length=abbreviated_length,
         )
-    opened.tell(result.grounding, asked, tbox)
+    session.report(result.grounding, tbox)
     selection = evaluation.selection_of(found, labels)
     data = evaluation.evaluation_json(result, selection)
     if output is not None:
@@ -71,44 +70,25 @@ def run_command(
     if json:
         print_json(data)
     else:
-        emit(_run_text(result, selection, tbox) + _tiers_text(result), None)
+        emit(_evaluation_text(result, selection, tbox) + _tiers_text(result))
 
 
-def _tiers_text(result: "Evaluation") -> str:
-    """Return how right each tier of a cascade was; nothing for a single grounder."""
-    by_tier: dict[str, list[Score]] = {}
-    for score in result.scores:
-        found = result.grounding.by_path.get(score.id)
-        by_tier.setdefault(found.grounder if found else "", []).append(score)
-    if len(by_tier) < 2:
-        return ""
-    rows = [
-        (
-            tier,
-            str(len(scores)),
-            f"{100 * sum(score.is_exact for score in scores) / len(scores):.1f}",
-            f"{100 * sum(score.is_accepted for score in scores) / len(scores):.1f}",
-        )
-        for tier, scores in by_tier.items()
-    ]
-    return "\n" + format_table(("tier", "objects", "exact %", "accepting a second label %"), rows)
-
-
-def _run_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:
+def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:
+    """Return the figures of an evaluation and its wrong answers as tables."""
     s = result.summary
     rows = [
         ("objects (distinct names)", f"{s.n} ({s.names})", None),
         ("answered", str(s.answered), None),
-        ("exact match (EMA) %", f"{s.ema:.1f}", _interval(s.ema_interval)),
-        ("  copies drawn together", None, _interval(s.ema_name_interval)),
-        ("  each distinct name once %", f"{s.ema_by_name:.1f}", _interval(s.ema_by_name_interval)),
-        ("  accepting a second label %", f"{s.ema_also:.1f}", _interval(s.ema_also_interval)),
+        ("exact match (EMA) %", f"{s.ema:.1f}", _interval_text(s.ema_interval)),
+        ("  copies drawn together", None, _interval_text(s.ema_name_interval)),
+        ("  each distinct name once %", f"{s.ema_by_name:.1f}", _interval_text(s.ema_by_name_interval)),
+        ("  accepting a second label %", f"{s.ema_also:.1f}", _interval_text(s.ema_also_interval)),
         ("hierarchical F1 (HF1)", f"{s.hf1:.3f}", f"{s.hf1_interval.lower:.3f} to {s.hf1_interval.upper:.3f}"),
-        ("calibration error", number_text(s.calibration_error, ".3f"), None),
-        ("EMA of the surest 80 %", number_text(s.accuracy_at_80, ".1f"), None),
-        ("  accepting a second label %", number_text(s.accepted_at_80, ".1f"), None),
+        ("calibration error", format_optional(s.calibration_error, ".3f"), None),
+        ("EMA of the most confident 80 %", format_optional(s.accuracy_at_80, ".1f"), None),
+        ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f"), None),
         ("object selection recall", f"{selection.recall:.3f}", None),
-        ("object selection precision", number_text(selection.precision, ".3f"), "against gold that may be incomplete"),
+        ("object selection precision", format_optional(selection.precision, ".3f"), "if the gold labels are complete"),
         ("seconds", f"{result.seconds:.3f}", None),
     ]
     misses = [(kind, str(count), None) for kind, count in s.misses.items() if count]
@@ -126,5 +106,25 @@ def _run_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -
     return text + ("\n" + format_table(("wrong", "answer", "gold", "because"), wrong) if wrong else "")
 
 
-def _interval(interval: tuple[float, float]) -> str:
+def _interval_text(interval: tuple[float, float]) -> str:
     return f"{interval[0]:.1f} to {interval[1]:.1f}"
+
+
+def _tiers_text(result: "Evaluation") -> str:
+    """Return the accuracy of each tier of a cascade; empty for a single grounder."""
+    by_tier: dict[str, list[Score]] = {}
+    for score in result.scores:
+        prediction = result.grounding.by_path.get(score.id)
+        by_tier.setdefault(prediction.grounder if prediction else "", []).append(score)
+    if len(by_tier) < 2:
+        return ""
+    rows = [
+        (
+            tier,
+            str(len(scores)),
+            f"{100 * sum(score.is_exact for score in scores) / len(scores):.1f}",
+            f"{100 * sum(score.is_accepted for score in scores) / len(scores):.1f}",
+        )
+        for tier, scores in by_tier.items()
+    ]
+    return "\n" + format_table(("tier", "objects", "exact %", "accepting a second label %"), rows)

@@ -1,26 +1,30 @@
-"""usd2kg eval calibrate, eval compare: what runs that were kept tell."""
+"""usd2kg eval calibrate and eval compare: calibration and comparison of stored runs."""
 
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from typer import Argument, Option
 
-from usd2kg.cli.evaluate.texts import number_text, short_name
-from usd2kg.cli.options import JsonOutput
-from usd2kg.cli.output import emit, format_table, print_json, talk
+from usd2kg.cli.options.common import JsonOutput
+from usd2kg.cli.output import emit, format_optional, format_table, notify, print_json
 from usd2kg.errors import EvaluationError
 
 __all__ = ["calibrate_command", "compare_command"]
 
+_SMALLEST_P = 0.0001
+"""p-values below this are not printed in digits."""
+
 
 def calibrate_command(
-    runs: Annotated[list[Path], typer.Argument(metavar="RUN...", help="Files by eval run --output, of one grounder.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="File to write, for --calibration.")],
+    runs: Annotated[
+        list[Path], Argument(metavar="RUN...", help="Runs of one grounder, written by usd2kg eval run --output.")
+    ],
+    output: Annotated[Path, Option("--output", "-o", help="Calibration to write, for --calibration.")],
 ) -> None:
-    """Fit how likely a grounder's answers are right, by its confidences; for language models.
+    """Fit a calibration of a language model's confidence to its runs (Platt scaling).
 
-    Fit on scenes that you do not measure on.
+    Use scenes other than those you evaluate on.
     """
     from usd2kg import evaluation  # noqa: PLC0415
     from usd2kg.evaluation.metrics.calibration import calibration_error  # noqa: PLC0415
@@ -29,30 +33,31 @@ def calibrate_command(
 
     check_apart([output], runs)
     stored = [read_run(path) for path in runs]
-    described = {run.description for run in stored}
-    if len(described) > 1:
-        raise EvaluationError(f"runs of different grounders: {'; '.join(sorted(described))}; expected those of one")
+    grounders = {run.description for run in stored}
+    if len(grounders) > 1:
+        raise EvaluationError(f"runs of different grounders: {'; '.join(sorted(grounders))}; expected runs of one")
     scores = [score for run in stored for score in run.scores]
-    scaling = evaluation.fit_scaling(scores, described.pop())
+    scaling = evaluation.fit_scaling(scores, grounders.pop())
     scaled = [
         replace(score, confidence=None if score.confidence is None else scaling(score.confidence)) for score in scores
     ]
     emit(scaling.as_json(), output)
     before, after = calibration_error(scores), calibration_error(scaled)
-    talk(
-        f"fitted on {scaling.answers} answers: calibration error {number_text(before, '.3f')} before, "
-        f"{number_text(after, '.3f')} after, on the same answers"
+    notify(
+        f"fitted on {scaling.answers} answers: calibration error {format_optional(before, '.3f')} before, "
+        f"{format_optional(after, '.3f')} after, on the same answers"
     )
 
 
 def compare_command(
-    first: Annotated[Path, typer.Argument(metavar="A", help="A run kept by eval run --output.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Another run on the same scene and ontology.")],
+    first: Annotated[Path, Argument(metavar="A", help="Run written by usd2kg eval run --output.")],
+    second: Annotated[Path, Argument(metavar="B", help="Another run on the same scene and ontology.")],
     json: JsonOutput = False,
 ) -> None:
-    """Compare two runs object by object, with McNemar's test."""
+    """Compare two runs object by object, with McNemar's exact test."""
     from usd2kg.evaluation.metrics.intervals import mcnemar  # noqa: PLC0415
     from usd2kg.evaluation.stored import read_run  # noqa: PLC0415
+    from usd2kg.ontology import local_name  # noqa: PLC0415
 
     a, b = read_run(first), read_run(second)
     if a.ontology_hash != b.ontology_hash:
@@ -62,7 +67,7 @@ def compare_command(
     if not pairs:
         raise EvaluationError(f"{first} and {second} have no object in common; compare runs on the same scene")
     test = mcnemar(a.scores, b.scores)
-    changed = [(x, y) for x, y in pairs if x.is_exact != y.is_exact]
+    differing = [(x, y) for x, y in pairs if x.is_exact != y.is_exact]
     data: dict[str, Any] = {
         "n": len(pairs),
         "first": {"run": a.description, "ema": 100 * sum(x.is_exact for x, _ in pairs) / len(pairs)},
@@ -70,7 +75,7 @@ def compare_command(
         "only_first": test.only_first,
         "only_second": test.only_second,
         "p_value": test.p_value,
-        "changed": [{"path": x.id, "target": x.target, "first": x.answer, "second": y.answer} for x, y in changed],
+        "changed": [{"path": x.id, "target": x.target, "first": x.answer, "second": y.answer} for x, y in differing],
     }
     if json:
         print_json(data)
@@ -78,11 +83,12 @@ def compare_command(
     head = (
         f"A  {data['first']['ema']:.1f} %  {a.description}\nB  {data['second']['ema']:.1f} %  {b.description}\n"
         f"{data['n']} objects; only A right: {test.only_first}, only B right: {test.only_second}; "
-        f"McNemar's exact p {_p_value(test.p_value)}\n"
+        f"McNemar's exact p {_p_value_text(test.p_value)}\n"
     )
-    rows = [(x.id, short_name(x.target), short_name(x.answer), short_name(y.answer)) for x, y in changed]
-    emit(head + (format_table(("differs", "gold", "A", "B"), rows) if rows else ""), None)
+    names = [[local_name(iri) if iri else None for iri in (x.target, x.answer, y.answer)] for x, y in differing]
+    rows = [(x.id, *row) for (x, _), row in zip(differing, names, strict=True)]
+    emit(head + (format_table(("differs", "gold", "A", "B"), rows) if rows else ""))
 
 
-def _p_value(p: float) -> str:
-    return "< 0.0001" if p < 0.0001 else f"= {p:.4f}"
+def _p_value_text(p: float) -> str:
+    return f"< {_SMALLEST_P}" if p < _SMALLEST_P else f"= {p:.4f}"

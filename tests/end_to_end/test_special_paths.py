@@ -1,4 +1,4 @@
-"""Stages with odd names, instances and copies: every object has an IRI of its own that leads back to its prim."""
+"""Non-ASCII names, instances and point instancers: every object has a unique IRI that maps back to its prim."""
 
 import pyoxigraph as ox
 import pytest
@@ -42,29 +42,29 @@ STAGE = SHELF + xform(
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> usd2kg.BuildResult:
-    path = tmp_path_factory.mktemp("odd") / "scene.usda"
+    path = tmp_path_factory.mktemp("special") / "scene.usda"
     path.write_text("#usda 1.0\n" + METRES + STAGE, encoding="utf-8")
     return usd2kg.build(path, base=BASE, options=ReadOptions(expand_instancers=True))
 
 
-def test_the_stage_holds_what_is_odd(built: usd2kg.BuildResult):
+def test_stage_has_special_paths(built: usd2kg.BuildResult):
     paths = {obj.prim_path for obj in built.scene.objects}
     assert {"/World/Shelf_1/Vase", "/World/Shelf_2/Vase", "/World/Books[7]", "/World/Books[-1]"} <= paths
     assert {"/World/Küche", "/World/Ku\u0308che", "/World/杯子", "/World/stage"} <= paths
 
 
-def test_each_object_has_an_iri_of_its_own_that_leads_back(built: usd2kg.BuildResult):
+def test_iris_are_unique_and_map_back_to_prim_paths(built: usd2kg.BuildResult):
     data = serialize_graph(built.graph, ox.RdfFormat.TURTLE)
     triples = [quad.triple for quad in ox.parse(data, format=ox.RdfFormat.TURTLE)]
     members = [triple.object.value for triple in triples if triple.predicate == DUL.hasMember]
     paths = [obj.prim_path for obj in built.scene.objects]
     assert len(set(members)) == len(members) == len(paths)
     assert [prim_path_of(BASE, iri) for iri in members] == paths
-    said = {triple.subject.value: triple.object.value for triple in triples if triple.predicate == U2K.primPath}
-    assert said == dict(zip(members, paths, strict=True))
+    stated = {triple.subject.value: triple.object.value for triple in triples if triple.predicate == U2K.primPath}
+    assert stated == dict(zip(members, paths, strict=True))
 
 
-def test_nothing_else_takes_an_objects_iri(built: usd2kg.BuildResult):
+def test_other_nodes_do_not_use_iris_of_objects(built: usd2kg.BuildResult):
     members = {triple.object for triple in built.graph.triples if triple.predicate == DUL.hasMember}
     parts = {triple.subject for triple in built.graph.triples} - members
     assert not [node for node in parts if isinstance(node, ox.NamedNode) and node.value == f"{BASE}World.stage"]

@@ -1,4 +1,4 @@
-"""What changed, as data for JSON."""
+"""The changes between two versions of a scene as JSON data."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
 
-__all__ = ["changes_data"]
+__all__ = ["changes_json"]
 
 
-def changes_data(changes: "Changes", tolerances: "Tolerances", old: str, new: str) -> dict[str, Any]:
-    """Return all changes as lists and dictionaries; what did not change is left out."""
-    # Imported here: it opens OpenUSD, too slow for --help.
-    from usd2kg.relations import ALL_KINDS  # noqa: PLC0415
+def changes_json(changes: "Changes", tolerances: "Tolerances", old: str, new: str) -> dict[str, Any]:
+    """Return all changes between the versions from the files `old` and `new`."""
+    from usd2kg.relations import ALL_KINDS  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     pairs = ((match.old.iri, match.new.iri) for match in changes.matches)
     return {
@@ -48,6 +47,7 @@ def _links(links: "Iterable[Link]") -> list[dict[str, str]]:
 
 
 def _change(change: "Change", tolerances: "Tolerances") -> "Iterator[tuple[str, Any]]":
+    """Yield the keys of a changed object; those of unchanged properties are left out."""
     from usd2kg.diff import tell_match  # noqa: PLC0415
 
     old, new = change.match.old, change.match.new

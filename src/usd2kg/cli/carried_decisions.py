@@ -1,0 +1,60 @@
+"""Decisions of a person, carried over from an earlier version of the scene."""
+
+import csv
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from usd2kg.cli.options.review import CarryOverOptions
+from usd2kg.cli.output import emit, notify
+
+if TYPE_CHECKING:
+    from usd2kg.diff import CarriedDecisions
+    from usd2kg.grounding import Carried
+    from usd2kg.ontology import ClassIRI
+    from usd2kg.scene import ReadOptions, Scene
+
+__all__ = ["carry_over_decisions"]
+
+_COLUMNS = ("path", "decision", "decided_for", "reason")
+
+
+def carry_over_decisions(
+    decisions: "Mapping[str, ClassIRI]", scene: "Scene", reading: "ReadOptions", options: CarryOverOptions
+) -> "tuple[Mapping[str, ClassIRI], Mapping[str, Carried]]":
+    """Return the decisions for a scene, and the origin of each that was made for another prim path.
+
+    Prints what was carried over to stderr, and writes the files of the options.
+    """
+    if options.previous is None:
+        return decisions, {}
+    from usd2kg.diff import carry_decisions, things_of_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.diff.versions import read_things  # noqa: PLC0415
+
+    found = carry_decisions(decisions, read_things(options.previous, reading), things_of_scene(scene))
+    for path, origin in found.carried.items():
+        notify(f"decision: {origin.prim_path} → {path} ({origin.reason})")
+    for each in found.unplaced:
+        notify(f"decision not placed: {each.prim_path} <{each.class_iri}>: {each.reason}")
+    kept = len(found.decisions) - len(found.carried)
+    counts = f"{kept} kept, {len(found.carried)} carried over, {len(found.unplaced)} not placed"
+    notify(f"{len(decisions)} decisions: {counts}")
+    if options.unplaced is not None:
+        _write_rows([(each.prim_path, each.class_iri, "", each.reason) for each in found.unplaced], options.unplaced)
+    if options.carried is not None:
+        _write_rows(_placed_rows(found), options.carried)
+    return found.decisions, found.carried
+
+
+def _placed_rows(found: "CarriedDecisions") -> list[tuple[str, ...]]:
+    return [
+        (path, iri, *((origin.prim_path, origin.reason) if (origin := found.carried.get(path)) else ("", "")))
+        for path, iri in found.decisions.items()
+    ]
+
+
+def _write_rows(rows: list[tuple[str, ...]], path: Path) -> None:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([_COLUMNS, *rows])
+    emit(text.getvalue(), path)

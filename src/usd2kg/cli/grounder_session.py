@@ -1,0 +1,142 @@
+"""A grounder for one scene as the options ask for it: one grounder, or a cascade, with the decisions of a person."""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from usd2kg.cli.carried_decisions import carry_over_decisions
+from usd2kg.cli.options.grounding import GroundingOptions
+from usd2kg.cli.options.review import CarryOverOptions
+from usd2kg.cli.output import Progress, emit, notify
+from usd2kg.errors import GroundingError, SceneError
+
+if TYPE_CHECKING:
+    from usd2kg.grounding import Carried, CascadeGrounder, Grounder, Grounding, ObjectView
+    from usd2kg.grounding.llm.grounder import LLMGrounder
+    from usd2kg.ontology import ClassIRI, TBox
+    from usd2kg.scene import ReadOptions, Scene
+
+__all__ = ["GrounderSession", "open_session"]
+
+
+@dataclass(frozen=True)
+class GrounderSession:
+    """A grounder that is ready, with its parts."""
+
+    options: GroundingOptions
+    grounder: "Grounder"
+    offline: "Grounder"
+    """The grounder without a language model; the first tier of a cascade."""
+    model: "LLMGrounder | None"
+    cascade: "CascadeGrounder | None"
+    decisions: "Mapping[str, ClassIRI]"
+    carried: "Mapping[str, Carried]"
+    """Prim path → origin of a decision that was made for another path."""
+
+    def views_for_model(self, views: "list[tuple[str, ObjectView]]", tbox: "TBox") -> "list[tuple[str, ObjectView]]":
+        """Return the views that the model has to ground: neither decided nor, in a cascade, grounded offline."""
+        undecided = [(path, view) for path, view in views if path not in self.decisions]
+        if self.cascade is None:
+            return undecided
+        return [undecided[index] for index in self.cascade.unsure(self.offline.ground_views(undecided, tbox))]
+
+    def report(self, grounding: "Grounding", tbox: "TBox") -> None:
+        """Print to stderr what each tier decided and cost, and write the review queue."""
+        from usd2kg.cli.model_report import report_cost, report_tiers  # noqa: PLC0415
+        from usd2kg.grounding import format_queue, unsure_of  # noqa: PLC0415
+
+        if self.cascade is not None or self.decisions:
+            report_tiers(grounding, self.cascade, self.model)
+        if self.model is not None:
+            report_cost(self.model.report, grounding)
+        if (queue := self.options.review.queue) is not None:
+            waiting = unsure_of(grounding, self.options.review.person)
+            emit(format_queue(waiting, tbox), queue)
+            notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
+
+
+@contextmanager
+def open_session(
+    options: GroundingOptions,
+    scene: "Scene",
+    tbox: "TBox",
+    source: Path,
+    reading: "ReadOptions",
+    carry_over: CarryOverOptions | None = None,
+) -> Iterator[GrounderSession]:
+    """Open the grounder for one scene.
+
+    Args:
+        options: the grounder, its model, and the decisions.
+        scene: the scene to ground.
+        tbox: the classes of the decisions.
+        source: the stage of the scene, to render thumbnails.
+        reading: how the stage was read.
+        carry_over: where decisions come from that were made for an earlier version.
+
+    Raises:
+        Usd2kgError: options exclude each other, or a file or model cannot be opened.
+    """
+    from usd2kg import grounding  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+
+    decisions: Mapping[str, ClassIRI] = options.review.read(tbox)
+    carried: Mapping[str, Carried] = {}
+    if carry_over is not None:
+        decisions, carried = carry_over_decisions(decisions, scene, reading, carry_over)
+    is_llm = grounding.is_llm_name(options.grounder)
+    if not is_llm:
+        options.model.check_without_model()
+    offline = grounding.make_grounder(
+        "lexical" if is_llm else options.grounder,
+        dictionary=options.dictionary,
+        class_sizes=options.class_sizes,
+        abstains=options.abstain,
+    )
+    with ExitStack() as stack:
+        model = cascade = None
+        if is_llm:
+            model = stack.enter_context(_open_model(options, scene, decisions, source, reading))
+            if options.model.cascade is not None:
+                cascade = grounding.CascadeGrounder(offline, model, options.model.cascade)
+        yield GrounderSession(options, cascade or model or offline, offline, model, cascade, decisions, carried)
+
+
+@contextmanager
+def _open_model(
+    options: GroundingOptions, scene: "Scene", decisions: "Mapping[str, ClassIRI]", source: Path, reading: "ReadOptions"
+) -> "Iterator[LLMGrounder]":
+    from usd2kg.grounding.llm.examples import choose_examples  # noqa: PLC0415
+    from usd2kg.grounding.llm.settings import open_llm_grounder  # noqa: PLC0415
+
+    asked = options.model
+    if asked.examples and not decisions:
+        raise GroundingError("--examples shows decisions of a person; name their file with --decisions FILE")
+    with (
+        Progress() as progress,
+        open_llm_grounder(
+            asked.settings(options.grounder),
+            is_dry=asked.dry_run,
+            examples=choose_examples(scene, decisions, asked.examples) if asked.examples else (),
+            picture=_renderer(source, reading) if asked.thumbnails else None,
+            progress=progress.update,
+        ) as model,
+    ):
+        progress.follow(model.report)
+        yield model
+
+
+def _renderer(source: Path, reading: "ReadOptions") -> Callable[[str], bytes | None]:
+    """Return a function from prim path to PNG, or to None for an instance or an object without geometry."""
+    from usd2kg.render import Renderer  # noqa: PLC0415
+
+    renderer = Renderer(source, reading)
+
+    def render(path: str) -> bytes | None:
+        try:
+            return renderer.render_object(path)
+        except SceneError:
+            return None
+
+    return render

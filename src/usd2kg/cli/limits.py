@@ -1,0 +1,29 @@
+"""How much the commands show before they cut."""
+
+__all__ = [
+    "CELL_WIDTH",
+    "CHANGES_PER_KIND",
+    "DEMO_ROWS",
+    "FINDINGS_PER_RULE",
+    "MOVES_TO_GROUP",
+    "NAMES_PER_CELL",
+    "PATHS_PER_REASON",
+    "SIMILAR_DIAGNOSTICS",
+]
+
+FINDINGS_PER_RULE = 20
+"""Findings of one rule that `validate`, `label lint` and `ontology check` show without --all."""
+CHANGES_PER_KIND = 20
+"""Changes of one kind that `diff` shows without --all."""
+MOVES_TO_GROUP = 5
+"""`diff` shows this many objects with the same displacement, or more, in one line."""
+SIMILAR_DIAGNOSTICS = 3
+"""Diagnostics with the same message that `inspect` shows."""
+NAMES_PER_CELL = 6
+"""Names of materials or parts in a cell of the table of `inspect`."""
+PATHS_PER_REASON = 3
+"""Prim paths that `label` shows for one reason."""
+DEMO_ROWS = 12
+"""Rows of each answer that `demo` shows."""
+CELL_WIDTH = 60
+"""Characters of a table cell on a terminal; the last column is not cut."""

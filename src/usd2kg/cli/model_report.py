@@ -1,0 +1,84 @@
+"""Reports of language model runs: the prompts of a dry run, cost, and the share of each tier."""
+
+from collections import Counter
+from collections.abc import Iterator
+from decimal import Decimal
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from usd2kg.cli.output import emit, format_table, notify, replace_controls
+
+if TYPE_CHECKING:
+    from usd2kg.grounding import CascadeGrounder, Grounding
+    from usd2kg.grounding.llm.asking import RunReport
+    from usd2kg.grounding.llm.grounder import LLMGrounder
+    from usd2kg.grounding.llm.prices import Tariff
+    from usd2kg.grounding.llm.prompts import Batch
+
+__all__ = ["print_prompts", "report_cost", "report_tiers"]
+
+
+def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | None", output: Path | None) -> None:
+    """Print the prompts of a dry run, and to stderr their estimated tokens and price."""
+    from usd2kg.grounding.llm.estimates import estimate_usage  # noqa: PLC0415
+    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
+
+    emit(replace_controls("\n".join(_prompt_texts(batches))), output)
+    usages = [estimate_usage(batch) for batch in batches]
+    tokens = sum(usage.input_tokens for usage in usages)
+    per_object = tokens / max(1, object_count)
+    price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"
+    notify(
+        f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens "
+        f"({per_object:,.0f} per object) and {sum(usage.output_tokens for usage in usages):,} output tokens, {price}"
+    )
+
+
+def _prompt_texts(batches: "list[Batch]") -> Iterator[str]:
+    """Yield the prompts; the instructions that successive prompts share are printed once."""
+    instructions: str | None = None
+    for number, batch in enumerate(batches, start=1):
+        if batch.request.system != instructions:
+            instructions = batch.request.system
+            yield f"=== instructions ===\n{instructions}\n"
+        yield f"=== prompt {number} of {len(batches)} ===\n{batch.request.user}\n"
+
+
+def report_cost(report: "RunReport", grounding: "Grounding") -> None:
+    """Print to stderr, on one line, the completions, requests, tokens, price and time of a run."""
+    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
+
+    unclassified = sum(1 for prediction in grounding.predictions if prediction.class_iri is None)
+    usage, traffic = report.usage, report.traffic
+    estimated = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
+    price = "price unknown" if report.price is None else format_price(report.price)
+    notify(
+        f"{report.objects} objects in {report.prompts} prompts: {report.completions} new completions, "
+        f"{report.cached} cached, {report.repairs} repairs, {report.degenerate} degenerate, "
+        f"{report.failed} prompts failed, {unclassified} objects without a class; "
+        f"{traffic.attempts} requests sent, {traffic.retries} retries, {traffic.waits} waits "
+        f"of {traffic.waited_s:.1f} s in total; {usage.input_tokens:,} input tokens "
+        f"({usage.cached_tokens:,} cached by the provider), {usage.output_tokens:,} output tokens{estimated}, {price}, "
+        f"{report.seconds:.1f} s"
+    )
+
+
+def report_tiers(grounding: "Grounding", cascade: "CascadeGrounder | None", model: "LLMGrounder | None") -> None:
+    """Print to stderr how many objects each tier decided, and its tokens, price and time."""
+    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
+
+    counts = Counter(prediction.grounder for prediction in grounding.predictions)
+    seconds: dict[str, float] = {}
+    if cascade is not None:
+        seconds = {cascade.first.name: cascade.report.first_s, cascade.second.name: cascade.report.second_s}
+    rows = []
+    for name, count in counts.items():
+        tokens = price = ""
+        if model is not None and name == model.name:
+            usage = model.report.usage
+            tokens = f"{usage.input_tokens + usage.output_tokens:,}"
+            price = "" if model.report.price is None else format_price(model.report.price)
+        rows.append((name, str(count), tokens, price, f"{seconds[name]:.1f}" if name in seconds else ""))
+    notify(format_table(("tier", "objects", "tokens", "price", "seconds"), rows).rstrip())
+    if cascade is not None and cascade.report.kept:
+        notify(f"the model had no class for {cascade.report.kept} objects; they keep the class of the first tier")

@@ -1,0 +1,1 @@
+"""Options shared by several commands, and bundles of options that set up one step."""

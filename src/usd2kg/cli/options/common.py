@@ -1,0 +1,25 @@
+"""Arguments and options of commands that read a scene or an ontology, or print JSON."""
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from usd2kg.cli.limits import FINDINGS_PER_RULE
+
+__all__ = ["AllFindings", "BaseIri", "JsonOutput", "OntologyFile", "ReportFolder", "SceneFile", "TextFile"]
+
+SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage: .usd, .usda, .usdc or .usdz.")]
+OntologyFile = Annotated[
+    Path | None, Option("--ontology", help="OWL file with the candidate classes; default: the built-in home ontology.")
+]
+BaseIri = Annotated[
+    str | None,
+    Option("--base", help="Namespace of the individuals, ending in / or #; default: derived from the file name."),
+]
+JsonOutput = Annotated[bool, Option("--json", help="Print JSON instead of text.")]
+TextFile = Annotated[Path | None, Option("--output", "-o", help="File to write; default: stdout.")]
+ReportFolder = Annotated[Path, Option("--output", "-o", help="Folder for answers and reports.")]
+AllFindings = Annotated[
+    bool, Option("--all", help=f"Show every finding; default: the first {FINDINGS_PER_RULE} of each rule.")
+]

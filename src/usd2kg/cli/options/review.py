@@ -1,0 +1,90 @@
+"""The options of classes that a person decides."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from typer import Option
+
+from usd2kg.cli.options.bundles import OptionBundle
+from usd2kg.errors import GroundingError
+from usd2kg.files import check_writable
+
+if TYPE_CHECKING:
+    from usd2kg.ontology import ClassIRI, TBox
+
+__all__ = ["CarryOverOptions", "ReviewOptions"]
+
+
+@dataclass(frozen=True)
+class ReviewOptions(OptionBundle):
+    """Decisions of a person, and the queue of open ones."""
+
+    output_options = frozenset({"queue"})
+
+    decisions: Annotated[
+        Path | None,
+        Option(
+            "--decisions",
+            help="Classes that a person chose, used instead of the grounder's: CSV path,decision, or the curated and "
+            "reviewed rows of SSSOM (.tsv).",
+        ),
+    ] = None
+    person: Annotated[
+        float, Option("--person", min=0, max=1, help="Confidence below which an object goes into the --queue.")
+    ] = 0.5
+    queue: Annotated[
+        Path | None,
+        Option("--queue", help="CSV file to write: the objects that a person should decide, for --decisions."),
+    ] = None
+
+    def read(self, tbox: "TBox") -> "dict[str, ClassIRI]":
+        """Return prim path → class that a person chose.
+
+        Raises:
+            GroundingError: the file cannot be read.
+        """
+        from usd2kg.grounding import read_decisions  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+
+        return read_decisions(self.decisions, tbox) if self.decisions is not None else {}
+
+
+@dataclass(frozen=True)
+class CarryOverOptions(OptionBundle):
+    """Decisions about an earlier version of the scene."""
+
+    output_options = frozenset({"unplaced", "carried"})
+
+    previous: Annotated[
+        Path | None,
+        Option(
+            "--previous",
+            metavar="OLD",
+            help="Graph or stage of the --decisions, to carry them over to renamed or moved objects; default: none.",
+        ),
+    ] = None
+    unplaced: Annotated[
+        Path | None, Option("--unplaced", help="CSV file to write: decisions without an object in the scene.")
+    ] = None
+    carried: Annotated[
+        Path | None,
+        Option("--carried", help="CSV file to write: the decisions with current prim paths, for --decisions."),
+    ] = None
+
+    def check(self, decisions: Path | None, scene_count: int) -> None:
+        """Check the options before anything is read.
+
+        Raises:
+            GroundingError: they come without decisions, without an earlier version, or with several scenes.
+            OutputError: a file cannot be written.
+        """
+        if self.previous is None:
+            if self.unplaced or self.carried:
+                raise GroundingError("--unplaced and --carried need the earlier scene; name it with --previous OLD")
+            return
+        if decisions is None:
+            raise GroundingError("--previous needs decisions of a person; name their file with --decisions FILE")
+        if scene_count > 1:
+            raise GroundingError(f"--previous takes one scene, found {scene_count}; build them one by one")
+        for path in filter(None, (self.unplaced, self.carried)):
+            check_writable(path)

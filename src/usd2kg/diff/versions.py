@@ -1,0 +1,96 @@
+"""The two versions of a scene to compare, each a graph or a stage."""
+
+from collections.abc import Callable, Set
+from pathlib import Path
+from typing import NamedTuple
+
+import pyoxigraph as ox
+
+from usd2kg.diff.graph_things import Writing, read_statements, things_of_graph, writing_of
+from usd2kg.diff.thing import Thing, things_of_scene
+from usd2kg.graph import GraphOptions, instantiate
+from usd2kg.graph.iris import default_base
+from usd2kg.grounding import ground
+from usd2kg.ontology import TBox
+from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, find_relations
+from usd2kg.scene import ReadOptions, read_scene
+
+__all__ = ["Version", "VersionOptions", "is_stage", "read_things", "read_versions"]
+
+_STAGE_SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
+
+
+class Version(NamedTuple):
+    """A scene at one time."""
+
+    statements: frozenset[ox.Triple]
+    things: tuple[Thing, ...]
+    writing: Writing
+
+
+class VersionOptions(NamedTuple):
+    """How the graph of a stage is built for a comparison."""
+
+    reading: ReadOptions
+    kinds: Set[str] = frozenset()
+    """Kinds of relations to find in addition to the default ones; those that need a viewpoint are not found."""
+    base: str | None = None
+    """Namespace of the individuals; None for that of the other version, else one derived from the old file's name."""
+    is_grounded: bool = True
+
+
+def is_stage(path: Path) -> bool:
+    """Return whether a file is a USD stage, by its suffix."""
+    return path.suffix.lower() in _STAGE_SUFFIXES
+
+
+def read_things(path: Path, options: ReadOptions) -> tuple[Thing, ...]:
+    """Return the things of a graph or a stage; those of a stage without classes.
+
+    Raises:
+        Usd2kgError: the file cannot be read.
+    """
+    if is_stage(path):
+        return things_of_scene(read_scene(path, options=options))
+    return things_of_graph(read_statements(path), str(path))
+
+
+def read_versions(
+    old: Path, new: Path, open_tbox: Callable[[], TBox], options: VersionOptions
+) -> tuple[Version, Version]:
+    """Return both versions; the graph of a stage is built with base, profile and annotations of the other graph.
+
+    `open_tbox` is called if one of them is a stage.
+
+    Raises:
+        Usd2kgError: a file cannot be read.
+    """
+    graphs = {path: _version(read_statements(path), path) for path in (old, new) if not is_stage(path)}
+    writing = next((version.writing for version in graphs.values()), Writing(None, "auto", "owl"))
+    writing = writing._replace(base=options.base or writing.base or default_base(str(old)))
+    if graphs.keys() == {old, new}:
+        return graphs[old], graphs[new]
+    tbox = open_tbox()
+    before, after = (graphs.get(path) or _build(path, tbox, writing, options) for path in (old, new))
+    return before, after
+
+
+def _build(path: Path, tbox: TBox, writing: Writing, options: VersionOptions) -> Version:
+    scene = read_scene(path, options=options.reading)
+    grounding = ground(scene, tbox) if options.is_grounded else ground(scene, tbox, "dictionary", paths=())
+    wanted = {*DEFAULT_KINDS, *options.kinds} - {*VIEWPOINT_KINDS}
+    kinds = tuple(kind for kind in ALL_KINDS if kind in wanted)
+    graph = instantiate(
+        scene,
+        tbox,
+        grounding,
+        base=writing.base,
+        profile=writing.profile,
+        options=GraphOptions(annotations=writing.annotations),
+        relations=find_relations(scene, tbox, grounding, RelationOptions(kinds=kinds)),
+    )
+    return _version(frozenset(graph.triples), path)
+
+
+def _version(statements: frozenset[ox.Triple], path: Path) -> Version:
+    return Version(statements, things_of_graph(statements, str(path)), writing_of(statements))

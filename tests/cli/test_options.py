@@ -1,0 +1,44 @@
+"""Help texts: every parameter has one, and an option has the same one in all commands."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import Any
+
+import typer
+
+from usd2kg.cli.app import app
+
+OF_ONE_COMMAND = {
+    "--all": "diff shows changes, the others findings",
+    "--base": "diff takes the namespace of the other graph",
+    "--format": "ground writes mappings, diff writes changes",
+    "--gold": "optional in eval kitchen-set",
+    "--output": "each command writes another kind of file",
+    "--profile": "build has auto, ontology shapes has not",
+    "--refresh": "ground renews completions, eval reproduce renews results",
+    "--relations": "rules in build, kinds in diff",
+    "--scene": "store load names a new graph, the others choose an existing one",
+}
+"""Option → why its meaning differs between commands."""
+
+
+def parameters(command: Any, names: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]:
+    for parameter in command.params:
+        yield " ".join(names), parameter
+    for name, subcommand in getattr(command, "commands", {}).items():
+        yield from parameters(subcommand, (*names, name))
+
+
+def test_every_parameter_has_a_help_text():
+    found = list(parameters(typer.main.get_command(app)))
+    assert len(found) > 100
+    assert [(command, p.name) for command, p in found if not getattr(p, "help", None)] == []
+
+
+def test_an_option_has_the_same_help_text_in_all_commands():
+    texts = defaultdict(set)
+    for _, parameter in parameters(typer.main.get_command(app)):
+        for name in parameter.opts:
+            if name.startswith("--"):
+                texts[name].add(parameter.help)
+    assert {name for name, found in texts.items() if len(found) > 1} == OF_ONE_COMMAND.keys()
