@@ -4,7 +4,7 @@ import pytest
 
 from tests.conftest import shared_file
 from tests.scene.usda import METRES, component, cube, prim, xform
-from usd2kg.labels import LabelOptions, label_stage, lint_stage, read_run
+from usd2kg.labels import LabelOptions, label_stage, lint_stage, read_prim_classes
 from usd2kg.ontology import load_tbox
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
@@ -142,7 +142,7 @@ def test_what_is_wrong_on_one_prim(lint, lines, apis, rule, expected):
 def test_stale_labels(lint, tmp_path, home_tbox):
     path = tmp_path / "run.csv"
     path.write_text("path,class,confidence\n/A,soma:Cup,0.9\n/B,soma:Bottle,\n/C,soma:Crockery,\n/D,,\n/E,soma:Cup,\n")
-    run = read_run(path, home_tbox)
+    run = read_prim_classes(path, home_tbox)
     prims = [
         thing("A", "Bottle"),
         thing("B", "bottle"),
@@ -160,11 +160,11 @@ def test_what_is_written_here_is_clean(write_stage, tmp_path, home_tbox):
     source = write_stage(METRES + component("A", cube("g")) + component("B", cube("g")))
     path = tmp_path / "run.csv"
     path.write_text("path,class,confidence\n/A,soma:Cup,0.9\n/B,soma:Bottle,0.5\n")
-    run = read_run(path, home_tbox)
+    run = read_prim_classes(path, home_tbox)
     encodings = ("UsdSemantics", "Isaac", "Multiverse")
     target = tmp_path / "labels.usda"
     options = LabelOptions(encodings)
-    report = label_stage(source, run, home_tbox, target, options=options, has_ancestors=True, at_least=0.6)
+    report = label_stage(source, run, home_tbox, target, options=options, has_ancestors=True, min_confidence=0.6)
     assert [(e.prim_path, e.outcome, e.reason) for e in report.outcomes] == [
         ("/A", "written", ""),
         ("/B", "left out", "its class is less sure than 0.6"),

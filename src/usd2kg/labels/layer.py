@@ -11,9 +11,9 @@ from pxr import Sdf, Tf, Usd
 
 from usd2kg.errors import OutputError
 from usd2kg.files import check_writable, is_same_file, write_whole
-from usd2kg.labels.carriers import Carrier, find_carrier
 from usd2kg.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelReport
-from usd2kg.labels.plan import Opinions, plan_labels
+from usd2kg.labels.opinions import LabelOpinions, plan_opinions
+from usd2kg.labels.targets import LabelTarget, find_target
 from usd2kg.scene.label_encodings import TAG_LABELS, semantic_names
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.stage import captured_diagnostics, open_stage, translated_errors
@@ -129,7 +129,7 @@ def _label_prims(stage: Any, labels: Mapping[str, ClassLabel], layer: Any, optio
     with Sdf.ChangeBlock():
         # Parents come before children.
         for path in sorted(labels, key=lambda path: path.split("/")):
-            carrier = find_carrier(stage, path, de_instances=options.de_instances)
+            carrier = find_target(stage, path, de_instances=options.de_instances)
             if carrier.prim is None:
                 outcomes.append(LabelOutcome(path, "left out", carrier.reason))
                 continue
@@ -150,16 +150,16 @@ class _Author:
         self._options = options
         self._time = Usd.TimeCode.EarliestTime()
         self._patterns = Sdf.Layer.CreateAnonymous()
-        self._known: dict[str, tuple[Opinions, str]] = {}
+        self._known: dict[str, tuple[LabelOpinions, str]] = {}
         """IRI of a class → what is said on prims without labels, and where the pattern of that is."""
 
-    def label(self, carrier: Carrier, path: str, label: ClassLabel) -> Opinions:
+    def label(self, carrier: LabelTarget, path: str, label: ClassLabel) -> LabelOpinions:
         """Write the label of the prim at `path`, and return what was written."""
         # What a mode removes differs from prim to prim.
         if self._options.mode != "overwrite" and not semantic_names(carrier.prim):
             if label.iri not in self._known:
                 pattern = f"/Pattern_{len(self._known)}"
-                opinions = plan_labels(carrier.prim, label, self._options, self._time)
+                opinions = plan_opinions(carrier.prim, label, self._options, self._time)
                 self._write(Sdf.CreatePrimInLayer(self._patterns, pattern), opinions, label)
                 self._known[label.iri] = opinions, pattern
             opinions, pattern = self._known[label.iri]
@@ -169,21 +169,21 @@ class _Author:
                 Sdf.CopySpec(self._patterns, pattern, self._layer, path)
                 return opinions
         else:
-            opinions = plan_labels(carrier.prim, label, self._options, self._time)
+            opinions = plan_opinions(carrier.prim, label, self._options, self._time)
         if opinions.outcome != "kept":
             self._break_up(carrier)
             self._write(Sdf.CreatePrimInLayer(self._layer, path), opinions, label)
         return opinions
 
-    def _break_up(self, carrier: Carrier) -> None:
+    def _break_up(self, carrier: LabelTarget) -> None:
         for instance in carrier.instances:
             Sdf.CreatePrimInLayer(self._layer, instance).instanceable = False
 
-    def _write(self, spec: Any, opinions: Opinions, label: ClassLabel) -> None:
+    def _write(self, spec: Any, opinions: LabelOpinions, label: ClassLabel) -> None:
         _author(spec, opinions, self.classes.path_of(label) if opinions.is_tagged else None)
 
 
-def _author(spec: Any, opinions: Opinions, class_prim: str | None) -> None:
+def _author(spec: Any, opinions: LabelOpinions, class_prim: str | None) -> None:
     operation = Sdf.TokenListOp()
     operation.prependedItems = opinions.applied
     operation.deletedItems = opinions.removed

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from usd2kg.labels.class_names import ClassNames, name_key
-from usd2kg.labels.runs import Run
+from usd2kg.labels.class_index import ClassIndex, name_key
+from usd2kg.labels.prim_classes import PrimClasses
 from usd2kg.labels.survey import LabelledPrim, LabelSurvey, survey_labels
 from usd2kg.ontology import TBox, compact_iri, local_name, read_closure
 from usd2kg.scene import Label, ReadOptions, class_words
@@ -54,7 +54,9 @@ class LabelLint:
         return {severity.value: counted[severity.value] for severity in Severity}
 
 
-def lint_stage(scene: Path | str, tbox: TBox, run: Run | None = None, options: ReadOptions | None = None) -> LabelLint:
+def lint_stage(
+    scene: Path | str, tbox: TBox, run: PrimClasses | None = None, options: ReadOptions | None = None
+) -> LabelLint:
     """Return what is wrong with the labels of a stage.
 
     Args:
@@ -68,7 +70,7 @@ def lint_stage(scene: Path | str, tbox: TBox, run: Run | None = None, options: R
         OntologyError: a document of the ontology cannot be read any more.
     """
     survey = survey_labels(scene, options)
-    names = ClassNames(tbox, read_closure(tbox))
+    names = ClassIndex(tbox, read_closure(tbox))
     findings = [
         *map(_of_problem, survey.problems),
         *_lint_names(survey, names),
@@ -119,7 +121,7 @@ def _on(paths: list[str]) -> str:
     return "" if len(paths) == 1 else f", on {len(paths)} prims"
 
 
-def _lint_names(survey: LabelSurvey, names: ClassNames) -> Iterator[Finding]:
+def _lint_names(survey: LabelSurvey, names: ClassIndex) -> Iterator[Finding]:
     """Yield labels that name no class of the ontology, or a deprecated one: each label once."""
     for value, paths in _paths(survey, by_iri=False).items():
         classes = names.named(value)
@@ -138,13 +140,13 @@ def _lint_names(survey: LabelSurvey, names: ClassNames) -> Iterator[Finding]:
             yield _unknown_iri(iri, paths, names)
 
 
-def _deprecated(iri: str, found: str, path: str, names: ClassNames) -> Finding:
+def _deprecated(iri: str, found: str, path: str, names: ClassIndex) -> Finding:
     instead = names.deprecated[iri]
     expected = f"<{instead}>, which replaces it" if instead else "a class that is not deprecated"
     return _finding(Severity.WARNING, "class-deprecated", path, found, expected, "Label it anew.", iri)
 
 
-def _unknown_iri(iri: str, paths: list[str], names: ClassNames) -> Finding:
+def _unknown_iri(iri: str, paths: list[str], names: ClassIndex) -> Finding:
     if names.is_own_namespace(iri):
         like = names.suggest(local_name(iri))
         found = f"<{iri}> is no class of the ontology{_on(paths)}"
@@ -193,7 +195,7 @@ def _lint_places(survey: LabelSurvey) -> Iterator[Finding]:
         yield _finding(severity, "label-inherited", path, found, "a class on each object", advice)
 
 
-def _lint_iri(prim: LabelledPrim, names: ClassNames) -> Iterator[Finding]:
+def _lint_iri(prim: LabelledPrim, names: ClassIndex) -> Iterator[Finding]:
     """Yield a prim whose class names mean another class than its IRI says."""
     iris = [iri for iri in _iris(prim.labels) if iri in names.iris]
     for iri in iris:
@@ -209,7 +211,7 @@ def _lint_iri(prim: LabelledPrim, names: ClassNames) -> Iterator[Finding]:
                 yield _finding(Severity.ERROR, "class-iri-contradict", prim.prim_path, found, expected, advice, iri)
 
 
-def _meant(labels: Iterable[Label], names: ClassNames) -> tuple[frozenset[str], frozenset[str]]:
+def _meant(labels: Iterable[Label], names: ClassIndex) -> tuple[frozenset[str], frozenset[str]]:
     """Return the classes that labels mean, by their IRIs or else by name, and the words that they use."""
     labels = list(labels)
     iris = frozenset(iri for iri in _iris(labels) if iri in names.iris)
@@ -218,7 +220,7 @@ def _meant(labels: Iterable[Label], names: ClassNames) -> tuple[frozenset[str], 
     return iris or named, frozenset(word for value in told for word in class_words(value))
 
 
-def _lint_same_geometry(survey: LabelSurvey, names: ClassNames) -> Iterator[Finding]:
+def _lint_same_geometry(survey: LabelSurvey, names: ClassIndex) -> Iterator[Finding]:
     """Yield prims that are the whole geometry of a labelled prim above and say another class."""
     labels = {prim.prim_path: prim.labels for prim in survey.labelled}
     for prim in survey.labelled:
@@ -238,12 +240,12 @@ def _lint_same_geometry(survey: LabelSurvey, names: ClassNames) -> Iterator[Find
             )
 
 
-def _agree(classes: Iterable[str], others: Iterable[str], names: ClassNames) -> bool:
+def _agree(classes: Iterable[str], others: Iterable[str], names: ClassIndex) -> bool:
     others = list(others)
     return any(names.are_related(cls, other) for cls in classes for other in others)
 
 
-def _lint_run(survey: LabelSurvey, names: ClassNames, run: Run) -> Iterator[Finding]:
+def _lint_run(survey: LabelSurvey, names: ClassIndex, run: PrimClasses) -> Iterator[Finding]:
     """Yield labels that say another class than the run has for their prim."""
     for prim in survey.labelled:
         answer = run.by_path.get(prim.prim_path)

@@ -4,10 +4,10 @@ from typing import Any, NamedTuple
 
 from pxr import Sdf
 
-__all__ = ["Carrier", "find_carrier"]
+__all__ = ["LabelTarget", "find_target"]
 
 
-class Carrier(NamedTuple):
+class LabelTarget(NamedTuple):
     """Whether one prim can carry a label."""
 
     prim: Any
@@ -18,7 +18,7 @@ class Carrier(NamedTuple):
     """Paths of the instances that have to be broken up first, the outermost first."""
 
 
-def find_carrier(stage: Any, prim_path: str, *, de_instances: bool) -> Carrier:
+def find_target(stage: Any, prim_path: str, *, de_instances: bool) -> LabelTarget:
     """Return whether the prim at a path can carry a label.
 
     Args:
@@ -29,11 +29,11 @@ def find_carrier(stage: Any, prim_path: str, *, de_instances: bool) -> Carrier:
     prim = _prim_at(stage, prim_path)
     reason = _reason_against(prim, prim_path)
     if reason or not prim.IsInstanceProxy():
-        return Carrier(None if reason else prim, reason)
+        return LabelTarget(None if reason else prim, reason)
     instances = tuple(_instances_above(prim))
     if not de_instances:
-        return Carrier(None, f"it is inside the instance {instances[0]}; --de-instance breaks that up")
-    return Carrier(prim, instances=instances)
+        return LabelTarget(None, f"it is inside the instance {instances[0]}; --de-instance breaks that up")
+    return LabelTarget(prim, instances=instances)
 
 
 def _prim_at(stage: Any, prim_path: str) -> Any:

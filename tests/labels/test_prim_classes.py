@@ -12,7 +12,7 @@ from usd2kg.errors import GroundingError
 from usd2kg.graph import GraphOptions, write_graph
 from usd2kg.graph.vocabulary import U2K
 from usd2kg.grounding import format_mapping, ground
-from usd2kg.labels import read_run
+from usd2kg.labels import read_prim_classes
 from usd2kg.scene import read_scene
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
@@ -26,7 +26,8 @@ def rows(tmp_path, home_tbox):
         path = tmp_path / "run.csv"
         path.write_text(text, encoding="utf-8")
         return {
-            a.prim_path: (a.class_iri, a.confidence, a.is_reviewed, a.status) for a in read_run(path, home_tbox).answers
+            a.prim_path: (a.class_iri, a.confidence, a.is_reviewed, a.status)
+            for a in read_prim_classes(path, home_tbox).entries
         }
 
     return run
@@ -75,10 +76,10 @@ def test_bad_mappings_are_told_in_one_line(rows, text, message):
 def test_a_graph(home_tbox, tmp_path, profile, annotations):
     path = tmp_path / "room.ttl"
     write_graph(build_graph(home_tbox, ROOM, profile=profile, options=GraphOptions(annotations)), path)
-    run = read_run(path, home_tbox)
+    run = read_prim_classes(path, home_tbox)
     expected = {thing.prim_path: home_tbox.resolve(name) for thing, name in ROOM}
-    assert {a.prim_path: a.class_iri for a in run.answers} == expected
-    assert all(a.confidence is not None and a.status == "grounded" for a in run.answers)
+    assert {a.prim_path: a.class_iri for a in run.entries} == expected
+    assert all(a.confidence is not None and a.status == "grounded" for a in run.entries)
 
 
 GRAPH = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> .
@@ -102,7 +103,7 @@ def test_odd_values_in_a_graph_are_told(home_tbox, tmp_path, monkeypatch, path, 
     monkeypatch.chdir(tmp_path)
     Path("room.ttl").write_text(GRAPH.format(u2k=U2K.iri, soma=SOMA, path=path, confidence=confidence))
     with pytest.raises(GroundingError) as error:
-        read_run(Path("room.ttl"), home_tbox)
+        read_prim_classes(Path("room.ttl"), home_tbox)
     assert str(error.value) == message
 
 
@@ -113,11 +114,11 @@ def test_a_grounding_with_an_impossible_confidence(home_tbox, tmp_path, write_st
     data["predictions"][0]["confidence"] = 7
     path.write_text(json.dumps(data))
     with pytest.raises(GroundingError, match="has the confidence 7, expected a number from 0 to 1"):
-        read_run(path, home_tbox)
+        read_prim_classes(path, home_tbox)
 
 
 def test_json_that_is_no_grounding(home_tbox, tmp_path):
     path = tmp_path / "run.json"
     path.write_text(json.dumps({"format": "other"}))
     with pytest.raises(GroundingError, match="cannot be read as a grounding"):
-        read_run(path, home_tbox)
+        read_prim_classes(path, home_tbox)

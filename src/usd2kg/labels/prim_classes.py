@@ -1,4 +1,4 @@
-"""read_run: which class each prim has, from whatever file of a run is at hand."""
+"""read_prim_classes: which class each prim has, from whatever file of a run is at hand."""
 
 import csv
 import math
@@ -15,13 +15,13 @@ from usd2kg.grounding import PERSON, Status, read_grounding
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.query import GraphStore, load_graph
 
-__all__ = ["Answer", "Run", "read_run"]
+__all__ = ["PrimClass", "PrimClasses", "read_prim_classes"]
 
 _EXPECTED = "expected CSV with the columns path and class (or decision)"
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class PrimClass:
     """The class of one prim, as a run has it."""
 
     prim_path: str
@@ -35,20 +35,20 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Run:
-    """The answers of one run."""
+class PrimClasses:
+    """The entries of one run."""
 
     source: str
-    answers: tuple[Answer, ...]
+    entries: tuple[PrimClass, ...]
     """In the order of the file; each prim once."""
 
     @cached_property
-    def by_path(self) -> Mapping[str, Answer]:
+    def by_path(self) -> Mapping[str, PrimClass]:
         """Prim path → answer."""
-        return {answer.prim_path: answer for answer in self.answers}
+        return {answer.prim_path: answer for answer in self.entries}
 
 
-def read_run(path: Path, tbox: TBox) -> Run:
+def read_prim_classes(path: Path, tbox: TBox) -> PrimClasses:
     """Return the classes in a mapping (`.csv` or `.json` of `usd2kg ground`, a filled-in queue), else in a graph.
 
     Raises:
@@ -63,15 +63,15 @@ def read_run(path: Path, tbox: TBox) -> Run:
         found = _of_csv(path)
     else:
         found = _of_graph(load_graph(path), tbox)
-    answers: dict[str, Answer] = {}
+    entries: dict[str, PrimClass] = {}
     for where, told in found:
         answer = _resolved(where, told, tbox)
-        if answers.setdefault(answer.prim_path, answer).class_iri != answer.class_iri:
+        if entries.setdefault(answer.prim_path, answer).class_iri != answer.class_iri:
             raise GroundingError(f"{where}: {answer.prim_path} has two classes; leave one")
-    return Run(str(path), tuple(answers.values()))
+    return PrimClasses(str(path), tuple(entries.values()))
 
 
-def _resolved(where: str, answer: Answer, tbox: TBox) -> Answer:
+def _resolved(where: str, answer: PrimClass, tbox: TBox) -> PrimClass:
     if answer.class_iri is None:
         return answer
     try:
@@ -79,7 +79,7 @@ def _resolved(where: str, answer: Answer, tbox: TBox) -> Answer:
     except OntologyError as error:
         message = f"{where}: {error}; name the run's own ontology with --ontology"
         raise GroundingError(message) from error
-    return Answer(answer.prim_path, iri, answer.confidence, answer.status, answer.is_reviewed)
+    return PrimClass(answer.prim_path, iri, answer.confidence, answer.status, answer.is_reviewed)
 
 
 def _confidence(where: str, prim_path: str, told: object) -> float | None:
@@ -95,13 +95,13 @@ def _confidence(where: str, prim_path: str, told: object) -> float | None:
     return number
 
 
-def _of_grounding(path: Path) -> Iterator[tuple[str, Answer]]:
+def _of_grounding(path: Path) -> Iterator[tuple[str, PrimClass]]:
     for p in read_grounding(path).predictions:
         confidence = _confidence(str(path), p.prim_path, p.confidence)
-        yield str(path), Answer(p.prim_path, p.class_iri, confidence, p.status.value, p.status is Status.REVIEWED)
+        yield str(path), PrimClass(p.prim_path, p.class_iri, confidence, p.status.value, p.status is Status.REVIEWED)
 
 
-def _of_csv(path: Path) -> Iterator[tuple[str, Answer]]:
+def _of_csv(path: Path) -> Iterator[tuple[str, PrimClass]]:
     try:
         rows = csv.DictReader(path.read_text("utf-8-sig").splitlines())
         columns = rows.fieldnames or ()
@@ -116,7 +116,7 @@ def _of_csv(path: Path) -> Iterator[tuple[str, Answer]]:
         raise GroundingError(f"{path}: cannot be read as a mapping ({error}); {_EXPECTED}") from error
 
 
-def _of_row(where: str, row: dict[str, str | None], column: str) -> Answer:
+def _of_row(where: str, row: dict[str, str | None], column: str) -> PrimClass:
     told = {key: (row.get(key) or "").strip() for key in ("path", column, "confidence", "status", "grounder")}
     by_person = column == "decision" or told["status"] == Status.REVIEWED or told["grounder"] == PERSON
     answer = told[column] or None
@@ -124,10 +124,10 @@ def _of_row(where: str, row: dict[str, str | None], column: str) -> Answer:
     # The queue's confidence is that of the machine's answer, not of the person's.
     number = None if column == "decision" else told["confidence"] or None
     confidence = _confidence(where, told["path"], number)
-    return Answer(told["path"], answer, confidence, str(status), by_person and answer is not None)
+    return PrimClass(told["path"], answer, confidence, str(status), by_person and answer is not None)
 
 
-def _of_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, Answer]]:
+def _of_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]]:
     graph = store.store
     about = _annotations(graph)
     for subject, _, path, _ in graph.quads_for_pattern(None, U2K.primPath, None, None):
@@ -140,7 +140,7 @@ def _of_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, Answer]]:
         notes = _literals(graph, told if told is not None else subject)
         status = notes.get(U2K.status, "grounded" if iri else "")
         confidence = _confidence(store.source, path.value, notes.get(SSSOM.confidence))
-        yield store.source, Answer(path.value, iri, confidence, status, status == Status.REVIEWED)
+        yield store.source, PrimClass(path.value, iri, confidence, status, status == Status.REVIEWED)
 
 
 def _most_specific(iris: Iterable[str], tbox: TBox) -> str | None:

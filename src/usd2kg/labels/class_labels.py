@@ -8,31 +8,31 @@ from usd2kg.labels.model import ClassLabel
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.words import split_identifier
 
-__all__ = ["NAMINGS", "label_maker"]
+__all__ = ["LABEL_STYLES", "label_maker"]
 
-NAMINGS = ("local", "label", "snake")
+LABEL_STYLES = ("local", "label", "snake")
 """How a class is written as a token: the end of its IRI, its label, or its label in lower case with underscores."""
 
 
-def label_maker(tbox: TBox, naming: str = "local", *, has_ancestors: bool = False) -> Callable[[ClassIRI], ClassLabel]:
+def label_maker(tbox: TBox, style: str = "local", *, has_ancestors: bool = False) -> Callable[[ClassIRI], ClassLabel]:
     """Return a function from the IRI of a class to what labels say of it.
 
     Args:
         tbox: the classes.
-        naming: one of `NAMINGS`.
+        style: one of `LABEL_STYLES`.
         has_ancestors: whether the classes above are written, too.
 
     Raises:
-        OutputError: there is no such naming.
+        OutputError: there is no such style.
     """
-    if naming not in NAMINGS:
-        raise OutputError(f"class names {naming!r} are unknown; expected one of {', '.join(NAMINGS)}")
+    if style not in LABEL_STYLES:
+        raise OutputError(f"class names {style!r} are unknown; expected one of {', '.join(LABEL_STYLES)}")
 
     def token(cls: OntologyClass) -> str:
-        if naming == "local":
+        if style == "local":
             return cls.local_name
         parts = split_identifier(cls.label)
-        return "_".join(part.lower() for part in parts) if naming == "snake" and parts else cls.label
+        return "_".join(part.lower() for part in parts) if style == "snake" and parts else cls.label
 
     @cache
     def make(iri: ClassIRI) -> ClassLabel:

@@ -12,7 +12,7 @@ from usd2kg.ontology import Closure, TBox, local_name
 from usd2kg.scene import class_words
 from usd2kg.words import split_identifier
 
-__all__ = ["ClassNames", "name_key"]
+__all__ = ["ClassIndex", "name_key"]
 
 _LIKE_ENOUGH = 80
 """Likeness in percent from which a name is suggested."""
@@ -39,7 +39,7 @@ def name_key(name: str) -> str:
     return "".join(split_identifier(name)).casefold() or name.casefold()
 
 
-class ClassNames:
+class ClassIndex:
     """The classes of an ontology with all that it imports, in scope or not."""
 
     def __init__(self, tbox: TBox, closure: Closure) -> None:

@@ -26,14 +26,14 @@ from usd2kg.scene.label_encodings import (
 from usd2kg.scene.label_lint import meant_property, quote_labels
 from usd2kg.scene.model import Encoding
 
-__all__ = ["Opinions", "plan_labels"]
+__all__ = ["LabelOpinions", "plan_opinions"]
 
 _ISAAC_CLASS = "Semantics"
 """The instance that Isaac's own functions write a prim's class to."""
 
 
 @dataclass
-class Opinions:
+class LabelOpinions:
     """What a layer is to say about the labels of one prim."""
 
     outcome: Outcome
@@ -52,19 +52,19 @@ class Opinions:
     """Schemas to take away."""
 
 
-def plan_labels(prim: Any, label: ClassLabel, options: LabelOptions, time: Any) -> Opinions:
+def plan_opinions(prim: Any, label: ClassLabel, options: LabelOptions, time: Any) -> LabelOpinions:
     """Return what a layer is to say on `prim`, by what stands there already and by the mode."""
     names = semantic_names(prim)
     found = find_labels(prim, names, time) if names else []
     labels = [entry for entry in found if entry.strength == "label" and any(entry.values)]
     if options.mode == "new" and labels:
-        return Opinions("kept", f"has labels already: {_told(labels)}")
+        return LabelOpinions("kept", f"has labels already: {_told(labels)}")
     if options.mode == "overwrite":
         misspelt = _misspelt_classes(prim, names, time)
         return _replace(prim, label, options, [entry for entry in found if entry.tells_class], misspelt)
     classes = [entry for entry in labels if entry.tells_class]
     if classes and not _means(classes, label):
-        return Opinions("kept", f"its labels say another class: {_told(classes)}")
+        return LabelOpinions("kept", f"its labels say another class: {_told(classes)}")
     return _complete(label, options, labels)
 
 
@@ -82,14 +82,14 @@ def _means(classes: Iterable[Found], label: ClassLabel) -> bool:
     return any(value in label.qcodes or not class_words(value).isdisjoint(words) for value in values)
 
 
-def _complete(label: ClassLabel, options: LabelOptions, labels: list[Found]) -> Opinions:
+def _complete(label: ClassLabel, options: LabelOptions, labels: list[Found]) -> LabelOpinions:
     """Return the opinions for the encodings and taxonomies that a prim has no label in."""
     known = {(entry.encoding, entry.taxonomy) for entry in labels}
-    opinions = Opinions("completed" if labels else "written")
+    opinions = LabelOpinions("completed" if labels else "written")
     taken = {instance for entry in labels if (instance := isaac_instance(entry.property_name))}
     _add(opinions, label, options.encodings, taken, known)
     if not opinions.applied:
-        return Opinions("kept", f"has all of these labels already: {_told(labels)}")
+        return LabelOpinions("kept", f"has all of these labels already: {_told(labels)}")
     return opinions
 
 
@@ -112,9 +112,11 @@ def _misspelt_classes(prim: Any, names: Iterable[str], time: Any) -> set[str]:
     }
 
 
-def _replace(prim: Any, label: ClassLabel, options: LabelOptions, classes: list[Found], misspelt: set[str]) -> Opinions:
+def _replace(
+    prim: Any, label: ClassLabel, options: LabelOptions, classes: list[Found], misspelt: set[str]
+) -> LabelOpinions:
     """Return the opinions that leave no other label of a class, and labels of other taxonomies as they are."""
-    opinions = Opinions("replaced" if misspelt or any(any(entry.values) for entry in classes) else "written")
+    opinions = LabelOpinions("replaced" if misspelt or any(any(entry.values) for entry in classes) else "written")
     old = {name for entry in classes for name in _properties(entry)} | misspelt
     kept = {name for name in semantic_names(prim) if name not in old}
     taken = {instance for name in kept if (instance := isaac_instance(name))}
@@ -135,7 +137,7 @@ def _properties(entry: Found) -> Iterator[str]:
 
 
 def _add(
-    opinions: Opinions,
+    opinions: LabelOpinions,
     label: ClassLabel,
     encodings: Iterable[Encoding],
     taken: set[str],
