@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from tests.graph.records import build_graph, open_store, thing
 from usd2kg.cli.app import app
-from usd2kg.diagrams import draw_room, draw_surroundings, png, to_png
+from usd2kg.diagrams import draw_room, draw_surroundings, rasterize, to_png
 from usd2kg.diagrams.svg import FONT, shorten, text_width
 from usd2kg.errors import OutputError
 from usd2kg.graph import write_graph
@@ -187,17 +187,17 @@ class TestPixels:
 
         draw = partial(resvg_py.svg_to_bytes, skip_system_fonts=True)
         monkeypatch.setattr(resvg_py, "svg_to_bytes", draw)
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
         with pytest.raises(OutputError, match=r"no sans-serif font.*apt-get install fonts-dejavu-core.*or write SVG"):
             to_png(self.SVG.format("<text>Table</text>"))
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
 
     def test_missing_resvg_names_the_install_command(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "resvg_py", None)
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
         with pytest.raises(OutputError, match=r"pip install 'usd2kg\[pictures\]', or write SVG"):
             to_png(self.SVG.format(""))
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
 
 
 def test_shared_labels_are_qualified_by_the_parent_prim(home_tbox: TBox):
