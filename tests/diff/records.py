@@ -2,18 +2,18 @@
 
 from dataclasses import replace
 
-from usd2kg.diff import Change, Changes, Link, Match, Move, Thing
+from usd2kg.diff import Change, Changes, Link, Move, ObjectMatch, ObjectState
 
 Corner = tuple[float, float, float]
 CUP = (0.1, 0.1, 0.1)
 
 
-def item(path: str, place: Corner | None = (0, 0, 0), size: Corner | None = CUP, **known: object) -> Thing:
+def item(path: str, place: Corner | None = (0, 0, 0), size: Corner | None = CUP, **known: object) -> ObjectState:
     """Return a thing of the class and asset that its name begins with: Cup_1 is a Cup."""
     kind = path.rpartition("/")[2].partition("_")[0]
     usual = {"center": place, "position": place, "orientation": (0.0, 0.0, 0.0, 1.0), "assets": frozenset({kind})}
     classes = known.pop("classes", (f"https://e.org/{kind}",))
-    return Thing(path, f"https://e.org/k{path}", classes, size=size, **{**usual, **known})
+    return ObjectState(path, f"https://e.org/k{path}", classes, size=size, **{**usual, **known})
 
 
 def on(*anchors: str) -> frozenset[Link]:
@@ -43,8 +43,8 @@ def mirrored(changes: Changes) -> Changes:
     )
 
 
-def _match(match: Match) -> Match:
-    return Match(match.new, match.old, match.by)
+def _match(match: ObjectMatch) -> ObjectMatch:
+    return ObjectMatch(match.new, match.old, match.by)
 
 
 def _mirrored(change: Change) -> Change:

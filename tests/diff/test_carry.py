@@ -5,7 +5,7 @@ from dataclasses import replace
 from tests.diff.records import item
 from tests.graph.records import BASE, reread, said_of, select, thing
 from tests.grounding.records import make_scene
-from usd2kg.diff import Thing, carry_decisions, things_of_graph, things_of_scene
+from usd2kg.diff import ObjectState, carry_decisions, objects_of_graph, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
 from usd2kg.grounding import Carried, Status, ground
 from usd2kg.ontology import TBox
@@ -83,12 +83,12 @@ def test_a_scene_and_its_graph_give_the_same_things(home_tbox: TBox) -> None:
         for annotations in ("owl", "rdf12"):
             options = GraphOptions(annotations=annotations)
             graph = instantiate(scene, home_tbox, grounding, base=BASE, profile=profile, options=options)
-            found = things_of_graph(graph.triples, "room.ttl")
+            found = objects_of_graph(graph.triples, "room.ttl")
             known = [replace(_rounded(each), iri="", links=frozenset()) for each in found]
-            assert known == [_rounded(each) for each in things_of_scene(scene)]
+            assert known == [_rounded(each) for each in objects_of_scene(scene)]
             assert found[0].iri == f"{BASE}Room.Cup"
 
 
-def _rounded(one: Thing) -> Thing:
+def _rounded(one: ObjectState) -> ObjectState:
     size, center = (value and tuple(round(side, 6) for side in value) for value in (one.size, one.center))
     return replace(one, size=size, center=center)

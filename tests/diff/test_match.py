@@ -8,25 +8,25 @@ from dataclasses import replace
 import pytest
 
 from tests.diff.records import item, pairs, ways
-from usd2kg.diff import Thing, Tolerances, compare_things
+from usd2kg.diff import ObjectState, Tolerances, compare_objects
 
 CHAIR = (0.5, 0.5, 0.9)
 
 
-def rename(thing: Thing, path: str) -> Thing:
+def rename(thing: ObjectState, path: str) -> ObjectState:
     return replace(thing, prim_path=path)
 
 
-def put(thing: Thing, x: float, y: float = 0.0, z: float = 0.0) -> Thing:
+def put(thing: ObjectState, x: float, y: float = 0.0, z: float = 0.0) -> ObjectState:
     return replace(thing, center=(x, y, z), position=(x, y, z))
 
 
-def new_paths(old: Sequence[Thing], new: Sequence[Thing]) -> dict[str, str]:
-    return {before: after for before, after, _ in pairs(compare_things(old, new))}
+def new_paths(old: Sequence[ObjectState], new: Sequence[ObjectState]) -> dict[str, str]:
+    return {before: after for before, after, _ in pairs(compare_objects(old, new))}
 
 
 def test_a_new_name_in_the_same_place() -> None:
-    changes = compare_things([item("/Room/Cup_1")], [rename(item("/Room/Cup_1"), "/Room/xyz")])
+    changes = compare_objects([item("/Room/Cup_1")], [rename(item("/Room/Cup_1"), "/Room/xyz")])
     assert pairs(changes) == {("/Room/Cup_1", "/Room/xyz", "place")}
     assert ways(changes) == {"renamed": 1}
 
@@ -34,12 +34,12 @@ def test_a_new_name_in_the_same_place() -> None:
 def test_a_new_name_close_by_needs_the_same_asset_or_class() -> None:
     cup = item("/Room/Cup_1")
     for distance, expected in ((1.9, {"renamed": 1, "moved": 1}), (2.1, {"added": 1, "removed": 1})):
-        assert ways(compare_things([cup], [put(rename(cup, "/Room/Mug"), distance)])) == expected
+        assert ways(compare_objects([cup], [put(rename(cup, "/Room/Mug"), distance)])) == expected
     plain = replace(cup, assets=frozenset())
     for distance, expected in ((0.9, {"renamed": 1, "moved": 1}), (1.1, {"added": 1, "removed": 1})):
-        assert ways(compare_things([plain], [put(rename(plain, "/Room/Mug"), distance)])) == expected
+        assert ways(compare_objects([plain], [put(rename(plain, "/Room/Mug"), distance)])) == expected
     unknown = replace(plain, classes=())
-    assert ways(compare_things([unknown], [put(rename(unknown, "/Room/Mug"), 0.5)])) == {"added": 1, "removed": 1}
+    assert ways(compare_objects([unknown], [put(rename(unknown, "/Room/Mug"), 0.5)])) == {"added": 1, "removed": 1}
 
 
 def test_another_asset_or_size_is_another_thing() -> None:
@@ -49,19 +49,19 @@ def test_another_asset_or_size_is_another_thing() -> None:
         replace(cup, size=(0.1, 0.1, 0.2)),
         replace(cup, size=None),
     ):
-        assert ways(compare_things([cup], [rename(other, "/Room/Mug")])) == {"added": 1, "removed": 1}
+        assert ways(compare_objects([cup], [rename(other, "/Room/Mug")])) == {"added": 1, "removed": 1}
 
 
 def test_the_same_name_elsewhere_however_far() -> None:
     cup = item("/Room/Cup_1")
-    changes = compare_things([cup], [put(rename(cup, "/Room2/Shelf/Cup_1"), 30)])
+    changes = compare_objects([cup], [put(rename(cup, "/Room2/Shelf/Cup_1"), 30)])
     assert ways(changes) == {"renamed": 1, "moved": 1}
 
 
 def test_a_path_keeps_its_thing_even_where_it_changed_a_lot() -> None:
     cup = item("/Room/Cup_1")
     changed = put(replace(cup, assets=frozenset({"Mug"}), size=(0.2, 0.2, 0.2)), 9)
-    assert ways(compare_things([cup], [changed])) == {"moved": 1, "resized": 1, "other asset": 1}
+    assert ways(compare_objects([cup], [changed])) == {"moved": 1, "resized": 1, "other asset": 1}
 
 
 def test_a_path_that_another_thing_took_over_is_told_apart() -> None:
@@ -71,16 +71,16 @@ def test_a_path_that_another_thing_took_over_is_told_apart() -> None:
 
 def test_two_equal_cups_that_change_places_have_moved() -> None:
     one, other = item("/Room/Cup_1", (0, 0, 0)), item("/Room/Cup_2", (1, 0, 0))
-    changes = compare_things([one, other], [put(one, 1), put(other, 0)])
+    changes = compare_objects([one, other], [put(one, 1), put(other, 0)])
     assert ways(changes) == {"moved": 2}
 
 
 def test_a_renamed_group_takes_all_with_it() -> None:
-    def room(name: str, shift: float) -> list[Thing]:
+    def room(name: str, shift: float) -> list[ObjectState]:
         rows = [item(f"/House/{name}/Rack_{i}/Cup", (i, shift, 0)) for i in range(9)]
         return [*rows, item(f"/House/{name}/Lamp", (0, shift, 2)), item(f"/House/{name}/Sofa", (3, shift, 0))]
 
-    changes = compare_things(room("Room", 0), room("Kitchen", 0.5))
+    changes = compare_objects(room("Room", 0), room("Kitchen", 0.5))
     assert {by for _, _, by in pairs(changes)} == {"group"}
     assert ways(changes) == {"renamed": 11, "moved": 11}
     # Racks stand 1 m apart: by place alone the cups would be taken for their neighbours.
@@ -95,7 +95,7 @@ def test_twenty_equal_chairs_shuffled_and_one_removed() -> None:
     places = [chair.center for chair in chairs]
     random.Random(3).shuffle(places)
     shuffled = [put(chair, *place) for chair, place in zip(chairs, places, strict=True)]
-    changes = compare_things(chairs, shuffled[:-1])
+    changes = compare_objects(chairs, shuffled[:-1])
     moved = sum(a.center != b.center for a, b in zip(chairs[:-1], shuffled[:-1], strict=True))
     assert ways(changes) == {"removed": 1, "moved": moved}
     assert changes.removed[0].prim_path == "/Hall/Chair_19"
@@ -106,7 +106,7 @@ def test_twenty_equal_chairs_with_new_names_and_one_removed() -> None:
     names = list(range(19))
     random.Random(4).shuffle(names)
     renamed = [rename(chair, f"/Hall/Seat_{name}") for chair, name in zip(chairs[:19], names, strict=True)]
-    changes = compare_things(chairs, renamed)
+    changes = compare_objects(chairs, renamed)
     assert ways(changes) == {"removed": 1, "renamed": 19}
     assert changes.removed[0].prim_path == "/Hall/Chair_19"
 
@@ -133,8 +133,8 @@ def test_things_without_geometry_are_known_by_name_and_asset() -> None:
 def test_how_far_to_look_can_be_set() -> None:
     cup = item("/Room/Cup_1")
     new = [put(rename(cup, "/Room/Mug"), 3)]
-    assert ways(compare_things([cup], new, Tolerances(match_within_m=4))) == {"renamed": 1, "moved": 1}
-    assert ways(compare_things([cup], [rename(cup, "/Room/Mug")], Tolerances(moved_m=0, match_within_m=0))) == {
+    assert ways(compare_objects([cup], new, Tolerances(match_within_m=4))) == {"renamed": 1, "moved": 1}
+    assert ways(compare_objects([cup], [rename(cup, "/Room/Mug")], Tolerances(moved_m=0, match_within_m=0))) == {
         "renamed": 1
     }
 

@@ -13,7 +13,7 @@ from usd2kg.cli.output import emit, printable, talk
 from usd2kg.errors import GroundingError
 
 if TYPE_CHECKING:
-    from usd2kg.diff import CarriedDecisions, Thing
+    from usd2kg.diff import CarriedDecisions, ObjectState
     from usd2kg.grounding import Carried
     from usd2kg.ontology import ClassIRI
     from usd2kg.scene import ReadOptions, Scene
@@ -71,9 +71,9 @@ class CarryOptions:
         """Return the decisions for a scene, and where those come from that are about another path; tell on stderr."""
         if self.previous is None:
             return decisions, {}
-        from usd2kg.diff import carry_decisions, things_of_scene  # noqa: PLC0415 - too slow for --help
+        from usd2kg.diff import carry_decisions, objects_of_scene  # noqa: PLC0415 - too slow for --help
 
-        found = carry_decisions(decisions, _things(self.previous, options), things_of_scene(scene))
+        found = carry_decisions(decisions, _things(self.previous, options), objects_of_scene(scene))
         _tell(found, len(decisions))
         if self.unplaced is not None:
             rows = [(each.prim_path, each.class_iri, "", each.reason) for each in found.unplaced]
@@ -83,13 +83,13 @@ class CarryOptions:
         return found.decisions, found.carried
 
 
-def _things(path: Path, options: "ReadOptions") -> "tuple[Thing, ...]":
-    from usd2kg.diff import read_statements, things_of_graph, things_of_scene  # noqa: PLC0415
+def _things(path: Path, options: "ReadOptions") -> "tuple[ObjectState, ...]":
+    from usd2kg.diff import objects_of_graph, objects_of_scene, read_statements  # noqa: PLC0415
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
     if path.suffix.lower() in STAGE_ENDINGS:
-        return things_of_scene(read_scene(path, options=options))
-    return things_of_graph(read_statements(path), str(path))
+        return objects_of_scene(read_scene(path, options=options))
+    return objects_of_graph(read_statements(path), str(path))
 
 
 def _tell(found: "CarriedDecisions", count: int) -> None:

@@ -15,7 +15,7 @@ from usd2kg.errors import GraphError
 if TYPE_CHECKING:
     import pyoxigraph as ox
 
-    from usd2kg.diff import Thing, Tolerances, Writing
+    from usd2kg.diff import GraphStyle, ObjectState, Tolerances
     from usd2kg.ontology import TBox
     from usd2kg.relations import RelationOptions
     from usd2kg.scene import ReadOptions
@@ -91,7 +91,7 @@ def diff_command(
     """Tell what changed between two graphs or scenes. Exit code 1 if anything did, as diff has it."""
     from usd2kg.cli.diff_data import changes_data  # noqa: PLC0415 - opens OpenUSD, too slow for --help
     from usd2kg.cli.diff_report import report_text  # noqa: PLC0415
-    from usd2kg.diff import compare_things, make_update  # noqa: PLC0415
+    from usd2kg.diff import compare_objects, make_update  # noqa: PLC0415
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
 
     chosen = _format(file_format, is_json=json, graph=graph)
@@ -110,7 +110,7 @@ def diff_command(
         is_same = not update.text
     else:
         _tell_classes(before, after)
-        changes = compare_things(before.things, after.things, limits, kinds)
+        changes = compare_objects(before.things, after.things, limits, kinds)
         is_same = changes.is_empty
         if chosen == "json":
             print_json(changes_data(changes, limits, str(old), str(new)), output)
@@ -150,8 +150,8 @@ class _Side(NamedTuple):
     """One of the two that are compared."""
 
     statements: "frozenset[ox.Triple]"
-    things: "tuple[Thing, ...]"
-    writing: "Writing"
+    things: "tuple[ObjectState, ...]"
+    writing: "GraphStyle"
 
 
 def _tell_bases(before: _Side, after: _Side) -> None:
@@ -188,11 +188,11 @@ class _Sides:
 
     def open(self, old: Path, new: Path) -> tuple[_Side, _Side]:
         """Return both sides."""
-        from usd2kg.diff import Writing  # noqa: PLC0415
+        from usd2kg.diff import GraphStyle  # noqa: PLC0415
         from usd2kg.graph.iris import default_base  # noqa: PLC0415
 
         graphs = {path: _read(path) for path in (old, new) if path.suffix.lower() not in STAGE_ENDINGS}
-        writing = next((side.writing for side in graphs.values()), Writing(None, "auto", "owl"))
+        writing = next((side.writing for side in graphs.values()), GraphStyle(None, "auto", "owl"))
         writing = writing._replace(base=self._base or writing.base or default_base(str(old)))
         if len({old, new} - graphs.keys()) == 0:
             return graphs[old], graphs[new]
@@ -208,8 +208,8 @@ class _Sides:
             talk(f"{note.code}: {note.message}")
         return tbox
 
-    def _build(self, path: Path, tbox: "TBox", writing: "Writing") -> _Side:
-        from usd2kg.diff import things_of_graph, writing_of  # noqa: PLC0415
+    def _build(self, path: Path, tbox: "TBox", writing: "GraphStyle") -> _Side:
+        from usd2kg.diff import detect_graph_style, objects_of_graph  # noqa: PLC0415
         from usd2kg.graph import GraphOptions, instantiate  # noqa: PLC0415
         from usd2kg.grounding import ground  # noqa: PLC0415
         from usd2kg.relations import find_relations  # noqa: PLC0415
@@ -227,7 +227,7 @@ class _Sides:
             relations=find_relations(scene, tbox, grounding, self._relation_options()),
         )
         statements = frozenset(graph.triples)
-        return _Side(statements, things_of_graph(statements, str(path)), writing_of(statements))
+        return _Side(statements, objects_of_graph(statements, str(path)), detect_graph_style(statements))
 
     def _relation_options(self) -> "RelationOptions":
         from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions  # noqa: PLC0415
@@ -237,7 +237,7 @@ class _Sides:
 
 
 def _read(path: Path) -> _Side:
-    from usd2kg.diff import read_statements, things_of_graph, writing_of  # noqa: PLC0415
+    from usd2kg.diff import detect_graph_style, objects_of_graph, read_statements  # noqa: PLC0415
 
     statements = read_statements(path)
-    return _Side(statements, things_of_graph(statements, str(path)), writing_of(statements))
+    return _Side(statements, objects_of_graph(statements, str(path)), detect_graph_style(statements))

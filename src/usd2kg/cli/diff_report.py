@@ -9,7 +9,7 @@ from usd2kg.cli.object_rows import numbers_text, size_text
 from usd2kg.cli.output import printable
 
 if TYPE_CHECKING:
-    from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
+    from usd2kg.diff import Change, Changes, Link, ObjectState, Tolerances
 
 __all__ = ["report_text"]
 
@@ -52,7 +52,7 @@ def _things(count: int) -> str:
     return "thing" if count == 1 else "things"
 
 
-def _count(found: "Sequence[Thing | Change]") -> str:
+def _count(found: "Sequence[ObjectState | Change]") -> str:
     return f"{len(found)} {_things(len(found))}"
 
 
@@ -68,7 +68,7 @@ def _line(text: str) -> str:
     return printable(" ".join(text.split()))
 
 
-def _class(thing: "Thing") -> str:
+def _class(thing: "ObjectState") -> str:
     return thing.class_label or "no class"
 
 
@@ -77,7 +77,7 @@ def _who(change: "Change") -> str:
     return f"{new.prim_path} ({new.class_label})" if new.class_label else new.prim_path
 
 
-def _tell_thing(thing: "Thing") -> str:
+def _tell_thing(thing: "ObjectState") -> str:
     where = ", ".join(_tell_link(link) for link in sorted(thing.links) if link.kind in _TELLING)
     known = [f" ({thing.class_label})" if thing.class_label else "", f": {where}" if where else ""]
     return thing.prim_path + "".join(known)
@@ -89,17 +89,17 @@ def _tell_link(link: "Link") -> str:
 
 def _renamed(changed: "Iterable[Change]", tolerances: "Tolerances") -> Iterator[str]:
     """Yield a line for each thing, and one for all that only a group's path changed."""
-    from usd2kg.diff import tell_match  # noqa: PLC0415 - opens OpenUSD, too slow for --help
-    from usd2kg.diff.paths import stems_of  # noqa: PLC0415
+    from usd2kg.diff import describe_match  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.diff.paths import differing_prefixes  # noqa: PLC0415
 
-    renamed = [(stems_of(c.match.old.prim_path, c.match.new.prim_path), c) for c in changed if c.is_renamed]
+    renamed = [(differing_prefixes(c.match.old.prim_path, c.match.new.prim_path), c) for c in changed if c.is_renamed]
     counts = Counter(stems for stems, _ in renamed)
     for (before, after), count in counts.items():
         if count > 1:
             yield f"{before or '/'} → {after or '/'}: {count} things below it have the same names as before"
     for stems, change in renamed:
         if counts[stems] == 1:
-            yield f"{change.match.old.prim_path} → {_who(change)}: {tell_match(change.match, tolerances)}"
+            yield f"{change.match.old.prim_path} → {_who(change)}: {describe_match(change.match, tolerances)}"
 
 
 def _moved(shifted: "Iterable[Change]", *, is_short: bool) -> Iterator[str]:

@@ -3,9 +3,9 @@
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from usd2kg.diff.match import Match
-from usd2kg.diff.paths import above, stems_of
-from usd2kg.diff.thing import Link, Thing
+from usd2kg.diff.match import ObjectMatch
+from usd2kg.diff.object_state import Link, ObjectState
+from usd2kg.diff.paths import above, differing_prefixes
 
 __all__ = ["AnchorMap"]
 
@@ -13,7 +13,9 @@ __all__ = ["AnchorMap"]
 class AnchorMap:
     """Which path an anchor of a relation has now: a thing by its match, a room that is a mere group by its things."""
 
-    def __init__(self, matches: Sequence[Match], removed: Iterable[Thing], added: Iterable[Thing]) -> None:
+    def __init__(
+        self, matches: Sequence[ObjectMatch], removed: Iterable[ObjectState], added: Iterable[ObjectState]
+    ) -> None:
         self._things = {match.old.prim_path: match.new.prim_path for match in matches}
         old = [*(match.old for match in matches), *removed]
         new = [*(match.new for match in matches), *added]
@@ -21,7 +23,7 @@ class AnchorMap:
         self._came = {thing.prim_path for thing in new} - set(self._things.values())
         self._groups = _match_groups(_groups_of(old), _groups_of(new), matches)
 
-    def gained_and_lost(self, match: Match, kinds: frozenset[str]) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
+    def gained_and_lost(self, match: ObjectMatch, kinds: frozenset[str]) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
         """Return the relations that a thing has only now, and those that it had only before."""
         old, new = ({link for link in thing.links if link.kind in kinds} for thing in (match.old, match.new))
         if not (old or new):
@@ -32,7 +34,7 @@ class AnchorMap:
         lost = sorted(link for key, link in now.items() if key not in then)
         return tuple(gained), tuple(lost)
 
-    def carriers(self, match: Match, kinds: Iterable[str]) -> list[str]:
+    def carriers(self, match: ObjectMatch, kinds: Iterable[str]) -> list[str]:
         """Return the new paths of the things that it is on, in or below both before and after."""
         new = {link.anchor for link in match.new.links if link.kind in kinds}
         kept = {self._things.get(link.anchor) for link in match.old.links if link.kind in kinds} & new
@@ -48,17 +50,17 @@ class AnchorMap:
         return (anchor, anchor not in self._came) if anchor in self._gone else (self._groups.get(anchor, anchor), False)
 
 
-def _groups_of(things: Sequence[Thing]) -> set[str]:
+def _groups_of(things: Sequence[ObjectState]) -> set[str]:
     paths = {thing.prim_path for thing in things}
     return {link.anchor for thing in things for link in thing.links} - paths
 
 
-def _match_groups(old: set[str], new: set[str], matches: Iterable[Match]) -> dict[str, str]:
+def _match_groups(old: set[str], new: set[str], matches: Iterable[ObjectMatch]) -> dict[str, str]:
     """Return old path → new path of the groups that are gone, where things below them lead to one that came."""
     gone, came = old - new, new - old
     if not (gone and came):
         return {}
-    votes = Counter(stems_of(m.old.prim_path, m.new.prim_path) for m in matches if m.by != "path")
+    votes = Counter(differing_prefixes(m.old.prim_path, m.new.prim_path) for m in matches if m.by != "path")
     likely = []
     for (before, after), count in votes.items():
         for path in gone:

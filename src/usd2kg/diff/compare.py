@@ -1,4 +1,4 @@
-"""compare_things: what was added, removed, renamed, moved, turned, resized, classed anew or relates anew."""
+"""compare_objects: what was added, removed, renamed, moved, turned, resized, classed anew or relates anew."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 from usd2kg.diff.anchors import AnchorMap
 from usd2kg.diff.geometry import carried_to, is_same_size, moved_by, turned_by
-from usd2kg.diff.match import Match, Matching, match_things
+from usd2kg.diff.match import Matching, ObjectMatch, match_objects
+from usd2kg.diff.object_state import Link, ObjectState, Vector
 from usd2kg.diff.paths import above
-from usd2kg.diff.thing import Link, Thing, Vector
 from usd2kg.diff.tolerances import Tolerances
 
-__all__ = ["USUAL_KINDS", "Change", "Changes", "Move", "compare_things"]
+__all__ = ["USUAL_KINDS", "Change", "Changes", "Move", "compare_objects"]
 
 USUAL_KINDS = ("on", "inside", "part-of", "room")
 """The relations that are compared unless others are asked for."""
@@ -35,7 +35,7 @@ class Move(NamedTuple):
 class Change:
     """An old thing, the new one that it is, and how they differ; None, 0 or empty is no difference."""
 
-    match: Match
+    match: ObjectMatch
     move: Move | None = None
     carrier: str | None = None
     """New path of the thing that took it along, by which its move and turn are explained."""
@@ -71,12 +71,12 @@ class Changes:
 
     changed: tuple[Change, ...]
     """The things that differ, by new path."""
-    added: tuple[Thing, ...]
-    removed: tuple[Thing, ...]
+    added: tuple[ObjectState, ...]
+    removed: tuple[ObjectState, ...]
     old_count: int
     """Things before."""
     new_count: int
-    matches: tuple[Match, ...]
+    matches: tuple[ObjectMatch, ...]
     """All things that are in both."""
     kinds: frozenset[str]
     """The kinds of relations that were compared."""
@@ -104,9 +104,9 @@ class Changes:
         return {**ends, **counts, "relations gained": gained, "relations lost": lost}
 
 
-def compare_things(
-    old: Sequence[Thing],
-    new: Sequence[Thing],
+def compare_objects(
+    old: Sequence[ObjectState],
+    new: Sequence[ObjectState],
     tolerances: Tolerances | None = None,
     kinds: Iterable[str] = USUAL_KINDS,
 ) -> Changes:
@@ -120,7 +120,7 @@ def compare_things(
     """
     tolerances = tolerances or Tolerances()
     wanted = frozenset(kinds)
-    matching = match_things(old, new, tolerances)
+    matching = match_objects(old, new, tolerances)
     compares_classes = any(thing.classes for thing in old) and any(thing.classes for thing in new)
     changed = _Comparison(matching, tolerances, wanted, compares_classes).changes()
     added, removed = (
@@ -129,7 +129,7 @@ def compare_things(
     return Changes(changed, added, removed, len(old), len(new), matching.matches, wanted)
 
 
-def _with_links(thing: Thing, kinds: frozenset[str]) -> Thing:
+def _with_links(thing: ObjectState, kinds: frozenset[str]) -> ObjectState:
     return replace(thing, links=frozenset(link for link in thing.links if link.kind in kinds))
 
 
@@ -154,7 +154,7 @@ class _Comparison:
         found = (self._with_carrier(change, by_path) for change in moved)
         return tuple(change for change in found if not change.is_none)
 
-    def _compare(self, match: Match) -> Change:
+    def _compare(self, match: ObjectMatch) -> Change:
         old, new = match.old, match.new
         distance = moved_by(old.position, new.position)
         move = None

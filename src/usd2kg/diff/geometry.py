@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from usd2kg.diff.thing import Thing, Vector
+from usd2kg.diff.object_state import ObjectState, Vector
 from usd2kg.diff.tolerances import Tolerances
 
 __all__ = ["carried_to", "is_same_size", "moved_by", "turned_by"]
@@ -30,7 +30,7 @@ def moved_by(old: Vector | None, new: Vector | None) -> float:
     return math.dist(old, new) if old is not None and new is not None else 0.0
 
 
-def carried_to(point: Vector, old: Thing, new: Thing) -> Vector | None:
+def carried_to(point: Vector, old: ObjectState, new: ObjectState) -> Vector | None:
     """Return where a point lands that moves and turns with a thing; None if it is not known where that thing is."""
     # A frame turns about its own origin; where that is unknown, the turn is, too.
     has_frame = old.position is not None and new.position is not None

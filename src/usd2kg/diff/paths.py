@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 
-__all__ = ["above", "stems_of"]
+__all__ = ["above", "differing_prefixes"]
 
 
-def stems_of(before: str, after: str) -> tuple[str, str]:
+def differing_prefixes(before: str, after: str) -> tuple[str, str]:
     """Return two paths without the steps at their ends that they share.
 
-    >>> stems_of("/Room/Shelf/Cup", "/Room/Board/Cup")
+    >>> differing_prefixes("/Room/Shelf/Cup", "/Room/Board/Cup")
     ('/Room/Shelf', '/Room/Board')
     """
     old, new = before.split("/"), after.split("/")

@@ -12,12 +12,12 @@ from typing import TypeVar
 import pyoxigraph as ox
 
 from usd2kg.diff.blank_nodes import Annotated, Component, Parted, part_statements, renamed
-from usd2kg.diff.pattern import delete_structure
+from usd2kg.diff.structure_deletion import delete_structure
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.vocabulary import OWL, RDF, named_node
 
-__all__ = ["Update", "make_update"]
+__all__ = ["GraphUpdate", "make_update"]
 
 _Each = TypeVar("_Each")
 _CHUNK = 5_000
@@ -25,7 +25,7 @@ _CHUNK = 5_000
 
 
 @dataclass(frozen=True, slots=True)
-class Update:
+class GraphUpdate:
     """A SPARQL update, and how much it does."""
 
     text: str
@@ -35,7 +35,7 @@ class Update:
     inserted: int
 
 
-def make_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str | None = None) -> Update:
+def make_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str | None = None) -> GraphUpdate:
     """Return the update that turns a store that holds `old` into one that holds `new`.
 
     Args:
@@ -52,7 +52,7 @@ def make_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str |
         return _make(part_statements(old), part_statements(new), graph)
 
 
-def _make(before: Parted, after: Parted, graph: str | None) -> Update:
+def _make(before: Parted, after: Parted, graph: str | None) -> GraphUpdate:
     gone, came = sorted(before.ground - after.ground, key=str), sorted(after.ground - before.ground, key=str)
     plan = _plan(before.components, after.components)
     writer = _Writer(graph)
@@ -65,7 +65,7 @@ def _make(before: Parted, after: Parted, graph: str | None) -> Update:
     ]
     deleted, inserted = (sum(len(c.triples) for c in components) for components in (plan.deleted, plan.inserted))
     text = " ;\n".join(operations) + "\n" if operations else ""
-    return Update(text, len(gone) + deleted, len(came) + inserted)
+    return GraphUpdate(text, len(gone) + deleted, len(came) + inserted)
 
 
 @dataclass(frozen=True)

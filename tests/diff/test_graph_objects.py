@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.graph.records import BASE, build_graph, thing
-from usd2kg.diff import Link, read_statements, things_of_graph, writing_of
+from usd2kg.diff import Link, detect_graph_style, objects_of_graph, read_statements
 from usd2kg.errors import GraphError
 from usd2kg.graph import GraphOptions, write_graph
 from usd2kg.ontology import TBox
@@ -20,7 +20,7 @@ PLACED = [
 @pytest.mark.parametrize("profile", ["soma", "plain"])
 def test_relations_and_classes_are_read(home_tbox: TBox, profile: str) -> None:
     graph = build_graph(home_tbox, PLACED, profile=profile)
-    bowl, cup, table = things_of_graph(graph.triples, "room.ttl")
+    bowl, cup, table = objects_of_graph(graph.triples, "room.ttl")
     assert (bowl.prim_path, cup.prim_path, table.prim_path) == ("/Room/Bowl", "/Room/Cup", "/Room/Table")
     assert (bowl.class_label, cup.class_label, table.class_label) == ("", "cup", "table")
     assert {Link("on", "/Room/Table"), Link("next-to", "/Room/Bowl")} <= cup.links
@@ -36,7 +36,7 @@ def test_how_a_graph_is_written_is_found(home_tbox: TBox, profile: str, annotati
     write_graph(graph, path)
     statements = read_statements(path)
     assert statements == frozenset(graph.triples)
-    assert writing_of(statements) == (BASE, profile, annotations)
+    assert detect_graph_style(statements) == (BASE, profile, annotations)
 
 
 @pytest.mark.parametrize(
@@ -56,9 +56,9 @@ def test_files_that_are_no_graphs_are_refused(tmp_path: Path, name: str, text: s
 
 def test_a_graph_without_things_or_with_two_of_one_path_is_refused(home_tbox: TBox) -> None:
     with pytest.raises(GraphError, match=r"room\.ttl: holds no object"):
-        things_of_graph([], "room.ttl")
+        objects_of_graph([], "room.ttl")
     twice = [
         t for base in ("https://a.org/", "https://b.org/") for t in build_graph(home_tbox, PLACED, base=base).triples
     ]
     with pytest.raises(GraphError, match="both have the prim path /Room/Bowl; expected the graph of one scene"):
-        things_of_graph(twice, "room.ttl")
+        objects_of_graph(twice, "room.ttl")

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.diff.thing import Link, Thing, Vector
+from usd2kg.diff.object_state import Link, ObjectState, Vector
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.formats.document import TOO_LARGE, open_rdf, rdf_format
@@ -18,7 +18,7 @@ from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 from usd2kg.relations import SYMMETRIC_KINDS
 
-__all__ = ["Writing", "read_statements", "things_of_graph", "writing_of"]
+__all__ = ["GraphStyle", "detect_graph_style", "objects_of_graph", "read_statements"]
 
 _NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
 _USED = {
@@ -55,7 +55,7 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
         raise GraphError(f"{path}: cannot be read as {syntax.name} ({reason}); build the graph again") from error
 
 
-class Writing(NamedTuple):
+class GraphStyle(NamedTuple):
     """How a graph is written, so that another can be written alike."""
 
     base: str | None
@@ -66,7 +66,7 @@ class Writing(NamedTuple):
     """`owl` or `rdf12`."""
 
 
-def writing_of(statements: Iterable[ox.Triple]) -> Writing:
+def detect_graph_style(statements: Iterable[ox.Triple]) -> GraphStyle:
     """Return how a graph is written."""
     runs, is_soma, is_reified = set(), False, False
     for _, predicate, value in statements:
@@ -74,10 +74,10 @@ def writing_of(statements: Iterable[ox.Triple]) -> Writing:
             runs.add(value.value.removesuffix(_RUN))
         is_soma = is_soma or value == USD.Prim
         is_reified = is_reified or predicate == RDF.reifies
-    return Writing(min(runs, default=None), "soma" if is_soma else "plain", "rdf12" if is_reified else "owl")
+    return GraphStyle(min(runs, default=None), "soma" if is_soma else "plain", "rdf12" if is_reified else "owl")
 
 
-def things_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[Thing, ...]:
+def objects_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[ObjectState, ...]:
     """Return the things that a graph tells of, by prim path. What cannot be read as a number is not known.
 
     Raises:
@@ -109,20 +109,20 @@ class _Reader:
         for node, link in self._all_links():
             self._links.setdefault(node, set()).add(link)
 
-    def things(self) -> Iterator[Thing]:
+    def things(self) -> Iterator[ObjectState]:
         for node, path in self._paths.items():
             types = self._said[RDF.type].get(node, [])
             if isinstance(node, ox.NamedNode) and U2K.RoomGroup not in types:
                 yield self._thing(node, path, types)
 
-    def _thing(self, node: ox.NamedNode, path: str, types: list[Any]) -> Thing:
+    def _thing(self, node: ox.NamedNode, path: str, types: list[Any]) -> ObjectState:
         classes = sorted({c.value for c in types if isinstance(c, ox.NamedNode) and c not in _NO_CLASSES})
         shapes = self._steps(node, SOMA.hasShape, DUL.hasRegion)
         box = next((region for region in shapes if self._text(region, U2K.boxCenter)), node)
         pose = [n for region in self._steps(node, SOMA.hasLocalization, DUL.hasRegion) for n in self._pose(region)]
         owners = [node, *self._steps(node, SOMA.hasMassAttribute)]
         masses = [n for owner in owners for n in self._numbers(owner, SOMA.hasMassValue, U2K.mass)]
-        return Thing(
+        return ObjectState(
             path,
             node.value,
             tuple(classes),

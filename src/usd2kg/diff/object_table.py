@@ -6,18 +6,18 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.diff.object_state import ObjectState
 from usd2kg.diff.pairs import Index
-from usd2kg.diff.thing import Thing
 from usd2kg.diff.tolerances import Tolerances
 
-__all__ = ["Assets", "Columns"]
+__all__ = ["AssetAgreement", "ObjectTable"]
 
 Flags = NDArray[np.bool_]
 _UNKNOWN = -1
 _MOST_COMBINATIONS = 16_000_000
 
 
-class Assets(IntEnum):
+class AssetAgreement(IntEnum):
     """How the identifiers of two assets go together."""
 
     DIFFER = 0
@@ -26,10 +26,10 @@ class Assets(IntEnum):
     UNKNOWN = 3
 
 
-class Columns:
+class ObjectTable:
     """The old and the new things side by side. All that it tells of pairs takes an old and a new row of each."""
 
-    def __init__(self, old: Sequence[Thing], new: Sequence[Thing], tolerances: Tolerances) -> None:
+    def __init__(self, old: Sequence[ObjectState], new: Sequence[ObjectState], tolerances: Tolerances) -> None:
         self._tolerances = tolerances
         self.old, self.new = old, new
         self.old_is_free, self.new_is_free = np.ones(len(old), np.bool_), np.ones(len(new), np.bool_)
@@ -67,7 +67,7 @@ class Columns:
         return lacks
 
     def compare_assets(self, i: Index, j: Index) -> NDArray[np.int8]:
-        """Return how the assets go together, one of the numbers of `Assets`."""
+        """Return how the assets go together, one of the numbers of `AssetAgreement`."""
         width = len(self._assets)
         codes = self._asset_codes[0][i] * width + self._asset_codes[1][j]
         if width * width > _MOST_COMBINATIONS:
@@ -102,10 +102,10 @@ class Columns:
         return differ, self.distances(i, j), np.minimum(old, new), np.maximum(old, new)
 
 
-def _compare(old: frozenset[str], new: frozenset[str]) -> Assets:
+def _compare(old: frozenset[str], new: frozenset[str]) -> AssetAgreement:
     if old and new:
-        return Assets.DIFFER if old.isdisjoint(new) else Assets.SHARED
-    return Assets.ONE_UNKNOWN if old or new else Assets.UNKNOWN
+        return AssetAgreement.DIFFER if old.isdisjoint(new) else AssetAgreement.SHARED
+    return AssetAgreement.ONE_UNKNOWN if old or new else AssetAgreement.UNKNOWN
 
 
 def _codes(values: Iterable[Hashable], ends: int) -> tuple[Index, Index]:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from usd2kg.scene import Scene, SceneObject
 
-__all__ = ["Link", "Thing", "Vector", "things_of_scene"]
+__all__ = ["Link", "ObjectState", "Vector", "objects_of_scene"]
 
 Vector = tuple[float, float, float]
 
@@ -21,7 +21,7 @@ class Link(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Thing:
+class ObjectState:
     """One thing at one time. Lengths are metres and masses kilograms in the z-up world frame; None is not known."""
 
     prim_path: str
@@ -61,14 +61,14 @@ class Thing:
         return self.center if self.center is not None else self.position
 
 
-def things_of_scene(scene: Scene) -> tuple[Thing, ...]:
+def objects_of_scene(scene: Scene) -> tuple[ObjectState, ...]:
     """Return the objects of a scene as things, without IRIs, classes and relations; sorted by prim path."""
     return tuple(sorted(_things(scene), key=lambda thing: thing.prim_path))
 
 
-def _things(scene: Scene) -> Iterator[Thing]:
+def _things(scene: Scene) -> Iterator[ObjectState]:
     for obj in scene.objects:
-        yield Thing(
+        yield ObjectState(
             obj.prim_path,
             size=_size(obj),
             center=obj.box.center if obj.box else None,
