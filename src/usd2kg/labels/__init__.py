@@ -1,4 +1,4 @@
-"""Semantic labels on stages: read them, lint them, and write the classes of a run as an override layer."""
+"""Semantic labels on stages: read and lint them, and write grounded classes as a layer over a scene."""
 
 from usd2kg.labels.class_labels import LABEL_STYLES, label_maker
 from usd2kg.labels.layer import write_labels

@@ -1,4 +1,4 @@
-"""Which opinions a layer needs on one prim, so that its labels say a class: plain records, nothing is authored here."""
+"""plan_opinions: the opinions that a layer needs on a prim to label it, without authoring anything."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -29,51 +29,51 @@ from usd2kg.scene.model import Encoding
 __all__ = ["LabelOpinions", "plan_opinions"]
 
 _ISAAC_CLASS = "Semantics"
-"""The instance that Isaac's own functions write a prim's class to."""
+"""The schema instance that Isaac's own functions use for the class of a prim."""
 
 
 @dataclass
 class LabelOpinions:
-    """What a layer is to say about the labels of one prim."""
+    """The opinions on one prim."""
 
     outcome: Outcome
     reason: str = ""
     tokens: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Property → labels, of OpenUSD's encoding."""
+    """Property → labels, in OpenUSD's encoding."""
     texts: dict[str, str] = field(default_factory=dict)
-    """Property → text, of Isaac's."""
+    """Property → text, in Isaac's encoding."""
     is_tagged: bool = False
-    """Whether the prim is to point to its class prim, and to no other."""
+    """Whether Multiverse's tag points to the class prim, and to no other prim."""
     blocked: dict[str, str] = field(default_factory=dict)
-    """Property that is to say nothing any more → its value type, empty for a relationship."""
+    """Property whose value is blocked → its value type; empty for a relationship."""
     applied: list[str] = field(default_factory=list)
-    """Schemas to apply."""
+    """API schemas to prepend."""
     removed: list[str] = field(default_factory=list)
-    """Schemas to take away."""
+    """API schemas to delete."""
 
 
 def plan_opinions(prim: Any, label: ClassLabel, options: LabelOptions, time: Any) -> LabelOpinions:
-    """Return what a layer is to say on `prim`, by what stands there already and by the mode."""
+    """Return the opinions that label `prim`, given its existing labels and the mode."""
     names = semantic_names(prim)
     found = find_labels(prim, names, time) if names else []
     labels = [entry for entry in found if entry.strength == "label" and any(entry.values)]
     if options.mode == "new" and labels:
-        return LabelOpinions("kept", f"has labels already: {_told(labels)}")
+        return LabelOpinions("kept", f"has labels already: {_quote(labels)}")
     if options.mode == "overwrite":
-        misspelt = _misspelt_classes(prim, names, time)
+        misspelt = _misspelt_class_properties(prim, names, time)
         return _replace(prim, label, options, [entry for entry in found if entry.tells_class], misspelt)
     classes = [entry for entry in labels if entry.tells_class]
-    if classes and not _means(classes, label):
-        return LabelOpinions("kept", f"its labels say another class: {_told(classes)}")
+    if classes and not _name_class(classes, label):
+        return LabelOpinions("kept", f"its labels name another class: {_quote(classes)}")
     return _complete(label, options, labels)
 
 
-def _told(labels: Iterable[Found]) -> str:
+def _quote(labels: Iterable[Found]) -> str:
     return quote_labels([value for entry in labels for value in entry.values if value])
 
 
-def _means(classes: Iterable[Found], label: ClassLabel) -> bool:
-    """Return whether labels may mean the class: one of them is its IRI, an item of it, or shares a word with it."""
+def _name_class(classes: Iterable[Found], label: ClassLabel) -> bool:
+    """Return whether existing labels may name a class: by its IRI, or else a Wikidata item or a word of its names."""
     words = {word for name in (label.token, label.concept, *label.names) for word in class_words(name)}
     values = {value for entry in classes for value in entry.values if value}
     iris = {value for entry in classes if entry.taxonomy == "iri" for value in entry.values}
@@ -83,52 +83,52 @@ def _means(classes: Iterable[Found], label: ClassLabel) -> bool:
 
 
 def _complete(label: ClassLabel, options: LabelOptions, labels: list[Found]) -> LabelOpinions:
-    """Return the opinions for the encodings and taxonomies that a prim has no label in."""
-    known = {(entry.encoding, entry.taxonomy) for entry in labels}
+    """Return the opinions for the encodings and taxonomies in which a prim has no label."""
+    present = {(entry.encoding, entry.taxonomy) for entry in labels}
     opinions = LabelOpinions("completed" if labels else "written")
     taken = {instance for entry in labels if (instance := isaac_instance(entry.property_name))}
-    _add(opinions, label, options.encodings, taken, known)
+    _add_label(opinions, label, options.encodings, taken, present)
     if not opinions.applied:
-        return LabelOpinions("kept", f"has all of these labels already: {_told(labels)}")
+        return LabelOpinions("kept", f"has all of these labels already: {_quote(labels)}")
     return opinions
 
 
-def _misspelt_classes(prim: Any, names: Iterable[str], time: Any) -> set[str]:
-    """Return the properties that were meant to say a class, under names that no tool reads."""
-    meant = {name: meant_property(name) or name for name in names}
-    types = {
+def _misspelt_class_properties(prim: Any, names: Iterable[str], time: Any) -> set[str]:
+    """Return the properties whose names no tool reads and that look like misspelt class labels."""
+    intended = {name: meant_property(name) or name for name in names}
+    class_instances = {
         instance
-        for name, wanted in meant.items()
+        for name, wanted in intended.items()
         if (instance := isaac_instance(wanted)) and wanted == isaac_property(instance, "Type")
         if not CLASS_TAXONOMIES.isdisjoint(clean_values(prim, name, time))
     }
     return {
         name
-        for name, wanted in meant.items()
+        for name, wanted in intended.items()
         if wanted != name
         if wanted == TAG_LABELS
         or wanted.removeprefix(USD).lower() in CLASS_TAXONOMIES
-        or isaac_instance(wanted) in types
+        or isaac_instance(wanted) in class_instances
     }
 
 
 def _replace(
     prim: Any, label: ClassLabel, options: LabelOptions, classes: list[Found], misspelt: set[str]
 ) -> LabelOpinions:
-    """Return the opinions that leave no other label of a class, and labels of other taxonomies as they are."""
+    """Return the opinions that replace all class labels and keep the labels of other taxonomies."""
     opinions = LabelOpinions("replaced" if misspelt or any(any(entry.values) for entry in classes) else "written")
-    old = {name for entry in classes for name in _properties(entry)} | misspelt
+    old = {name for entry in classes for name in _properties_of(entry)} | misspelt
     kept = {name for name in semantic_names(prim) if name not in old}
     taken = {instance for name in kept if (instance := isaac_instance(name))}
-    _add(opinions, label, options.encodings, taken)
-    said = {*opinions.tokens, *opinions.texts, *([TAG_LABELS] if opinions.is_tagged else [])}
-    opinions.blocked = {name: property_type(prim, name) for name in sorted(old - said) if prim.HasProperty(name)}
-    used = {schema_of(name) for name in (*kept, *said)}
+    _add_label(opinions, label, options.encodings, taken)
+    new = {*opinions.tokens, *opinions.texts, *([TAG_LABELS] if opinions.is_tagged else [])}
+    opinions.blocked = {name: property_type(prim, name) for name in sorted(old - new) if prim.HasProperty(name)}
+    used = {schema_of(name) for name in (*kept, *new)}
     opinions.removed = [schema for schema in applied_schemas(prim) if schema not in used]
     return opinions
 
 
-def _properties(entry: Found) -> Iterator[str]:
+def _properties_of(entry: Found) -> Iterator[str]:
     instance = isaac_instance(entry.property_name)
     if instance is None:
         yield entry.property_name
@@ -136,50 +136,53 @@ def _properties(entry: Found) -> Iterator[str]:
         yield from (isaac_property(instance, half) for half in ("Type", "Data"))
 
 
-def _add(
+def _add_label(
     opinions: LabelOpinions,
     label: ClassLabel,
     encodings: Iterable[Encoding],
     taken: set[str],
-    known: Iterable[tuple[Encoding, str]] = (),
+    present: Iterable[tuple[Encoding, str]] = (),
 ) -> None:
-    """Add what says `label` in each encoding, where nothing is known in that encoding and taxonomy.
+    """Add `label` in each encoding and taxonomy.
 
     Args:
-        opinions: what is added to.
+        opinions: modified in place.
         label: the class.
-        encodings: those to write.
-        taken: names of Isaac's instances that hold other labels.
-        known: encodings and taxonomies that have labels.
+        encodings: the encodings to write.
+        taken: names of Isaac's schema instances that hold other labels.
+        present: encodings and taxonomies that have labels already and are skipped.
     """
     if "UsdSemantics" in encodings:
-        for taxonomy, values in _taxonomies(label).items():
-            if ("UsdSemantics", taxonomy) not in known:
+        for taxonomy, values in _usd_labels(label).items():
+            if ("UsdSemantics", taxonomy) not in present:
                 opinions.tokens[USD + taxonomy] = values
                 opinions.applied.append(usd_schema(taxonomy))
     if "Isaac" in encodings:
         for taxonomy, text in _isaac_labels(label).items():
-            if ("Isaac", taxonomy) not in known:
+            if ("Isaac", taxonomy) not in present:
                 instance = _free_instance(taxonomy, taken)
                 opinions.texts[isaac_property(instance, "Type")] = taxonomy
                 opinions.texts[isaac_property(instance, "Data")] = text
                 opinions.applied.append(isaac_schema(instance))
-    if "Multiverse" in encodings and not any(encoding == "Multiverse" for encoding, _ in known):
+    if "Multiverse" in encodings and not any(encoding == "Multiverse" for encoding, _ in present):
         opinions.is_tagged = True
         opinions.applied.append(TAG_SCHEMA)
 
 
-def _taxonomies(label: ClassLabel) -> Mapping[str, tuple[str, ...]]:
-    told = {"class": (*label.above, label.token), "iri": (label.iri,), "wikidata_qcode": label.qcodes}
-    return {taxonomy: values for taxonomy, values in told.items() if values}
+def _usd_labels(label: ClassLabel) -> Mapping[str, tuple[str, ...]]:
+    """Return taxonomy → labels."""
+    labels = {"class": (*label.ancestors, label.token), "iri": (label.iri,), "wikidata_qcode": label.qcodes}
+    return {taxonomy: values for taxonomy, values in labels.items() if values}
 
 
 def _isaac_labels(label: ClassLabel) -> Mapping[str, str]:
-    """Return taxonomy → text: Isaac's labels are single texts, and the classes above a class are a path before it."""
-    told = {"class": label.token, "iri": label.iri}
+    """Return taxonomy → text. Isaac has one text per taxonomy, so superclasses become a path in `hierarchy`."""
+    labels = {"class": label.token, "iri": label.iri}
     if label.qcodes:
-        told["qcode"] = label.qcodes[0]
-    return {**told, "hierarchy": "/".join((*label.above, label.token))} if label.above else told
+        labels["qcode"] = label.qcodes[0]
+    if label.ancestors:
+        labels["hierarchy"] = "/".join((*label.ancestors, label.token))
+    return labels
 
 
 def _free_instance(taxonomy: str, taken: set[str]) -> str:

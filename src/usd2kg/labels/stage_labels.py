@@ -1,4 +1,4 @@
-"""label_stage: the classes of a run, as labels in a layer over the stage."""
+"""label_stage: write grounded classes as labels over a scene."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +14,7 @@ __all__ = ["label_stage"]
 
 def label_stage(
     scene: Path,
-    run: PrimClasses,
+    classes: PrimClasses,
     tbox: TBox,
     output: Path,
     *,
@@ -23,44 +23,50 @@ def label_stage(
     has_ancestors: bool = False,
     min_confidence: float = 0.0,
 ) -> LabelReport:
-    """Write a layer over a scene that labels its prims with the classes of a run; return what became of each prim.
+    """Write a layer over a scene that labels its prims with their classes; return the outcome for each prim.
 
-    Prims without a class or below `min_confidence` get no label; an unknown confidence passes only
-    if it is 0. A class that a person decided is
-    written whatever its confidence.
+    Args:
+        scene: the stage's root layer.
+        classes: the class of each prim.
+        tbox: the ontology of the classes.
+        output: the layer to write, `.usda`, `.usdc` or `.usd`.
+        options: see `LabelOptions`.
+        style: one of `LABEL_STYLES`.
+        has_ancestors: whether to write the superclasses as well.
+        min_confidence: classes below it, or without a confidence, are left out unless a person decided them; 0 keeps
+            all.
 
     Raises:
         SceneError: the scene cannot be read.
-        OutputError: the layer cannot be written, or there is no such style.
+        OutputError: the layer cannot be written, or the style is unknown.
     """
     make = label_maker(tbox, style, has_ancestors=has_ancestors)
-    labels, outcomes = _labels(run, make, min_confidence)
+    labels, left_out = _make_labels(classes, make, min_confidence)
     chosen = options or LabelOptions(provenance={"ontology": tbox.ontology_iri})
     written = write_labels(scene, labels, output, chosen)
-    every = sorted((*outcomes, *written.outcomes), key=lambda entry: entry.prim_path.split("/"))
-    return LabelReport(tuple(every), written.de_instanced)
+    outcomes = sorted((*left_out, *written.outcomes), key=lambda entry: entry.prim_path.split("/"))
+    return LabelReport(tuple(outcomes), written.de_instanced)
 
 
-def _labels(
-    run: PrimClasses, make: Callable[[ClassIRI], ClassLabel], min_confidence: float
+def _make_labels(
+    classes: PrimClasses, make: Callable[[ClassIRI], ClassLabel], min_confidence: float
 ) -> tuple[dict[str, ClassLabel], list[LabelOutcome]]:
     labels: dict[str, ClassLabel] = {}
-    outcomes: list[LabelOutcome] = []
-    for answer in run.entries:
-        reason = _reason_against(answer, min_confidence)
-        if reason or answer.class_iri is None:
-            outcomes.append(LabelOutcome(answer.prim_path, "left out", reason))
-        else:
-            labels[answer.prim_path] = make(answer.class_iri)
-    return labels, outcomes
+    left_out: list[LabelOutcome] = []
+    for entry in classes.entries:
+        if reason := _reason_to_leave_out(entry, min_confidence):
+            left_out.append(LabelOutcome(entry.prim_path, "left out", reason))
+        elif entry.class_iri is not None:
+            labels[entry.prim_path] = make(entry.class_iri)
+    return labels, left_out
 
 
-def _reason_against(answer: PrimClass, min_confidence: float) -> str:
-    """Return why an answer gives no label; empty if it does."""
-    if answer.class_iri is None:
-        return f"the run has no class for it{f': {answer.status}' if answer.status else ''}"
-    if answer.is_reviewed or min_confidence <= 0:
+def _reason_to_leave_out(entry: PrimClass, min_confidence: float) -> str:
+    """Return why a prim gets no label; empty if it gets one."""
+    if entry.class_iri is None:
+        return f"the run has no class for it{f': {entry.status}' if entry.status else ''}"
+    if entry.is_reviewed or min_confidence <= 0:
         return ""
-    if answer.confidence is None:
-        return f"its class has no confidence, expected at least {min_confidence:g}"
-    return f"its class is less sure than {min_confidence:g}" if answer.confidence < min_confidence else ""
+    if entry.confidence is None:
+        return f"unknown confidence, expected at least {min_confidence:g}"
+    return f"confidence below {min_confidence:g}" if entry.confidence < min_confidence else ""

@@ -1,4 +1,4 @@
-"""Which prims can carry a label in a layer over their stage, and which instances stand in the way."""
+"""Prims that a layer can label."""
 
 from typing import Any, NamedTuple
 
@@ -8,31 +8,31 @@ __all__ = ["LabelTarget", "find_target"]
 
 
 class LabelTarget(NamedTuple):
-    """Whether one prim can carry a label."""
+    """A prim to label, or the reason why it cannot be labelled."""
 
     prim: Any
-    """The prim; None where it can carry none."""
+    """None if a layer cannot label it."""
     reason: str = ""
-    """Why not."""
+    """Why it cannot be labelled; empty if it can."""
     instances: tuple[str, ...] = ()
-    """Paths of the instances that have to be broken up first, the outermost first."""
+    """Paths of the instances around it, outermost first, which must be made uninstanceable."""
 
 
 def find_target(stage: Any, prim_path: str, *, de_instances: bool) -> LabelTarget:
-    """Return whether the prim at a path can carry a label.
+    """Return the prim to label at a path.
 
     Args:
         stage: the composed stage.
-        prim_path: an absolute path, or that of a copy of a point instancer.
-        de_instances: whether instances may be broken up for it.
+        prim_path: an absolute path; may also be the path of an instance of a point instancer.
+        de_instances: whether enclosing instances may be made uninstanceable.
     """
     prim = _prim_at(stage, prim_path)
-    reason = _reason_against(prim, prim_path)
+    reason = _find_obstacle(prim, prim_path)
     if reason or not prim.IsInstanceProxy():
         return LabelTarget(None if reason else prim, reason)
-    instances = tuple(_instances_above(prim))
+    instances = tuple(_enclosing_instances(prim))
     if not de_instances:
-        return LabelTarget(None, f"it is inside the instance {instances[0]}; --de-instance breaks that up")
+        return LabelTarget(None, f"inside an instance, which --de-instance makes editable: {instances[0]}")
     return LabelTarget(prim, instances=instances)
 
 
@@ -41,25 +41,25 @@ def _prim_at(stage: Any, prim_path: str) -> Any:
     return stage.GetPrimAtPath(prim_path) if is_path and Sdf.Path(prim_path).IsPrimPath() else None
 
 
-def _reason_against(prim: Any, prim_path: str) -> str:
-    """Return why a prim can carry no label, instances left aside; empty if it can."""
+def _find_obstacle(prim: Any, prim_path: str) -> str:
+    """Return why a prim cannot be labelled, instancing aside; empty if it can."""
     if not prim:
-        is_copy = prim_path.endswith("]")
-        return "a copy of a point instancer is no prim" if is_copy else "there is no such prim on the stage"
-    told = (
-        (prim.IsInPrototype(), "it is in a prototype, whose path OpenUSD makes up"),
-        (not prim.IsActive(), "it is inactive"),
-        (not prim.IsDefined(), "it is only an over, nothing defines it"),
-        (prim.IsAbstract(), "it is abstract: what inherits from it would be labelled"),
+        is_instance = prim_path.endswith("]")
+        return "an instance of a point instancer is not a prim" if is_instance else "no such prim on the stage"
+    obstacles = (
+        (prim.IsInPrototype(), "inside a prototype, whose path OpenUSD generates"),
+        (not prim.IsActive(), "inactive"),
+        (not prim.IsDefined(), "only an over without a definition"),
+        (prim.IsAbstract(), "abstract; prims that inherit from it would be labelled"),
     )
-    return next((reason for holds, reason in told if holds), "")
+    return next((reason for holds, reason in obstacles if holds), "")
 
 
-def _instances_above(prim: Any) -> list[str]:
-    above = []
+def _enclosing_instances(prim: Any) -> list[str]:
+    found = []
     parent = prim.GetParent()
     while parent and not parent.IsPseudoRoot():
         if parent.IsInstance():
-            above.append(str(parent.GetPath()))
+            found.append(str(parent.GetPath()))
         parent = parent.GetParent()
-    return above[::-1]
+    return found[::-1]
