@@ -1,4 +1,4 @@
-"""Patterns that fit one structure of blank nodes and nothing larger."""
+"""SPARQL operations that delete a structure of blank nodes exactly."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -7,40 +7,40 @@ import pyoxigraph as ox
 
 from usd2kg.diff.blank_nodes import Component, Term
 
-__all__ = ["delete_structure"]
+__all__ = ["format_structure_deletion"]
 
 
-def delete_structure(component: Component, graph: str | None) -> str:
-    """Return the operation that deletes every structure which states the same as this one, and no other.
+def format_structure_deletion(component: Component, graph: str | None) -> str:
+    """Return the operation that deletes every structure isomorphic to a component, and nothing else.
 
-    A pattern alone would fit part of a larger structure, too, and one node in place of two: so each node must be blank,
-    no two the same, and no node may have a statement more.
+    The graph pattern of the component alone also matches parts of larger structures, and two of its variables can bind
+    the same node. Filters therefore require distinct blank nodes without further statements.
     """
     names = {node: f"?b{i}" for i, node in enumerate(component.nodes)}
-    pattern = [tuple(_text(term, names) for term in triple) for triple in component.triples]
+    pattern = [tuple(_format_term(term, names) for term in triple) for triple in component.triples]
     lines = "".join(f"{' '.join(each)} .\n" for each in pattern)
-    filters = "".join(f"FILTER({test})\n" for test in _tests(list(names.values())))
-    limits = "".join(_nothing_more(name, pattern) for name in names.values())
+    filters = "".join(f"FILTER({test})\n" for test in _node_tests(list(names.values())))
+    closed = "".join(_no_other_statement(name, pattern) for name in names.values())
     start = "" if graph is None else f"WITH <{graph}>\n"
-    return f"{start}DELETE {{\n{lines}}} WHERE {{\n{lines}{filters}{limits}}}"
+    return f"{start}DELETE {{\n{lines}}} WHERE {{\n{lines}{filters}{closed}}}"
 
 
-def _text(term: Term, names: dict[ox.BlankNode, str]) -> str:
+def _format_term(term: Term, names: dict[ox.BlankNode, str]) -> str:
     if isinstance(term, ox.BlankNode):
         return names[term]
     if isinstance(term, ox.Triple):
-        return f"<<( {' '.join(_text(part, names) for part in term)} )>>"
+        return f"<<( {' '.join(_format_term(part, names) for part in term)} )>>"
     return str(term)
 
 
-def _tests(names: list[str]) -> Iterator[str]:
+def _node_tests(names: list[str]) -> Iterator[str]:
     yield from (f"isBlank({name})" for name in names)
     yield from (f"!sameTerm({one}, {other})" for one, other in combinations(names, 2))
 
 
-def _nothing_more(name: str, pattern: list[tuple[str, ...]]) -> str:
-    """Return that a node has no statements but those of the pattern, neither from it nor to it."""
-    said = [f"(sameTerm(?p, {p}) && sameTerm(?o, {o}))" for s, p, o in pattern if s == name]
-    of_it = [f"(sameTerm(?p, {p}) && sameTerm(?s, {s}))" for s, p, o in pattern if o == name]
-    outward = f"FILTER NOT EXISTS {{ {name} ?p ?o . FILTER(!({' || '.join(said) or 'false'})) }}\n"
-    return outward + f"FILTER NOT EXISTS {{ ?s ?p {name} . FILTER(!({' || '.join(of_it) or 'false'})) }}\n"
+def _no_other_statement(name: str, pattern: list[tuple[str, ...]]) -> str:
+    """Return filters that a node is subject and object only of the statements of the pattern."""
+    as_subject = [f"(sameTerm(?p, {p}) && sameTerm(?o, {o}))" for s, p, o in pattern if s == name]
+    as_object = [f"(sameTerm(?p, {p}) && sameTerm(?s, {s}))" for s, p, o in pattern if o == name]
+    outward = f"FILTER NOT EXISTS {{ {name} ?p ?o . FILTER(!({' || '.join(as_subject) or 'false'})) }}\n"
+    return outward + f"FILTER NOT EXISTS {{ ?s ?p {name} . FILTER(!({' || '.join(as_object) or 'false'})) }}\n"
