@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from usd2kg.diff.object_state import ObjectState
 from usd2kg.diff.pairs import Index
-from usd2kg.diff.settings import COMPARISON, MEMORY
+from usd2kg.diff.settings import COMPARISON
 from usd2kg.diff.tolerances import Tolerances
 
 __all__ = ["AssetAgreement", "Mask", "ObjectTable"]
@@ -69,21 +69,11 @@ class ObjectTable:
 
     def compare_assets(self, i: Index, j: Index) -> NDArray[np.int8]:
         """Return the `AssetAgreement` of each pair."""
-        width = len(self._assets)
-        codes = self._asset_codes[0][i] * width + self._asset_codes[1][j]
-        if width * width > MEMORY.max_asset_combinations:
-            present, codes = np.unique(codes, return_inverse=True)
-            found: NDArray[np.int8] = self._compare_combinations(present)[codes]
-            return found
-        present = np.flatnonzero(np.bincount(codes, minlength=width * width))
-        table = np.zeros(width * width, dtype=np.int8)
-        table[present] = self._compare_combinations(present)
-        found = table[codes]
-        return found
-
-    def _compare_combinations(self, codes: Index) -> NDArray[np.int8]:
-        pairs = (divmod(code, len(self._assets)) for code in codes.tolist())
-        return np.array([_compare_assets(self._assets[old], self._assets[new]) for old, new in pairs], dtype=np.int8)
+        codes = self._asset_codes[0][i] * len(self._assets) + self._asset_codes[1][j]
+        distinct, positions = np.unique(codes, return_inverse=True)
+        pairs = (divmod(code, len(self._assets)) for code in distinct.tolist())
+        found = [_compare_assets(self._assets[old], self._assets[new]) for old, new in pairs]
+        return np.array(found, dtype=np.int8)[positions]
 
     def has_same_class(self, i: Index, j: Index) -> Mask:
         """Return whether both classes of each pair are known and equal."""

@@ -32,7 +32,6 @@ class _MemorySettings:
 
     pairs_per_chunk: int
     max_exhaustive_pairs: int
-    max_asset_combinations: int
     statements_per_operation: int
 
 
