@@ -146,15 +146,15 @@ def test_matches_objects_without_geometry_only_by_asset() -> None:
 def test_matches_10000_equal_renamed_objects_in_seconds(shift: float) -> None:
     old = chairs(10_000, 100)
     renamed = [rename(put(c, c.center[0] + shift, c.center[1]), f"/Hall/Seat_{i}") for i, c in enumerate(old)]
-    start = time.perf_counter()
+    start = time.process_time()
     found = new_paths(old, renamed)
-    assert time.perf_counter() - start < 30
+    assert time.process_time() - start < 30
     assert found == {f"/Hall/Chair_{i}": f"/Hall/Seat_{i}" for i in range(10_000)}
 
 
 def test_matches_1500_equal_objects_in_one_place_in_seconds() -> None:
     crowd = [item(f"/Bin/Screw_{i}", (0, 0, 0)) for i in range(1500)]
-    start = time.perf_counter()
+    start = time.process_time()
     found = new_paths(crowd, [rename(screw, f"/Box/{i}") for i, screw in enumerate(crowd)])
-    assert time.perf_counter() - start < 20
+    assert time.process_time() - start < 20
     assert len(found) == 1500
