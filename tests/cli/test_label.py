@@ -55,9 +55,9 @@ def test_reports_why_prims_get_no_label(run: Run, room: Path):
     done = run("label", room, chosen, "--at-least", "0.5", "-o", "x.usda")
     assert done.err.splitlines() == [
         "5 prims: 1 written, 4 left out",
-        "  1 left out, its class has no confidence, expected at least 0.5: /Room/Apple",
-        "  1 left out, there is no such prim on the stage: /Room/None",
-        "  1 left out, its class is less sure than 0.5: /Room/Table_1",
+        "  1 left out, unknown confidence, expected at least 0.5: /Room/Apple",
+        "  1 left out, no such prim on the stage: /Room/None",
+        "  1 left out, confidence below 0.5: /Room/Table_1",
         "  1 left out, the run has no class for it: refused: /Room/coffee_mug",
         "written to x.usda",
     ]
@@ -85,7 +85,9 @@ def test_modes_keep_replace_or_complete_labels(run: Run, room: Path, mapping: Pa
     assert "1 prim: 1 kept\n  1 kept, has labels already: /Room/Table_1\n" in kept.err
     assert run("label", "a.usda", other, "-o", "b.usda", "--mode", "overwrite").err.startswith("1 prim: 1 replaced\n")
     assert classes(Path("b.usda"))["/Room/Table_1"] == ["Bottle"]
-    assert "1 kept, its labels say another class" in run("label", "a.usda", other, "-o", "c.usda", "--mode", "skip").err
+    assert (
+        "1 kept, its labels name another class" in run("label", "a.usda", other, "-o", "c.usda", "--mode", "skip").err
+    )
     stale = run("label", "lint", "b.usda", "--run", mapping)
     assert stale.code == 1
     assert stale.out.splitlines()[0] == "warning [label-stale] Table_1 /Room/Table_1"
@@ -99,7 +101,7 @@ def test_modes_keep_replace_or_complete_labels(run: Run, room: Path, mapping: Pa
         (["--encoding", "rdf"], "--encoding rdf: expected a comma-separated list of semantics, isaac, multiverse"),
         (["--mode", "append"], "--mode append: expected one of new, overwrite, skip"),
         (["--names", "camel"], "class names 'camel' are unknown; expected one of local, label, snake"),
-        (["-o", "x.usdz"], "a layer of labels ends in one of .usda, .usdc, .usd"),
+        (["-o", "x.usdz"], "expected a label layer with a name ending in one of .usda, .usdc, .usd"),
         (["-o", "none/x.usda"], "the folder none does not exist"),
     ],
 )

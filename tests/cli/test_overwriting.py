@@ -58,6 +58,6 @@ def test_label_overwrites_only_its_own_layers(run: Run, room: Path):
     done = run("label", room, mapping, "-o", other)
     assert (done.code, done.err) == (
         2,
-        f"usd2kg: {other}: exists and is no layer of labels of usd2kg, so it stays; choose another name\n",
+        f"usd2kg: {other}: exists and is not a label layer of usd2kg; choose another name\n",
     )
     assert run("label", room, mapping).code == run("label", room, mapping).code == 0

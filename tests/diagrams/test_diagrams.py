@@ -1,4 +1,4 @@
-"""Diagrams: contents, no overlapping text, and escaped names."""
+"""Diagrams: their content, text without overlaps, escaping, and PNG output."""
 
 import struct
 import sys
@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from tests.graph.records import build_graph, open_store, thing
 from usd2kg.cli.app import app
-from usd2kg.diagrams import draw_room, draw_surroundings, png, to_png
+from usd2kg.diagrams import draw_room, draw_surroundings, rasterize, to_png
 from usd2kg.diagrams.svg import FONT, shorten, text_width
 from usd2kg.errors import OutputError
 from usd2kg.graph import write_graph
@@ -36,7 +36,7 @@ def store(home_tbox: TBox) -> GraphStore:
 
 
 def texts(svg: str) -> list[tuple[float, float, float, str]]:
-    """Return left end, baseline, right end and content of each text, by the layout's widths."""
+    """Return left end, baseline, right end and content of each text; widths are those of the layout."""
     found = []
     for element in ElementTree.fromstring(svg).iter(f"{SVG}text"):
         size = float(element.attrib["font-size"])
@@ -63,7 +63,7 @@ def contents(svg: str) -> list[str]:
     return [content for *_, content in texts(svg)]
 
 
-def test_a_room_is_a_tree_with_similar_objects_on_one_line(store: GraphStore):
+def test_room_is_a_tree_with_similar_objects_on_one_line(store: GraphStore):
     shown = contents(draw_room(store, "room"))
     assert shown[0] == "room | 9 objects"
     assert "Table | on · table 0.75" in shown
@@ -73,7 +73,7 @@ def test_a_room_is_a_tree_with_similar_objects_on_one_line(store: GraphStore):
     assert not any(text.startswith("Plate_") for text in shown)
 
 
-def test_an_object_with_its_surroundings(store: GraphStore):
+def test_surroundings_show_size_contents_supporter_and_neighbours(store: GraphStore):
     (table,) = store.find("table")
     shown = contents(draw_surroundings(store, table.value, "Table"))
     assert "table, confidence 0.75" in shown
@@ -81,18 +81,18 @@ def test_an_object_with_its_surroundings(store: GraphStore):
     assert {"on it: 5", "4 × dinner plate | Plate_0, Plate_1, …", "Bowl | bowl 0.75", "Floor | floor 0.75"} <= set(
         shown
     )
-    # From 1.6 to 1.8 m along x.
+    # The gap from 1.6 to 1.8 m along x.
     assert "Stool | chair, 20 cm" in shown
 
 
-def test_no_text_meets_another(store: GraphStore):
+def test_texts_do_not_overlap(store: GraphStore):
     assert_apart(draw_room(store, "room"))
     for name in ("table", "bowl", "apple", "floor"):
         (node,) = store.find(name)
         assert_apart(draw_surroundings(store, node.value, name))
 
 
-def test_three_hundred_objects_with_long_names_stay_apart(home_tbox: TBox):
+def test_300_long_names_do_not_overlap(home_tbox: TBox):
     tables = [(thing(f"/R/Table_{i}", (3 * i, 0, 0), (2, 2, 0.7)), "Table") for i in range(20)]
     names = "Cup Bowl Fork Box DesignedChair Spoon Knife Bottle Jar Pan Pot Lid Tap Bread".split()
     cups = [
@@ -105,7 +105,7 @@ def test_three_hundred_objects_with_long_names_stay_apart(home_tbox: TBox):
     assert_apart(svg)
 
 
-def test_names_are_text_and_never_markup(home_tbox: TBox):
+def test_names_are_escaped(home_tbox: TBox):
     name = '</text><script>alert("1")</script>&<![CDATA['
     room = [(thing("/R/Table", (0, 0, 0), (1, 1, 0.7), display_name=name), "Table")]
     store = open_store(build_graph(home_tbox, room))
@@ -115,8 +115,8 @@ def test_names_are_text_and_never_markup(home_tbox: TBox):
     assert shorten("a\x00b\u202ec\n") == "a\ufffdb\ufffdc\ufffd"
 
 
-def test_ties_that_run_in_a_circle_end(tmp_path: Path):
-    graph = tmp_path / "circle.ttl"
+def test_draws_objects_with_cyclic_support(tmp_path: Path):
+    graph = tmp_path / "cycle.ttl"
     graph.write_text(
         "@prefix u2k: <https://w3id.org/usd2kg#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
         '<urn:a> u2k:primPath "/a" ; rdfs:label "a" ; u2k:on <urn:b> .\n'
@@ -124,7 +124,7 @@ def test_ties_that_run_in_a_circle_end(tmp_path: Path):
         encoding="utf-8",
     )
     store = load_graph(graph)
-    shown = contents(draw_room(store, "circle"))
+    shown = contents(draw_room(store, "cycle"))
     assert sum(text.startswith(("a |", "b |")) or text == "2 × no class" for text in shown) in {1, 2}
     assert "a" in contents(draw_surroundings(store, "urn:a", "around"))
 
@@ -136,13 +136,13 @@ class TestCommand:
         write_graph(build_graph(home_tbox, ROOM), path)
         return path
 
-    def test_it_writes_a_picture(self, graph: Path, tmp_path: Path):
+    def test_writes_svg(self, graph: Path, tmp_path: Path):
         target = tmp_path / "table.svg"
         result = CliRunner().invoke(app, ["graph", "draw", str(graph), "table", "-o", str(target)])
         assert result.exit_code == 0
         assert "160 × 80 × 70 cm" in contents(target.read_text("utf-8"))
 
-    def test_it_writes_pixels(self, graph: Path, tmp_path: Path):
+    def test_writes_png(self, graph: Path, tmp_path: Path):
         target = tmp_path / "table.png"
         result = CliRunner().invoke(app, ["graph", "draw", str(graph), "table", "-o", str(target)])
         assert result.exit_code == 0
@@ -162,42 +162,42 @@ class TestCommand:
         assert message in str(result.exception)
 
 
-class TestPixels:
+class TestPng:
     SVG = (
         '<svg xmlns="http://www.w3.org/2000/svg" width="60" height="20" viewBox="0 0 60 20" '
         f'font-family={quoteattr(FONT)}><rect width="100%" height="100%" fill="#ffffff"/>{{}}</svg>'
     )
 
-    def test_two_pixels_for_a_unit(self):
-        # The header of a PNG: width and height as big-endian integers from byte 16 on (W3C PNG, 11.2.1).
+    def test_has_two_pixels_per_unit(self):
+        # The header of a PNG: width and height as big-endian integers at byte 16 (W3C PNG, 11.2.1).
         assert struct.unpack(">II", to_png(self.SVG.format(""))[16:24]) == (120, 40)
 
-    def test_a_large_picture_has_fewer(self):
+    def test_scales_large_diagrams_down(self):
         svg = self.SVG.replace('width="60" height="20"', 'width="12000" height="8000"', 1).format("")
         width, height = struct.unpack(">II", to_png(svg)[16:24])
         assert (width / height, width * height) == (pytest.approx(1.5, rel=1e-3), pytest.approx(60e6, rel=1e-3))
 
-    def test_names_are_drawn(self):
+    def test_draws_text(self):
         empty, named = (to_png(self.SVG.format(text)) for text in ("", '<text x="5" y="15">Table</text>'))
         assert len(named) > len(empty) + 100
 
-    def test_a_missing_font_names_the_remedy(self, monkeypatch: pytest.MonkeyPatch):
-        # resvg without fonts: it draws all but the text, and says nothing.
+    def test_missing_font_error_names_the_package(self, monkeypatch: pytest.MonkeyPatch):
+        # Without fonts, resvg omits text without an error.
         import resvg_py  # noqa: PLC0415
 
         draw = partial(resvg_py.svg_to_bytes, skip_system_fonts=True)
         monkeypatch.setattr(resvg_py, "svg_to_bytes", draw)
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
         with pytest.raises(OutputError, match=r"no sans-serif font.*apt-get install fonts-dejavu-core.*or write SVG"):
             to_png(self.SVG.format("<text>Table</text>"))
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
 
-    def test_missing_resvg_names_the_install_command(self, monkeypatch: pytest.MonkeyPatch):
+    def test_missing_resvg_error_names_the_install_command(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "resvg_py", None)
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
         with pytest.raises(OutputError, match=r"pip install 'usd2kg\[pictures\]', or write SVG"):
             to_png(self.SVG.format(""))
-        png._sans_serif.cache_clear()
+        rasterize._sans_serif.cache_clear()
 
 
 def test_shared_labels_are_qualified_by_the_parent_prim(home_tbox: TBox):

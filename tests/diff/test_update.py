@@ -1,4 +1,4 @@
-"""The update turns a store that holds the old graph into one that holds the new one, exactly."""
+"""SPARQL updates that turn a store with the old graph exactly into one with the new graph."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -26,7 +26,7 @@ def read(turtle: str) -> list[ox.Triple]:
 
 
 def canonical(triples: Iterable[ox.Triple]) -> ox.Dataset:
-    # A store writes numbers in its own way: both sides go through one.
+    # A store normalizes numbers, so both sides pass through one.
     store = ox.Store()
     store.extend(ox.Quad(*triple) for triple in triples)
     dataset = ox.Dataset(store)
@@ -43,7 +43,8 @@ def apply(old: Iterable[ox.Triple], update: str, graph: str | None = None) -> li
     return [quad.triple for quad in store]
 
 
-def check(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str | None = None) -> str:
+def check_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str | None = None) -> str:
+    """Check that the update gives the new graph, and return its text."""
     old, new = list(old), list(new)
     update = make_update(old, new, graph)
     assert canonical(apply(old, update.text, graph)) == canonical(new)
@@ -63,25 +64,23 @@ def room(home_tbox: TBox, *, changed: bool, **options: object) -> KnowledgeGraph
 @pytest.mark.parametrize("graph", [None, NAMED])
 @pytest.mark.parametrize("annotations", ["owl", "rdf12"])
 @pytest.mark.parametrize("profile", ["soma", "plain"])
-def test_an_update_turns_the_old_graph_into_the_new(
-    home_tbox: TBox, profile: str, annotations: str, graph: str | None
-) -> None:
+def test_updates_graphs_of_all_styles(home_tbox: TBox, profile: str, annotations: str, graph: str | None) -> None:
     options = {"profile": profile, "options": GraphOptions(annotations=annotations)}
     old, new = (room(home_tbox, changed=changed, **options).triples for changed in (False, True))
-    text = check(old, new, graph)
+    text = check_update(old, new, graph)
     assert "Room.Mug" in text
-    assert "Room.Table-shape" not in text, "what did not change is not touched"
-    check(new, old, graph)
+    assert "Room.Table-shape" not in text, "unchanged objects are not part of the update"
+    check_update(new, old, graph)
 
 
-def test_merged_ontologies_are_updated_too(home_tbox: TBox) -> None:
+def test_updates_class_expressions_of_merged_ontologies(home_tbox: TBox) -> None:
     old, new = (room(home_tbox, changed=changed) for changed in (False, True))
     merged = merge_imports(new, read_closure(home_tbox, new.imports))
-    check(old.triples, merged.triples)
-    check(merged.triples, old.triples)
+    check_update(old.triples, merged.triples)
+    check_update(merged.triples, old.triples)
 
 
-def test_the_same_graph_needs_no_update(home_tbox: TBox) -> None:
+def test_update_of_isomorphic_graphs_is_empty(home_tbox: TBox) -> None:
     old = room(home_tbox, changed=False).triples
     renamed = ox.parse(
         ox.serialize(old, format=ox.RdfFormat.N_TRIPLES), format=ox.RdfFormat.N_TRIPLES, rename_blank_nodes=True
@@ -90,8 +89,8 @@ def test_the_same_graph_needs_no_update(home_tbox: TBox) -> None:
     assert (update.text, update.deleted, update.inserted) == ("", 0, 0)
 
 
-def test_another_program_applies_it_as_well(home_tbox: TBox, monkeypatch: pytest.MonkeyPatch) -> None:
-    """rdflib here keeps numbers as they are written, so that an update must name them so."""
+def test_rdflib_applies_the_update(home_tbox: TBox, monkeypatch: pytest.MonkeyPatch) -> None:
+    """rdflib compares literals by lexical form here, so the update must quote them exactly."""
     monkeypatch.setattr(rdflib, "NORMALIZE_LITERALS", False)
     old, new = (room(home_tbox, changed=changed).triples for changed in (False, True))
     graph, wanted = (
@@ -108,17 +107,17 @@ def test_another_program_applies_it_as_well(home_tbox: TBox, monkeypatch: pytest
         pytest.param(
             ":a :p 0.30, 01 . :b :q 'x\\n\\\\ \"y\"'@en .", ":a :p 0.3, 1 . :b :q 'x \\\\u0041'@en-GB .", id="literals"
         ),
-        pytest.param(":a :p [ :q 1 ], [ :q 1 ] .", ":a :p [ :q 1 ] .", id="twins"),
-        pytest.param(":a :p [ :q 1 ] .", ":a :p [ :q 1 ], [ :q 1 ] .", id="twins come"),
-        pytest.param(":a :p [ :q 1 ], [ :q 1 ; :r 2 ] .", ":a :p [ :q 1 ; :r 2 ] .", id="part of a larger one"),
+        pytest.param(":a :p [ :q 1 ], [ :q 1 ] .", ":a :p [ :q 1 ] .", id="isomorphic nodes, one removed"),
+        pytest.param(":a :p [ :q 1 ] .", ":a :p [ :q 1 ], [ :q 1 ] .", id="isomorphic nodes, one added"),
+        pytest.param(":a :p [ :q 1 ], [ :q 1 ; :r 2 ] .", ":a :p [ :q 1 ; :r 2 ] .", id="part of a larger structure"),
         pytest.param(
             "_:s :p _:a, _:b . _:a :q 1 . _:b :q 1 . _:t :p _:c . _:c :q 1 .",
             "_:t :p _:c . _:c :q 1 .",
-            id="two nodes that look like one",
+            id="two nodes in place of one",
         ),
         pytest.param(":a :p ( :x :y :z ) .", ":a :p ( :x :z ) .", id="list"),
-        pytest.param("_:x :p _:y . _:y :p _:x .", "_:x :p _:y . _:y :p _:z . _:z :p _:x .", id="circles"),
-        pytest.param("_:x :p _:x .", ":x :p _:x .", id="a node that says something of itself"),
+        pytest.param("_:x :p _:y . _:y :p _:x .", "_:x :p _:y . _:y :p _:z . _:z :p _:x .", id="cycles"),
+        pytest.param("_:x :p _:x .", ":x :p _:x .", id="node related to itself"),
         pytest.param(
             "[] a owl:Axiom ; owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ; :c 0.5 ."
             "[] a owl:Axiom ; owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ; :c 0.6 .",
@@ -129,18 +128,20 @@ def test_another_program_applies_it_as_well(home_tbox: TBox, monkeypatch: pytest
             "[] a owl:Axiom ; owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ; :c 5 ."
             "_:x owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ; :c [ :d 1 ].",
             "_:x owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ; :c [ :d 1 ].",
-            id="an annotation beside a structure",
+            id="annotation next to a structure",
         ),
         pytest.param(
-            ":a :p [ owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ] .", "", id="all goes"
+            ":a :p [ owl:annotatedSource :a ; owl:annotatedProperty :p ; owl:annotatedTarget 1 ] .",
+            "",
+            id="removal",
         ),
-        pytest.param("", ":a :p [ :q ( 1 2 ) ] .", id="all comes"),
+        pytest.param("", ":a :p [ :q ( 1 2 ) ] .", id="addition"),
     ],
 )
-def test_structures_of_blank_nodes_are_found_exactly(old: str, new: str) -> None:
+def test_finds_structures_of_blank_nodes_exactly(old: str, new: str) -> None:
     for graph in (None, NAMED):
-        check(read(old), read(new), graph)
-        check(read(new), read(old), graph)
+        check_update(read(old), read(new), graph)
+        check_update(read(new), read(old), graph)
 
 
 NODES = [ox.NamedNode("https://e.org/a"), *(ox.BlankNode(name) for name in "vwxyz")]
@@ -155,17 +156,17 @@ TRIPLES = st.builds(
 
 @settings(max_examples=150, deadline=None)
 @given(old=st.lists(TRIPLES, max_size=8), new=st.lists(TRIPLES, max_size=8))
-def test_any_graph_becomes_any_other(old: list[ox.Triple], new: list[ox.Triple]) -> None:
-    check(old, new)
+def test_updates_any_graph_to_any_other(old: list[ox.Triple], new: list[ox.Triple]) -> None:
+    check_update(old, new)
 
 
-def test_a_large_update_comes_in_portions() -> None:
+def test_splits_a_large_update_into_operations() -> None:
     name = ox.NamedNode("https://e.org/p")
     old = [ox.Triple(ox.NamedNode(f"https://e.org/{i}"), name, ox.Literal(i)) for i in range(12_000)]
-    text = check(old, [])
+    text = check_update(old, [])
     assert text.count("DELETE DATA") == 3
 
 
-def test_a_graph_that_is_no_iri_is_refused() -> None:
+def test_rejects_a_graph_name_that_is_not_an_iri() -> None:
     with pytest.raises(GraphError, match="'my graph' is no absolute IRI"):
         make_update([], [], "my graph")

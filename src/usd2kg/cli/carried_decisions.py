@@ -29,10 +29,10 @@ def carry_over_decisions(
     """
     if options.previous is None:
         return decisions, {}
-    from usd2kg.diff import carry_decisions, things_of_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
-    from usd2kg.diff.versions import read_things  # noqa: PLC0415
+    from usd2kg.diff import carry_decisions, objects_of_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.diff.versions import read_objects  # noqa: PLC0415
 
-    found = carry_decisions(decisions, read_things(options.previous, reading), things_of_scene(scene))
+    found = carry_decisions(decisions, read_objects(options.previous, reading), objects_of_scene(scene))
     for path, origin in found.carried.items():
         notify(f"decision: {origin.prim_path} → {path} ({origin.reason})")
     for each in found.unplaced:

@@ -92,7 +92,7 @@ def diff_command(
     # Loads OpenUSD, too slow for --help.
     from usd2kg.cli.diff_json import changes_json  # noqa: PLC0415
     from usd2kg.cli.diff_text import changes_text  # noqa: PLC0415
-    from usd2kg.diff import compare_things  # noqa: PLC0415
+    from usd2kg.diff import compare_objects  # noqa: PLC0415
     from usd2kg.diff.versions import VersionOptions, read_versions  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
 
@@ -107,9 +107,9 @@ def diff_command(
         title = f"{to_single_line(str(old))} -> {to_single_line(str(new))}"
         is_same = _write_update(before, after, title, graph, output)
     else:
-        if any(thing.classes for thing in before.things) != any(thing.classes for thing in after.things):
+        if any(thing.classes for thing in before.objects) != any(thing.classes for thing in after.objects):
             notify("classes: only one version has classes, so they are not compared; relations depend on them, too")
-        changes = compare_things(before.things, after.things, limits, kinds)
+        changes = compare_objects(before.objects, after.objects, limits, kinds)
         is_same = changes.is_empty
         if file_format == "json":
             print_json(changes_json(changes, limits, str(old), str(new)), output)
@@ -155,7 +155,7 @@ def _write_update(before: "Version", after: "Version", title: str, graph: str | 
     from usd2kg.diff import make_update  # noqa: PLC0415
 
     update = make_update(before.statements, after.statements, graph)
-    bases = before.writing.base, after.writing.base
+    bases = before.style.base, after.style.base
     if None not in bases and bases[0] != bases[1]:
         notify(
             f"base: the namespaces of the individuals differ, <{bases[0]}> and <{bases[1]}>, so the update replaces "

@@ -5,7 +5,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
+    from usd2kg.diff import Change, Changes, Link, ObjectState, Tolerances
 
 __all__ = ["changes_json"]
 
@@ -28,7 +28,7 @@ def changes_json(changes: "Changes", tolerances: "Tolerances", old: str, new: st
     }
 
 
-def _thing(thing: "Thing") -> dict[str, Any]:
+def _thing(thing: "ObjectState") -> dict[str, Any]:
     return {
         "path": thing.prim_path,
         "iri": thing.iri,
@@ -48,13 +48,13 @@ def _links(links: "Iterable[Link]") -> list[dict[str, str]]:
 
 def _change(change: "Change", tolerances: "Tolerances") -> "Iterator[tuple[str, Any]]":
     """Yield the keys of a changed object; those of unchanged properties are left out."""
-    from usd2kg.diff import tell_match  # noqa: PLC0415
+    from usd2kg.diff import describe_match  # noqa: PLC0415
 
     old, new = change.match.old, change.match.new
     yield "path", {"old": old.prim_path, "new": new.prim_path}
     yield "iri", {"old": old.iri, "new": new.iri}
     yield "class_label", new.class_label
-    yield "match", {"by": change.match.by, "reason": tell_match(change.match, tolerances)}
+    yield "match", {"by": change.match.by, "reason": describe_match(change.match, tolerances)}
     if change.move is not None:
         yield "moved", {"from_m": change.move.start, "to_m": change.move.end, "distance_m": change.move.distance}
     if change.turned_degrees:

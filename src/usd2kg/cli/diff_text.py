@@ -10,7 +10,7 @@ from usd2kg.cli.object_text import box_size_text, numbers_text
 from usd2kg.cli.output import count_noun, replace_controls, to_single_line
 
 if TYPE_CHECKING:
-    from usd2kg.diff import Change, Changes, Link, Thing, Tolerances
+    from usd2kg.diff import Change, Changes, Link, ObjectState, Tolerances
 
 __all__ = ["changes_text"]
 
@@ -51,7 +51,7 @@ def changes_text(changes: "Changes", tolerances: "Tolerances", title: str, *, is
     return "\n\n".join([replace_controls(title), *blocks, _summary_line(changes)]) + "\n"
 
 
-def _count(found: "Sequence[Thing | Change]") -> str:
+def _count(found: "Sequence[ObjectState | Change]") -> str:
     return count_noun(len(found), "object")
 
 
@@ -79,7 +79,7 @@ def _name(change: "Change") -> str:
     return f"{new.prim_path} ({new.class_label})" if new.class_label else new.prim_path
 
 
-def _thing_line(thing: "Thing") -> str:
+def _thing_line(thing: "ObjectState") -> str:
     place = ", ".join(_link_text(link) for link in sorted(thing.links) if link.kind in _PLACE_KINDS)
     return "".join(
         [thing.prim_path, f" ({thing.class_label})" if thing.class_label else "", f": {place}" if place else ""]
@@ -92,17 +92,17 @@ def _link_text(link: "Link") -> str:
 
 def _renamed_lines(changed: "Iterable[Change]", tolerances: "Tolerances") -> Iterator[str]:
     """Yield a line for each renamed group with several objects, then one for each other renamed object."""
-    from usd2kg.diff import tell_match  # noqa: PLC0415 - loads OpenUSD, too slow for --help
-    from usd2kg.diff.paths import stems_of  # noqa: PLC0415
+    from usd2kg.diff import describe_match  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.diff.paths import differing_prefixes  # noqa: PLC0415
 
-    renamed = [(stems_of(c.match.old.prim_path, c.match.new.prim_path), c) for c in changed if c.is_renamed]
+    renamed = [(differing_prefixes(c.match.old.prim_path, c.match.new.prim_path), c) for c in changed if c.is_renamed]
     counts = Counter(stems for stems, _ in renamed)
     for (before, after), count in counts.items():
         if count > 1:
             yield f"{before or '/'} → {after or '/'}: {count} objects below keep their relative paths"
     for stems, change in renamed:
         if counts[stems] == 1:
-            yield f"{change.match.old.prim_path} → {_name(change)}: {tell_match(change.match, tolerances)}"
+            yield f"{change.match.old.prim_path} → {_name(change)}: {describe_match(change.match, tolerances)}"
 
 
 def _moved_lines(shifted: "Iterable[Change]", *, is_grouped: bool) -> Iterator[str]:

@@ -100,7 +100,7 @@ def write_command(
 ) -> None:
     """Write a layer over a scene that labels prims with their classes. This is the default command."""
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
-    from usd2kg.labels import label_stage, read_run  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.labels import label_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     target = output or Path(f"{scene.stem}.labels.usda")
@@ -110,13 +110,13 @@ def write_command(
     options = _label_options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
     report = label_stage(
         scene,
-        read_run(run, tbox),
+        read_prim_classes(run, tbox),
         tbox,
         target,
         options=options,
-        naming=names,
+        style=names,
         has_ancestors=ancestors,
-        at_least=at_least,
+        min_confidence=at_least,
     )
     if json:
         print_json(
@@ -185,11 +185,11 @@ def lint_command(
     json: JsonOutput = False,
 ) -> None:
     """Find labels that are wrong, stale or contradictory. Exit code 1 if there are any."""
-    from usd2kg.labels import lint_stage, read_run  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.labels import lint_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     tbox = open_tbox(ontology)
-    lint = lint_stage(scene, tbox, read_run(run, tbox) if run is not None else None, reading.read_options())
+    lint = lint_stage(scene, tbox, read_prim_classes(run, tbox) if run is not None else None, reading.read_options())
     if json:
         findings = [asdict(finding) for finding in lint.findings]
         print_json({"scene": str(scene), "prims": lint.prims, "counts": lint.counts(), "findings": findings})

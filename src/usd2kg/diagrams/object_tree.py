@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from usd2kg.diagrams.settings import TEXT
+from usd2kg.diagrams.svg import PALETTE
 from usd2kg.query.graph_store import GraphStore
 
 __all__ = ["CardLine", "TreeObject", "class_families", "group_similar", "read_object_tree", "single_line"]
@@ -32,11 +34,7 @@ SELECT DISTINCT ?c ?label ?parent WHERE {
   OPTIONAL { ?c rdfs:subClassOf ?parent }
 }"""
 
-_FAMILIES = 8
-"""Distinguishable colours."""
 _OTHER = "other"
-_MAX_GROUP_LETTERS = 24
-"""Letters of the labels listed for a group."""
 
 
 @dataclass
@@ -148,11 +146,11 @@ def class_families(store: GraphStore, used: Iterable[str]) -> dict[str, str]:
             groups.setdefault(chains[iri][min(depth[iri], len(chains[iri]) - 1)], []).append(iri)
         sizes = {name: sum(counts[iri] for iri in members) for name, members in groups.items()}
         splittable = [n for n, members in groups.items() if any(depth[iri] < len(chains[iri]) - 1 for iri in members)]
-        if len(groups) >= _FAMILIES or not splittable:
+        if len(groups) >= len(PALETTE) or not splittable:
             break
         for iri in groups[max(splittable, key=lambda name: (sizes[name], name))]:
             depth[iri] += 1
-    kept = sorted(groups, key=lambda name: (-sizes[name], name))[:_FAMILIES]
+    kept = sorted(groups, key=lambda name: (-sizes[name], name))[: len(PALETTE)]
     return {iri: labels[name] if name in kept else _OTHER for name, members in groups.items() for iri in members}
 
 
@@ -188,7 +186,7 @@ def _join_labels(labels: list[str]) -> str:
     """Return as many labels as fit into a line, with an ellipsis for the others."""
     shown = labels[:1]
     for label in labels[1:]:
-        if len(", ".join((*shown, label))) > _MAX_GROUP_LETTERS:
+        if len(", ".join((*shown, label))) > TEXT.max_group_letters:
             return f"{', '.join(shown)}, …"
         shown.append(label)
     return ", ".join(shown)

@@ -5,19 +5,18 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from usd2kg.diagrams.object_tree import CardLine, TreeObject, group_similar, read_object_tree
+from usd2kg.diagrams.settings import ROOM, SHAPES, TEXT
 from usd2kg.diagrams.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
 from usd2kg.query.graph_store import GraphStore
 
 __all__ = ["draw_room"]
 
-_ROW = 21.0
-_INDENT = 20.0
-_PAD = 14.0
-_GAP = 16.0
-_CARRIES = "; carries the cards whose heads are marked “on”"
-_NOTE = "Indented: on what is above it; “in”, “part”, “joint” where so. × counts alike things. Number: confidence."
-_GROUND_SHARE = 0.3
-"""Share of all objects below one that makes it the floor of the room."""
+_SUPPORTS = "; supports the cards marked “on”"
+_NOTE = "Indentation: on the object above, or “in”, “part”, “joint”. ×: number of similar objects. Number: confidence."
+
+
+_LINE_SPACE = 25.0
+"""Width of the dot and of the spaces of a line."""
 
 
 class _Card(NamedTuple):
@@ -29,49 +28,51 @@ class _Card(NamedTuple):
 def draw_room(store: GraphStore, title: str) -> str:
     """Return an SVG diagram of all objects of a graph.
 
-    The object that supports most, usually the floor, is the header. What it supports has a card each, and so has
-    every other root with children. Similar objects share a line.
+    The object with the most objects on it, usually the floor, is the header. Each object on it has a card, as has each
+    other root with children. Similar objects share a line.
     """
     objects = read_object_tree(store)
     roots = [obj for obj in objects.values() if obj.parent is None]
     ground = max(roots, key=_count, default=None)
-    if ground is not None and _count(ground) < _GROUND_SHARE * len(objects):
+    if ground is not None and _count(ground) < ROOM.min_ground_share * len(objects):
         ground = None
     _qualify_shared_labels([obj for obj in (*roots, *(ground.children if ground else ())) if obj.children])
     cards = sorted((_card(lines) for lines in _groups(roots, ground)), key=lambda card: -card.height)
     width = max([card.width for card in cards], default=200.0)
     columns = _columns(cards, width)
-    subtitle = f"{ground.class_label}{_CARRIES}" if ground is not None else ""
-    widest = text_width(shorten(title, 90) + f"  {len(objects)} objects", 18.0)
+    subtitle = f"{ground.class_label}{_SUPPORTS}" if ground is not None else ""
+    widest = text_width(shorten(title, TEXT.max_title_letters) + f"  {len(objects)} objects", TEXT.title_size)
     if ground is not None:
-        widest = max(widest, text_width(shorten(ground.label) + subtitle, 13.0))
-    total = max(len(columns) * (width + _GAP) + _GAP, widest + 80)
+        widest = max(widest, text_width(shorten(ground.label) + subtitle, TEXT.label_size))
+    total = max(len(columns) * (width + ROOM.gap) + ROOM.gap, widest + 80)
     canvas = Canvas()
     families = {obj.family for obj in objects.values()}
     colors = colors_of(families)
     legend = {name: color for name, color in colors.items() if name in families}
     top = _draw_header(canvas, title, len(objects), legend, total)
     if ground is not None:
-        canvas.rectangle(_GAP, top, total - 2 * _GAP, 30, PAPER, LINE)
-        canvas.dot(_GAP + 16, top + 15, colors[ground.family])
-        canvas.text(_GAP + 28, top + 20, shorten(ground.label), subtitle, bold=True)
-        top += 30 + _GAP
+        canvas.rectangle(ROOM.gap, top, total - 2 * ROOM.gap, 30, PAPER, LINE)
+        canvas.dot(ROOM.gap + 16, top + 15, colors[ground.family])
+        canvas.text(ROOM.gap + 28, top + 20, shorten(ground.label), subtitle, bold=True)
+        top += 30 + ROOM.gap
     bottom = top
     for number, column in enumerate(columns):
         y = top
         for card in column:
-            _draw_card(canvas, card, _GAP + number * (width + _GAP), y, width, colors)
-            y += card.height + _GAP
+            _draw_card(canvas, card, ROOM.gap + number * (width + ROOM.gap), y, width, colors)
+            y += card.height + ROOM.gap
         bottom = max(bottom, y)
     return canvas.document(total, bottom, title)
 
 
 def _draw_header(canvas: Canvas, title: str, count: int, legend: dict[str, str], width: float) -> float:
     """Draw title, note and legend; return the y below them."""
-    canvas.text(_GAP, 32, shorten(title, 90), f"{count} objects", size=18, bold=True)
-    if text_width(_NOTE, 12) < width:
-        canvas.text(_GAP, 54, _NOTE, size=12, fill=PALE_INK)
-    return 72 + canvas.legend(_GAP, 66, legend, width - 2 * _GAP)
+    canvas.text(
+        ROOM.gap, 32, shorten(title, TEXT.max_title_letters), f"{count} objects", size=TEXT.title_size, bold=True
+    )
+    if text_width(_NOTE, TEXT.small_size) < width:
+        canvas.text(ROOM.gap, 54, _NOTE, size=TEXT.small_size, fill=PALE_INK)
+    return 72 + canvas.legend(ROOM.gap, 66, legend, width - 2 * ROOM.gap)
 
 
 def _qualify_shared_labels(heads: list[TreeObject]) -> None:
@@ -95,7 +96,7 @@ def _groups(roots: Iterable[TreeObject], ground: TreeObject | None) -> Iterator[
     yield from ((line,) for line in sorted(trees, key=lambda line: (-_rows((line,)), line.text)))
     for head, group in (
         (f"also on {ground.label}" if ground else "", standing),
-        ("on and in nothing that is known", free),
+        ("no known relation", free),
     ):
         lines = tuple(line for line in group_similar(group) if not line.children)
         if lines:
@@ -107,34 +108,37 @@ def _rows(lines: Iterable[CardLine]) -> int:
 
 
 def _card(lines: tuple[CardLine, ...]) -> _Card:
-    return _Card(lines, max(_widths(lines, 0)) + 2 * _PAD, _rows(lines) * _ROW + 2 * _PAD - 4)
+    return _Card(
+        lines, max(_widths(lines, 0)) + 2 * SHAPES.padding, _rows(lines) * SHAPES.row_height + 2 * SHAPES.padding - 4
+    )
 
 
 def _widths(lines: Iterable[CardLine], depth: int) -> Iterator[float]:
     for line in lines:
-        yield depth * _INDENT + 16 + text_width(shorten(line.text), 13.5) + 9 + text_width(_detail(line, depth), 11.5)
+        label = text_width(shorten(line.text), TEXT.label_measure)
+        yield depth * SHAPES.indent + label + text_width(_detail(line, depth), TEXT.detail_measure) + _LINE_SPACE
         yield from _widths(line.children, depth + 1)
 
 
 def _detail(line: CardLine, depth: int) -> str:
-    # Within a card, the indent stands for "on".
+    # Within a card, the indentation means "on".
     tie = line.tie if depth == 0 or line.tie != "on" else ""
     return shorten(" · ".join(part for part in (tie, line.detail) if part))
 
 
 def _columns(cards: list[_Card], width: float) -> list[list[_Card]]:
-    """Return the cards in columns of similar height, for an aspect ratio of about 3:2."""
-    total = sum(card.height + _GAP for card in cards)
-    count = max(1, min(len(cards), round((1.5 * total / (width + _GAP)) ** 0.5)))
+    """Return the cards in columns of similar height, for about the wanted aspect ratio."""
+    total = sum(card.height + ROOM.gap for card in cards)
+    count = max(1, min(len(cards), round((ROOM.aspect_ratio * total / (width + ROOM.gap)) ** 0.5)))
     columns: list[list[_Card]] = [[] for _ in range(count)]
     for card in cards:
-        min(columns, key=lambda column: sum(c.height + _GAP for c in column)).append(card)
+        min(columns, key=lambda column: sum(c.height + ROOM.gap for c in column)).append(card)
     return columns
 
 
 def _draw_card(canvas: Canvas, card: _Card, x: float, y: float, width: float, colors: dict[str, str]) -> None:
     canvas.rectangle(x, y, width, card.height, PAPER, LINE)
-    _draw_lines(canvas, card.lines, x + _PAD, y + _PAD + 8, 0, colors)
+    _draw_lines(canvas, card.lines, x + SHAPES.padding, y + SHAPES.padding + 8, 0, colors)
 
 
 def _draw_lines(
@@ -142,21 +146,21 @@ def _draw_lines(
 ) -> float:
     """Draw lines from y downwards; return the y below the last."""
     for line in lines:
-        at = x + depth * _INDENT
+        at = x + depth * SHAPES.indent
         if line.family:
             canvas.dot(at + 5, y, colors[line.family])
         canvas.text(
-            at + 15 if line.family else at,
-            y + 4.5,
+            at + SHAPES.dot_column if line.family else at,
+            y + TEXT.baseline_drop,
             shorten(line.text),
             _detail(line, depth),
             bold=depth == 0,
             title=line.names,
         )
-        start, y = y, y + _ROW
+        start, y = y, y + SHAPES.row_height
         for child in line.children:
             canvas.path(
-                [(at + 5, start + 7), (at + 5, y), (at + _INDENT - 2, y)], dashed=child.tie in {"part", "joint"}
+                [(at + 5, start + 7), (at + 5, y), (at + SHAPES.indent - 2, y)], dashed=child.tie in {"part", "joint"}
             )
             y = _draw_lines(canvas, (child,), x, y, depth + 1, colors)
     return y

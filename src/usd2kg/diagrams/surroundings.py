@@ -4,20 +4,16 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from usd2kg.diagrams.object_tree import CardLine, TreeObject, group_similar, read_object_tree, single_line
+from usd2kg.diagrams.settings import SHAPES, SURROUNDINGS, TEXT
 from usd2kg.diagrams.svg import LINE, PALE_INK, PAPER, Canvas, colors_of, shorten, text_width
 from usd2kg.errors import GraphError
 from usd2kg.query.graph_store import GraphStore
 
 __all__ = ["draw_surroundings"]
 
-_ROW = 21.0
-_PAD = 14.0
-_GAP = 46.0
-_MARGIN = 20.0
-_HEAD = 58.0
-_MAX_LINES = 14
-"""Lines per panel."""
-_NEAR = "0.5 m"
+
+_LINE_SPACE = 27.0
+"""Width of the dot and of the spaces of a line."""
 
 
 class _Panel(NamedTuple):
@@ -26,30 +22,34 @@ class _Panel(NamedTuple):
 
     @property
     def width(self) -> float:
-        texts = [text_width(shorten(line.text), 13) + 9 + text_width(shorten(line.detail), 11.5) for line in self.lines]
-        return max([text_width(self.head, 13), *(width + 18 for width in texts)]) + 2 * _PAD
+        return max([text_width(self.head, TEXT.label_size), *map(_line_width, self.lines)]) + 2 * SHAPES.padding
 
     @property
     def height(self) -> float:
-        return (1 + len(self.lines)) * _ROW + 2 * _PAD - 4
+        return (1 + len(self.lines)) * SHAPES.row_height + 2 * SHAPES.padding - 4
+
+
+def _line_width(line: CardLine) -> float:
+    label, detail = shorten(line.text), shorten(line.detail)
+    return text_width(label, TEXT.label_size) + text_width(detail, TEXT.detail_measure) + _LINE_SPACE
 
 
 def draw_surroundings(store: GraphStore, iri: str, title: str) -> str:
-    """Return an SVG diagram of one object and its surroundings within half a metre.
+    """Return an SVG diagram of one object, what supports it, what is on and in it, and what is nearby.
 
     Raises:
         GraphError: the IRI names no object.
     """
     objects = read_object_tree(store)
     if iri not in objects:
-        raise GraphError(f"{title}: <{iri}> is the group of a room; expected an object, or none for the room")
+        raise GraphError(f"{title}: <{iri}> is a room; expected the IRI of an object, or none for the room")
     obj = objects[iri]
     below = _ancestors(obj, objects)
     left = [_panel("in it", [c for c in obj.children if c.tie == "in"])]
     left.append(_panel("parts of it", [c for c in obj.children if c.tie in {"part", "joint"}]))
     above = _panel("on it", [c for c in obj.children if c.tie == "on"])
     under = _Panel("what carries it, down to the floor", tuple(single_line(t) for t in below))
-    near = _Panel(f"within {_NEAR}", _near(store, obj, objects, {t.iri for t in below}))
+    near = _Panel(f"within {SURROUNDINGS.max_distance_m:g} m", _near(store, obj, objects, {t.iri for t in below}))
     shown = [obj, *below, *obj.children, *objects.values()]
     return _compose(
         obj, above, under, [panel for panel in left if panel.lines], near, colors_of(t.family for t in shown), title
@@ -71,15 +71,17 @@ def _panel(head: str, objects: Sequence[TreeObject]) -> _Panel:
 
 def _cut(lines: Sequence[CardLine]) -> tuple[CardLine, ...]:
     """Return the first lines, and one that counts the rest."""
-    more = len(lines) - _MAX_LINES
-    return (*lines[:_MAX_LINES], CardLine(f"… {more} more lines", "", "", "", "")) if more > 0 else tuple(lines)
+    more = len(lines) - SURROUNDINGS.max_lines
+    if more <= 0:
+        return tuple(lines)
+    return (*lines[: SURROUNDINGS.max_lines], CardLine(f"… {more} more lines", "", "", "", ""))
 
 
 def _near(
     store: GraphStore, obj: TreeObject, objects: dict[str, TreeObject], excluded: set[str]
 ) -> tuple[CardLine, ...]:
     """Return the lines of nearby objects outside its support tree, nearest first, with distances."""
-    answer = store.answer("close-to", {"thing": obj.path, "distance": _NEAR})
+    answer = store.answer("close-to", {"thing": obj.path, "distance": f"{SURROUNDINGS.max_distance_m:g} m"})
     by_path = {t.path: t for t in objects.values()}
     lines: list[CardLine] = []
     for row in answer.values:
@@ -98,53 +100,94 @@ def _near(
     return _cut(lines)
 
 
+class _Layout(NamedTuple):
+    """The panels around the box of an object."""
+
+    above: _Panel
+    under: _Panel
+    left: list[_Panel]
+    near: _Panel
+    box_width: float
+    """Width of the box of the object."""
+
+    @property
+    def left_width(self) -> float:
+        return max([panel.width for panel in self.left], default=0.0)
+
+    @property
+    def left_height(self) -> float:
+        gap = SURROUNDINGS.panel_gap
+        return sum(panel.height + gap for panel in self.left) - gap if self.left else 0.0
+
+    @property
+    def middle_width(self) -> float:
+        return max(self.box_width, self.under.width, self.above.width if self.above.lines else 0.0)
+
+    @property
+    def middle_left(self) -> float:
+        return SURROUNDINGS.margin + (self.left_width + SURROUNDINGS.gap if self.left else 0.0)
+
+    @property
+    def width(self) -> float:
+        near = SURROUNDINGS.gap + self.near.width if self.near.lines else 0.0
+        return self.middle_left + self.middle_width + near + SURROUNDINGS.margin
+
+    def extent(self, panel: _Panel) -> float:
+        """Return the height above or below the middle when `panel` is above or below the box."""
+        own = SURROUNDINGS.object_height / 2 + (panel.height + SURROUNDINGS.gap if panel.lines else 0.0)
+        return max(own, self.left_height / 2, self.near.height / 2 if self.near.lines else 0.0)
+
+
 def _compose(
     obj: TreeObject, above: _Panel, under: _Panel, left: list[_Panel], near: _Panel, colors: dict[str, str], title: str
 ) -> str:
-    sure = "" if obj.confidence is None else f", confidence {obj.confidence:.2f}"
-    words = (shorten(obj.label), shorten(f"{obj.class_label}{sure}", 60), obj.size)
-    own_width = max(text_width(words[0], 17), *(text_width(word, 12.5) for word in words[1:])) + 50
-    middle = max(own_width, *(panel.width for panel in (above, under) if panel.lines or panel is under))
-    left_width = max([panel.width for panel in left], default=0.0)
-    left_height = sum(panel.height + 14 for panel in left) - 14 if left else 0.0
-    above_height = above.height + _GAP if above.lines else 0.0
-    under_height = under.height + _GAP if under.lines else 0.0
-    x = _MARGIN + (left_width + _GAP if left else 0)
-    own_height = 80.0
-    half = max(above_height + own_height / 2, left_height / 2, near.height / 2 if near.lines else 0)
-    center = _HEAD + half
-    width = x + middle + (_GAP + near.width if near.lines else 0) + _MARGIN
-    width = max(width, text_width(shorten(title, 90), 18) + 2 * _MARGIN)
+    confidence = "" if obj.confidence is None else f", confidence {obj.confidence:.2f}"
+    words = shorten(obj.label), shorten(f"{obj.class_label}{confidence}", TEXT.max_object_letters), obj.size
+    text_widths = [text_width(word, TEXT.object_detail_size) for word in words[1:]]
+    box_width = max(text_width(words[0], TEXT.object_size), *text_widths) + SURROUNDINGS.object_padding
+    layout = _Layout(above, under, left, near, box_width)
+    center = (layout.middle_left + layout.middle_width / 2, SURROUNDINGS.title_height + layout.extent(above))
+    short_title = shorten(title, TEXT.max_title_letters)
+    width = max(layout.width, text_width(short_title, TEXT.title_size) + 2 * SURROUNDINGS.margin)
     canvas = Canvas()
-    canvas.text(_MARGIN, 34, shorten(title, 90), size=18, bold=True)
-    spine = x + middle / 2
-    if above.lines:
-        canvas.path([(spine, center - own_height / 2), (spine, center - own_height / 2 - _GAP)])
-        _draw(canvas, above, spine - above.width / 2, center - own_height / 2 - above_height, colors)
-    if under.lines:
-        canvas.path([(spine, center + own_height / 2), (spine, center + own_height / 2 + _GAP)])
-        _draw(canvas, under, spine - under.width / 2, center + own_height / 2 + _GAP, colors)
-    y = center - left_height / 2
-    for panel in left:
-        canvas.path(
-            [
-                (spine - own_width / 2, center),
-                (_MARGIN + left_width + _GAP / 2, center),
-                (_MARGIN + left_width + _GAP / 2, y + panel.height / 2),
-                (_MARGIN + left_width, y + panel.height / 2),
-            ]
-        )
-        _draw(canvas, panel, _MARGIN + left_width - panel.width, y, colors)
-        y += panel.height + 14
+    canvas.text(SURROUNDINGS.margin, 34, short_title, size=TEXT.title_size, bold=True)
+    _draw_column(canvas, layout, center, colors)
+    _draw_left(canvas, layout, center, colors)
     if near.lines:
-        canvas.path([(spine + own_width / 2, center), (x + middle + _GAP, center)], dashed=True)
-        _draw(canvas, near, x + middle + _GAP, center - near.height / 2, colors)
-    _draw_own(canvas, obj, words, (spine, center), (own_width, own_height), colors[obj.family])
-    bottom = center + max(own_height / 2 + under_height, left_height / 2, near.height / 2 if near.lines else 0) + 16
+        x = layout.middle_left + layout.middle_width + SURROUNDINGS.gap
+        canvas.path([(center[0] + box_width / 2, center[1]), (x, center[1])], dashed=True)
+        _draw(canvas, near, x, center[1] - near.height / 2, colors)
+    _draw_own(canvas, obj, words, center, (box_width, SURROUNDINGS.object_height), colors[obj.family])
+    bottom = center[1] + layout.extent(under) + 16
     used = {line.family for panel in (above, under, near, *left) for line in panel.lines if line.family} | {obj.family}
     legend = {name: color for name, color in colors.items() if name in used}
-    bottom += canvas.legend(_MARGIN, bottom, legend, width - 2 * _MARGIN)
+    bottom += canvas.legend(SURROUNDINGS.margin, bottom, legend, width - 2 * SURROUNDINGS.margin)
     return canvas.document(width, bottom + 12, title)
+
+
+def _draw_column(canvas: Canvas, layout: _Layout, center: tuple[float, float], colors: dict[str, str]) -> None:
+    """Draw the panels above and below the box."""
+    x, y = center
+    half, gap = SURROUNDINGS.object_height / 2, SURROUNDINGS.gap
+    if layout.above.lines:
+        canvas.path([(x, y - half), (x, y - half - gap)])
+        _draw(canvas, layout.above, x - layout.above.width / 2, y - half - gap - layout.above.height, colors)
+    if layout.under.lines:
+        canvas.path([(x, y + half), (x, y + half + gap)])
+        _draw(canvas, layout.under, x - layout.under.width / 2, y + half + gap, colors)
+
+
+def _draw_left(canvas: Canvas, layout: _Layout, center: tuple[float, float], colors: dict[str, str]) -> None:
+    """Draw the panels on the left, each connected to the box by an elbow."""
+    right = SURROUNDINGS.margin + layout.left_width
+    elbow = right + SURROUNDINGS.gap / 2
+    y = center[1] - layout.left_height / 2
+    for panel in layout.left:
+        middle = y + panel.height / 2
+        start = center[0] - layout.box_width / 2, center[1]
+        canvas.path([start, (elbow, center[1]), (elbow, middle), (right, middle)])
+        _draw(canvas, panel, right - panel.width, y, colors)
+        y += panel.height + SURROUNDINGS.panel_gap
 
 
 def _draw_own(
@@ -158,16 +201,22 @@ def _draw_own(
     (x, y), (width, height) = middle, size
     canvas.rectangle(x - width / 2, y - height / 2, width, height, color, radius=12)
     canvas.rectangle(x - width / 2 + 8, y - height / 2 + 1.5, width - 9.5, height - 3, PAPER, radius=10)
-    canvas.text(x, y - 12, words[0], size=17, bold=True, title=obj.path, middle=True)
-    canvas.text(x, y + 9, words[1], size=12.5, fill=PALE_INK, middle=True)
-    canvas.text(x, y + 27, words[2], size=12.5, fill=PALE_INK, middle=True)
+    canvas.text(x, y - 12, words[0], size=TEXT.object_size, bold=True, title=obj.path, middle=True)
+    canvas.text(x, y + 9, words[1], size=TEXT.object_detail_size, fill=PALE_INK, middle=True)
+    canvas.text(x, y + 27, words[2], size=TEXT.object_detail_size, fill=PALE_INK, middle=True)
 
 
 def _draw(canvas: Canvas, panel: _Panel, x: float, y: float, colors: dict[str, str]) -> None:
     canvas.rectangle(x, y, panel.width, panel.height, PAPER, LINE)
-    canvas.text(x + _PAD, y + _PAD + 10, panel.head, size=12, bold=True, fill=PALE_INK)
+    canvas.text(x + SHAPES.padding, y + SHAPES.padding + 10, panel.head, size=TEXT.small_size, bold=True, fill=PALE_INK)
     for number, line in enumerate(panel.lines, start=1):
-        at = y + _PAD + 5 + number * _ROW
+        at = y + SHAPES.padding + 5 + number * SHAPES.row_height
         if line.family:
-            canvas.dot(x + _PAD + 5, at, colors[line.family])
-        canvas.text(x + _PAD + 15, at + 4.5, shorten(line.text), shorten(line.detail), title=line.names)
+            canvas.dot(x + SHAPES.padding + 5, at, colors[line.family])
+        canvas.text(
+            x + SHAPES.padding + SHAPES.dot_column,
+            at + TEXT.baseline_drop,
+            shorten(line.text),
+            shorten(line.detail),
+            title=line.names,
+        )

@@ -1,8 +1,10 @@
-"""SVG 1.1 shapes and escaped text, with an upper bound of text widths."""
+"""SVG 1.1 shapes and escaped text, with upper bounds of text widths."""
 
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from xml.sax.saxutils import escape, quoteattr
+
+from usd2kg.diagrams.settings import SHAPES, TEXT
 
 __all__ = ["FONT", "PALETTE", "Canvas", "colors_of", "shorten", "text_width"]
 
@@ -29,7 +31,7 @@ def _em(c: str) -> float:
     return 0.36 if c in "iljtf.,:;|!'()[] I" else 0.61
 
 
-def shorten(text: str, limit: int = 34) -> str:
+def shorten(text: str, limit: int = TEXT.max_label_letters) -> str:
     """Return a text elided in the middle beyond a length, without control characters."""
     text = "".join(c if c.isprintable() else "\ufffd" for c in text)
     return text if len(text) <= limit else f"{text[: limit // 2]}…{text[len(text) - limit + limit // 2 + 1 :]}"
@@ -49,9 +51,16 @@ class Canvas:
         self._parts: list[str] = []
 
     def rectangle(
-        self, x: float, y: float, width: float, height: float, fill: str, stroke: str = "none", radius: float = 6
+        self,
+        x: float,
+        y: float,
+        width: float,
+        height: float,
+        fill: str,
+        stroke: str = "none",
+        radius: float = SHAPES.corner_radius,
     ) -> None:
-        """Draw a rounded rectangle."""
+        """Draw a rectangle with rounded corners."""
         self._parts.append(
             f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="{radius:g}" '
             f'fill="{fill}" stroke="{stroke}"/>'
@@ -61,11 +70,13 @@ class Canvas:
         """Draw a polyline."""
         steps = " L".join(f"{x:.1f} {y:.1f}" for x, y in points)
         dash = ' stroke-dasharray="3 3"' if dashed else ""
-        self._parts.append(f'<path d="M{steps}" fill="none" stroke="{stroke}" stroke-width="1.4"{dash}/>')
+        self._parts.append(
+            f'<path d="M{steps}" fill="none" stroke="{stroke}" stroke-width="{SHAPES.line_width:g}"{dash}/>'
+        )
 
     def dot(self, x: float, y: float, fill: str) -> None:
         """Draw a dot."""
-        self._parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{fill}"/>')
+        self._parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{SHAPES.dot_radius:g}" fill="{fill}"/>')
 
     def text(
         self,
@@ -74,19 +85,20 @@ class Canvas:
         text: str,
         detail: str = "",
         *,
-        size: float = 13,
+        size: float = TEXT.label_size,
         bold: bool = False,
         title: str = "",
         fill: str = INK,
         middle: bool = False,
     ) -> None:
-        """Draw a text with a pale detail after it and a tooltip."""
+        """Draw a text, with a smaller, paler detail after it and `title` as its tooltip."""
         weight = ' font-weight="600"' if bold else ""
         anchor = ' text-anchor="middle"' if middle else ""
-        tip = f"<title>{escape(shorten(title, 400))}</title>" if title else ""
+        tip = f"<title>{escape(shorten(title, TEXT.max_tooltip_letters))}</title>" if title else ""
         after = ""
         if detail:
-            style = f'dx="7" font-size="{size - 2:g}" font-weight="400" fill="{PALE_INK}"'
+            smaller = size - TEXT.detail_size_step
+            style = f'dx="{TEXT.detail_gap:g}" font-size="{smaller:g}" font-weight="400" fill="{PALE_INK}"'
             after = f"<tspan {style}>{escape(detail)}</tspan>"
         self._parts.append(
             f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size:g}" fill="{fill}"{weight}{anchor}>'
@@ -97,19 +109,20 @@ class Canvas:
         """Draw the legend in as many rows as needed; return its height."""
         at, row = x, 0
         for name, color in colors.items():
-            needed = text_width(name, 12) + 30
+            needed = text_width(name, TEXT.small_size) + 2 * SHAPES.dot_column
             if at + needed > x + width and at > x:
                 at, row = x, row + 1
-            self.dot(at + 5, y + row * 20 + 8, color)
-            self.text(at + 15, y + row * 20 + 12, name, size=12)
+            middle = y + row * SHAPES.legend_row_height + 8
+            self.dot(at + 5, middle, color)
+            self.text(at + SHAPES.dot_column, middle + 4, name, size=TEXT.small_size)
             at += needed
-        return (row + 1) * 20
+        return (row + 1) * SHAPES.legend_row_height
 
     def document(self, width: float, height: float, title: str) -> str:
         """Return the SVG document."""
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" '
             f'viewBox="0 0 {width:.0f} {height:.0f}" font-family={quoteattr(FONT)}>\n'
-            f"<title>{escape(shorten(title, 200))}</title>\n"
+            f"<title>{escape(shorten(title, TEXT.max_document_title_letters))}</title>\n"
             f'<rect width="100%" height="100%" fill="#f5f7fa"/>\n' + "\n".join(self._parts) + "\n</svg>\n"
         )

@@ -1,35 +1,36 @@
-"""What changed between two graphs of a scene, told by things, and as an update that turns the one into the other."""
+"""Compare two versions of a scene or graph: changed objects, and the update that turns one graph into the other."""
 
-from usd2kg.diff.carry import CarriedDecisions, Unplaced, carry_decisions
-from usd2kg.diff.compare import USUAL_KINDS, Change, Changes, Move, compare_things
-from usd2kg.diff.graph_things import Writing, read_statements, things_of_graph, writing_of
-from usd2kg.diff.match import Match, Matching, match_things
-from usd2kg.diff.reason import tell_match
-from usd2kg.diff.thing import Link, Thing, things_of_scene
-from usd2kg.diff.tolerances import Tolerances
-from usd2kg.diff.update import Update, make_update
+from usd2kg.diff.carry import CarriedDecisions, UnplacedDecision, carry_decisions
+from usd2kg.diff.compare import USUAL_KINDS, Change, Changes, Move, compare_objects
+from usd2kg.diff.graph_objects import GraphStyle, detect_graph_style, objects_of_graph, read_statements
+from usd2kg.diff.match import Matching, ObjectMatch, match_objects
+from usd2kg.diff.match_description import describe_match
+from usd2kg.diff.object_state import Link, ObjectState, objects_of_scene
+from usd2kg.diff.tolerances import DEFAULT_TOLERANCES, Tolerances
+from usd2kg.diff.update import GraphUpdate, make_update
 
 __all__ = [
+    "DEFAULT_TOLERANCES",
     "USUAL_KINDS",
     "CarriedDecisions",
     "Change",
     "Changes",
+    "GraphStyle",
+    "GraphUpdate",
     "Link",
-    "Match",
     "Matching",
     "Move",
-    "Thing",
+    "ObjectMatch",
+    "ObjectState",
     "Tolerances",
-    "Unplaced",
-    "Update",
-    "Writing",
+    "UnplacedDecision",
     "carry_decisions",
-    "compare_things",
+    "compare_objects",
+    "describe_match",
+    "detect_graph_style",
     "make_update",
-    "match_things",
+    "match_objects",
+    "objects_of_graph",
+    "objects_of_scene",
     "read_statements",
-    "tell_match",
-    "things_of_graph",
-    "things_of_scene",
-    "writing_of",
 ]

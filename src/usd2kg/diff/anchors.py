@@ -1,72 +1,80 @@
-"""Relations before and after: the same one, where its anchor has another path now."""
+"""AnchorMap: relations before and after, where the path of the anchor has changed."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from usd2kg.diff.match import Match
-from usd2kg.diff.paths import above, stems_of
-from usd2kg.diff.thing import Link, Thing
+from usd2kg.diff.match import ObjectMatch
+from usd2kg.diff.object_state import Link, ObjectState
+from usd2kg.diff.paths import ancestor_paths, differing_prefixes
 
 __all__ = ["AnchorMap"]
 
 
 class AnchorMap:
-    """Which path an anchor of a relation has now: a thing by its match, a room that is a mere group by its things."""
+    """Old anchor path → new one: of objects by their match, of room groups by the objects below them."""
 
-    def __init__(self, matches: Sequence[Match], removed: Iterable[Thing], added: Iterable[Thing]) -> None:
-        self._things = {match.old.prim_path: match.new.prim_path for match in matches}
+    def __init__(
+        self, matches: Sequence[ObjectMatch], removed: Iterable[ObjectState], added: Iterable[ObjectState]
+    ) -> None:
+        self._objects = {match.old.prim_path: match.new.prim_path for match in matches}
+        self._matched_new = set(self._objects.values())
         old = [*(match.old for match in matches), *removed]
         new = [*(match.new for match in matches), *added]
-        self._gone = {thing.prim_path for thing in old} - self._things.keys()
-        self._came = {thing.prim_path for thing in new} - set(self._things.values())
-        self._groups = _match_groups(_groups_of(old), _groups_of(new), matches)
+        self._removed = {state.prim_path for state in old} - self._objects.keys()
+        self._added = {state.prim_path for state in new} - self._matched_new
+        self._groups = _match_groups(_group_anchors(old), _group_anchors(new), matches)
 
-    def gained_and_lost(self, match: Match, kinds: frozenset[str]) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
-        """Return the relations that a thing has only now, and those that it had only before."""
-        old, new = ({link for link in thing.links if link.kind in kinds} for thing in (match.old, match.new))
+    def gained_and_lost(self, match: ObjectMatch, kinds: frozenset[str]) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
+        """Return the relations that only the new object has, and those that only the old one has."""
+        old, new = ({link for link in state.links if link.kind in kinds} for state in (match.old, match.new))
         if not (old or new):
             return (), ()
-        now = {(link.kind, self._now(link.anchor)): link for link in old}
-        then = {(link.kind, (link.anchor, link.anchor in self._came)): link for link in new}
-        gained = sorted(link for key, link in then.items() if key not in now)
-        lost = sorted(link for key, link in now.items() if key not in then)
+        before = {(link.kind, self._old_key(link.anchor)): link for link in old}
+        after = {(link.kind, self._new_key(link.anchor)): link for link in new}
+        gained = sorted(link for key, link in after.items() if key not in before)
+        lost = sorted(link for key, link in before.items() if key not in after)
         return tuple(gained), tuple(lost)
 
-    def carriers(self, match: Match, kinds: Iterable[str]) -> list[str]:
-        """Return the new paths of the things that it is on, in or below both before and after."""
+    def carriers(self, match: ObjectMatch, kinds: Iterable[str]) -> list[str]:
+        """Return the new paths of the anchors of these kinds and of the ancestors that are the same as before."""
         new = {link.anchor for link in match.new.links if link.kind in kinds}
-        kept = {self._things.get(link.anchor) for link in match.old.links if link.kind in kinds} & new
-        new_parents = set(above(match.new.prim_path))
-        parents = (self._things.get(path) for path in above(match.old.prim_path))
-        nested = (path for path in parents if path in new_parents)
-        return [*sorted(path for path in kept if path is not None), *(path for path in nested if path is not None)]
+        kept = {self._objects.get(link.anchor) for link in match.old.links if link.kind in kinds} & new
+        new_ancestors = set(ancestor_paths(match.new.prim_path))
+        ancestors = (self._objects.get(path) for path in ancestor_paths(match.old.prim_path))
+        kept_ancestors = (path for path in ancestors if path in new_ancestors)
+        return [path for path in (*sorted(filter(None, kept)), *kept_ancestors) if path is not None]
 
-    def _now(self, anchor: str) -> tuple[str, bool]:
-        """Return the new path; what is gone keeps its own, apart from another thing that may have that one now."""
-        if anchor in self._things:
-            return self._things[anchor], False
-        return (anchor, anchor not in self._came) if anchor in self._gone else (self._groups.get(anchor, anchor), False)
+    def _old_key(self, anchor: str) -> tuple[str, str]:
+        """Return what an anchor is and its new path; equal to a `_new_key` if the anchors are the same."""
+        if anchor in self._objects:
+            return "object", self._objects[anchor]
+        return ("removed", anchor) if anchor in self._removed else ("group", self._groups.get(anchor, anchor))
+
+    def _new_key(self, anchor: str) -> tuple[str, str]:
+        if anchor in self._matched_new:
+            return "object", anchor
+        return "added" if anchor in self._added else "group", anchor
 
 
-def _groups_of(things: Sequence[Thing]) -> set[str]:
-    paths = {thing.prim_path for thing in things}
-    return {link.anchor for thing in things for link in thing.links} - paths
+def _group_anchors(states: Sequence[ObjectState]) -> set[str]:
+    """Return the anchors that are no objects: groups that are rooms."""
+    return {link.anchor for state in states for link in state.links} - {state.prim_path for state in states}
 
 
-def _match_groups(old: set[str], new: set[str], matches: Iterable[Match]) -> dict[str, str]:
-    """Return old path → new path of the groups that are gone, where things below them lead to one that came."""
-    gone, came = old - new, new - old
-    if not (gone and came):
+def _match_groups(old: set[str], new: set[str], matches: Iterable[ObjectMatch]) -> dict[str, str]:
+    """Return old → new path of the groups that disappeared, by the renamed objects below them; most objects first."""
+    removed, added = old - new, new - old
+    if not (removed and added):
         return {}
-    votes = Counter(stems_of(m.old.prim_path, m.new.prim_path) for m in matches if m.by != "path")
-    likely = []
+    votes = Counter(differing_prefixes(m.old.prim_path, m.new.prim_path) for m in matches if m.by != "path")
+    candidates = []
     for (before, after), count in votes.items():
-        for path in gone:
-            led_to = after + path.removeprefix(before)
-            if (path == before or path.startswith(before + "/")) and led_to in came:
-                likely.append((-count, sorted((path, led_to)), path, led_to))
+        for path in removed:
+            target = after + path.removeprefix(before)
+            if (path == before or path.startswith(before + "/")) and target in added:
+                candidates.append((-count, sorted((path, target)), path, target))
     found: dict[str, str] = {}
-    for _, _, path, led_to in sorted(likely):
-        if path not in found and led_to not in found.values():
-            found[path] = led_to
+    for _, _, path, target in sorted(candidates):
+        if path not in found and target not in found.values():
+            found[path] = target
     return found

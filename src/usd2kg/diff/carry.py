@@ -1,69 +1,80 @@
-"""carry_decisions: what people decided about things that have other prim paths now."""
+"""carry_decisions: apply decisions about an earlier scene to the same objects under their new prim paths."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from usd2kg.diff.match import match_things
-from usd2kg.diff.reason import tell_match
-from usd2kg.diff.thing import Thing
-from usd2kg.diff.tolerances import Tolerances
+from usd2kg.diff.match import match_objects
+from usd2kg.diff.match_description import describe_match
+from usd2kg.diff.object_state import ObjectState
+from usd2kg.diff.tolerances import DEFAULT_TOLERANCES, Tolerances
 from usd2kg.grounding import Carried
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["CarriedDecisions", "Unplaced", "carry_decisions"]
+__all__ = ["CarriedDecisions", "UnplacedDecision", "carry_decisions"]
 
 
 @dataclass(frozen=True, slots=True)
-class Unplaced:
-    """A decision about what is no longer there."""
+class UnplacedDecision:
+    """A decision that applies to no object of the new scene."""
 
     prim_path: str
-    """The path that the person decided about."""
+    """The path in the decision."""
     class_iri: ClassIRI
     reason: str
-    """Why it has no place, in words."""
+    """Why it does not apply."""
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedDecisions:
-    """Decisions for a new scene; none is lost."""
+    """Decisions for a new scene, and those that do not apply to it."""
 
     decisions: Mapping[str, ClassIRI]
     """Prim path in the new scene → class."""
     carried: Mapping[str, Carried]
-    """Prim path in the new scene → where the decision comes from, of those whose path is another now."""
-    unplaced: tuple[Unplaced, ...]
-    """Those that belong to nothing in the new scene, in their order."""
+    """Prim path in the new scene → origin, for decisions about another path."""
+    unplaced: tuple[UnplacedDecision, ...]
+    """In the order of the decisions."""
 
 
 def carry_decisions(
     decisions: Mapping[str, ClassIRI],
-    old: Sequence[Thing],
-    new: Sequence[Thing],
-    tolerances: Tolerances | None = None,
+    old: Sequence[ObjectState],
+    new: Sequence[ObjectState],
+    tolerances: Tolerances = DEFAULT_TOLERANCES,
 ) -> CarriedDecisions:
-    """Return decisions about old things as decisions about the new things that they are.
+    """Return decisions about old objects as decisions about the new objects that match them.
 
-    A decision about a path that only the new scene has stays, and goes before one that would be carried there.
+    A decision about a path that only the new scene has is kept, and wins over one that would be carried to that path.
+
+    Args:
+        decisions: prim path in either scene → class.
+        old: the objects of the earlier scene.
+        new: the objects of the new scene.
+        tolerances: limits of the matching.
     """
-    became = {match.old.prim_path: match for match in match_things(old, new, tolerances).matches}
-    old_paths, new_paths = ({thing.prim_path for thing in things} for things in (old, new))
+    matches = {match.old.prim_path: match for match in match_objects(old, new, tolerances).matches}
+    old_paths, new_paths = ({state.prim_path for state in states} for states in (old, new))
     placed = {path: iri for path, iri in decisions.items() if path in new_paths - old_paths}
     carried: dict[str, Carried] = {}
-    unplaced: list[Unplaced] = []
+    unplaced: list[UnplacedDecision] = []
     for path, iri in decisions.items():
-        match = became.get(path)
+        match = matches.get(path)
         if match is None:
             if path not in placed:
-                is_taken = path in new_paths
-                why = "gone, and its path is another thing's now" if is_taken else "gone"
-                unplaced.append(Unplaced(path, iri, why if path in old_paths else "in neither scene"))
+                unplaced.append(UnplacedDecision(path, iri, _absence_reason(path, old_paths, new_paths)))
             continue
         target = match.new.prim_path
         if target in placed:
-            unplaced.append(Unplaced(path, iri, f"is {target} now, which has a decision of its own"))
+            reason = f"is now {target}, which has a decision of its own"
+            unplaced.append(UnplacedDecision(path, iri, reason))
             continue
         placed[target] = iri
         if target != path:
-            carried[target] = Carried(path, tell_match(match, tolerances))
+            carried[target] = Carried(path, describe_match(match, tolerances))
     return CarriedDecisions(placed, carried, tuple(unplaced))
+
+
+def _absence_reason(path: str, old_paths: set[str], new_paths: set[str]) -> str:
+    if path not in old_paths:
+        return "in neither scene"
+    return "removed; its path now belongs to another object" if path in new_paths else "removed"

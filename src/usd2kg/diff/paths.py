@@ -1,27 +1,27 @@
-"""Prim paths: what is above one, and where two part."""
+"""Ancestors and differing parts of prim paths."""
 
 from collections.abc import Iterator
 
-__all__ = ["above", "stems_of"]
+__all__ = ["ancestor_paths", "differing_prefixes"]
 
 
-def stems_of(before: str, after: str) -> tuple[str, str]:
-    """Return two paths without the steps at their ends that they share.
+def differing_prefixes(old: str, new: str) -> tuple[str, str]:
+    """Return two paths without the elements that they share at the end.
 
-    >>> stems_of("/Room/Shelf/Cup", "/Room/Board/Cup")
+    >>> differing_prefixes("/Room/Shelf/Cup", "/Room/Board/Cup")
     ('/Room/Shelf', '/Room/Board')
     """
-    old, new = before.split("/"), after.split("/")
-    while len(old) > 1 and len(new) > 1 and old[-1] == new[-1]:
-        old.pop()
-        new.pop()
-    return "/".join(old), "/".join(new)
+    before, after = old.split("/"), new.split("/")
+    while len(before) > 1 and len(after) > 1 and before[-1] == after[-1]:
+        before.pop()
+        after.pop()
+    return "/".join(before), "/".join(after)
 
 
-def above(path: str) -> Iterator[str]:
-    """Yield the paths of the prims above, the nearest first; the top is the empty path.
+def ancestor_paths(path: str) -> Iterator[str]:
+    """Yield the paths of the ancestor prims, nearest first; the pseudo-root is the empty path.
 
-    >>> list(above("/Room/Shelf"))
+    >>> list(ancestor_paths("/Room/Shelf"))
     ['/Room', '']
     """
     while path:

@@ -1,34 +1,33 @@
-"""What counts as a change, and how far a thing may have gone to be known again."""
+"""Tolerances: differences that are not reported, and the reach of the search for renamed objects."""
 
 import math
 from dataclasses import dataclass
 
+from usd2kg.diff.settings import COMPARISON
 from usd2kg.errors import GraphError
+from usd2kg.knowledge import read_settings
 
-__all__ = ["Tolerances"]
-
-_NOISE = 0.0001
-"""Metres: coordinates in single precision differ by that much in a large scene."""
+__all__ = ["DEFAULT_TOLERANCES", "Tolerances"]
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerances:
-    """How much is no change.
+    """Largest differences that do not count as changes.
 
     Raises:
-        GraphError: one of them is negative or no number.
+        GraphError: a value is negative or not finite.
     """
 
-    moved_m: float = 0.01
-    """A thing that is farther than this from where it was has moved."""
-    turned_degrees: float = 1.0
-    """A thing whose frame is turned by more than this has turned."""
-    resized_m: float = 0.01
-    """A side that differs by more than this, or by more than `resized_percent`, is another size."""
-    resized_percent: float = 1.0
-    """Of the longer side; differences below 0.1 mm are noise."""
-    match_within_m: float = 2.0
-    """A thing with another path and another name is looked for within this distance."""
+    moved_m: float
+    """Distance between the old and the new place, metres."""
+    turned_degrees: float
+    """Angle between the old and the new orientation, degrees."""
+    resized_m: float
+    """Difference of a side, metres."""
+    resized_percent: float
+    """Difference of a side, percent of the longer one. The smaller of both limits counts, at least the noise."""
+    match_within_m: float
+    """Distance within which objects with another path and name are matched, metres."""
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
@@ -36,6 +35,9 @@ class Tolerances:
             if not (math.isfinite(value) and value >= 0):
                 raise GraphError(f"{name.replace('_', ' ')} {value!r}: expected a number that is not negative")
 
-    def side(self, length: float) -> float:
-        """Return by how much a side of this length, in metres, may differ and still be the same."""
-        return max(_NOISE, min(self.resized_m, self.resized_percent / 100 * length))
+    def side_limit(self, length: float) -> float:
+        """Return the tolerated difference of a side of this length, in metres."""
+        return max(COMPARISON.noise_m, min(self.resized_m, self.resized_percent / 100 * length))
+
+
+DEFAULT_TOLERANCES = read_settings("diff", "tolerances", Tolerances)

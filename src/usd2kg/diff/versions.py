@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.diff.graph_things import Writing, read_statements, things_of_graph, writing_of
-from usd2kg.diff.thing import Thing, things_of_scene
+from usd2kg.diff.graph_objects import GraphStyle, detect_graph_style, objects_of_graph, read_statements
+from usd2kg.diff.object_state import ObjectState, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
 from usd2kg.graph.iris import default_base
 from usd2kg.grounding import ground
@@ -15,7 +15,7 @@ from usd2kg.ontology import TBox
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, find_relations
 from usd2kg.scene import ReadOptions, read_scene
 
-__all__ = ["Version", "VersionOptions", "is_stage", "read_things", "read_versions"]
+__all__ = ["Version", "VersionOptions", "is_stage", "read_objects", "read_versions"]
 
 _STAGE_SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
 
@@ -24,8 +24,8 @@ class Version(NamedTuple):
     """A scene at one time."""
 
     statements: frozenset[ox.Triple]
-    things: tuple[Thing, ...]
-    writing: Writing
+    objects: tuple[ObjectState, ...]
+    style: GraphStyle
 
 
 class VersionOptions(NamedTuple):
@@ -44,15 +44,15 @@ def is_stage(path: Path) -> bool:
     return path.suffix.lower() in _STAGE_SUFFIXES
 
 
-def read_things(path: Path, options: ReadOptions) -> tuple[Thing, ...]:
+def read_objects(path: Path, options: ReadOptions) -> tuple[ObjectState, ...]:
     """Return the things of a graph or a stage; those of a stage without classes.
 
     Raises:
         Usd2kgError: the file cannot be read.
     """
     if is_stage(path):
-        return things_of_scene(read_scene(path, options=options))
-    return things_of_graph(read_statements(path), str(path))
+        return objects_of_scene(read_scene(path, options=options))
+    return objects_of_graph(read_statements(path), str(path))
 
 
 def read_versions(
@@ -66,16 +66,16 @@ def read_versions(
         Usd2kgError: a file cannot be read.
     """
     graphs = {path: _version(read_statements(path), path) for path in (old, new) if not is_stage(path)}
-    writing = next((version.writing for version in graphs.values()), Writing(None, "auto", "owl"))
-    writing = writing._replace(base=options.base or writing.base or default_base(str(old)))
+    style = next((version.style for version in graphs.values()), GraphStyle(None, "auto", "owl"))
+    style = style._replace(base=options.base or style.base or default_base(str(old)))
     if graphs.keys() == {old, new}:
         return graphs[old], graphs[new]
     tbox = open_tbox()
-    before, after = (graphs.get(path) or _build(path, tbox, writing, options) for path in (old, new))
+    before, after = (graphs.get(path) or _build(path, tbox, style, options) for path in (old, new))
     return before, after
 
 
-def _build(path: Path, tbox: TBox, writing: Writing, options: VersionOptions) -> Version:
+def _build(path: Path, tbox: TBox, style: GraphStyle, options: VersionOptions) -> Version:
     scene = read_scene(path, options=options.reading)
     grounding = ground(scene, tbox) if options.is_grounded else ground(scene, tbox, "dictionary", paths=())
     wanted = {*DEFAULT_KINDS, *options.kinds} - {*VIEWPOINT_KINDS}
@@ -84,13 +84,13 @@ def _build(path: Path, tbox: TBox, writing: Writing, options: VersionOptions) ->
         scene,
         tbox,
         grounding,
-        base=writing.base,
-        profile=writing.profile,
-        options=GraphOptions(annotations=writing.annotations),
+        base=style.base,
+        profile=style.profile,
+        options=GraphOptions(annotations=style.annotations),
         relations=find_relations(scene, tbox, grounding, RelationOptions(kinds=kinds)),
     )
     return _version(frozenset(graph.triples), path)
 
 
 def _version(statements: frozenset[ox.Triple], path: Path) -> Version:
-    return Version(statements, things_of_graph(statements, str(path)), writing_of(statements))
+    return Version(statements, objects_of_graph(statements, str(path)), detect_graph_style(statements))

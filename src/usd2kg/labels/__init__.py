@@ -1,18 +1,17 @@
-"""Semantic labels on stages: read them, lint them, and write the classes of a run as an override layer."""
+"""Semantic labels on stages: read and lint them, and write grounded classes as a layer over a scene."""
 
-from usd2kg.labels.classes import NAMINGS, label_maker
+from usd2kg.labels.class_labels import LABEL_STYLES, label_maker
 from usd2kg.labels.layer import write_labels
 from usd2kg.labels.model import LABEL_MODES, OUTCOMES, ClassLabel, LabelMode, LabelOptions, LabelOutcome, LabelReport
-from usd2kg.labels.runs import Answer, Run, read_run
+from usd2kg.labels.prim_classes import PrimClass, PrimClasses, read_prim_classes
+from usd2kg.labels.stage_labels import label_stage
 from usd2kg.labels.stage_lint import LabelLint, lint_stage
 from usd2kg.labels.survey import LabelledPrim, LabelSurvey, survey_labels
-from usd2kg.labels.write import label_stage
 
 __all__ = [
     "LABEL_MODES",
-    "NAMINGS",
+    "LABEL_STYLES",
     "OUTCOMES",
-    "Answer",
     "ClassLabel",
     "LabelLint",
     "LabelMode",
@@ -21,11 +20,12 @@ __all__ = [
     "LabelReport",
     "LabelSurvey",
     "LabelledPrim",
-    "Run",
+    "PrimClass",
+    "PrimClasses",
     "label_maker",
     "label_stage",
     "lint_stage",
-    "read_run",
+    "read_prim_classes",
     "survey_labels",
     "write_labels",
 ]

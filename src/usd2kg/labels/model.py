@@ -1,4 +1,4 @@
-"""What labels are to be written, how, and what became of them."""
+"""Input and result of writing labels: the label of a class, options, and an outcome for each prim."""
 
 from collections import Counter
 from collections.abc import Mapping
@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, get_args
 
+from usd2kg.ontology import ClassIRI
 from usd2kg.scene.model import Encoding
 
 __all__ = [
@@ -22,30 +23,29 @@ __all__ = [
 LabelMode = Literal["new", "overwrite", "skip"]
 LABEL_MODES: tuple[LabelMode, ...] = get_args(LabelMode)
 Outcome = Literal["written", "replaced", "completed", "kept", "left out"]
-"""`written`: had no label; `replaced`: its class labels are others now; `completed`: what was missing beside its labels
-was added; `kept`: has its labels as before; `left out`: gets none."""
+"""`written`: the prim had no label; `replaced`: its class labels were replaced; `completed`: missing encodings or
+taxonomies were added; `kept`: its labels are unchanged; `left out`: it gets no label."""
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 
 
 @dataclass(frozen=True, slots=True)
 class ClassLabel:
-    """A class as labels say it; objects of one class share it."""
+    """A class as it is written in labels; all objects of the class share it."""
 
     token: str
-    """The label itself: `Cup`."""
-    iri: str
-    """IRI of the class."""
+    """The label, such as `Cup`."""
+    iri: ClassIRI
     concept: str
-    """The end of the IRI, `Cup`, which Multiverse calls the concept's name."""
+    """Local name of the IRI, which is Multiverse's `rdf:conceptName`."""
     namespace: str
-    """The IRI before it."""
-    above: tuple[str, ...] = ()
-    """Labels of the classes above that are to be written too, the most general first."""
+    """The IRI without its local name."""
+    ancestors: tuple[str, ...] = ()
+    """Tokens of the superclasses to write, most general first; empty if they are not written."""
     qcodes: tuple[str, ...] = ()
     """Wikidata items."""
     definition: str = ""
     names: frozenset[str] = frozenset()
-    """Further names by which a label that stands already means the same class."""
+    """Labels and synonyms of the class, to recognise existing labels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,34 +54,34 @@ class LabelOptions:
 
     encodings: tuple[Encoding, ...] = ("UsdSemantics",)
     mode: LabelMode = "new"
-    """`new` labels prims that have no label at all; `overwrite` replaces whatever says the class of a prim, in all
-    encodings; `skip` keeps every label and adds what is missing, where the labels mean the same class."""
+    """`new` labels only prims without labels; `overwrite` replaces all class labels of a prim in all encodings; `skip`
+    keeps all labels and adds missing encodings and taxonomies if the existing labels name the same class."""
     is_bare: bool = False
-    """Whether the layer holds the labels alone; else it is a root layer over the source."""
+    """Whether the layer contains only labels; otherwise it is a root layer over the source."""
     de_instances: bool = False
-    """Whether instances are broken up where parts inside them are to be labelled."""
+    """Whether `instanceable` is set to false where a prim inside an instance is labelled."""
     provenance: Mapping[str, str] = field(default_factory=dict)
-    """What the layer tells of its origin, in `customLayerData`."""
+    """Origin of the labels, for `customLayerData`."""
 
 
 @dataclass(frozen=True, slots=True)
 class LabelOutcome:
-    """What became of the label of one prim."""
+    """The outcome for one prim."""
 
     prim_path: str
     outcome: Outcome
     reason: str
-    """Why it was kept or left out; empty for what was written."""
+    """Why the prim was kept or left out; empty otherwise."""
 
 
 @dataclass(frozen=True)
 class LabelReport:
-    """What became of the labels of one layer."""
+    """The outcomes of writing one layer."""
 
     outcomes: tuple[LabelOutcome, ...]
-    """For each prim that was asked for, by path."""
+    """One per requested prim, by path."""
     de_instanced: tuple[str, ...] = ()
-    """Paths of the instances that the layer breaks up."""
+    """Paths of the instances that the layer makes uninstanceable."""
 
     @cached_property
     def counts(self) -> Mapping[Outcome, int]:

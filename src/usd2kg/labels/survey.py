@@ -1,4 +1,4 @@
-"""survey_labels: all labels of a stage, what they stand on, and what is wrong with them one by one."""
+"""survey_labels: all labels of a stage, with what the linter needs to know about the labelled prims."""
 
 from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
@@ -24,15 +24,15 @@ __all__ = ["LabelSurvey", "LabelledPrim", "survey_labels"]
 
 @dataclass(frozen=True, slots=True)
 class LabelledPrim:
-    """One prim that carries labels; of what instances share, the first."""
+    """A prim with labels; prims shared by instances appear once, under the first instance."""
 
     prim_path: str
     labels: tuple[Label, ...]
     is_object: bool
     has_geometry: bool
-    """Whether geometry stands at or below it."""
+    """Whether the prim or a descendant has geometry."""
     same_as: str | None
-    """Path of the nearest labelled prim above of which it is the whole geometry, within one object; else None."""
+    """Path of the nearest labelled ancestor with the same geometry, within one object; None if there is none."""
 
 
 @dataclass(frozen=True)
@@ -40,22 +40,20 @@ class LabelSurvey:
     """The labels of a stage."""
 
     source: str
-    prim_count: int
-    """Prims that were looked at; what instances share once."""
     labelled: tuple[LabelledPrim, ...]
     """In traversal order."""
     problems: tuple[LabelProblem, ...]
-    """What is wrong by what stands on each prim alone, in traversal order."""
-    unlabelled: Mapping[str, tuple[str, ...]]
-    """Path of a prim that tells a class → the objects below it that tell none themselves, and so inherit its class."""
+    """Problems that are visible on a single prim, in traversal order."""
+    inheriting: Mapping[str, tuple[str, ...]]
+    """Path of a prim with a class label → the objects below it that have no class label and inherit this one."""
 
 
 def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = None) -> LabelSurvey:
     """Return all labels of a stage.
 
     Args:
-        source: the stage's root layer, or a stage that is open already.
-        options: how the stage is read, and which prims are objects.
+        source: the stage's root layer, or an open stage.
+        options: how to read the stage and select objects.
 
     Raises:
         SceneError: the stage cannot be read.
@@ -68,22 +66,21 @@ def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = 
         selection = select_objects(outline, options.selection, boxes.read_below)
         nodes = {node.path: node for node in outline.nodes}
         prims = list(stage_prims(opened.stage))
-        read = [(prim, labels) for prim in prims if (labels := _read(prim, time))]
+        read = [(prim, labels) for prim in prims if (labels := _read_labels(prim, time))]
         known = {str(prim.GetPath()): labels for prim, labels in read}
         return LabelSurvey(
             source=opened.source,
-            prim_count=len(prims) - 1,
             labelled=tuple(_labelled(prim, labels, nodes, selection.chosen, known.keys()) for prim, labels in read),
             problems=tuple(problem for prim in prims for problem in find_problems(prim, time)),
-            unlabelled=_unlabelled(outline.nodes, selection.chosen, LabelReader(time, known)) if read else {},
+            inheriting=_inheriting(outline.nodes, selection.chosen, LabelReader(time, known)) if read else {},
         )
 
 
-def _read(prim: Any, time: Any) -> tuple[Label, ...]:
+def _read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
     try:
         return read_labels(prim, time)
     except UNREADABLE:
-        # find_problems tells of it.
+        # find_problems reports it.
         return ()
 
 
@@ -97,21 +94,22 @@ def _labelled(
         labels=labels,
         is_object=path in chosen,
         has_geometry=(node is not None and _gprims(node) > 0) or _has_geometry(prim),
-        same_as=_whole_of(node, chosen, paths) if node is not None and path not in chosen else None,
+        same_as=_find_same_geometry(node, chosen, paths) if node is not None and path not in chosen else None,
     )
 
 
 def _has_geometry(prim: Any) -> bool:
-    below = Usd.PrimRange(prim, Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate))
+    descendants = Usd.PrimRange(prim, Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate))
     kinds = (UsdGeom.Gprim, UsdGeom.PointInstancer, UsdGeom.Subset)
-    return any(inside.IsA(kind) for inside in below for kind in kinds)
+    return any(descendant.IsA(kind) for descendant in descendants for kind in kinds)
 
 
 def _gprims(node: Node) -> int:
     return node.gprim_count + node.hidden_gprim_count
 
 
-def _whole_of(node: Node, chosen: Mapping[str, str], paths: Set[str]) -> str | None:
+def _find_same_geometry(node: Node, chosen: Mapping[str, str], paths: Set[str]) -> str | None:
+    """Return the nearest of `paths` above a node that has no other gprims, up to the object's own prim."""
     count = _gprims(node)
     above = node.parent
     while count and above is not None and _gprims(above) == count:
@@ -123,17 +121,19 @@ def _whole_of(node: Node, chosen: Mapping[str, str], paths: Set[str]) -> str | N
     return None
 
 
-def _unlabelled(nodes: list[Node], chosen: dict[str, str], reader: LabelReader) -> Mapping[str, tuple[str, ...]]:
+def _inheriting(nodes: list[Node], chosen: dict[str, str], reader: LabelReader) -> Mapping[str, tuple[str, ...]]:
     found: dict[str, list[str]] = {}
     for node in nodes:
-        if node.path in chosen:
-            labels = reader.read(list(own_nodes(node, chosen)))
-            if not any(_tells_class([*labels.own, *labels.of_parts])):
-                for label in _tells_class(labels.inherited):
-                    found.setdefault(label.prim_path, []).append(node.path)
-                    break
+        if node.path not in chosen:
+            continue
+        labels = reader.read(list(own_nodes(node, chosen)))
+        if any(_class_labels([*labels.own, *labels.of_parts])):
+            continue
+        inherited = next(_class_labels(labels.inherited), None)
+        if inherited is not None:
+            found.setdefault(inherited.prim_path, []).append(node.path)
     return {path: tuple(below) for path, below in found.items()}
 
 
-def _tells_class(labels: Iterable[Label]) -> Iterator[Label]:
+def _class_labels(labels: Iterable[Label]) -> Iterator[Label]:
     return (label for label in labels if label.encoding != "Multiverse" and label.taxonomy in CLASS_TAXONOMIES)

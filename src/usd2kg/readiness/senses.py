@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names, things_of
-from usd2kg.grounding.lexical.alignment.terms import HEAD, Term, term_key
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names, physical_classes
+from usd2kg.grounding.lexical.alignment.terms import Term, TermKind, term_key
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
@@ -23,22 +23,22 @@ class ClassSenses:
         self._tbox = tbox
         self._taxonomy = load_taxonomy()
         self._lexicon = build_lexicon(tbox, self._taxonomy, home_names())
-        self._anchored = {anchor.class_iri for anchor in self._lexicon.anchors.values()}
-        self._counted = {
-            counted.anchor.class_iri
-            for among in self._lexicon.counted.values()
-            for counted in among
-            if counted.anchor.weight > HEAD
+        self._aligned = {aligned.class_iri for aligned in self._lexicon.sense_classes.values()}
+        self._categories = {
+            member.aligned.class_iri
+            for members in self._lexicon.category_members.values()
+            for member in members
+            if member.aligned.weight > TermKind.HEAD.weight
         }
 
     @property
     def default(self) -> ClassIRI | None:
         """The residual class, which an object without evidence gets."""
-        return self._lexicon.default
+        return self._lexicon.default_class
 
     def is_known(self, iri: ClassIRI) -> bool:
         """Return whether a class is aligned with a synset or with a list of names."""
-        return iri in self._anchored or iri in self._counted or iri in self._lexicon.listed
+        return iri in self._aligned or iri in self._categories or iri in self._lexicon.home_classes
 
     @cached_property
     def names(self) -> Mapping[ClassIRI, str]:
@@ -46,7 +46,7 @@ class ClassSenses:
         best: dict[ClassIRI, Term] = {}
         for term in self._lexicon.terms.values():
             known = best.get(term.class_iri)
-            if known is None or (-term.weight, term.text) < (-known.weight, known.text):
+            if known is None or (-term.kind.weight, term.text) < (-known.kind.weight, known.text):
                 best[term.class_iri] = term
         return {iri: _as_name(term.text) for iri, term in best.items()}
 
@@ -89,7 +89,7 @@ def find_sense_faults(tbox: TBox, senses: ClassSenses) -> Iterator[Finding]:
 
 def _non_objects(tbox: TBox) -> Iterator[Finding]:
     """Yield the topmost classes that are not physical objects: one finding per subtree."""
-    things = {cls.iri for cls in things_of(tbox)}
+    things = {cls.iri for cls in physical_classes(tbox)}
     for cls in tbox.classes:
         if cls.iri not in things and things.issuperset(cls.parents):
             below = sum(tbox.is_subclass(other.iri, cls.iri) for other in tbox.classes) - 1

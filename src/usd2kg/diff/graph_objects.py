@@ -1,4 +1,4 @@
-"""The things of a graph in either profile, from its statements."""
+"""Read the statements of a graph file, the objects that they describe, and the style in which they are written."""
 
 import math
 import zlib
@@ -9,19 +9,21 @@ from typing import Any, NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.diff.thing import Link, Thing, Vector
+from usd2kg.diff.object_state import Link, ObjectState, Quaternion, Vector
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.formats.document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
+from usd2kg.ontology import local_name
 from usd2kg.ontology.entities import refuse_entity_bomb_in_file
 from usd2kg.relations import SYMMETRIC_KINDS
 
-__all__ = ["Writing", "read_statements", "things_of_graph", "writing_of"]
+__all__ = ["GraphStyle", "detect_graph_style", "objects_of_graph", "read_statements"]
 
-_NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
-_USED = {
+_GENERAL_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+"""Types of all objects, which are not grounded classes."""
+_READ_PROPERTIES = {
     *(RDF.type, RDFS.label, DUL.hasRegion),
     *(U2K.primPath, U2K.asset, U2K.boxCenter, U2K.orientedSize, U2K.target, U2K.anchor),
     *(SOMA.hasShape, SOMA.hasWidth, SOMA.hasDepth, SOMA.hasHeight, U2K.width, U2K.depth, U2K.height),
@@ -31,17 +33,18 @@ _USED = {
     *KIND_OF_INVERSE,
 }
 _RUN = "-run"
+"""End of the IRI of the grounding run; the base IRI is before it."""
 
 
 def read_statements(path: Path) -> frozenset[ox.Triple]:
-    """Return what a graph file states, literals as they are written; several named graphs are taken together.
+    """Return the statements of all named graphs in a file, with literals in their original lexical form.
 
     Raises:
-        GraphError: the file cannot be read, its ending names no RDF format, or it does not parse.
+        GraphError: the file cannot be read, its ending names no RDF format, or its syntax is wrong.
     """
     syntax = rdf_format(path)
     try:
-        # A store would write numbers in its own way, and an update must name them as they are.
+        # Not through a store, which normalizes numbers: an update must quote literals exactly.
         with paused_collection():
             if syntax == ox.RdfFormat.RDF_XML:
                 with open_rdf(path) as file:
@@ -55,133 +58,134 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
         raise GraphError(f"{path}: cannot be read as {syntax.name} ({reason}); build the graph again") from error
 
 
-class Writing(NamedTuple):
-    """How a graph is written, so that another can be written alike."""
+class GraphStyle(NamedTuple):
+    """The options with which a graph was built."""
 
     base: str | None
-    """IRI under which its individuals lie; None if it does not tell."""
+    """Namespace of the individuals; None if the graph does not state it."""
     profile: str
     """`soma` or `plain`."""
     annotations: str
     """`owl` or `rdf12`."""
 
 
-def writing_of(statements: Iterable[ox.Triple]) -> Writing:
-    """Return how a graph is written."""
+def detect_graph_style(statements: Iterable[ox.Triple]) -> GraphStyle:
+    """Return the options with which a graph was built."""
     runs, is_soma, is_reified = set(), False, False
     for _, predicate, value in statements:
         if predicate == U2K.run and isinstance(value, ox.NamedNode) and value.value.endswith(_RUN):
             runs.add(value.value.removesuffix(_RUN))
         is_soma = is_soma or value == USD.Prim
         is_reified = is_reified or predicate == RDF.reifies
-    return Writing(min(runs, default=None), "soma" if is_soma else "plain", "rdf12" if is_reified else "owl")
+    return GraphStyle(min(runs, default=None), "soma" if is_soma else "plain", "rdf12" if is_reified else "owl")
 
 
-def things_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[Thing, ...]:
-    """Return the things that a graph tells of, by prim path. What cannot be read as a number is not known.
+def objects_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[ObjectState, ...]:
+    """Return the objects of a graph of either profile, by prim path. Malformed numbers count as unknown.
+
+    Args:
+        statements: the graph.
+        source: its name in error messages.
 
     Raises:
-        GraphError: it tells of none, or of two with the same path; `source` names it in the message.
+        GraphError: there is no object, or two have the same prim path.
     """
     with paused_collection():
-        things = sorted(_Reader(statements).things(), key=lambda thing: (thing.prim_path, thing.iri))
-    if not things:
-        raise GraphError(f"{source}: holds no object; expected a graph that usd2kg build wrote, or a USD scene")
-    for one, other in pairwise(things):
+        states = sorted(_StateReader(statements).states(), key=lambda state: (state.prim_path, state.iri))
+    if not states:
+        raise GraphError(f"{source}: contains no object; expected a graph written by usd2kg build, or a USD scene")
+    for one, other in pairwise(states):
         if one.prim_path == other.prim_path:
             raise GraphError(
                 f"{source}: <{one.iri}> and <{other.iri}> both have the prim path {one.prim_path}; "
                 "expected the graph of one scene"
             )
-    return tuple(things)
+    return tuple(states)
 
 
-class _Reader:
-    """Looks up what is said of each subject, by property."""
+class _StateReader:
+    """Looks up the values of a property of a subject."""
 
     def __init__(self, statements: Iterable[ox.Triple]) -> None:
-        self._said: dict[ox.NamedNode, dict[Any, list[Any]]] = {name: {} for name in _USED}
+        self._values: dict[ox.NamedNode, dict[Any, list[Any]]] = {name: {} for name in _READ_PROPERTIES}
         for subject, predicate, value in statements:
-            if predicate in _USED:
-                self._said[predicate].setdefault(subject, []).append(value)
-        self._paths = {node: str(values[0].value) for node, values in self._said[U2K.primPath].items()}
+            if predicate in _READ_PROPERTIES:
+                self._values[predicate].setdefault(subject, []).append(value)
+        self._paths = {node: str(values[0].value) for node, values in self._values[U2K.primPath].items()}
         self._links: dict[Any, set[Link]] = {}
         for node, link in self._all_links():
             self._links.setdefault(node, set()).add(link)
 
-    def things(self) -> Iterator[Thing]:
+    def states(self) -> Iterator[ObjectState]:
         for node, path in self._paths.items():
-            types = self._said[RDF.type].get(node, [])
+            types = self._values[RDF.type].get(node, [])
             if isinstance(node, ox.NamedNode) and U2K.RoomGroup not in types:
-                yield self._thing(node, path, types)
+                yield self._state(node, path, types)
 
-    def _thing(self, node: ox.NamedNode, path: str, types: list[Any]) -> Thing:
-        classes = sorted({c.value for c in types if isinstance(c, ox.NamedNode) and c not in _NO_CLASSES})
-        shapes = self._steps(node, SOMA.hasShape, DUL.hasRegion)
+    def _state(self, node: ox.NamedNode, path: str, types: list[Any]) -> ObjectState:
+        classes = sorted({c.value for c in types if isinstance(c, ox.NamedNode) and c not in _GENERAL_CLASSES})
+        shapes = self._follow(node, SOMA.hasShape, DUL.hasRegion)
         box = next((region for region in shapes if self._text(region, U2K.boxCenter)), node)
-        pose = [n for region in self._steps(node, SOMA.hasLocalization, DUL.hasRegion) for n in self._pose(region)]
-        owners = [node, *self._steps(node, SOMA.hasMassAttribute)]
-        masses = [n for owner in owners for n in self._numbers(owner, SOMA.hasMassValue, U2K.mass)]
-        return Thing(
+        regions = self._follow(node, SOMA.hasLocalization, DUL.hasRegion)
+        pose = [number for region in regions for number in self._numbers(region, SOMA.hasPositionData)]
+        mass_owners = [node, *self._follow(node, SOMA.hasMassAttribute)]
+        masses = [n for owner in mass_owners for n in self._numbers(owner, SOMA.hasMassValue, U2K.mass)]
+        return ObjectState(
             path,
             node.value,
             tuple(classes),
-            " and ".join(self._label(cls) for cls in classes),
+            " and ".join(self._text(ox.NamedNode(cls), RDFS.label) or local_name(cls) for cls in classes),
             size=_vector(self._numbers(node, U2K.orientedSize) or self._sides(box)),
             center=_vector(self._numbers(box, U2K.boxCenter)),
             position=_vector(pose[:3] or self._numbers(node, U2K.position)),
             orientation=_quaternion(pose[3:] or self._numbers(node, U2K.orientation)),
             mass_kg=masses[0] if masses else None,
-            assets=frozenset(str(value.value) for value in self._said[U2K.asset].get(node, ())),
+            assets=frozenset(str(value.value) for value in self._values[U2K.asset].get(node, ())),
             links=frozenset(self._links.get(node, ())),
         )
 
     def _all_links(self) -> Iterator[tuple[Any, Link]]:
         for name, kind in KIND_OF_PROPERTY.items():
-            for target, anchor in self._ends(name):
+            for target, anchor in self._pairs(name):
                 yield target, Link(kind, self._paths[anchor])
                 if kind in SYMMETRIC_KINDS:
                     yield anchor, Link(kind, self._paths[target])
         for name, kind in KIND_OF_INVERSE.items():
-            for anchor, target in self._ends(name):
+            for anchor, target in self._pairs(name):
                 yield target, Link(kind, self._paths[anchor])
-        for node, targets in self._said[U2K.target].items():
-            for anchor in self._said[U2K.anchor].get(node, ()):
+        for node, targets in self._values[U2K.target].items():
+            for anchor in self._values[U2K.anchor].get(node, ()):
                 if anchor in self._paths:
                     yield targets[0], Link("between", self._paths[anchor])
 
-    def _ends(self, name: ox.NamedNode) -> Iterator[tuple[Any, Any]]:
-        """Yield the pairs of things that a property holds between."""
-        for subject, values in self._said[name].items():
+    def _pairs(self, name: ox.NamedNode) -> Iterator[tuple[Any, Any]]:
+        """Yield the pairs of objects that a property relates."""
+        for subject, values in self._values[name].items():
             if subject in self._paths:
                 yield from ((subject, value) for value in values if value in self._paths)
 
-    def _steps(self, node: Any, *names: ox.NamedNode) -> list[Any]:
+    def _follow(self, node: Any, *names: ox.NamedNode) -> list[Any]:
+        """Return the ends of a property path."""
         nodes = [node]
         for name in names:
-            nodes = [value for each in nodes for value in self._said[name].get(each, ())]
+            nodes = [value for each in nodes for value in self._values[name].get(each, ())]
         return nodes
 
     def _text(self, node: Any, name: ox.NamedNode) -> str:
-        values = self._said[name].get(node)
+        values = self._values[name].get(node)
         return "" if not values else str(getattr(min(values, key=str), "value", ""))
 
-    def _label(self, cls: str) -> str:
-        return self._text(ox.NamedNode(cls), RDFS.label) or cls.replace("#", "/").rpartition("/")[2]
-
     def _numbers(self, node: Any, *names: ox.NamedNode) -> tuple[float, ...]:
-        return _numbers(next(filter(None, (self._text(node, name) for name in names)), ""))
+        """Return the numbers of the first of these properties that the node has."""
+        return _parse_numbers(next(filter(None, (self._text(node, name) for name in names)), ""))
 
     def _sides(self, box: Any) -> list[float]:
         extents = ((SOMA.hasDepth, U2K.width), (SOMA.hasWidth, U2K.depth), (SOMA.hasHeight, U2K.height))
         return [side for names in extents for side in self._numbers(box, *names)]
 
-    def _pose(self, region: Any) -> tuple[float, ...]:
-        return self._numbers(region, SOMA.hasPositionData)
 
-
-def _numbers(text: str) -> tuple[float, ...]:
-    """Return the numbers of a text; none at all if one is no finite number."""
+def _parse_numbers(text: str) -> tuple[float, ...]:
+    """Return the numbers of a text; empty if one of them is malformed or not finite."""
     try:
         numbers = tuple(float(word) for word in text.split())
     except ValueError:
@@ -197,7 +201,7 @@ def _vector(values: Iterable[float]) -> Vector | None:
             return None
 
 
-def _quaternion(values: Iterable[float]) -> tuple[float, float, float, float] | None:
+def _quaternion(values: Iterable[float]) -> Quaternion | None:
     match tuple(values):
         case x, y, z, w if x or y or z or w:
             return x, y, z, w

@@ -3,15 +3,12 @@
 import re
 from functools import cache
 
+from usd2kg.diagrams.settings import PNG
 from usd2kg.diagrams.svg import FONT
 from usd2kg.errors import OutputError
 
 __all__ = ["to_png"]
 
-_SCALE = 2.0
-"""Pixels per SVG unit: sharp on high-density screens and in print."""
-_MAX_PIXELS = 60e6
-"""Larger images are scaled down: viewers refuse them, and rendering takes a gigabyte."""
 _SANS_SERIF = (
     "Arial", "DejaVu Sans", "Liberation Sans", "Noto Sans", "Open Sans", "Roboto", "Ubuntu", "Cantarell", "FreeSans",
     "Segoe UI", "Verdana", "Lucida Grande",
@@ -20,7 +17,7 @@ _SANS_SERIF = (
 _SIZE = re.compile(r'<svg [^>]*?width="(\d+)" height="(\d+)"')
 
 
-def to_png(svg: str, scale: float = _SCALE) -> bytes:
+def to_png(svg: str, scale: float = PNG.scale) -> bytes:
     """Return a diagram of this package as PNG, scaled down if it has too many pixels.
 
     Raises:
@@ -29,13 +26,13 @@ def to_png(svg: str, scale: float = _SCALE) -> bytes:
     family = _sans_serif()
     if family is None:
         raise OutputError(
-            "PNG: the system has no sans-serif font, so the picture would be without names; install one (on Debian: "
-            "apt-get install fonts-dejavu-core), or write SVG, which is drawn with the fonts of its reader"
+            "PNG: the system has no sans-serif font, so the picture would have no text; install one (on Debian: "
+            "apt-get install fonts-dejavu-core), or write SVG, which uses the fonts of the viewer"
         )
     found = _SIZE.match(svg)
-    assert found is not None, "pictures of this package state their size first"
+    assert found is not None, "the size comes first in the SVG of this package"
     width, height = (int(side) for side in found.groups())
-    scale = min(scale, (_MAX_PIXELS / max(width * height, 1)) ** 0.5)
+    scale = min(scale, (PNG.max_pixels / max(width * height, 1)) ** 0.5)
     return _draw(svg, family, max(1, round(width * scale)))
 
 

@@ -1,0 +1,81 @@
+"""Settings of the diagrams, from `knowledge/settings/diagrams.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["PNG", "ROOM", "SHAPES", "SURROUNDINGS", "TEXT"]
+
+
+@dataclass(frozen=True, slots=True)
+class _TextSettings:
+    """Section `text`."""
+
+    title_size: float
+    label_size: float
+    small_size: float
+    object_size: float
+    object_detail_size: float
+    detail_size_step: float
+    detail_gap: float
+    label_measure: float
+    detail_measure: float
+    baseline_drop: float
+    max_label_letters: int
+    max_object_letters: int
+    max_title_letters: int
+    max_tooltip_letters: int
+    max_document_title_letters: int
+    max_group_letters: int
+
+
+@dataclass(frozen=True, slots=True)
+class _ShapeSettings:
+    """Section `shapes`."""
+
+    row_height: float
+    indent: float
+    padding: float
+    dot_radius: float
+    dot_column: float
+    legend_row_height: float
+    corner_radius: float
+    line_width: float
+
+
+@dataclass(frozen=True, slots=True)
+class _RoomSettings:
+    """Section `room`."""
+
+    gap: float
+    aspect_ratio: float
+    min_ground_share: float
+
+
+@dataclass(frozen=True, slots=True)
+class _SurroundingsSettings:
+    """Section `surroundings`."""
+
+    gap: float
+    panel_gap: float
+    margin: float
+    title_height: float
+    object_height: float
+    object_padding: float
+    max_lines: int
+    max_distance_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class _PngSettings:
+    """Section `png`."""
+
+    scale: float
+    max_pixels: float
+
+
+TEXT = read_settings("diagrams", "text", _TextSettings)
+SHAPES = read_settings("diagrams", "shapes", _ShapeSettings)
+ROOM = read_settings("diagrams", "room", _RoomSettings)
+SURROUNDINGS = read_settings("diagrams", "surroundings", _SurroundingsSettings)
+PNG = read_settings("diagrams", "png", _PngSettings)
