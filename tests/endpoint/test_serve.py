@@ -21,7 +21,7 @@ import pytest
 
 from tests.graph.records import build_graph, thing
 from usd2kg.ontology import TBox
-from usd2kg.stores import EmbeddedStore, named_graph, open_store
+from usd2kg.stores import EmbeddedStore, make_named_graph, open_store
 
 HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">'\"\t=1+1"
 ASK = "ASK { ?s ?p ?o }"
@@ -43,7 +43,7 @@ def port(home_tbox: TBox, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
     table = (thing("/Table", (0, 0, 0), (1, 1, 1)), "Table")
     cups = [(thing(f"/{name}", (0.4, 0.4, 1), (0.1, 0.1, 0.1), name=name), "Cup") for name in ("Mug", HOSTILE)]
     for base, placed in (("https://my.lab/a/", [table, cups[0]]), ("https://my.lab/b/", [table, cups[1]])):
-        store.load(named_graph(build_graph(home_tbox, placed, base=base)))
+        store.load(make_named_graph(build_graph(home_tbox, placed, base=base)))
     # A class, too, whose label comes first of all.
     hostile = ox.Literal(HOSTILE)
     store.update(f"INSERT {{ GRAPH ?g {{ ?c rdfs:label {hostile} }} }} WHERE {{ GRAPH ?g {{ ?c rdfs:label 'cup' }} }}")

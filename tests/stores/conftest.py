@@ -9,8 +9,8 @@ from tests.graph.records import build_graph, thing
 from tests.stores.servers import fuseki, oxigraph
 from usd2kg.graph import KnowledgeGraph
 from usd2kg.ontology import TBox
-from usd2kg.stores import NamedGraph, named_graph
-from usd2kg.stores.http import HttpClient
+from usd2kg.stores import NamedGraph, make_named_graph
+from usd2kg.stores.http_client import HttpClient
 from usd2kg.stores.remote import RemoteStore
 
 
@@ -24,19 +24,19 @@ def scene_graph(tbox: TBox, base: str, names: list[str]) -> KnowledgeGraph:
 @pytest.fixture(scope="session")
 def small(home_tbox: TBox) -> NamedGraph:
     """A table with a cup."""
-    return named_graph(scene_graph(home_tbox, "https://my.lab/k/", ["Mug"]))
+    return make_named_graph(scene_graph(home_tbox, "https://my.lab/k/", ["Mug"]))
 
 
 @pytest.fixture(scope="session")
 def large(home_tbox: TBox) -> NamedGraph:
     """The same scene with three cups."""
-    return named_graph(scene_graph(home_tbox, "https://my.lab/k/", ["Mug", "Cup_1", "Cup_2"]))
+    return make_named_graph(scene_graph(home_tbox, "https://my.lab/k/", ["Mug", "Cup_1", "Cup_2"]))
 
 
 @pytest.fixture(scope="session")
 def other(home_tbox: TBox) -> NamedGraph:
     """Another scene, whose blank nodes have the same names in its file as far as nodes can."""
-    return named_graph(scene_graph(home_tbox, "https://my.lab/other/", ["Mug"]))
+    return make_named_graph(scene_graph(home_tbox, "https://my.lab/other/", ["Mug"]))
 
 
 @pytest.fixture(scope="session", params=["oxigraph", "fuseki"])

@@ -9,8 +9,8 @@ import pyoxigraph as ox
 import pytest
 
 from usd2kg.errors import GraphError, StoreError
-from usd2kg.stores import EmbeddedStore, NamedGraph, chosen_graphs, open_graph
-from usd2kg.stores.folder_lock import hold_for_reading, hold_for_writing
+from usd2kg.stores import EmbeddedStore, NamedGraph, open_graph, select_graphs
+from usd2kg.stores.folder_lock import lock_exclusive, lock_shared
 from usd2kg.stores.pending import PENDING_NAME, write_pending
 
 
@@ -100,11 +100,11 @@ def test_a_killed_load_is_finished_by_the_next_reader(
 def test_a_second_writer_waits_and_is_told(tmp_path: Path, small: NamedGraph):
     EmbeddedStore(tmp_path).load(small)
     with (
-        hold_for_writing(tmp_path, 1),
+        lock_exclusive(tmp_path, 1),
         pytest.raises(StoreError, match=r"another process is still using it after 0.1 s"),
     ):
         EmbeddedStore(tmp_path, wait_s=0.1).load(small)
-    with hold_for_reading(tmp_path, 1):
+    with lock_shared(tmp_path, 1):
         assert len(EmbeddedStore(tmp_path, wait_s=0.1).graphs()) == 1
         with pytest.raises(StoreError, match="wait for it, then try again"):
             EmbeddedStore(tmp_path, wait_s=0.1).load(small)
@@ -147,16 +147,16 @@ def test_an_update_is_done_whole_or_not(tmp_path: Path, small: NamedGraph):
 def test_scenes_are_chosen_by_name_label_or_iri(tmp_path: Path, small: NamedGraph, other: NamedGraph):
     store = EmbeddedStore(tmp_path)
     with pytest.raises(StoreError, match="is no store"):
-        chosen_graphs(store, None)
+        select_graphs(store, None)
     store.load(small)
     store.load(other)
-    assert chosen_graphs(store, None) == ["https://my.lab/k", "https://my.lab/other"]
+    assert select_graphs(store, None) == ["https://my.lab/k", "https://my.lab/other"]
     for name in ("k", "https://my.lab/k", "https://my.lab/k/"):
-        assert chosen_graphs(store, name) == ["https://my.lab/k"]
+        assert select_graphs(store, name) == ["https://my.lab/k"]
     with pytest.raises(GraphError, match=r"holds no graph 'x'; it holds https://my.lab/k, https://my.lab/other"):
-        chosen_graphs(store, "x")
+        select_graphs(store, "x")
     with pytest.raises(GraphError, match=r"may be https://my.lab/k, https://my.lab/other; expected one, by its IRI"):
-        chosen_graphs(store, store.graphs()[0].label)
+        select_graphs(store, store.graphs()[0].label)
 
 
 @pytest.mark.parametrize("damage", ["garbage", "letters", "cut", "cut between triples", "folder", "other graph"])

@@ -14,7 +14,7 @@ import pytest
 from tests.stores.conftest import open_remote
 from tests.stores.servers import Way, fuseki, way_to
 from usd2kg.errors import GraphError, StoreError
-from usd2kg.stores import NamedGraph, chosen_graphs, open_store
+from usd2kg.stores import NamedGraph, open_store, select_graphs
 from usd2kg.stores.remote import RemoteStore
 
 ALL = "SELECT ?g (COUNT(*) AS ?n) WHERE { GRAPH ?g { ?s ?p ?o } } GROUP BY ?g"
@@ -72,9 +72,9 @@ def test_scenes_are_listed_asked_together_or_alone_and_removed(
     store.update("INSERT DATA { GRAPH <urn:theirs> { <urn:x> u2k:primPath '/x' } }")
     assert [(graph.name, graph.count_objects(store.select)) for graph in store.graphs()] == [("k", 4), ("other", 2)]
     count = "SELECT (COUNT(?p) AS ?n) WHERE { ?o u2k:primPath ?p }"
-    assert store.query(count, chosen_graphs(store, None)).values == ((6,),)
-    assert store.query(count, chosen_graphs(store, "other")).values == ((2,),)
-    assert store.fetch(chosen_graphs(store, "k")).ask(["on", "table"]).rows[0][0] == "Cup_1"
+    assert store.query(count, select_graphs(store, None)).values == ((6,),)
+    assert store.query(count, select_graphs(store, "other")).values == ((2,),)
+    assert store.fetch(select_graphs(store, "k")).ask(["on", "table"]).rows[0][0] == "Cup_1"
     store.remove(large.iri)
     assert [graph.iri for graph in store.graphs()] == [other.iri]
 

@@ -6,7 +6,7 @@ import pytest
 from tests.conftest import shared_file
 from tests.validation.broken import added, found_in, open_room
 from usd2kg.ontology import Closure, TBox, load_tbox, read_closure
-from usd2kg.validation.axioms import Axioms, Disjointness
+from usd2kg.validation.axiom_index import AxiomIndex, Disjointness
 
 PREFIXES = """@prefix : <https://lab.example/onto#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .
@@ -24,8 +24,8 @@ def closure_of(text: str, missing: tuple[str, ...] = ()) -> Closure:
     return Closure(tuple(quad.triple for quad in quads), (), missing)
 
 
-def axioms_of(text: str) -> Axioms:
-    return Axioms(closure_of(text).triples)
+def axioms_of(text: str) -> AxiomIndex:
+    return AxiomIndex(closure_of(text).triples)
 
 
 LAB = "https://lab.example/onto#"

@@ -10,7 +10,7 @@ from tests.graph.records import thing
 from tests.validation.broken import CONFIDENCE, ROOM, UPRIGHT, added, found_in, open_room
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
-from usd2kg.validation import read_objects, read_rules
+from usd2kg.validation import read_graph_objects, read_rules
 
 ROOM_ONLY = ROOM[:5]
 PROFILES = pytest.mark.parametrize("profile", ["soma", "plain"])
@@ -170,5 +170,5 @@ def test_the_confidence_of_a_relation_is_not_that_of_the_class(home_tbox: TBox, 
         'DELETE { ?x sssom:confidence ?o } INSERT { ?x sssom:confidence "0.01"^^xsd:decimal } '
         "WHERE { ?x sssom:confidence ?o ; owl:annotatedProperty ?p . FILTER(?p != rdf:type) }"
     )
-    table = {p.prim_path: p.confidence for p in read_objects(open_room(home_tbox, profile, said).store)}
+    table = {p.prim_path: p.confidence for p in read_graph_objects(open_room(home_tbox, profile, said).store)}
     assert set(table.values()) == {0.75}

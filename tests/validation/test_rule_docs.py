@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from usd2kg.validation import read_rules
-from usd2kg.validation.shapes import compile_shapes
+from usd2kg.validation.shacl import compile_shapes
 
 DOCUMENT = (Path(__file__).parents[2] / "docs" / "validation.md").read_text("utf-8")
 CLASHES = ("disjoint-classes", "domain-clash", "range-clash", "class-deprecated", "class-unknown")

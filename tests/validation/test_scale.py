@@ -10,7 +10,7 @@ from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD, number,
 from usd2kg.ontology import Closure
 from usd2kg.query import GraphStore
 from usd2kg.validation import validate_graph
-from usd2kg.validation.shapes import compile_shapes, find_violations
+from usd2kg.validation.shacl import compile_shapes, find_violations
 
 COUNT = 20_000
 SECONDS = 30.0

@@ -1,11 +1,11 @@
 """Questions in plain words: answered by ready questions, by a model that writes SPARQL, or for an assistant."""
 
-from usd2kg.assistant.asking import AskedAnswer, ask_offline
 from usd2kg.assistant.describe import describe, list_objects
-from usd2kg.assistant.writing import ask_model
+from usd2kg.assistant.model_queries import ask_model
+from usd2kg.assistant.offline import InterpretedAnswer, ask_offline
 
 __all__ = [
-    "AskedAnswer",
+    "InterpretedAnswer",
     "ask_model",
     "ask_offline",
     "describe",

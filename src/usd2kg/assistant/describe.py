@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from usd2kg.query import Answer, GraphStore
-from usd2kg.validation import read_objects
+from usd2kg.validation import read_graph_objects
 
 __all__ = ["describe", "description_answer", "list_objects"]
 
@@ -68,7 +68,7 @@ def describe(graph: GraphStore, thing: str, *, most: int = 10) -> dict[str, Any]
         GraphError: nothing is called so.
     """
     wanted = {node.value for node in graph.find(thing)}
-    objects = [obj for obj in read_objects(graph.store) if obj.iri in wanted]
+    objects = [obj for obj in read_graph_objects(graph.store) if obj.iri in wanted]
     classes = _by_path(graph.sparql(_CLASSES))
     words = _by_path(graph.sparql(_WORDS))
     found = []

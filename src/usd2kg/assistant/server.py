@@ -12,8 +12,8 @@ from mcp.server.mcpserver import Image
 from mcp.server.mcpserver.exceptions import ToolError
 from mcp.types import ToolAnnotations
 
-from usd2kg.assistant.asking import ask_offline
 from usd2kg.assistant.describe import describe, list_objects
+from usd2kg.assistant.offline import ask_offline
 from usd2kg.errors import Usd2kgError
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.questions import Question, list_questions

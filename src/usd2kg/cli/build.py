@@ -160,7 +160,7 @@ def _keep(result: "BuildResult", merges: bool, target: Path | None, keeper: "Sce
     """
     from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
     from usd2kg.ontology import read_closure  # noqa: PLC0415
-    from usd2kg.stores import named_graph, ontology_graph  # noqa: PLC0415
+    from usd2kg.stores import make_named_graph, make_ontology_graph  # noqa: PLC0415
 
     closure = read_closure(result.tbox, result.graph.imports) if merges else None
     for iri in closure.missing if closure is not None else ():
@@ -169,8 +169,8 @@ def _keep(result: "BuildResult", merges: bool, target: Path | None, keeper: "Sce
         write_graph(result.graph if closure is None else merge_imports(result.graph, closure), target)
     if keeper is not None:
         # Asked together, the ontology comes first, so that no scene is there whose classes are not.
-        shared = [ontology_graph(result.tbox, closure)] if closure is not None else []
-        store_graphs(keeper, [*shared, named_graph(result.graph)])
+        shared = [make_ontology_graph(result.tbox, closure)] if closure is not None else []
+        store_graphs(keeper, [*shared, make_named_graph(result.graph)])
 
 
 def summarize(result: "BuildResult") -> dict[str, Any]:

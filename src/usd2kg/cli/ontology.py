@@ -143,9 +143,9 @@ def shapes(
     profile: Annotated[str, typer.Option("--profile", help="Of which graphs: soma (default) or plain.")] = "soma",
 ) -> None:
     """Print the SHACL shapes of the graphs that usd2kg builds, as Turtle."""
-    from usd2kg.validation import shapes_text  # noqa: PLC0415 - loads the RDF parser
+    from usd2kg.validation import read_shapes  # noqa: PLC0415 - loads the RDF parser
 
-    emit(shapes_text(profile), None)
+    emit(read_shapes(profile), None)
 
 
 def _load(file: Path | None, roots: list[str] | None) -> "TBox":

@@ -48,7 +48,7 @@ def query_command(
     json: JsonOutput = False,
 ) -> None:
     """Ask a graph: a ready question in words, one of the listed questions, or a SPARQL query."""
-    from usd2kg.stores import chosen_graphs, is_store, open_graph, open_store  # noqa: PLC0415
+    from usd2kg.stores import is_store, open_graph, open_store, select_graphs  # noqa: PLC0415
 
     if is_list:
         _print_questions(json)
@@ -63,7 +63,7 @@ def query_command(
     if sparql is not None and is_store(graph):
         # A server answers by itself: what it holds may be more than this machine's memory.
         kept = open_store(graph)
-        answer = kept.query(query_text(sparql), chosen_graphs(kept, scene))
+        answer = kept.query(query_text(sparql), select_graphs(kept, scene))
     elif sparql is not None:
         answer = open_graph(graph, scene).sparql(query_text(sparql))
     elif question is not None:

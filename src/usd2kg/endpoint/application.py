@@ -26,7 +26,7 @@ from usd2kg.endpoint.pool import BusyError, Limits, TimeLimitError, WorkerLostEr
 from usd2kg.graph.vocabulary import PREFIXES, named_node
 from usd2kg.query.functions import FUNCTION_NAMESPACE
 
-__all__ = ["RequestFaultError", "make_app"]
+__all__ = ["RefusedRequestError", "make_app"]
 
 _FORM = "application/x-www-form-urlencoded"
 _QUERY = "application/sparql-query"
@@ -41,7 +41,7 @@ CONSTRUCT {
 } WHERE {}"""
 
 
-class RequestFaultError(Exception):
+class RefusedRequestError(Exception):
     """A request that cannot be answered, with the status and a text for the person behind it."""
 
     def __init__(self, status: int, text: str) -> None:
@@ -133,7 +133,7 @@ async def _ask(request: Request, pool: WorkerPool, limits: Limits) -> Response:
         if wanted is None:
             return _describe(request)
         return await _answer(wanted, pool, limits)
-    except RequestFaultError as fault:
+    except RefusedRequestError as fault:
         return _refusal(request, fault)
 
 
@@ -142,17 +142,17 @@ async def _answer(wanted: dict[str, Any], pool: WorkerPool, limits: Limits) -> R
     try:
         result = await pool.run(wanted)
     except BusyError as error:
-        raise RequestFaultError(503, "too many queries are waiting; try again in a moment") from error
+        raise RefusedRequestError(503, "too many queries are waiting; try again in a moment") from error
     except TimeLimitError as error:
-        raise RequestFaultError(
+        raise RefusedRequestError(
             503, f"the query took more than {limits.seconds:g} s and was stopped; ask for less, or raise --time-limit"
         ) from error
     except WorkerLostError as error:
-        raise RequestFaultError(
+        raise RefusedRequestError(
             503, f"the query needed more than {limits.memory_mib} MiB and was stopped; ask for less, like with LIMIT"
         ) from error
     if result.told["status"] != 200:
-        raise RequestFaultError(result.told["status"], result.body.decode())
+        raise RefusedRequestError(result.told["status"], result.body.decode())
     seconds = time.perf_counter() - start
     headers = {"Usd2kg-Rows": str(result.told["rows"]), "Server-Timing": f"query;dur={1000 * seconds:.1f}"}
     if result.told["cut"]:
@@ -175,16 +175,16 @@ async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | No
         elif content_type == _QUERY:
             fields.append(("query", body))
         else:
-            raise RequestFaultError(
+            raise RefusedRequestError(
                 415, f"content type {content_type or 'none'} is not read; expected {_QUERY} or {_FORM}"
             )
     elif not fields:
         return None
     if any(name in {"update", "using-graph-uri", "using-named-graph-uri"} for name, _ in fields):
-        raise RequestFaultError(400, "this endpoint is read only: updates are not done here")
+        raise RefusedRequestError(400, "this endpoint is read only: updates are not done here")
     queries = [value for name, value in fields if name == "query"]
     if len(queries) != 1 or not queries[0].strip():
-        raise RequestFaultError(400, f"expected one query, found {len(queries) if any(queries) else 'none'}")
+        raise RefusedRequestError(400, f"expected one query, found {len(queries) if any(queries) else 'none'}")
     return {
         "query": queries[0],
         "accept": request.headers.get("accept"),
@@ -197,7 +197,7 @@ def _graphs(fields: list[tuple[str, str]], name: str) -> list[str]:
     found = [value for field, value in fields if field == name]
     for value in found:
         if named_node(value) is None:
-            raise RequestFaultError(400, f"{name}={value}: expected an absolute IRI")
+            raise RefusedRequestError(400, f"{name}={value}: expected an absolute IRI")
     return found
 
 
@@ -207,12 +207,12 @@ async def _read_body(request: Request, most: int) -> str:
         async for piece in request.stream():
             body += piece
             if len(body) > most:
-                raise RequestFaultError(413, f"the request is larger than {most} bytes; send a shorter query")
+                raise RefusedRequestError(413, f"the request is larger than {most} bytes; send a shorter query")
         return body.decode()
     except UnicodeDecodeError as error:
-        raise RequestFaultError(400, "the request is not UTF-8") from error
+        raise RefusedRequestError(400, "the request is not UTF-8") from error
     except ClientDisconnect as error:
-        raise RequestFaultError(400, "the request broke off") from error
+        raise RefusedRequestError(400, "the request broke off") from error
 
 
 def _describe(request: Request) -> Response:
@@ -229,7 +229,7 @@ def _describe(request: Request) -> Response:
     return Response(render(found, chosen, 100).body, media_type=chosen)
 
 
-def _refusal(request: Request, fault: RequestFaultError) -> Response:
+def _refusal(request: Request, fault: RefusedRequestError) -> Response:
     """Return the text of a fault, as JSON for clients that read JSON."""
     headers = {"Retry-After": "1"} if str(fault).startswith("too many") else {}
     accept = request.headers.get("accept", "")

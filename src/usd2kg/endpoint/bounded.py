@@ -14,7 +14,7 @@ from usd2kg.endpoint.pool import Limits, TimeLimitError, WorkerLostError, Worker
 from usd2kg.errors import GraphError
 from usd2kg.query.answer import Answer
 from usd2kg.query.graph_store import GraphStore
-from usd2kg.stores.results import read_answer
+from usd2kg.stores.query_results import parse_results
 
 __all__ = ["BoundedQueries"]
 
@@ -52,7 +52,7 @@ class BoundedQueries:
             raise GraphError(f"query: needs more than {self._limits.memory_mib} MiB; ask for less") from error
         if told["status"] != 200:
             raise GraphError(body.decode())
-        return read_answer(body, query)
+        return parse_results(body, query)
 
     def close(self) -> None:
         """Stop the processes and remove the copy."""

@@ -17,9 +17,9 @@ from usd2kg.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
-from usd2kg.query.depth import check_depth
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.complexity import check_complexity
 from usd2kg.query.functions import FUNCTION_NAMESPACE, make_functions
+from usd2kg.query.remote_clauses import has_remote_clause
 
 __all__ = ["NotAcceptableError", "answer", "main", "serve_requests"]
 
@@ -64,8 +64,8 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], most: int) 
         GraphError: the query does not parse, updates, is nested too deep, or asks another server.
         NotAcceptableError: no media type fits.
     """
-    check_depth(request["query"])
-    if reaches_out(request["query"]):
+    check_complexity(request["query"])
+    if has_remote_clause(request["query"]):
         raise GraphError("query: SERVICE asks another server, and no query leaves this machine; take that part out")
     try:
         found = store.query(request["query"], prefixes=_PREFIXES, custom_functions=functions, **_dataset(request))

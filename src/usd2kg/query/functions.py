@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pyoxigraph as ox
 
-from usd2kg.query.object_boxes import Bodies, Body, parse_vector
+from usd2kg.query.bodies import Body, BodyIndex, parse_vector
 from usd2kg.query.sweep import find_obstacles
 
 __all__ = ["FUNCTIONS", "FUNCTION_NAMESPACE", "make_functions"]
@@ -35,7 +35,7 @@ FUNCTIONS = {
 
 def make_functions(store: ox.Store) -> dict[ox.NamedNode, Function]:
     """Return the functions over the objects of a store; they read it when they are first called."""
-    measure = _Measure(Bodies(store))
+    measure = _Measure(BodyIndex(store))
     functions: dict[str, Function] = {
         "gap": lambda a, b: _pair(measure, a, b, _gap),
         "clearance": lambda a, b: _pair(measure, a, b, _clearance),
@@ -53,7 +53,7 @@ _NOTHING = Body(None, None, None, None)
 
 
 class _Measure:
-    def __init__(self, bodies: Bodies) -> None:
+    def __init__(self, bodies: BodyIndex) -> None:
         self._bodies = bodies
         self._obstacles: dict[str, dict[str, float]] = {}
 

@@ -8,14 +8,14 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
-from usd2kg.query import plain_questions as spoken
+from usd2kg.query import query_templates as templates
 from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns, without_columns
-from usd2kg.query.depth import check_depth
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.bodies import parse_vector
+from usd2kg.query.complexity import check_complexity
 from usd2kg.query.functions import FUNCTION_NAMESPACE, make_functions
 from usd2kg.query.lookup import Lookup, term_list
-from usd2kg.query.object_boxes import parse_vector
 from usd2kg.query.questions import Parameter, find_question, parse_number
+from usd2kg.query.remote_clauses import has_remote_clause
 
 __all__ = ["GraphStore"]
 
@@ -52,7 +52,7 @@ class GraphStore:
         Raises:
             GraphError: the query does not parse, updates, or is nested too deep.
         """
-        check_depth(query)
+        check_complexity(query)
         return self._run(query, {})
 
     def answer(self, question_id: str, given: Mapping[str, str] | None = None) -> Answer:
@@ -89,7 +89,7 @@ class GraphStore:
         return [ox.Literal(parse_number(value, parameter.kind))]
 
     def _run(self, query: str, bindings: Mapping[ox.Variable, _Term]) -> Answer:
-        if reaches_out(query):
+        if has_remote_clause(query):
             raise GraphError("query: SERVICE asks another server, and no query leaves this machine; take that part out")
         try:
             found = self._store.query(
@@ -119,31 +119,31 @@ class GraphStore:
             thing: what is asked about.
             is_direct: whether what lies on something that lies on it is left out.
         """
-        return self._about(spoken.ON if is_direct else spoken.ALL_ON, thing)
+        return self._about(templates.ON if is_direct else templates.ALL_ON, thing)
 
     def inside(self, thing: str, *, is_direct: bool = True) -> Answer:
         """Return what is inside a thing or in a room; on request also what is on or in something inside it."""
-        return self._about(spoken.INSIDE if is_direct else spoken.ALL_INSIDE, thing)
+        return self._about(templates.INSIDE if is_direct else templates.ALL_INSIDE, thing)
 
     def where_is(self, thing: str) -> Answer:
         """Return where a thing is: the centre of its box in metres, what it is on and inside of, and its room."""
-        return self._about(spoken.WHERE_IS, thing)
+        return self._about(templates.WHERE_IS, thing)
 
     def near(self, thing: str) -> Answer:
         """Return what is near a thing, next to it or touching it, the nearest first."""
-        return self._about(spoken.NEAR, thing)
+        return self._about(templates.NEAR, thing)
 
     def above(self, thing: str) -> Answer:
         """Return what is above a thing, or above something on it."""
-        return self._about(spoken.ABOVE, thing)
+        return self._about(templates.ABOVE, thing)
 
     def parts_of(self, thing: str) -> Answer:
         """Return the parts of a thing, and theirs."""
-        return self._about(spoken.PARTS_OF, thing)
+        return self._about(templates.PARTS_OF, thing)
 
     def all_of(self, name: str) -> Answer:
         """Return all things of a class, subclasses included; the class is named by label, local name or IRI."""
-        return self._about(spoken.ALL_OF, name)
+        return self._about(templates.ALL_OF, name)
 
     def ask(self, words: Sequence[str]) -> Answer:
         """Return the answer to a ready question, like `on X`, `in X`, `near X`, `parts of X` or `all of CLASS`.
@@ -151,7 +151,7 @@ class GraphStore:
         Raises:
             GraphError: the question is none of these, or what it asks about is not in the graph.
         """
-        return self._about(*spoken.parse_question(words))
+        return self._about(*templates.parse_question(words))
 
     def find(self, thing: str) -> list[ox.NamedNode]:
         """Return the objects that a person means, by the first way that finds any.
@@ -163,7 +163,7 @@ class GraphStore:
         """
         return self._lookup.find(thing)
 
-    def _about(self, question: spoken.SpokenQuestion, name: str) -> Answer:
+    def _about(self, question: templates.QueryTemplate, name: str) -> Answer:
         things = self._lookup.classes(name) if question.names_class else self._lookup.find(name)
         answer = self.sparql(question.sparql(term_list(things)))
         return replace(answer, columns=tuple(question.columns.get(column, column) for column in answer.columns))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.query.object_boxes import Bodies, JointMotion
+from usd2kg.query.bodies import BodyIndex, JointMotion
 
 __all__ = ["find_obstacles"]
 
@@ -22,7 +22,7 @@ _HINGE_DEPTH = 0.15
 """Metres that a hinge may lie behind the front of the box, which handles make deeper than the door."""
 
 
-def find_obstacles(bodies: Bodies, motion: JointMotion) -> dict[str, float]:
+def find_obstacles(bodies: BodyIndex, motion: JointMotion) -> dict[str, float]:
     """Return what a joint's moving part meets on its way to the farther limit.
 
     All are taken as boxes. What moves along, what the joint hangs on and what the part overlaps already (its frame)
@@ -90,7 +90,7 @@ def _overlaps(posed: tuple[Array, Array, Array], center: Array, half: Array) -> 
     return overlap
 
 
-def _moving_box(bodies: Bodies, motion: JointMotion) -> tuple[Array, Array] | None:
+def _moving_box(bodies: BodyIndex, motion: JointMotion) -> tuple[Array, Array] | None:
     """Return centre and half size of what moves; of a part that is no object, the side of its body that opens."""
     body = bodies.by_iri.get(motion.child or motion.whole or "")
     if body is None or body.lower is None or body.upper is None:

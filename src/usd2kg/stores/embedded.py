@@ -11,12 +11,12 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer
-from usd2kg.query.depth import check_depth
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.complexity import check_complexity
 from usd2kg.query.graph_store import GraphStore
+from usd2kg.query.remote_clauses import has_remote_clause
 from usd2kg.stores.catalog import StoredGraph, list_graphs
-from usd2kg.stores.folder_lock import LOCK_NAME, hold_for_reading, hold_for_writing
-from usd2kg.stores.named_graph import NamedGraph, renamed_blanks
+from usd2kg.stores.folder_lock import LOCK_NAME, lock_exclusive, lock_shared
+from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
 
 __all__ = ["EmbeddedStore"]
@@ -64,7 +64,7 @@ class EmbeddedStore:
         """
         with self._writing() as store:
             try:
-                write_pending(self._folder, graph.iri, renamed_blanks(graph))
+                write_pending(self._folder, graph.iri, relabel_blank_nodes(graph))
                 self._finish(store)
             except OSError as error:
                 raise StoreError(f"{self._folder}: could not be written ({_reason(error)}); free some space") from error
@@ -86,8 +86,8 @@ class EmbeddedStore:
             GraphError: the update does not parse, is nested too deep, or asks for a file of another server.
             StoreError: as `check`.
         """
-        check_depth(sparql, is_update=True)
-        if reaches_out(sparql):
+        check_complexity(sparql, is_update=True)
+        if has_remote_clause(sparql):
             raise GraphError("update: LOAD and SERVICE ask another server, and none is asked; load a file instead")
         with self._writing() as store:
             try:
@@ -104,7 +104,7 @@ class EmbeddedStore:
 
     def select(self, sparql: str) -> list[dict[str, str | None]]:
         """Return the rows of a SELECT over the folder as it is."""
-        check_depth(sparql)
+        check_complexity(sparql)
         with self._reading() as store:
             found = store.query(sparql)
             assert isinstance(found, ox.QuerySolutions)
@@ -152,7 +152,7 @@ class EmbeddedStore:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise StoreError(f"{self._folder}: cannot be made ({error.strerror}); choose another folder") from error
-        with hold_for_writing(self._folder, self._wait_s):
+        with lock_exclusive(self._folder, self._wait_s):
             for remains in self._folder.glob(f"{PENDING_NAME}.*"):
                 remains.unlink()
             with self._told():
@@ -170,7 +170,7 @@ class EmbeddedStore:
         if (self._folder / PENDING_NAME).exists():
             # Whoever was loading has died, or is still at it: then this waits.
             self.check()
-        with hold_for_reading(self._folder, self._wait_s), self._told():
+        with lock_shared(self._folder, self._wait_s), self._told():
             try:
                 store = ox.Store.read_only(str(self._folder))
             except OSError as error:

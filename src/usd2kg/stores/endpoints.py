@@ -5,7 +5,7 @@ from urllib.parse import urlencode
 
 from usd2kg.errors import StoreError
 from usd2kg.stores.addresses import check_address, shown_address
-from usd2kg.stores.http import Call, HttpClient
+from usd2kg.stores.http_client import HttpClient, HttpRequest
 
 __all__ = ["FORM", "Endpoints", "find_query", "find_writing"]
 
@@ -38,7 +38,9 @@ def find_query(client: HttpClient, address: str) -> str:
     """
     check_address(address)
     for url in _candidates(address, _QUERY_NAMES):
-        call = Call("POST", url, urlencode({"query": "ASK {}"}).encode(), {"Content-Type": FORM, "Accept": _RESULTS})
+        call = HttpRequest(
+            "POST", url, urlencode({"query": "ASK {}"}).encode(), {"Content-Type": FORM, "Accept": _RESULTS}
+        )
         reply = client.send(call, _ABSENT)
         if reply.status == 200 and reply.content_type in {_RESULTS, "application/json"}:
             return url
@@ -63,7 +65,7 @@ def find_writing(client: HttpClient, query: str, update: str | None, data: str |
 def _find_update(client: HttpClient, base: str) -> str:
     for url in _candidates(base, _UPDATE_NAMES):
         # It changes nothing, but only one who may write can ask for it.
-        call = Call("POST", url, urlencode({"update": "INSERT DATA {}"}).encode(), {"Content-Type": FORM})
+        call = HttpRequest("POST", url, urlencode({"update": "INSERT DATA {}"}).encode(), {"Content-Type": FORM})
         if client.send(call, _ABSENT).status < 300:
             return url
     shown = shown_address(base)
@@ -76,7 +78,7 @@ def _find_data(client: HttpClient, base: str) -> str | None:
     for name in _DATA_NAMES:
         url = f"{base.rstrip('/')}/{name}"
         # The default graph is always there; at an address that is none, nothing is.
-        if client.send(Call("HEAD", f"{url}?default"), _ABSENT).status == 200:
+        if client.send(HttpRequest("HEAD", f"{url}?default"), _ABSENT).status == 200:
             return url
     return None
 

@@ -7,14 +7,14 @@ from pathlib import Path
 
 from usd2kg.errors import StoreError
 
-__all__ = ["LOCK_NAME", "hold_for_reading", "hold_for_writing"]
+__all__ = ["LOCK_NAME", "lock_exclusive", "lock_shared"]
 
 LOCK_NAME = "usd2kg.lock"
 """An empty SQLite database: its locks are those of the file, shared or exclusive, on every system."""
 
 
 @contextmanager
-def hold_for_writing(folder: Path, seconds: float) -> Iterator[None]:
+def lock_exclusive(folder: Path, seconds: float) -> Iterator[None]:
     """Keep all other processes out of a folder; wait so long for those that are in it.
 
     Raises:
@@ -30,7 +30,7 @@ def hold_for_writing(folder: Path, seconds: float) -> Iterator[None]:
 
 
 @contextmanager
-def hold_for_reading(folder: Path, seconds: float) -> Iterator[None]:
+def lock_shared(folder: Path, seconds: float) -> Iterator[None]:
     """Keep writers out of a folder; wait so long for one that is in it.
 
     Raises:

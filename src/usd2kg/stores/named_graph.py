@@ -17,7 +17,14 @@ from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, named_node
 from usd2kg.ontology import Closure, TBox, without_header
 from usd2kg.query.load import load_graph
 
-__all__ = ["NamedGraph", "named_graph", "ontology_graph", "read_named_graph", "renamed_blanks", "short_name"]
+__all__ = [
+    "NamedGraph",
+    "make_named_graph",
+    "make_ontology_graph",
+    "read_named_graph",
+    "relabel_blank_nodes",
+    "short_name",
+]
 
 _HEADERS = "SELECT ?g WHERE { ?g a owl:Ontology ; u2k:run ?run }"
 _TRIPLES = "CONSTRUCT { ?s ?p ?o } WHERE { ?s ?p ?o }"
@@ -33,12 +40,12 @@ class NamedGraph:
     """Each once."""
 
 
-def named_graph(graph: KnowledgeGraph) -> NamedGraph:
+def make_named_graph(graph: KnowledgeGraph) -> NamedGraph:
     """Return the graph of a scene as a store keeps it."""
     return NamedGraph(graph.iri, tuple(dict.fromkeys(graph.triples)))
 
 
-def ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
+def make_ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
     """Return an ontology, all that it imports and our vocabulary, as one graph that all scenes of a store share."""
     iri = tbox.ontology_iri
     # A path on this machine says nothing to others, and is not theirs to know.
@@ -83,7 +90,7 @@ def short_name(iri: str) -> str:
     return unquote(iri.rstrip("/#").replace("#", "/").rpartition("/")[2])
 
 
-def renamed_blanks(graph: NamedGraph) -> Iterator[ox.Triple]:
+def relabel_blank_nodes(graph: NamedGraph) -> Iterator[ox.Triple]:
     """Yield the triples with blank nodes whose names depend on the graph and their own name alone.
 
     In a store two scenes may use the same names for nodes that are not the same, and a graph that is loaded again

@@ -11,11 +11,11 @@ from usd2kg.query.load import load_graph
 from usd2kg.stores.addresses import read_credentials
 from usd2kg.stores.catalog import StoredGraph, choose_graph
 from usd2kg.stores.embedded import EmbeddedStore
-from usd2kg.stores.http import HttpClient
+from usd2kg.stores.http_client import HttpClient
 from usd2kg.stores.named_graph import NamedGraph
 from usd2kg.stores.remote import RemoteStore
 
-__all__ = ["SceneStore", "chosen_graphs", "is_store", "open_graph", "open_store"]
+__all__ = ["SceneStore", "is_store", "open_graph", "open_store", "select_graphs"]
 
 
 class SceneStore(Protocol):
@@ -77,7 +77,7 @@ def open_store(place: str, *, update: str | None = None, data: str | None = None
     return EmbeddedStore(place)
 
 
-def chosen_graphs(store: SceneStore, scene: str | None) -> list[str]:
+def select_graphs(store: SceneStore, scene: str | None) -> list[str]:
     """Return the IRIs of the graphs to ask: those of a scene and of the ontologies beside it, or all.
 
     Raises:
@@ -101,7 +101,7 @@ def open_graph(place: str, scene: str | None = None) -> GraphStore:
     """
     if is_store(place):
         store = open_store(place)
-        return store.fetch(chosen_graphs(store, scene))
+        return store.fetch(select_graphs(store, scene))
     if scene is not None:
         raise GraphError(f"{place}: is one graph; --scene chooses among those of a store")
     return load_graph(place)

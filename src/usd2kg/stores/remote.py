@@ -13,15 +13,15 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.vocabulary import DCTERMS
 from usd2kg.query.answer import Answer
-from usd2kg.query.federation import reaches_out
 from usd2kg.query.graph_store import GraphStore
+from usd2kg.query.remote_clauses import has_remote_clause
 from usd2kg.stores.addresses import check_address, shown_address
 from usd2kg.stores.catalog import StoredGraph, list_graphs, read_number
-from usd2kg.stores.chunks import chunks
+from usd2kg.stores.chunking import split_triples
 from usd2kg.stores.endpoints import FORM, Endpoints, find_query, find_writing
-from usd2kg.stores.http import Call, HttpClient, Reply, UnclearError
+from usd2kg.stores.http_client import HttpClient, HttpRequest, HttpResponse, OutcomeUnknownError
 from usd2kg.stores.named_graph import NamedGraph
-from usd2kg.stores.results import read_answer, with_prefixes
+from usd2kg.stores.query_results import declare_prefixes, parse_results
 
 __all__ = ["RemoteStore"]
 
@@ -110,7 +110,7 @@ class RemoteStore:
         mark = f'GRAPH <{_STAGING}> {{ <{staging}> <{DCTERMS.created.value}> "{started}" }}'
         self._update(f"INSERT DATA {{ {mark} }}")
         sent = 0
-        for part in chunks(graph.triples, self._chunk):
+        for part in split_triples(graph.triples, self._chunk):
             self._send_part(staging, part, sent)
             sent += len(part)
             logger.info("%s: %d of %d triples of <%s>", self.address, sent, len(graph.triples), graph.iri)
@@ -129,7 +129,7 @@ class RemoteStore:
         for _ in range(_TRIES):
             try:
                 self._client.send(self._part_call(staging, text))
-            except UnclearError:
+            except OutcomeUnknownError:
                 held = self._count(staging)
                 if held == before:
                     continue
@@ -141,19 +141,21 @@ class RemoteStore:
             return
         raise StoreError(f"{self.address}: breaks the connection at each upload; what was there before is unchanged")
 
-    def _part_call(self, staging: str, text: bytes) -> Call:
+    def _part_call(self, staging: str, text: bytes) -> HttpRequest:
         if self._endpoints.data is None:
             body = f"INSERT DATA {{ GRAPH <{staging}> {{\n".encode() + text + b"} }"
-            return Call("POST", self._endpoints.update, body, {"Content-Type": "application/sparql-update"}, False)
+            return HttpRequest(
+                "POST", self._endpoints.update, body, {"Content-Type": "application/sparql-update"}, False
+            )
         url = f"{self._endpoints.data}?{urlencode({'graph': staging})}"
-        return Call("POST", url, text, {"Content-Type": _TRIPLES}, False)
+        return HttpRequest("POST", url, text, {"Content-Type": _TRIPLES}, False)
 
     def _put_in_place(self, iri: str, staging: str, mark: str) -> None:
         move = f"MOVE GRAPH <{staging}> TO GRAPH <{iri}> ;\nDELETE DATA {{ {mark} }}"
         for _ in range(_TRIES):
             try:
-                self._update(move, may_repeat=False)
-            except UnclearError:
+                self._update(move, is_idempotent=False)
+            except OutcomeUnknownError:
                 # Both happen or neither does, so the mark tells.
                 if self._is_marked(staging):
                     continue
@@ -175,9 +177,9 @@ class RemoteStore:
             GraphError: it would have the server ask another one.
             StoreError: the server is out of reach or refuses, or it does not parse.
         """
-        if reaches_out(sparql):
+        if has_remote_clause(sparql):
             raise GraphError("update: LOAD and SERVICE ask another server, and none is asked; load a file instead")
-        self._update(with_prefixes(sparql), may_repeat=False)
+        self._update(declare_prefixes(sparql), is_idempotent=False)
 
     def graphs(self) -> tuple[StoredGraph, ...]:
         """Return the graphs of scenes and ontologies on the server; what others keep there is left out."""
@@ -185,7 +187,7 @@ class RemoteStore:
 
     def select(self, sparql: str) -> list[dict[str, str | None]]:
         """Return the rows of a SELECT over the server's dataset as it is."""
-        answer = read_answer(self._ask(sparql, ()).body, sparql)
+        answer = parse_results(self._ask(sparql, ()).body, sparql)
         return [dict(zip(answer.columns, row, strict=True)) for row in answer.rows]
 
     def query(self, sparql: str, graphs: Sequence[str]) -> Answer:
@@ -195,9 +197,9 @@ class RemoteStore:
             GraphError: the query would have the server ask another one.
             StoreError: the server is out of reach or refuses, or the query does not parse.
         """
-        if reaches_out(sparql):
+        if has_remote_clause(sparql):
             raise GraphError("query: SERVICE asks another server, and no other is asked; take that part out")
-        return read_answer(self._ask(with_prefixes(sparql), graphs).body, sparql)
+        return parse_results(self._ask(declare_prefixes(sparql), graphs).body, sparql)
 
     def fetch(self, graphs: Sequence[str]) -> GraphStore:
         """Return these graphs as one, in memory.
@@ -214,14 +216,14 @@ class RemoteStore:
                 raise StoreError(f"{self.address}: answers with no triples of <{iri}> ({error})") from error
         return GraphStore(copy, self.address)
 
-    def _ask(self, sparql: str, graphs: Sequence[str]) -> Reply:
+    def _ask(self, sparql: str, graphs: Sequence[str]) -> HttpResponse:
         form = [("query", sparql), *(("default-graph-uri", iri) for iri in graphs)]
         headers = {"Content-Type": FORM, "Accept": f"{_RESULTS}, {_TRIPLES};q=0.9"}
-        return self._client.send(Call("POST", self._query_url, urlencode(form).encode(), headers))
+        return self._client.send(HttpRequest("POST", self._query_url, urlencode(form).encode(), headers))
 
-    def _update(self, sparql: str, *, may_repeat: bool = True) -> None:
+    def _update(self, sparql: str, *, is_idempotent: bool = True) -> None:
         headers = {"Content-Type": "application/sparql-update"}
-        self._client.send(Call("POST", self._endpoints.update, sparql.encode(), headers, may_repeat))
+        self._client.send(HttpRequest("POST", self._endpoints.update, sparql.encode(), headers, is_idempotent))
 
     def _count(self, iri: str) -> int:
         return read_number(self.select(f"SELECT (COUNT(*) AS ?n) WHERE {{ GRAPH <{iri}> {{ ?s ?p ?o }} }}"))

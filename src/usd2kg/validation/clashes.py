@@ -13,26 +13,26 @@ import pyoxigraph as ox
 from usd2kg.graph.declarations import vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, RDF
 from usd2kg.ontology import Closure, compact_iri
-from usd2kg.validation.axioms import Axioms, Disjointness
+from usd2kg.validation.axiom_index import AxiomIndex, Disjointness
 from usd2kg.validation.finding import Finding, Severity
-from usd2kg.validation.objects import GraphObject, values_of
+from usd2kg.validation.graph_objects import GraphObject, values_of
 
 __all__ = ["find_clashes", "read_axioms"]
 
 _MEND_CLASS = "Correct the class with a decision (usd2kg build --decisions), or remove the other statement."
 
-MakeFinding = Callable[..., Finding]
+FindingFactory = Callable[..., Finding]
 """Makes a finding about a node: severity, rule, node, found, expected, advice."""
 _Types = frozenset[str]
 
 
-def read_axioms(closure: Closure) -> Axioms:
+def read_axioms(closure: Closure) -> AxiomIndex:
     """Return what an ontology, with its imports and our vocabulary, states."""
-    return Axioms((*closure.triples, *vocabulary_triples()))
+    return AxiomIndex((*closure.triples, *vocabulary_triples()))
 
 
 def find_clashes(
-    store: ox.Store, objects: list[GraphObject], axioms: Axioms, missing: tuple[str, ...], make: MakeFinding
+    store: ox.Store, objects: list[GraphObject], axioms: AxiomIndex, missing: tuple[str, ...], make: FindingFactory
 ) -> Iterator[Finding]:
     """Yield each contradiction between a graph and an ontology.
 
@@ -59,18 +59,18 @@ def _types(store: ox.Store) -> dict[Any, _Types]:
     return found
 
 
-def _way(axioms: Axioms, start: str, end: str) -> str:
+def _way(axioms: AxiomIndex, start: str, end: str) -> str:
     return axioms.named(start) if start == end else f"{axioms.named(start)}, below {axioms.named(end)},"
 
 
-def _explain(axioms: Axioms, first: str, second: str, clash: Disjointness) -> str:
+def _explain(axioms: AxiomIndex, first: str, second: str, clash: Disjointness) -> str:
     return (
         f"{_way(axioms, first, clash.first)} and {_way(axioms, second, clash.second)}; "
         f"axiom: {compact_iri(clash.first)} owl:disjointWith {compact_iri(clash.second)}"
     ).replace(",;", ";")
 
 
-def _disjoint(types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> Iterator[Finding]:
+def _disjoint(types: dict[Any, _Types], axioms: AxiomIndex, make: FindingFactory) -> Iterator[Finding]:
     clashes: dict[_Types, str | None] = {}
     for node, own in types.items():
         if own not in clashes:
@@ -82,7 +82,7 @@ def _disjoint(types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> It
             yield make(Severity.ERROR, "disjoint-classes", node, f"it is {found}", expected, _MEND_CLASS)
 
 
-def _ends(store: ox.Store, types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> Iterator[Finding]:
+def _ends(store: ox.Store, types: dict[Any, _Types], axioms: AxiomIndex, make: FindingFactory) -> Iterator[Finding]:
     for iri in sorted(axioms.properties):
         name = ox.NamedNode(iri)
         if next(iter(store.quads_for_pattern(None, name, None)), None) is None:
@@ -101,8 +101,8 @@ def _unfit(
     nodes: dict[Any, None],
     demands: list[tuple[str, tuple[str, ...]]],
     types: dict[Any, _Types],
-    axioms: Axioms,
-    make: MakeFinding,
+    axioms: AxiomIndex,
+    make: FindingFactory,
 ) -> Iterator[Finding]:
     """Yield the nodes at one end of a property whose classes rule out what the property demands."""
     end = "domain" if rule == "domain-clash" else "range"
@@ -117,7 +117,7 @@ def _unfit(
 
 
 def _verdict(
-    axioms: Axioms, iri: str, end: str, own: _Types, demands: list[tuple[str, tuple[str, ...]]]
+    axioms: AxiomIndex, iri: str, end: str, own: _Types, demands: list[tuple[str, tuple[str, ...]]]
 ) -> tuple[str, str] | None:
     """Return what was found and expected, if all alternatives of a demand are disjoint with a class."""
     for stated, alternatives in demands:
@@ -133,7 +133,7 @@ def _verdict(
 
 
 def _odd_classes(
-    objects: list[GraphObject], axioms: Axioms, missing: tuple[str, ...], make: MakeFinding
+    objects: list[GraphObject], axioms: AxiomIndex, missing: tuple[str, ...], make: FindingFactory
 ) -> Iterator[Finding]:
     elsewhere = tuple(f"{iri.rstrip('#/')}{end}" for iri in missing for end in "#/")
     for obj in objects:

@@ -46,7 +46,7 @@ class ElkAnswer:
     axioms: int
     """Logical axioms in the graph, its ontology and our vocabulary."""
     beyond: int
-    """Axioms of those that are beyond OWL 2 EL, which ELK does not hear."""
+    """AxiomIndex of those that are beyond OWL 2 EL, which ELK does not hear."""
     impossible: tuple[str, ...]
     """IRIs of classes that can have no member, by the ontology and our vocabulary alone, sorted."""
     clashes: tuple[ElkClash, ...]

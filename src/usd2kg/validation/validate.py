@@ -13,11 +13,11 @@ from usd2kg.query.graph_store import GraphStore
 from usd2kg.validation.clashes import find_clashes, read_axioms
 from usd2kg.validation.elk import ElkAnswer
 from usd2kg.validation.finding import Finding, Severity, sort_findings
-from usd2kg.validation.kinds import Kinds
-from usd2kg.validation.objects import GraphObject, find_owner, profile_of, read_objects, values_of
-from usd2kg.validation.plausibility import SceneOfObjects, find_oddities
-from usd2kg.validation.rules import Rules, read_rules
-from usd2kg.validation.shapes import compile_shapes, find_violations
+from usd2kg.validation.graph_objects import GraphObject, find_owner, profile_of, read_graph_objects, values_of
+from usd2kg.validation.object_classes import ObjectClasses
+from usd2kg.validation.plausibility_checks import CheckedScene, find_implausible
+from usd2kg.validation.plausibility_rules import Rules, read_rules
+from usd2kg.validation.shacl import compile_shapes, find_violations
 
 __all__ = ["ValidationReport", "imports_of", "ontology_of", "validate_graph"]
 
@@ -86,7 +86,7 @@ class _Run:
         self._store = store
         self._closure = closure
         self._axioms = read_axioms(closure) if closure is not None else None
-        self.objects = read_objects(store)
+        self.objects = read_graph_objects(store)
         self._by_iri = {obj.iri: obj for obj in self.objects}
 
     def shapes(self, profile: str) -> Iterator[Finding]:
@@ -123,8 +123,8 @@ class _Run:
         """Yield what is implausible."""
         calibrated = values_of(self._store, U2K.isCalibrated).values()
         has_probabilities = not any(value.value in {"false", "0"} for values in calibrated for value in values)
-        scene = SceneOfObjects(self.objects, Kinds(self._store, self._axioms, self.objects), has_probabilities)
-        for rule, obj, found, expected in find_oddities(scene, rules):
+        scene = CheckedScene(self.objects, ObjectClasses(self._store, self._axioms, self.objects), has_probabilities)
+        for rule, obj, found, expected in find_implausible(scene, rules):
             yield _about(obj, rule.severity, rule.id, obj.iri, found, expected, rule.advice)
 
     def _finding(self, severity: Severity, rule: str, node: Any, found: str, expected: str, advice: str) -> Finding:

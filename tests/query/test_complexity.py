@@ -5,7 +5,7 @@ import pytest
 
 from usd2kg.endpoint.worker import answer
 from usd2kg.errors import GraphError
-from usd2kg.query.depth import check_depth
+from usd2kg.query.complexity import check_complexity
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.stores import EmbeddedStore
 
@@ -39,12 +39,12 @@ FINE = {
 @pytest.mark.parametrize("name", BREAKING)
 def test_what_breaks_the_engine_is_refused(name: str):
     with pytest.raises(GraphError, match=r"brackets are nested \d+ deep; expected at most 500|operators and clauses"):
-        check_depth(BREAKING[name])
+        check_complexity(BREAKING[name])
 
 
 @pytest.mark.parametrize("name", FINE)
 def test_what_the_engine_bears_is_answered(name: str):
-    check_depth(FINE[name])
+    check_complexity(FINE[name])
     list(ox.Store().query(FINE[name]))  # type: ignore[arg-type]
 
 

@@ -19,7 +19,7 @@ from urllib.parse import urlsplit
 from usd2kg.errors import StoreError
 from usd2kg.stores.addresses import shown_address
 
-__all__ = ["Call", "HttpClient", "Reply", "UnclearError"]
+__all__ = ["HttpClient", "HttpRequest", "HttpResponse", "OutcomeUnknownError"]
 
 logger = logging.getLogger(__name__)
 
@@ -36,19 +36,19 @@ _NOT_DONE = frozenset({429, 503})
 _LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
-class UnclearError(StoreError):
+class OutcomeUnknownError(StoreError):
     """The connection broke after a request was sent that must not be done twice: it may be done or not."""
 
 
 @dataclass(frozen=True)
-class Call:
+class HttpRequest:
     """A request."""
 
     method: str
     url: str
     body: bytes | None = None
     headers: Mapping[str, str] | None = None
-    may_repeat: bool = True
+    is_idempotent: bool = True
     """Whether doing it twice is the same as doing it once."""
 
     @property
@@ -58,7 +58,7 @@ class Call:
 
 
 @dataclass(frozen=True)
-class Reply:
+class HttpResponse:
     """What the server answered."""
 
     status: int
@@ -105,19 +105,19 @@ class HttpClient:
         }
         self._has_warned = False
 
-    def send(self, call: Call, accepted: frozenset[int] = frozenset()) -> Reply:
+    def send(self, call: HttpRequest, accepted: frozenset[int] = frozenset()) -> HttpResponse:
         """Return the answer to a request; one of 200 to 299, or of `accepted`.
 
         Raises:
-            UnclearError: the connection broke, and the request may not be repeated.
+            OutcomeUnknownError: the connection broke, and the request may not be repeated.
             StoreError: the server is out of reach, keeps failing, or refuses.
         """
         for attempt in range(_TRIES):
             try:
                 return self._send_once(call, accepted)
             except _PassingError as fault:
-                if fault.is_done and not call.may_repeat:
-                    raise UnclearError(f"{call.place}: {fault}; it is not known what was done") from fault
+                if fault.is_done and not call.is_idempotent:
+                    raise OutcomeUnknownError(f"{call.place}: {fault}; it is not known what was done") from fault
                 if attempt == _TRIES - 1:
                     raise StoreError(f"{call.place}: {fault}, {_TRIES} times; try again later") from fault
                 pause = _pause(attempt, fault.pause_s)
@@ -125,7 +125,7 @@ class HttpClient:
                 self._sleep(pause)
         raise AssertionError("the last attempt returns or raises")
 
-    def _send_once(self, call: Call, accepted: frozenset[int]) -> Reply:
+    def _send_once(self, call: HttpRequest, accepted: frozenset[int]) -> HttpResponse:
         request = urllib.request.Request(call.url, call.body, dict(call.headers or {}), method=call.method)
         request.add_header("Accept-Encoding", "gzip")
         request.add_header("User-Agent", "usd2kg")
@@ -150,7 +150,7 @@ class HttpClient:
             self._has_warned = True
 
 
-def _read(call: Call, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> Reply:
+def _read(call: HttpRequest, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> HttpResponse:
     """Return an answer, unpacked piece by piece: a small one may unpack to more than the memory holds."""
     is_packed = response.headers.get("Content-Encoding", "").lower() == "gzip"
     source = gzip.GzipFile(fileobj=response) if is_packed else response
@@ -162,10 +162,12 @@ def _read(call: Call, status: int, response: http.client.HTTPResponse | urllib.e
     # What is read by pieces and cut off is else taken for whole.
     if missing := getattr(response, "length", None):
         raise http.client.IncompleteRead(b"", missing)
-    return Reply(status, response.headers.get_content_type(), bytes(body))
+    return HttpResponse(status, response.headers.get_content_type(), bytes(body))
 
 
-def _judge(call: Call, error: urllib.error.HTTPError, accepted: frozenset[int], secret: str | None) -> Reply:
+def _judge(
+    call: HttpRequest, error: urllib.error.HTTPError, accepted: frozenset[int], secret: str | None
+) -> HttpResponse:
     """Return the answer with an error status if it is accepted, else raise what it means."""
     status = error.code
     if status in accepted:
@@ -196,7 +198,7 @@ def _without(secret: str | None, text: str) -> str:
     return text.replace(secret.partition(" ")[2], "…") if secret else text
 
 
-def _fault(call: Call, reason: object) -> Exception:
+def _fault(call: HttpRequest, reason: object) -> Exception:
     """Return what a broken connection means."""
     if isinstance(reason, ConnectionRefusedError) or type(reason).__name__ == "gaierror":
         return _PassingError(f"cannot be reached ({_text(reason)})", is_done=False)

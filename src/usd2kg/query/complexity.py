@@ -5,7 +5,7 @@ from collections import Counter
 
 from usd2kg.errors import GraphError
 
-__all__ = ["check_depth"]
+__all__ = ["check_complexity"]
 
 # The engine recurses for each of these; a stack of 8 MiB bears about twice as many.
 _MOST_NESTED = 500
@@ -25,7 +25,7 @@ _TOKEN = re.compile(
 )
 
 
-def check_depth(sparql: str, *, is_update: bool = False) -> None:
+def check_complexity(sparql: str, *, is_update: bool = False) -> None:
     """Refuse a query or an update on which the engine would run out of its stack; an update's data may be long.
 
     Strings, comments and IRIs with `://` do not count. Whether `<2>` is an IRI or two comparisons depends on the
@@ -36,7 +36,7 @@ def check_depth(sparql: str, *, is_update: bool = False) -> None:
         GraphError: brackets within each other more than 500 deep; in a query also more than 1,000 operators and
             clauses, or 1,000 triple patterns.
 
-    >>> check_depth("SELECT * " + "{" * 501 + "}" * 501)
+    >>> check_complexity("SELECT * " + "{" * 501 + "}" * 501)
     Traceback (most recent call last):
     usd2kg.errors.GraphError: SPARQL: brackets are nested 501 deep; expected at most 500, so write it flatter
     """

@@ -7,18 +7,18 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import RDFS
 from usd2kg.ontology import expand_curie
 from usd2kg.ontology.model import local_name
-from usd2kg.validation.axioms import Axioms
-from usd2kg.validation.objects import GraphObject
-from usd2kg.validation.rules import Rule
+from usd2kg.validation.axiom_index import AxiomIndex
+from usd2kg.validation.graph_objects import GraphObject
+from usd2kg.validation.plausibility_rules import Rule
 from usd2kg.words import split_identifier
 
-__all__ = ["Kinds"]
+__all__ = ["ObjectClasses"]
 
 
-class Kinds:
+class ObjectClasses:
     """Answers whether an object is of a kind, by the hierarchy in the graph and in the ontology."""
 
-    def __init__(self, store: ox.Store, axioms: Axioms | None, objects: Iterable[GraphObject]) -> None:
+    def __init__(self, store: ox.Store, axioms: AxiomIndex | None, objects: Iterable[GraphObject]) -> None:
         used = {ox.NamedNode(cls) for obj in objects for cls in obj.classes}
         own = [quad.triple for quad in store.quads_for_pattern(None, RDFS.subClassOf, None)]
         classes = used | {triple.subject for triple in own} | {triple.object for triple in own}
@@ -28,7 +28,7 @@ class Kinds:
             if isinstance(cls, ox.NamedNode)
             for quad in store.quads_for_pattern(cls, RDFS.label, None)
         ]
-        self._graph = Axioms(own)
+        self._graph = AxiomIndex(own)
         self._axioms = axioms
         self._closures: dict[str, frozenset[str]] = {}
         self._labels: dict[str, str] = {}

@@ -10,14 +10,14 @@ from usd2kg.errors import GraphError
 from usd2kg.query import Answer, GraphStore, term_list
 from usd2kg.query.questions import list_questions
 
-__all__ = ["AskedAnswer", "ask_offline"]
+__all__ = ["InterpretedAnswer", "ask_offline"]
 
 _LONG_UNITS = (("centimet", "cm"), ("millimet", "mm"), ("met", "m"), ("kilo", "kg"), ("gram", "g"))
 _RELATED = {"on": "on", "in": "inside"}
 
 
 @dataclass(frozen=True)
-class AskedAnswer:
+class InterpretedAnswer:
     """An answer, and how the question was understood."""
 
     understood: str
@@ -41,7 +41,7 @@ class AskedAnswer:
         return "" if self.verdict is None else "yes\n" if self.verdict else "no\n"
 
 
-def ask_offline(graph: GraphStore, text: str) -> AskedAnswer:
+def ask_offline(graph: GraphStore, text: str) -> InterpretedAnswer:
     """Return the answer to a question in English, by the ready questions.
 
     Raises:
@@ -65,7 +65,7 @@ SELECT ?object ?path ?other ?other_path ?distance_m WHERE {{
 }} ORDER BY ?distance_m ?path"""
 
 
-def _answer(graph: GraphStore, phrase: Phrase) -> AskedAnswer:
+def _answer(graph: GraphStore, phrase: Phrase) -> InterpretedAnswer:
     question, given = phrase
     verb, _, relation = question.partition("-")
     if verb in {"count", "is", "some"} and relation in _RELATED:
@@ -75,21 +75,21 @@ def _answer(graph: GraphStore, phrase: Phrase) -> AskedAnswer:
     if question in _SPOKEN:
         ask, words = _SPOKEN[question]
         named = given.get("thing") or given["class"]
-        return AskedAnswer(f"{words} {named}", ask(graph, named))
+        return InterpretedAnswer(f"{words} {named}", ask(graph, named))
     return _listed(graph, question, given)
 
 
-def _how_many(graph: GraphStore, **given: str) -> AskedAnswer:
+def _how_many(graph: GraphStore, **given: str) -> InterpretedAnswer:
     answer = graph.where_is(given["class"])
-    return AskedAnswer(f"all {given['class']}", answer, number=len(set(_column(answer, "path"))))
+    return InterpretedAnswer(f"all {given['class']}", answer, number=len(set(_column(answer, "path"))))
 
 
-def _listed(graph: GraphStore, question: str, given: Mapping[str, str]) -> AskedAnswer:
+def _listed(graph: GraphStore, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
     """Return the answer to a question of `usd2kg query --list`."""
     values = {name: _plain_value(name, value) for name, value in given.items()}
     text = next(q.text for q in list_questions() if q.id == question)
     told = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return AskedAnswer(f"{question}: {text}{f' with {told}' if told else ''}", graph.answer(question, values))
+    return InterpretedAnswer(f"{question}: {text}{f' with {told}' if told else ''}", graph.answer(question, values))
 
 
 def _plain_value(name: str, value: str) -> str:
@@ -102,35 +102,35 @@ def _plain_value(name: str, value: str) -> str:
     return value
 
 
-def _some_related(graph: GraphStore, verb: str, relation: str, given: Mapping[str, str]) -> AskedAnswer:
+def _some_related(graph: GraphStore, verb: str, relation: str, given: Mapping[str, str]) -> InterpretedAnswer:
     """Return the things of a class, or of a name, that are on or in a thing, or on or in something there."""
     find = graph.on if relation == "on" else graph.inside
     related = find(given["thing"], is_direct=False)
     answer = _only(related, set(_column(graph.where_is(given["class"]), "path")))
     found = len(answer.rows)
     told = f"{given['class']} {relation} {given['thing']}"
-    return AskedAnswer(told, answer, bool(found) if verb == "is" else None, found if verb == "count" else None)
+    return InterpretedAnswer(told, answer, bool(found) if verb == "is" else None, found if verb == "count" else None)
 
 
-def _some_parts(graph: GraphStore, **given: str) -> AskedAnswer:
+def _some_parts(graph: GraphStore, **given: str) -> InterpretedAnswer:
     name, thing = given["class"], given["thing"]
     answer = _only(graph.parts_of(thing), set(_column(graph.where_is(name), "path")))
-    return AskedAnswer(f"{name} that are parts of {thing}", answer, number=len(answer.rows))
+    return InterpretedAnswer(f"{name} that are parts of {thing}", answer, number=len(answer.rows))
 
 
-def _is_there(graph: GraphStore, **given: str) -> AskedAnswer:
+def _is_there(graph: GraphStore, **given: str) -> InterpretedAnswer:
     name = given["class"]
     try:
         answer = graph.where_is(name)
     except GraphError:
         # That nothing is called so is the answer here.
         answer = Answer(("object",), (), (), "")
-    return AskedAnswer(f"whether there is {name}", answer, bool(answer.rows))
+    return InterpretedAnswer(f"whether there is {name}", answer, bool(answer.rows))
 
 
-def _distance(graph: GraphStore, thing: str, other: str) -> AskedAnswer:
+def _distance(graph: GraphStore, thing: str, other: str) -> InterpretedAnswer:
     query = _DISTANCE.format(things=term_list(graph.find(thing)), others=term_list(graph.find(other)))
-    return AskedAnswer(f"the gap between {thing} and {other}, in metres", graph.sparql(query))
+    return InterpretedAnswer(f"the gap between {thing} and {other}, in metres", graph.sparql(query))
 
 
 def _only(answer: Answer, paths: set[str]) -> Answer:
@@ -155,7 +155,7 @@ _SPOKEN: Mapping[str, tuple[Callable[[GraphStore, str], Answer], str]] = {
     "about": (description_answer, "all about"),
 }
 """Question → how it is answered for what is named, and how it is told back."""
-_OTHERS: Mapping[str, Callable[..., AskedAnswer]] = {
+_OTHERS: Mapping[str, Callable[..., InterpretedAnswer]] = {
     "how-many": _how_many,
     "is-there": _is_there,
     "parts-of": _some_parts,

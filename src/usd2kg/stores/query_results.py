@@ -8,10 +8,10 @@ from usd2kg.errors import StoreError
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer, make_answer
 
-__all__ = ["read_answer", "with_prefixes"]
+__all__ = ["declare_prefixes", "parse_results"]
 
 
-def read_answer(body: bytes, sparql: str) -> Answer:
+def parse_results(body: bytes, sparql: str) -> Answer:
     """Return what a server answered in SPARQL's JSON or in N-Triples.
 
     Raises:
@@ -30,10 +30,10 @@ def read_answer(body: bytes, sparql: str) -> Answer:
         raise StoreError(f"the server's answer is neither SPARQL's JSON nor N-Triples ({error})") from error
 
 
-def with_prefixes(sparql: str) -> str:
+def declare_prefixes(sparql: str) -> str:
     """Return a query or update with our usual prefixes declared, where it uses and does not declare them.
 
-    >>> with_prefixes("ASK { ?s u2k:primPath ?p }")
+    >>> declare_prefixes("ASK { ?s u2k:primPath ?p }")
     'PREFIX u2k: <https://w3id.org/usd2kg#> ASK { ?s u2k:primPath ?p }'
     """
     declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}

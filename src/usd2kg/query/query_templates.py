@@ -16,7 +16,7 @@ __all__ = [
     "ON",
     "PARTS_OF",
     "WHERE_IS",
-    "SpokenQuestion",
+    "QueryTemplate",
     "parse_question",
 ]
 
@@ -79,7 +79,7 @@ SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
 
 
 @dataclass(frozen=True)
-class SpokenQuestion:
+class QueryTemplate:
     """A question about things that are named, or about the things of a class that is named."""
 
     template: str
@@ -95,21 +95,21 @@ class SpokenQuestion:
         return self.template.format(things=things, **self.terms)
 
 
-ON = SpokenQuestion(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
-INSIDE = SpokenQuestion(_RELATED, {"predicate": _WITHIN, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
-ALL_ON = SpokenQuestion(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
+ON = QueryTemplate(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
+INSIDE = QueryTemplate(_RELATED, {"predicate": _WITHIN, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
+ALL_ON = QueryTemplate(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
 """What is on a thing, or on what is on it."""
-ALL_INSIDE = SpokenQuestion(
+ALL_INSIDE = QueryTemplate(
     _RELATED,
     {"predicate": f"({_ON}|{_INSIDE})*/({_WITHIN})", "number": "u2k:insideRatio"},
     {"number": "inside_ratio"},
 )
 """What is inside a thing, or on or in what is inside it."""
-ABOVE = SpokenQuestion(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
-NEAR = SpokenQuestion(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
-PARTS_OF = SpokenQuestion(_PARTS, {"predicate": _PART_OF})
-WHERE_IS = SpokenQuestion(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
-ALL_OF = SpokenQuestion(_ALL, {}, names_class=True)
+ABOVE = QueryTemplate(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
+NEAR = QueryTemplate(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
+PARTS_OF = QueryTemplate(_PARTS, {"predicate": _PART_OF})
+WHERE_IS = QueryTemplate(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
+ALL_OF = QueryTemplate(_ALL, {}, names_class=True)
 
 _PHRASES = (
     (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
@@ -122,7 +122,7 @@ _PHRASES = (
 )
 
 
-def parse_question(words: Sequence[str]) -> tuple[SpokenQuestion, str]:
+def parse_question(words: Sequence[str]) -> tuple[QueryTemplate, str]:
     """Return which question is asked, and the name of what it is asked about.
 
     >>> parse_question(["what", "is", "on", "the table?"])[1]

@@ -4,17 +4,17 @@ from collections.abc import Iterator, Sequence
 
 import pyoxigraph as ox
 
-__all__ = ["blank_groups", "chunks"]
+__all__ = ["group_by_blank_nodes", "split_triples"]
 
 
-def chunks(triples: Sequence[ox.Triple], size: int) -> Iterator[tuple[ox.Triple, ...]]:
+def split_triples(triples: Sequence[ox.Triple], size: int) -> Iterator[tuple[ox.Triple, ...]]:
     """Yield the triples in parts of about `size`; all that is said of a blank node is in one part.
 
     A server makes new blank nodes of each part that it is sent, so a node in two parts would become two. Nodes that
     are tied to each other go together, however many they are.
     """
     part: list[ox.Triple] = []
-    for group in blank_groups(triples):
+    for group in group_by_blank_nodes(triples):
         if part and len(part) + len(group) > size:
             yield tuple(part)
             part = []
@@ -23,7 +23,7 @@ def chunks(triples: Sequence[ox.Triple], size: int) -> Iterator[tuple[ox.Triple,
         yield tuple(part)
 
 
-def blank_groups(triples: Sequence[ox.Triple]) -> list[list[ox.Triple]]:
+def group_by_blank_nodes(triples: Sequence[ox.Triple]) -> list[list[ox.Triple]]:
     """Return the triples in groups: those that share blank nodes together, each other one by itself."""
     parent: dict[str, str] = {}
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.vocabulary import PREFIXES
 
-__all__ = ["Bodies", "Body", "JointMotion", "parse_vector"]
+__all__ = ["Body", "BodyIndex", "JointMotion", "parse_vector"]
 
 Vector = NDArray[np.float64]
 
@@ -94,7 +94,7 @@ def parse_vector(text: str) -> Vector | None:
     return values if values.shape == (3,) and bool(np.isfinite(values).all()) else None
 
 
-class Bodies:
+class BodyIndex:
     """The objects of one graph by their IRI; read once, when first asked for."""
 
     def __init__(self, store: ox.Store) -> None:

@@ -17,7 +17,7 @@ from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import RDF, Namespace
 from usd2kg.validation.finding import Severity
 
-__all__ = ["ShapeRule", "Violation", "compile_shapes", "find_violations", "shapes_text"]
+__all__ = ["ShapeRule", "Violation", "compile_shapes", "find_violations", "read_shapes"]
 
 _PROFILES = ("soma", "plain")
 SH = Namespace("http://www.w3.org/ns/shacl#")
@@ -55,7 +55,7 @@ class Violation:
     """The values that break it, or how many there are."""
 
 
-def shapes_text(profile: str) -> str:
+def read_shapes(profile: str) -> str:
     """Return the SHACL shapes of a profile, `soma` or `plain`, as Turtle.
 
     Raises:
@@ -69,7 +69,7 @@ def shapes_text(profile: str) -> str:
 @cache
 def compile_shapes(profile: str) -> tuple[ShapeRule, ...]:
     """Return the rules of a profile's shapes, sorted by id."""
-    return tuple(sorted(_Compiler(shapes_text(profile)).rules(), key=lambda rule: rule.id))
+    return tuple(sorted(_Compiler(read_shapes(profile)).rules(), key=lambda rule: rule.id))
 
 
 def find_violations(store: ox.Store, rule: ShapeRule) -> Iterator[Violation]:

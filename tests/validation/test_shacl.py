@@ -10,7 +10,7 @@ from usd2kg.graph import GraphOptions
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore
-from usd2kg.validation.shapes import compile_shapes, find_violations, shapes_text
+from usd2kg.validation.shacl import compile_shapes, find_violations, read_shapes
 
 CASES = pytest.mark.parametrize("case", SHAPES, ids=[f"{i}-{c.profile}-{c.rule}" for i, c in enumerate(SHAPES)])
 PROFILES = pytest.mark.parametrize("profile", ["soma", "plain"])
@@ -69,7 +69,7 @@ def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]
         triples = ox.serialize((quad.triple for quad in graph.store), format=ox.RdfFormat.N_TRIPLES)
         data = rdflib.Graph().parse(data=triples, format="nt")
         _, report, _ = pyshacl.validate(
-            data, shacl_graph=shapes_text(profile), shacl_graph_format="turtle", inference="none"
+            data, shacl_graph=read_shapes(profile), shacl_graph_format="turtle", inference="none"
         )
     shacl = rdflib.Namespace("http://www.w3.org/ns/shacl#")
     theirs = set()

@@ -11,7 +11,7 @@ from usd2kg.graph.vocabulary import OWL, RDF, RDFS
 from usd2kg.ontology import compact_iri
 from usd2kg.ontology.components import Components, find_components
 
-__all__ = ["Alternatives", "Axioms", "Disjointness"]
+__all__ = ["Alternatives", "AxiomIndex", "Disjointness"]
 
 Alternatives = tuple[str, ...]
 """IRIs of classes of which a thing is at least one: a single class, or the members of a union."""
@@ -27,7 +27,7 @@ class Disjointness:
     second: str
 
 
-class Axioms:
+class AxiomIndex:
     """Named superclasses, disjoint classes, domains and ranges, from the triples of an ontology with its imports.
 
     Of class expressions are heard: intersections, whose members are superclasses, and unions as domains and ranges.

@@ -7,23 +7,23 @@ from functools import cached_property
 from statistics import median
 from typing import NamedTuple
 
-from usd2kg.validation.kinds import Kinds
-from usd2kg.validation.objects import GraphObject
-from usd2kg.validation.rules import Rule, Rules
-from usd2kg.validation.usual_sizes import usual_extent
+from usd2kg.validation.class_extents import typical_class_extent
+from usd2kg.validation.graph_objects import GraphObject
+from usd2kg.validation.object_classes import ObjectClasses
+from usd2kg.validation.plausibility_rules import Rule, Rules
 
-__all__ = ["Oddity", "SceneOfObjects", "find_oddities"]
+__all__ = ["CheckedScene", "ImplausibleFact", "find_implausible"]
 
 _SMALLEST = 0.001
 """Metres. A thinner extent counts as this, so that a sheet has a volume to compare."""
 
 
 @dataclass(frozen=True)
-class SceneOfObjects:
+class CheckedScene:
     """The objects of a graph, and what they are."""
 
     objects: list[GraphObject]
-    kinds: Kinds
+    kinds: ObjectClasses
     has_probabilities: bool
     """Whether confidences are probabilities; otherwise they only rank."""
 
@@ -33,7 +33,7 @@ class SceneOfObjects:
         return {obj.iri: obj for obj in self.objects}
 
 
-class Oddity(NamedTuple):
+class ImplausibleFact(NamedTuple):
     """What is odd about an object."""
 
     rule: Rule
@@ -42,15 +42,15 @@ class Oddity(NamedTuple):
     expected: str
 
 
-_Check = Callable[[SceneOfObjects, Rule], Iterator[tuple[GraphObject, str, str]]]
+_Check = Callable[[CheckedScene, Rule], Iterator[tuple[GraphObject, str, str]]]
 
 
-def find_oddities(scene: SceneOfObjects, rules: Rules) -> Iterator[Oddity]:
+def find_implausible(scene: CheckedScene, rules: Rules) -> Iterator[ImplausibleFact]:
     """Yield what the rules find implausible."""
     for name, check in _CHECKS.items():
         rule = rules[name]
         if rule.is_enabled:
-            yield from (Oddity(rule, *found) for found in check(scene, rule))
+            yield from (ImplausibleFact(rule, *found) for found in check(scene, rule))
 
 
 def _named(obj: GraphObject) -> str:
@@ -65,7 +65,7 @@ def _volume(size: tuple[float, float, float]) -> float:
     return math.prod(max(side, _SMALLEST) for side in size)
 
 
-def _unusual_size(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _unusual_size(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     factor = max(rule.number("factor"), 1.0)
     any_words, any_classes = rule.words("any_size_words"), rule.classes("any_size")
     for obj in scene.objects:
@@ -76,26 +76,26 @@ def _unusual_size(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObje
             label = scene.kinds.label(cls)
             if cls in any_classes or label.rpartition(" ")[2] in any_words:
                 continue
-            usual = usual_extent(cls, label)
+            usual = typical_class_extent(cls, label)
             if usual is not None and not usual / factor <= longest <= usual * factor:
                 found = f"its longest extent is {longest:.3g} m ({_size_text(obj.own_size)}), and it is a {label}"
                 expected = f"about {usual:.3g} m, {usual / factor:.2g} to {usual * factor:.2g} m"
                 yield obj, found, expected
 
 
-def _orientation(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _orientation(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     for obj in scene.objects:
         length = math.hypot(*obj.orientation) if obj.orientation is not None and len(obj.orientation) == 4 else 1.0
         if abs(length - 1) > rule.number("tolerance"):
             yield obj, f"the quaternion of its orientation has the length {length:.4g}", "length 1"
 
 
-def _supports(scene: SceneOfObjects) -> Iterator[tuple[GraphObject, GraphObject]]:
+def _supports(scene: CheckedScene) -> Iterator[tuple[GraphObject, GraphObject]]:
     for obj in scene.objects:
         yield from ((obj, scene.by_iri[iri]) for iri in obj.supporters if iri in scene.by_iri)
 
 
-def _support_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _support_smaller(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     for obj, carrier in _supports(scene):
         if obj.size is None or carrier.size is None or _has_legs(scene, obj):
             continue
@@ -113,7 +113,7 @@ def _support_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphO
             yield obj, found, expected
 
 
-def _has_legs(scene: SceneOfObjects, obj: GraphObject) -> bool:
+def _has_legs(scene: CheckedScene, obj: GraphObject) -> bool:
     """Return whether a thing stands on several that are all smaller than it: a top may have slim legs."""
     carriers = [scene.by_iri[iri] for iri in obj.supporters if iri in scene.by_iri]
     return len(carriers) > 1 and all(
@@ -122,7 +122,7 @@ def _has_legs(scene: SceneOfObjects, obj: GraphObject) -> bool:
     )
 
 
-def _support_lighter(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _support_lighter(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     most = rule.number("mass_ratio")
     for obj, carrier in _supports(scene):
         if obj.mass_kg and carrier.mass_kg and carrier.mass_kg > 0 and obj.mass_kg > most * carrier.mass_kg:
@@ -130,7 +130,7 @@ def _support_lighter(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphO
             yield obj, found, f"at most {most:g} times the mass of what carries it"
 
 
-def _support_odd(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _support_odd(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     for obj, carrier in _supports(scene):
         if scene.kinds.is_a(obj, rule, "loads", "load_words") and scene.kinds.is_a(
             carrier, rule, "carriers", "carrier_words"
@@ -139,7 +139,7 @@ def _support_odd(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObjec
             yield obj, found, "what carries such a thing: a floor, furniture, a counter"
 
 
-def _inside_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _inside_smaller(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     """Yield what cannot be in its container. Spoons stand out of a pot: the longest extent says nothing."""
     slack = rule.number("slack")
     for obj in scene.objects:
@@ -153,7 +153,7 @@ def _inside_smaller(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphOb
                 yield obj, found, f"to fit into that one's {_size_text(container.size)}"
 
 
-def _below_floor(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _below_floor(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     placed = [(obj, obj.center[2], obj.size[2]) for obj in scene.objects if obj.center and obj.size]
     tops = [z + height / 2 for obj, z, height in placed if scene.kinds.is_a(obj, rule, "floors", "floor_words")]
     if not tops:
@@ -165,7 +165,7 @@ def _below_floor(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObjec
             yield obj, f"its box ends at z = {top:.3g} m", f"above the lowest floor, whose top is at z = {floor:.3g} m"
 
 
-def _far_away(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _far_away(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     placed = [(obj, obj.center) for obj in scene.objects if obj.center is not None]
     if len(placed) < max(rule.number("fewest"), 1):
         return
@@ -179,7 +179,7 @@ def _far_away(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, 
             yield obj, found, f"at most {most:.3g} m"
 
 
-def _duplicate(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _duplicate(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     step = max(rule.number("tolerance"), 1e-9)
     same: dict[tuple[int, ...], list[GraphObject]] = {}
     for obj in scene.objects:
@@ -201,7 +201,7 @@ def _is_nested(first: GraphObject, second: GraphObject) -> bool:
     )
 
 
-def _density(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _density(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     lowest, highest = rule.number("lowest"), rule.number("highest")
     for obj in scene.objects:
         size = obj.own_size
@@ -213,7 +213,7 @@ def _density(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, s
             yield obj, found, f"{lowest:g} to {highest:g} kg/m³"
 
 
-def _low_confidence(scene: SceneOfObjects, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
+def _low_confidence(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
     if not scene.has_probabilities:
         return
     dependants: dict[str, int] = {}

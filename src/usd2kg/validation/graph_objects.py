@@ -9,7 +9,7 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD
 
-__all__ = ["GraphObject", "find_owner", "profile_of", "read_objects", "values_of"]
+__all__ = ["GraphObject", "find_owner", "profile_of", "read_graph_objects", "values_of"]
 
 Vector = tuple[float, float, float]
 _NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
@@ -69,7 +69,7 @@ def values_of(store: ox.Store, name: ox.NamedNode) -> dict[Any, list[Any]]:
     return found
 
 
-def read_objects(store: ox.Store) -> list[GraphObject]:
+def read_graph_objects(store: ox.Store) -> list[GraphObject]:
     """Return the objects of a graph in the order of their prim paths."""
     reader = _Reader(store)
     rooms = {quad.subject for quad in store.quads_for_pattern(None, RDF.type, U2K.RoomGroup)}

@@ -6,7 +6,7 @@ from usd2kg.grounding.lexical.concepts.sizes import typical_extents
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import expand_curie
 
-__all__ = ["usual_extent"]
+__all__ = ["typical_class_extent"]
 
 _SIDES = ("width_m", "depth_m", "height_m")
 
@@ -17,7 +17,7 @@ def _class_extents() -> dict[str, float]:
     return {expand_curie(row["class"]): max(float(row[side]) for side in _SIDES) for row in rows}
 
 
-def usual_extent(class_iri: str, label: str) -> float | None:
+def typical_class_extent(class_iri: str, label: str) -> float | None:
     """Return the usual longest extent of things of a class in metres; None if it is not known.
 
     Args:

@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable
 from importlib.resources import files
 
-from usd2kg.assistant.asking import AskedAnswer
+from usd2kg.assistant.offline import InterpretedAnswer
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
 from usd2kg.grounding.llm.text import quote
@@ -37,7 +37,7 @@ SELECT ?class ?label (COUNT(?o) AS ?n) WHERE {
 } GROUP BY ?class ?label ORDER BY DESC(?n) ?class"""
 
 
-def ask_model(graph: GraphStore, text: str, complete: Complete, run: RunQuery | None = None) -> AskedAnswer:
+def ask_model(graph: GraphStore, text: str, complete: Complete, run: RunQuery | None = None) -> InterpretedAnswer:
     """Return the answer to a question by a query that a language model writes.
 
     A query that does not parse, updates, or asks another server is handed back with the reason, twice at most.
@@ -56,7 +56,7 @@ def ask_model(graph: GraphStore, text: str, complete: Complete, run: RunQuery | 
     for attempt in range(_REPAIRS + 1):
         query = _query_of(complete(request))
         try:
-            return AskedAnswer("a query that the model wrote", (run or graph.sparql)(query))
+            return InterpretedAnswer("a query that the model wrote", (run or graph.sparql)(query))
         except GraphError as error:
             if attempt == _REPAIRS:
                 shown = " ".join(query.split())

@@ -12,10 +12,10 @@ import pytest
 from tests.stores.conftest import open_remote
 from tests.stores.servers import free_port, way_to
 from usd2kg.errors import StoreError
-from usd2kg.stores import NamedGraph, http
+from usd2kg.stores import NamedGraph, http_client
 from usd2kg.stores.addresses import check_address, read_credentials, shown_address
 from usd2kg.stores.catalog import StoredGraph
-from usd2kg.stores.http import Call, HttpClient, UnclearError
+from usd2kg.stores.http_client import HttpClient, HttpRequest, OutcomeUnknownError
 
 
 def test_a_password_in_an_address_is_refused_and_not_repeated():
@@ -92,7 +92,7 @@ def test_a_server_that_is_not_there_is_one_line():
     pauses: list[float] = []
     address = f"http://127.0.0.1:{free_port()}"
     with pytest.raises(StoreError, match=r"cannot be reached .*, 5 times; try again later"):
-        HttpClient(sleep=pauses.append).send(Call("GET", address))
+        HttpClient(sleep=pauses.append).send(HttpRequest("GET", address))
     assert len(pauses) == 4
     for pause, longest in zip(pauses, (0.5, 1, 2, 4), strict=True):
         assert longest / 2 <= pause <= longest
@@ -103,7 +103,7 @@ def test_the_wait_that_a_server_asks_for_is_kept_up_to_a_limit():
     answers = ["503 7", "429 100000", "503 Fri, 31 Dec 1999 23:59:59 GMT", "503 soon"]
     with way_to("http://127.0.0.1:1") as way:
         way.fault = lambda *_: answers.pop(0) if answers else "204"
-        assert HttpClient(sleep=pauses.append).send(Call("GET", way.address)).status == 204
+        assert HttpClient(sleep=pauses.append).send(HttpRequest("GET", way.address)).status == 204
     assert pauses[:3] == [7, 30, 0]
     assert 2 <= pauses[3] <= 4
 
@@ -111,8 +111,8 @@ def test_the_wait_that_a_server_asks_for_is_kept_up_to_a_limit():
 def test_what_must_not_be_done_twice_is_not_sent_twice():
     with way_to("http://127.0.0.1:1") as way:
         way.fault = lambda *_: "500"
-        with pytest.raises(UnclearError, match="it is not known what was done"):
-            HttpClient(sleep=lambda _: None).send(Call("POST", way.address, b"x", may_repeat=False))
+        with pytest.raises(OutcomeUnknownError, match="it is not known what was done"):
+            HttpClient(sleep=lambda _: None).send(HttpRequest("POST", way.address, b"x", is_idempotent=False))
         assert len(way.seen) == 1
 
 
@@ -123,7 +123,7 @@ def test_credentials_follow_no_redirect():
         with pytest.raises(
             StoreError, match=r"redirects to http://127\.0\.0\.1:\d+/x, which is not followed; name that"
         ):
-            HttpClient("Bearer abc").send(Call("POST", way.address, b"x"))
+            HttpClient("Bearer abc").send(HttpRequest("POST", way.address, b"x"))
         assert way.seen[0][2]["Authorization"] == "Bearer abc"
         assert elsewhere.seen == []
 
@@ -141,7 +141,7 @@ def test_a_server_that_says_nothing_is_given_up():
         silent.listen()
         client = HttpClient(timeout_s=0.2, sleep=lambda _: None)
         with pytest.raises(StoreError, match=r"the connection broke \(timed out\), 5 times"):
-            client.send(Call("GET", f"http://127.0.0.1:{silent.getsockname()[1]}/"))
+            client.send(HttpRequest("GET", f"http://127.0.0.1:{silent.getsockname()[1]}/"))
 
 
 @contextmanager
@@ -173,15 +173,15 @@ def answering(body: bytes, headers: dict[str, str]) -> Iterator[str]:
 
 
 def test_an_answer_that_unpacks_to_too_much_is_not_unpacked(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(http, "_LARGEST", 3 << 20)
+    monkeypatch.setattr(http_client, "_LARGEST", 3 << 20)
     for size, is_fine in ((3 << 20, True), ((3 << 20) + 1, False)):
         with answering(gzip.compress(bytes(size)), {"Content-Encoding": "gzip"}) as url:
             client = HttpClient(sleep=lambda _: None)
             if is_fine:
-                assert client.send(Call("POST", url, b"x")).body == bytes(size)
+                assert client.send(HttpRequest("POST", url, b"x")).body == bytes(size)
                 continue
             with pytest.raises(StoreError, match="the server's answer is over 3 MiB; ask for less of it"):
-                client.send(Call("POST", url, b"x"))
+                client.send(HttpRequest("POST", url, b"x"))
 
 
 @pytest.mark.parametrize("headers", [{"Content-Length": "999"}, {"Content-Encoding": "gzip"}])
@@ -191,14 +191,14 @@ def test_an_answer_that_is_cut_off_is_no_answer(headers: dict[str, str]):
         answering(body, headers) as url,
         pytest.raises(StoreError, match="the connection broke"),
     ):
-        HttpClient(sleep=lambda _: None).send(Call("POST", url, b"x"))
+        HttpClient(sleep=lambda _: None).send(HttpRequest("POST", url, b"x"))
 
 
 def test_a_redirect_to_nowhere_is_one_line():
     with way_to("http://127.0.0.1:1") as way:
         way.fault = lambda *_: "302 http://[x/?S3CRET"
         with pytest.raises(StoreError, match=r"redirects to http://\[x/, which is not followed"):
-            HttpClient().send(Call("POST", way.address, b"x"))
+            HttpClient().send(HttpRequest("POST", way.address, b"x"))
 
 
 @pytest.mark.parametrize(
@@ -225,6 +225,6 @@ def test_credentials_that_a_server_sends_back_are_not_shown():
     with way_to("http://127.0.0.1:1") as way:
         way.fault = lambda *_: "302 http://my.lab/x"
         with pytest.raises(StoreError) as error:
-            HttpClient("Bearer S3CRET").send(Call("POST", f"{way.address}?S3CRET", b"x"))
+            HttpClient("Bearer S3CRET").send(HttpRequest("POST", f"{way.address}?S3CRET", b"x"))
     assert "S3CRET" not in str(error.value)
-    assert http._without("Bearer S3CRET", "you sent Bearer S3CRET") == "you sent Bearer …"
+    assert http_client._without("Bearer S3CRET", "you sent Bearer S3CRET") == "you sent Bearer …"

@@ -6,7 +6,7 @@ import pytest
 
 from tests.graph.records import build_graph, open_store, thing
 from usd2kg.assistant import ask_model
-from usd2kg.assistant.writing import write_request
+from usd2kg.assistant.model_queries import write_request
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
 from usd2kg.ontology import TBox

@@ -6,7 +6,7 @@ import threading
 import pyoxigraph as ox
 import pytest
 
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.remote_clauses import has_remote_clause
 
 CALLS = [
     "SELECT * { SERVICE <URL> { ?s ?p ?o } }",
@@ -27,19 +27,19 @@ HARMLESS = [
 
 @pytest.mark.parametrize("query", CALLS)
 def test_calls_are_found(query: str):
-    assert reaches_out(query.replace("URL", "http://127.0.0.1:9/"))
+    assert has_remote_clause(query.replace("URL", "http://127.0.0.1:9/"))
 
 
 @pytest.mark.parametrize("query", HARMLESS)
 def test_names_are_no_calls(query: str):
-    assert not reaches_out(query)
+    assert not has_remote_clause(query)
 
 
 @pytest.mark.parametrize(
     "update", ["LOAD <http://x/>", "load silent <http://x/> into graph <urn:g>", "LOAD#\n<http://x>"]
 )
 def test_loads_are_found(update: str):
-    assert reaches_out(update)
+    assert has_remote_clause(update)
 
 
 def test_the_engine_would_connect_without_the_guard():
