@@ -1,8 +1,13 @@
-"""Queries that would have this machine ask another one."""
+"""SPARQL clauses that make the engine contact another server."""
 
 import re
 
-__all__ = ["has_remote_clause"]
+__all__ = ["REMOTE_QUERY", "REMOTE_UPDATE", "has_remote_clause"]
+
+REMOTE_QUERY = "query: SERVICE contacts another server, which is not allowed; remove that clause"
+"""Message for a refused query."""
+REMOTE_UPDATE = "update: LOAD and SERVICE contact another server, which is not allowed; load a file instead"
+"""Message for a refused update."""
 
 _BLANK = r"(?:\s|#[^\n\r]*[\n\r])*"
 _NAME = r"(?:[?$][^\s{]*|<[^>]*>|[^\s{}<>\"']*:[^\s{]*)"
@@ -11,10 +16,10 @@ _LOAD = re.compile(rf"LOAD{_BLANK}(?:SILENT{_BLANK})?(?:<[^>]*>|[^\s{{}}<>\"']*:
 
 
 def has_remote_clause(sparql: str) -> bool:
-    """Return whether a query or an update could ask another server: it may hold a SERVICE or a LOAD clause.
+    """Return whether a query or update may contain a SERVICE or LOAD clause.
 
-    What is a comment, a string or an IRI depends on the grammar: in `FILTER(1<2)SERVICE#>` there is no IRI. So this
-    looks everywhere, and takes a string that reads like such a clause for one; it never misses a clause.
+    Only the grammar decides what is a comment, a string or an IRI: `FILTER(1<2)SERVICE#>` contains no IRI. The search
+    therefore includes comments and strings: it can report a string that reads like a clause, but misses no clause.
 
     >>> has_remote_clause("SELECT * { SERVICE <http://10.0.0.1/> { ?s ?p ?o } }")
     True
