@@ -1,4 +1,4 @@
-"""make_app: a read-only SPARQL 1.1 Protocol endpoint with a page to ask from."""
+"""make_app: the ASGI application of a read-only SPARQL 1.1 Protocol endpoint with a query page."""
 
 import base64
 import hashlib
@@ -21,8 +21,9 @@ from starlette.routing import Route
 from usd2kg.endpoint.examples import Example
 from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
+from usd2kg.endpoint.limits import Limits
 from usd2kg.endpoint.negotiation import negotiate
-from usd2kg.endpoint.pool import BusyError, Limits, TimeLimitError, WorkerLostError, WorkerPool
+from usd2kg.endpoint.pool import BusyError, TimeLimitError, WorkerLostError, WorkerPool
 from usd2kg.graph.vocabulary import PREFIXES, named_node
 from usd2kg.query.functions import FUNCTION_NAMESPACE
 
@@ -42,7 +43,7 @@ CONSTRUCT {
 
 
 class RefusedRequestError(Exception):
-    """A request that cannot be answered, with the status and a text for the person behind it."""
+    """A request that is refused, with its HTTP status and a message."""
 
     def __init__(self, status: int, text: str) -> None:
         super().__init__(text)
@@ -63,14 +64,14 @@ def make_app(
     """Return the application.
 
     Args:
-        pool: who answers.
-        limits: what one request may take.
-        title: what is served, for the page.
-        graphs: IRIs of its named graphs.
+        pool: the workers that answer queries.
+        limits: the limits of a request.
+        title: heading of the page.
+        graphs: IRIs of the named graphs.
         examples: queries that the page offers.
-        when_ready: called once queries can be answered.
-        hosts: names, besides localhost and addresses in digits, that it may be asked by.
-        origins: sites whose pages may ask it, like https://my.lab, or *.
+        when_ready: called when queries can be answered.
+        hosts: host names that are served in addition to localhost and IP addresses.
+        origins: origins whose pages may send queries, such as https://my.lab, or *.
     """
     about = {
         "title": title,
@@ -87,8 +88,8 @@ def make_app(
     async def show_about(_: Request) -> Response:
         return JSONResponse(about)
 
-    async def ask(request: Request) -> Response:
-        return await _ask(request, pool, limits)
+    async def handle(request: Request) -> Response:
+        return await _handle(request, pool, limits)
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
@@ -102,8 +103,8 @@ def make_app(
         routes=[
             Route("/", show_page),
             Route("/about", show_about),
-            Route("/sparql", ask, methods=methods),
-            Route("/query", ask, methods=methods),
+            Route("/sparql", handle, methods=methods),
+            Route("/query", handle, methods=methods),
         ],
         middleware=[Middleware(Guard, hosts=tuple(hosts), origins=tuple(origins))],
         lifespan=lifespan,
@@ -111,7 +112,7 @@ def make_app(
 
 
 def _page_policy(page: str) -> str:
-    """Return the policy under which only the script and the style of the page itself run."""
+    """Return the Content-Security-Policy that allows only the page's own script and style."""
 
     def digest(tag: str) -> str:
         found = re.search(rf"<{tag}>(.*?)</{tag}>", page, flags=re.DOTALL)
@@ -124,48 +125,50 @@ def _page_policy(page: str) -> str:
     )
 
 
-async def _ask(request: Request, pool: WorkerPool, limits: Limits) -> Response:
+async def _handle(request: Request, pool: WorkerPool, limits: Limits) -> Response:
     """Answer one request of the SPARQL 1.1 Protocol (section 2.1)."""
     if request.method == "OPTIONS":
         return Response(status_code=204, headers={"Allow": "GET, POST, OPTIONS"})
     try:
-        wanted = await _read_request(request, limits)
-        if wanted is None:
+        query = await _read_request(request, limits)
+        if query is None:
             return _describe(request)
-        return await _answer(wanted, pool, limits)
-    except RefusedRequestError as fault:
-        return _refusal(request, fault)
+        return await _answer(query, pool, limits)
+    except RefusedRequestError as error:
+        return _refusal(request, error)
 
 
-async def _answer(wanted: dict[str, Any], pool: WorkerPool, limits: Limits) -> Response:
+async def _answer(query: dict[str, Any], pool: WorkerPool, limits: Limits) -> Response:
     start = time.perf_counter()
     try:
-        result = await pool.run(wanted)
+        header, body = await pool.run(query)
     except BusyError as error:
         raise RefusedRequestError(503, "too many queries are waiting; try again in a moment") from error
     except TimeLimitError as error:
         raise RefusedRequestError(
-            503, f"the query took more than {limits.seconds:g} s and was stopped; ask for less, or raise --time-limit"
+            503, f"the query took more than {limits.seconds:g} s and was stopped; simplify it, or raise --time-limit"
         ) from error
     except WorkerLostError as error:
         raise RefusedRequestError(
-            503, f"the query needed more than {limits.memory_mib} MiB and was stopped; ask for less, like with LIMIT"
+            503, f"the query needed more than {limits.memory_mib} MiB and was stopped; simplify it, or add a LIMIT"
         ) from error
-    if result.told["status"] != 200:
-        raise RefusedRequestError(result.told["status"], result.body.decode())
-    seconds = time.perf_counter() - start
-    headers = {"Usd2kg-Rows": str(result.told["rows"]), "Server-Timing": f"query;dur={1000 * seconds:.1f}"}
-    if result.told["cut"]:
-        headers["X-SPARQL-MaxRows"] = str(result.told["rows"])
-    media_type = result.told["type"]
-    charset = "; charset=utf-8" if media_type.startswith("text/") else ""
-    headers["Content-Type"] = media_type + charset
-    headers["Vary"] = "Accept"
-    return Response(result.body, headers=headers)
+    if header["status"] != 200:
+        raise RefusedRequestError(header["status"], body.decode())
+    milliseconds = 1000 * (time.perf_counter() - start)
+    charset = "; charset=utf-8" if header["type"].startswith("text/") else ""
+    headers = {
+        "Usd2kg-Rows": str(header["rows"]),
+        "Server-Timing": f"query;dur={milliseconds:.1f}",
+        "Content-Type": header["type"] + charset,
+        "Vary": "Accept",
+    }
+    if header["cut"]:
+        headers["X-SPARQL-MaxRows"] = str(header["rows"])
+    return Response(body, headers=headers)
 
 
 async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | None:
-    """Return what is asked; None where nothing is, and the service is to describe itself."""
+    """Return the request for a worker; None if there is no query, which asks for the service description."""
     fields = parse_qsl(request.url.query, keep_blank_values=True)
     if request.method == "POST":
         body = await _read_body(request, limits.body_bytes)
@@ -176,12 +179,12 @@ async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | No
             fields.append(("query", body))
         else:
             raise RefusedRequestError(
-                415, f"content type {content_type or 'none'} is not read; expected {_QUERY} or {_FORM}"
+                415, f"content type {content_type or 'none'} is not supported; expected {_QUERY} or {_FORM}"
             )
     elif not fields:
         return None
     if any(name in {"update", "using-graph-uri", "using-named-graph-uri"} for name, _ in fields):
-        raise RefusedRequestError(400, "this endpoint is read only: updates are not done here")
+        raise RefusedRequestError(400, "this endpoint is read-only; updates are not supported")
     queries = [value for name, value in fields if name == "query"]
     if len(queries) != 1 or not queries[0].strip():
         raise RefusedRequestError(400, f"expected one query, found {len(queries) if any(queries) else 'none'}")
@@ -201,38 +204,38 @@ def _graphs(fields: list[tuple[str, str]], name: str) -> list[str]:
     return found
 
 
-async def _read_body(request: Request, most: int) -> str:
+async def _read_body(request: Request, max_bytes: int) -> str:
     body = b""
     try:
         async for piece in request.stream():
             body += piece
-            if len(body) > most:
-                raise RefusedRequestError(413, f"the request is larger than {most} bytes; send a shorter query")
+            if len(body) > max_bytes:
+                raise RefusedRequestError(413, f"the request is larger than {max_bytes} bytes; send a shorter query")
         return body.decode()
     except UnicodeDecodeError as error:
         raise RefusedRequestError(400, "the request is not UTF-8") from error
     except ClientDisconnect as error:
-        raise RefusedRequestError(400, "the request broke off") from error
+        raise RefusedRequestError(400, "the request is incomplete") from error
 
 
 def _describe(request: Request) -> Response:
-    """Return what this service can do (SPARQL 1.1 Service Description), or the page for a browser."""
+    """Return the SPARQL 1.1 Service Description, or a redirect to the page for browsers."""
     accept = request.headers.get("accept")
     media_type = negotiate(accept, (*GRAPH_TYPES, "text/html"))
     if media_type == "text/html":
         return RedirectResponse("/", 303)
-    # The address was checked by its host, and prints itself escaped.
+    # Guard has checked the host; NamedNode escapes the rest.
     endpoint = str(ox.NamedNode(str(request.url.replace(query=""))))
     found = ox.Store().query(_DESCRIPTION.replace("ENDPOINT", endpoint))
     assert isinstance(found, ox.QueryTriples), "the description is a CONSTRUCT"
     chosen = media_type or GRAPH_TYPES[0]
-    return Response(render(found, chosen, 100).body, media_type=chosen)
+    return Response(render(found, chosen, Limits()).body, media_type=chosen)
 
 
-def _refusal(request: Request, fault: RefusedRequestError) -> Response:
-    """Return the text of a fault, as JSON for clients that read JSON."""
-    headers = {"Retry-After": "1"} if str(fault).startswith("too many") else {}
+def _refusal(request: Request, error: RefusedRequestError) -> Response:
+    """Return the message of an error, as JSON for clients that accept JSON."""
+    headers = {"Retry-After": "1"} if isinstance(error.__cause__, BusyError) else {}
     accept = request.headers.get("accept", "")
     if "json" in accept and "text/plain" not in accept:
-        return JSONResponse({"error": str(fault)}, fault.status, headers=headers)
-    return PlainTextResponse(str(fault) + "\n", fault.status, headers=headers)
+        return JSONResponse({"error": str(error)}, error.status, headers=headers)
+    return PlainTextResponse(str(error) + "\n", error.status, headers=headers)
