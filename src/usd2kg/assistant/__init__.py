@@ -1,4 +1,4 @@
-"""Questions in plain words: answered by ready questions, by a model that writes SPARQL, or for an assistant."""
+"""Questions in English, answered with the ready questions or by a language model, and tools for assistants."""
 
 from usd2kg.assistant.describe import describe, list_objects
 from usd2kg.assistant.model_queries import ask_model

@@ -1,10 +1,11 @@
-"""ask_model: a language model writes the SPARQL for a question; it is checked, run within limits, and shown."""
+"""ask_model: a language model writes the SPARQL query for a question; it is checked, run within limits and shown."""
 
 import json
 from collections.abc import Callable
 from importlib.resources import files
 
 from usd2kg.assistant.offline import InterpretedAnswer
+from usd2kg.assistant.settings import PROMPT
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
 from usd2kg.grounding.llm.text import quote
@@ -22,10 +23,6 @@ _SCHEMA = {
     "required": ["query"],
     "additionalProperties": False,
 }
-_MOST_TOKENS = 1024
-_MOST_TERMS = 80
-_EXAMPLES = ("same-surface", "heavy-near", "which-where")
-_REPAIRS = 2
 
 _PREDICATES = """
 SELECT ?p (COUNT(*) AS ?n) (SAMPLE(?o) AS ?example) WHERE {
@@ -40,48 +37,48 @@ SELECT ?class ?label (COUNT(?o) AS ?n) WHERE {
 def ask_model(graph: GraphStore, text: str, complete: Complete, run: RunQuery | None = None) -> InterpretedAnswer:
     """Return the answer to a question by a query that a language model writes.
 
-    A query that does not parse, updates, or asks another server is handed back with the reason, twice at most.
+    A query that fails is sent back with the error, at most `max_repairs` times.
 
     Args:
-        graph: the graph; what it holds is described to the model: terms, classes and counts, and no object.
+        graph: the graph; the prompt contains its properties, classes and counts, but no list of objects.
         text: the question.
-        complete: asks the model.
-        run: runs a query; the graph itself by default, which knows no limits of time.
+        complete: calls the model.
+        run: runs a query; by default `GraphStore.sparql`, which has no time limit.
 
     Raises:
-        GroundingError: the model cannot be asked, or writes no query.
-        GraphError: its last query cannot be run.
+        GroundingError: the model cannot be called, or its completion contains no query.
+        GraphError: its last query fails.
     """
     request = write_request(graph, text)
-    for attempt in range(_REPAIRS + 1):
-        query = _query_of(complete(request))
+    for attempt in range(PROMPT.max_repairs + 1):
+        query = _read_query(complete(request))
         try:
-            return InterpretedAnswer("a query that the model wrote", (run or graph.sparql)(query))
+            return InterpretedAnswer("a query written by the model", (run or graph.sparql)(query))
         except GraphError as error:
-            if attempt == _REPAIRS:
-                shown = " ".join(query.split())
-                raise GraphError(f"the model's query cannot be run: {error}; it was: {shown}") from error
+            if attempt == PROMPT.max_repairs:
+                raise GraphError(f"the model's query fails: {error}; it was: {' '.join(query.split())}") from error
             request = _repair(write_request(graph, text), query, str(error))
     raise AssertionError("the loop returns or raises")
 
 
 def write_request(graph: GraphStore, text: str) -> Request:
-    """Return the prompt that asks a model for a query; a pure function of graph and question."""
+    """Return the prompt for a query; a pure function of graph and question."""
     template = (files("usd2kg.assistant") / "templates" / "sparql.txt").read_text("utf-8")
-    examples = "\n\n".join(q.sparql.strip() for q in list_questions() if q.id in _EXAMPLES)
-    system = template.format(terms=_terms(graph), classes=_classes(graph), examples=examples)
-    return Request(system=system, user=f"Question: {quote(text, 2000)}", schema=_SCHEMA, most_tokens=_MOST_TOKENS)
+    examples = "\n\n".join(q.sparql.strip() for q in list_questions() if q.id in PROMPT.examples)
+    system = template.format(terms=_properties(graph), classes=_classes(graph), examples=examples)
+    return _request(system, f"Question: {quote(text, PROMPT.max_question)}")
 
 
 def _repair(request: Request, query: str, error: str) -> Request:
-    user = (
-        f"{request.user}\n\nThis query cannot be run:\n{quote(query, 4000)}\nReason: {quote(error, 500)}\n"
-        "Write one that can."
-    )
-    return Request(system=request.system, user=user, schema=_SCHEMA, most_tokens=_MOST_TOKENS)
+    query, error = quote(query, PROMPT.max_query), quote(error, PROMPT.max_error)
+    return _request(request.system, f"{request.user}\n\nThis query fails:\n{query}\nError: {error}\nCorrect it.")
 
 
-def _query_of(completion: Completion) -> str:
+def _request(system: str, user: str) -> Request:
+    return Request(system=system, user=user, schema=_SCHEMA, most_tokens=PROMPT.max_tokens)
+
+
+def _read_query(completion: Completion) -> str:
     if completion.finish is not Finish.STOP:
         raise GroundingError(f"the model's answer was cut off ({completion.finish.value}); expected one SPARQL query")
     try:
@@ -89,16 +86,18 @@ def _query_of(completion: Completion) -> str:
     except (ValueError, KeyError, TypeError):
         query = None
     if not isinstance(query, str) or not query.strip():
-        raise GroundingError(f"the model wrote {completion.text[:80]!r}; expected JSON with a SPARQL query")
+        raise GroundingError(f"the model answered {completion.text[:80]!r}; expected JSON with a SPARQL query")
     return query
 
 
-def _terms(graph: GraphStore) -> str:
-    """Return the properties of a graph, with how often they are used and a value as an example."""
-    rows = graph.sparql(_PREDICATES).rows[:_MOST_TERMS]
-    return "\n".join(f"<{name}> {count} times, e.g. {quote(value or '', 60)}" for name, count, value in rows)
+def _properties(graph: GraphStore) -> str:
+    """Return the most frequent properties, one per line, with their count and an example value."""
+    rows = graph.sparql(_PREDICATES).rows[: PROMPT.max_terms]
+    return "\n".join(
+        f"<{name}> {count} times, e.g. {quote(value or '', PROMPT.max_example)}" for name, count, value in rows
+    )
 
 
 def _classes(graph: GraphStore) -> str:
-    rows = graph.sparql(_CLASSES).rows[:_MOST_TERMS]
+    rows = graph.sparql(_CLASSES).rows[: PROMPT.max_terms]
     return "\n".join(f"<{iri}> {quote(label or '')}: {count}" for iri, label, count in rows)

@@ -1,4 +1,4 @@
-"""ask_offline: a question in plain English, answered from the ready questions, without any model."""
+"""ask_offline: answer a question in English with the ready questions, without a language model."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -12,47 +12,48 @@ from usd2kg.query.questions import list_questions
 
 __all__ = ["InterpretedAnswer", "ask_offline"]
 
-_LONG_UNITS = (("centimet", "cm"), ("millimet", "mm"), ("met", "m"), ("kilo", "kg"), ("gram", "g"))
-_RELATED = {"on": "on", "in": "inside"}
+_UNITS = (("centimet", "cm"), ("millimet", "mm"), ("met", "m"), ("kilo", "kg"), ("gram", "g"))
+"""Beginning of a unit's name → symbol, tried in order."""
+_RELATIONS = {"on": "on", "in": "inside"}
+"""Suffix of a phrase id → relation."""
 
 
 @dataclass(frozen=True)
 class InterpretedAnswer:
-    """An answer, and how the question was understood."""
+    """An answer with the interpretation of its question."""
 
     understood: str
-    """In words, for the person to check."""
+    """The interpretation in English, for the user to check."""
     answer: Answer
-    """Its table, and the SPARQL that gave it."""
     verdict: bool | None = None
-    """Yes or no, where that was asked."""
+    """Answer to a yes/no question; None for other questions."""
     number: int | None = None
-    """How many, where that was asked."""
+    """Answer to "how many"; None for other questions."""
 
     def as_json(self) -> dict[str, Any]:
-        """Return how it was understood, and yes, no or a number where one of these was asked."""
-        said = {"verdict": self.verdict, "number": self.number}
-        return {"understood": self.understood, **{name: value for name, value in said.items() if value is not None}}
+        """Return the interpretation, with the verdict or the number if there is one."""
+        result = {"verdict": self.verdict, "number": self.number}
+        return {"understood": self.understood, **{key: value for key, value in result.items() if value is not None}}
 
     def summary(self) -> str:
-        """Return yes, no or a number on a line of its own, where one of these was asked; else nothing."""
+        """Return yes, no or the number as one line; empty for other questions."""
         if self.number is not None:
             return f"{self.number}\n"
         return "" if self.verdict is None else "yes\n" if self.verdict else "no\n"
 
 
 def ask_offline(graph: GraphStore, text: str) -> InterpretedAnswer:
-    """Return the answer to a question in English, by the ready questions.
+    """Return the answer to a question in English.
 
     Raises:
-        GraphError: the question is not understood, or what it asks about is not in the graph.
+        GraphError: the question is not understood, or its object or class is not in the graph.
     """
     phrase = match_phrase(text)
     if phrase is None:
         raise GraphError(
-            f"question {text!r} is not understood; ask like 'what is on the table?', 'where is the kettle?', 'how many "
-            "cups are there?' or 'what must be moved to open the drawer?' (usd2kg query --list has more), "
-            "or let a model write the query with --model"
+            f"question {text!r} is not understood; expected a question like 'what is on the table?', 'where is the "
+            "kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' (usd2kg query --list "
+            "shows more); or let a language model write the query with --model"
         )
     return _answer(graph, phrase)
 
@@ -68,15 +69,47 @@ SELECT ?object ?path ?other ?other_path ?distance_m WHERE {{
 def _answer(graph: GraphStore, phrase: Phrase) -> InterpretedAnswer:
     question, given = phrase
     verb, _, relation = question.partition("-")
-    if verb in {"count", "is", "some"} and relation in _RELATED:
-        return _some_related(graph, verb, _RELATED[relation], given)
-    if question in _OTHERS:
-        return _OTHERS[question](graph, **given)
-    if question in _SPOKEN:
-        ask, words = _SPOKEN[question]
-        named = given.get("thing") or given["class"]
-        return InterpretedAnswer(f"{words} {named}", ask(graph, named))
-    return _listed(graph, question, given)
+    if verb in {"count", "is", "some"} and relation in _RELATIONS:
+        return _related_objects(graph, verb, _RELATIONS[relation], given)
+    if question in _INTERPRETERS:
+        return _INTERPRETERS[question](graph, **given)
+    if question in _LOOKUPS:
+        look_up, words = _LOOKUPS[question]
+        name = given.get("thing") or given["class"]
+        return InterpretedAnswer(f"{words} {name}", look_up(graph, name))
+    return _ready_question(graph, question, given)
+
+
+def _ready_question(graph: GraphStore, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
+    """Return the answer to a question of `usd2kg query --list`."""
+    values = {name: _normalize(name, value) for name, value in given.items()}
+    text = next(q.text for q in list_questions() if q.id == question)
+    parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
+    understood = f"{question}: {text}{f' with {parameters}' if parameters else ''}"
+    return InterpretedAnswer(understood, graph.answer(question, values))
+
+
+def _normalize(name: str, value: str) -> str:
+    """Return a parameter with symbols for units and without commas."""
+    if name == "position":
+        return " ".join(value.replace(",", " ").split())
+    if name in {"distance", "mass"}:
+        number = value.rstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ ")
+        unit = value[len(number) :].strip().lower()
+        return f"{number} {next((symbol for prefix, symbol in _UNITS if unit.startswith(prefix)), unit)}".strip()
+    return value
+
+
+def _related_objects(graph: GraphStore, verb: str, relation: str, given: Mapping[str, str]) -> InterpretedAnswer:
+    """Return the objects of a class, or with a name, that are on or in a thing, directly or indirectly."""
+    find = graph.on if relation == "on" else graph.inside
+    related = find(given["thing"], is_direct=False)
+    answer = _restrict(related, set(_column(graph.where_is(given["class"]), "path")))
+    count = len(answer.rows)
+    understood = f"{given['class']} {relation} {given['thing']}"
+    return InterpretedAnswer(
+        understood, answer, bool(count) if verb == "is" else None, count if verb == "count" else None
+    )
 
 
 def _how_many(graph: GraphStore, **given: str) -> InterpretedAnswer:
@@ -84,37 +117,9 @@ def _how_many(graph: GraphStore, **given: str) -> InterpretedAnswer:
     return InterpretedAnswer(f"all {given['class']}", answer, number=len(set(_column(answer, "path"))))
 
 
-def _listed(graph: GraphStore, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
-    """Return the answer to a question of `usd2kg query --list`."""
-    values = {name: _plain_value(name, value) for name, value in given.items()}
-    text = next(q.text for q in list_questions() if q.id == question)
-    told = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return InterpretedAnswer(f"{question}: {text}{f' with {told}' if told else ''}", graph.answer(question, values))
-
-
-def _plain_value(name: str, value: str) -> str:
-    if name == "position":
-        return " ".join(value.replace(",", " ").split())
-    if name in {"distance", "mass"}:
-        number = value.rstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ ")
-        unit = value[len(number) :].strip().lower()
-        return f"{number} {next((short for long, short in _LONG_UNITS if unit.startswith(long)), unit)}".strip()
-    return value
-
-
-def _some_related(graph: GraphStore, verb: str, relation: str, given: Mapping[str, str]) -> InterpretedAnswer:
-    """Return the things of a class, or of a name, that are on or in a thing, or on or in something there."""
-    find = graph.on if relation == "on" else graph.inside
-    related = find(given["thing"], is_direct=False)
-    answer = _only(related, set(_column(graph.where_is(given["class"]), "path")))
-    found = len(answer.rows)
-    told = f"{given['class']} {relation} {given['thing']}"
-    return InterpretedAnswer(told, answer, bool(found) if verb == "is" else None, found if verb == "count" else None)
-
-
-def _some_parts(graph: GraphStore, **given: str) -> InterpretedAnswer:
+def _how_many_parts(graph: GraphStore, **given: str) -> InterpretedAnswer:
     name, thing = given["class"], given["thing"]
-    answer = _only(graph.parts_of(thing), set(_column(graph.where_is(name), "path")))
+    answer = _restrict(graph.parts_of(thing), set(_column(graph.where_is(name), "path")))
     return InterpretedAnswer(f"{name} that are parts of {thing}", answer, number=len(answer.rows))
 
 
@@ -123,7 +128,7 @@ def _is_there(graph: GraphStore, **given: str) -> InterpretedAnswer:
     try:
         answer = graph.where_is(name)
     except GraphError:
-        # That nothing is called so is the answer here.
+        # An unknown name is the answer "no", not an error.
         answer = Answer(("object",), (), (), "")
     return InterpretedAnswer(f"whether there is {name}", answer, bool(answer.rows))
 
@@ -133,8 +138,8 @@ def _distance(graph: GraphStore, thing: str, other: str) -> InterpretedAnswer:
     return InterpretedAnswer(f"the gap between {thing} and {other}, in metres", graph.sparql(query))
 
 
-def _only(answer: Answer, paths: set[str]) -> Answer:
-    """Return the rows of an answer that are about the prims at these paths."""
+def _restrict(answer: Answer, paths: set[str]) -> Answer:
+    """Return the rows of an answer whose `path` is one of the given prim paths."""
     kept = [index for index, path in enumerate(_column(answer, "path")) if path in paths]
     return replace(answer, rows=tuple(answer.rows[i] for i in kept), values=tuple(answer.values[i] for i in kept))
 
@@ -144,7 +149,7 @@ def _column(answer: Answer, name: str) -> list[str]:
     return [row[at] or "" for row in answer.rows]
 
 
-_SPOKEN: Mapping[str, tuple[Callable[[GraphStore, str], Answer], str]] = {
+_LOOKUPS: Mapping[str, tuple[Callable[[GraphStore, str], Answer], str]] = {
     "on": (GraphStore.on, "on"),
     "inside": (GraphStore.inside, "inside"),
     "near": (GraphStore.near, "near"),
@@ -154,10 +159,10 @@ _SPOKEN: Mapping[str, tuple[Callable[[GraphStore, str], Answer], str]] = {
     "all": (GraphStore.all_of, "all of class"),
     "about": (description_answer, "all about"),
 }
-"""Question → how it is answered for what is named, and how it is told back."""
-_OTHERS: Mapping[str, Callable[..., InterpretedAnswer]] = {
+"""Phrase id → method that takes a name, and the beginning of `understood`."""
+_INTERPRETERS: Mapping[str, Callable[..., InterpretedAnswer]] = {
     "how-many": _how_many,
     "is-there": _is_there,
-    "parts-of": _some_parts,
+    "parts-of": _how_many_parts,
     "distance": _distance,
 }
