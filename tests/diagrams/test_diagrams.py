@@ -153,7 +153,7 @@ class TestCommand:
         [
             (["table", "-o", "x.gif"], "pictures of graphs are SVG or PNG, expected a name ending in .svg or .png"),
             (["dinner plate", "-o", "x.svg"], "means 4 objects; expected one, by its prim path"),
-            (["unicorn", "-o", "x.svg"], "nothing is called 'unicorn'"),
+            (["unicorn", "-o", "x.svg"], "nothing is named 'unicorn'"),
         ],
     )
     def test_rejects_what_cannot_be_drawn(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.graph.records import build_graph, open_store, thing
-from usd2kg.endpoint import BoundedQueries, Limits
+from usd2kg.endpoint import BoundedQueries, EndpointLimits
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore
@@ -28,7 +28,7 @@ def test_answers_equal_those_of_the_graph(graph: GraphStore):
 
 
 def test_stops_an_endless_query_and_answers_the_next(graph: GraphStore):
-    with BoundedQueries(graph, Limits(seconds=1, workers=1)) as run:
+    with BoundedQueries(graph, EndpointLimits(seconds=1, workers=1)) as run:
         with pytest.raises(GraphError, match="stopped after 1 s; simplify it"):
             run(ENDLESS)
         assert len(run(CUPS).rows) == 9

@@ -3,7 +3,7 @@
 import pyoxigraph as ox
 import pytest
 
-from usd2kg.endpoint import Limits
+from usd2kg.endpoint import EndpointLimits
 from usd2kg.endpoint.worker import answer
 from usd2kg.errors import GraphError
 from usd2kg.query.complexity import check_complexity
@@ -63,4 +63,4 @@ def test_graphs_and_the_endpoint_refuse_deep_queries():
     with pytest.raises(GraphError, match="brackets are nested"):
         GraphStore(ox.Store(), "here").sparql(REFUSED["groups"])
     with pytest.raises(GraphError, match="brackets are nested"):
-        answer(ox.Store(), {}, {"query": REFUSED["groups"], "accept": "*/*"}, Limits())
+        answer(ox.Store(), {}, {"query": REFUSED["groups"], "accept": "*/*"}, EndpointLimits())

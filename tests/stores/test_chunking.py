@@ -1,4 +1,4 @@
-"""Graphs in parts."""
+"""Graphs are split into chunks without splitting a blank node."""
 
 import pyoxigraph as ox
 
@@ -12,19 +12,19 @@ def triple(subject: str, value: str) -> ox.Triple:
     return ox.Triple(a, P, b)
 
 
-def test_nodes_that_are_tied_go_together_even_by_a_triple_that_comes_last():
+def test_groups_nodes_that_a_later_triple_connects():
     given = [triple("_:a", "urn:1"), triple("urn:x", "urn:y"), triple("_:b", "urn:2"), triple("_:a", "_:b")]
     assert group_by_blank_nodes(given) == [[given[0], given[2], given[3]], [given[1]]]
 
 
-def test_a_blank_node_within_a_quoted_triple_counts():
+def test_finds_blank_nodes_in_quoted_triples():
     quoted = ox.Triple(ox.BlankNode("r"), P, triple("_:a", "urn:x"))
     assert group_by_blank_nodes([quoted, triple("_:a", "urn:y")]) == [[quoted, triple("_:a", "urn:y")]]
 
 
-def test_parts_have_the_size_asked_for_unless_a_group_is_larger():
+def test_chunks_exceed_the_size_only_for_a_larger_group():
     plain = [triple(f"urn:{i}", "urn:o") for i in range(5)]
-    tied = [triple("_:a", f"urn:{i}") for i in range(4)]
-    assert [len(part) for part in split_triples([*plain, *tied], 3)] == [3, 2, 4]
-    assert [t for part in split_triples([*plain, *tied], 3) for t in part] == [*plain, *tied]
+    connected = [triple("_:a", f"urn:{i}") for i in range(4)]
+    assert [len(chunk) for chunk in split_triples([*plain, *connected], 3)] == [3, 2, 4]
+    assert [t for chunk in split_triples([*plain, *connected], 3) for t in chunk] == [*plain, *connected]
     assert list(split_triples([], 3)) == []

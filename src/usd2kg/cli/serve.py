@@ -50,9 +50,9 @@ def serve_command(
     ] = None,
 ) -> None:
     """Serve a graph: a read-only SPARQL 1.1 endpoint, with a page to ask from. Ends with Ctrl+C."""
-    from usd2kg.endpoint import Limits, ServeOptions, serve  # noqa: PLC0415 - opens OpenUSD, too slow for --help
+    from usd2kg.endpoint import EndpointLimits, ServeOptions, serve  # noqa: PLC0415 - opens OpenUSD, too slow for --help
 
-    limits = Limits(time_limit, max_rows, max_body, memory_limit, workers)
+    limits = EndpointLimits(time_limit, max_rows, max_body, memory_limit, workers)
     if not _is_loopback(host):
         talk(f"{host}: anyone who reaches this machine may ask; nobody is asked for a password")
     # A service manager ends it by SIGTERM; as with Ctrl+C, the copy that is served has to go then.

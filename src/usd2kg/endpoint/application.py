@@ -21,7 +21,7 @@ from starlette.routing import Route
 from usd2kg.endpoint.examples import Example
 from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
-from usd2kg.endpoint.limits import Limits
+from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.endpoint.pool import BusyError, TimeLimitError, WorkerLostError, WorkerPool
 from usd2kg.graph.vocabulary import PREFIXES, named_node
@@ -52,7 +52,7 @@ class RefusedRequestError(Exception):
 
 def make_app(
     pool: WorkerPool,
-    limits: Limits,
+    limits: EndpointLimits,
     *,
     title: str,
     graphs: Iterable[str],
@@ -125,7 +125,7 @@ def _page_policy(page: str) -> str:
     )
 
 
-async def _handle(request: Request, pool: WorkerPool, limits: Limits) -> Response:
+async def _handle(request: Request, pool: WorkerPool, limits: EndpointLimits) -> Response:
     """Answer one request of the SPARQL 1.1 Protocol (section 2.1)."""
     if request.method == "OPTIONS":
         return Response(status_code=204, headers={"Allow": "GET, POST, OPTIONS"})
@@ -138,7 +138,7 @@ async def _handle(request: Request, pool: WorkerPool, limits: Limits) -> Respons
         return _refusal(request, error)
 
 
-async def _answer(query: dict[str, Any], pool: WorkerPool, limits: Limits) -> Response:
+async def _answer(query: dict[str, Any], pool: WorkerPool, limits: EndpointLimits) -> Response:
     start = time.perf_counter()
     try:
         header, body = await pool.run(query)
@@ -167,7 +167,7 @@ async def _answer(query: dict[str, Any], pool: WorkerPool, limits: Limits) -> Re
     return Response(body, headers=headers)
 
 
-async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | None:
+async def _read_request(request: Request, limits: EndpointLimits) -> dict[str, Any] | None:
     """Return the request for a worker; None if there is no query, which asks for the service description."""
     fields = parse_qsl(request.url.query, keep_blank_values=True)
     if request.method == "POST":
@@ -229,7 +229,7 @@ def _describe(request: Request) -> Response:
     found = ox.Store().query(_DESCRIPTION.replace("ENDPOINT", endpoint))
     assert isinstance(found, ox.QueryTriples), "the description is a CONSTRUCT"
     chosen = media_type or GRAPH_TYPES[0]
-    return Response(render(found, chosen, Limits()).body, media_type=chosen)
+    return Response(render(found, chosen, EndpointLimits()).body, media_type=chosen)
 
 
 def _refusal(request: Request, error: RefusedRequestError) -> Response:

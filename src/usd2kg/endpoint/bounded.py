@@ -10,7 +10,7 @@ from typing import Self
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.limits import Limits
+from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.endpoint.pool import TimeLimitError, WorkerLostError, WorkerPool
 from usd2kg.errors import GraphError
 from usd2kg.query.answer import Answer
@@ -25,8 +25,8 @@ _ACCEPT = "application/sparql-results+json, application/n-triples"
 class BoundedQueries:
     """Runs queries on a copy of a graph within limits; a context manager."""
 
-    def __init__(self, graph: GraphStore, limits: Limits | None = None) -> None:
-        self._limits = limits or Limits(workers=1)
+    def __init__(self, graph: GraphStore, limits: EndpointLimits | None = None) -> None:
+        self._limits = limits or EndpointLimits(workers=1)
         self._temporary = tempfile.TemporaryDirectory(prefix="usd2kg-queries-")
         folder = Path(self._temporary.name) / "store"
         store = ox.Store(str(folder))

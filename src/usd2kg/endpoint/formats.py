@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.limits import Limits
+from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.graph.vocabulary import PREFIXES
 
 __all__ = ["GRAPH_TYPES", "TABLE_TYPES", "Rendered", "render"]
@@ -46,7 +46,7 @@ class Rendered(NamedTuple):
     """Whether rows are missing because of the limits."""
 
 
-def render(found: Any, media_type: str, limits: Limits) -> Rendered:
+def render(found: Any, media_type: str, limits: EndpointLimits) -> Rendered:
     """Return pyoxigraph's results in a media type, cut at the limits of rows and bytes."""
     if isinstance(found, ox.QueryBoolean):
         return Rendered(_boolean(bool(found), media_type).encode(), 1, False)

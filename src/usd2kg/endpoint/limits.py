@@ -1,12 +1,12 @@
-"""Limits: the resources that one query and one server may use."""
+"""EndpointLimits: the resources that one query and one server may use."""
 
 from dataclasses import dataclass
 
-__all__ = ["Limits"]
+__all__ = ["EndpointLimits"]
 
 
 @dataclass(frozen=True)
-class Limits:
+class EndpointLimits:
     """Operational limits of the endpoint; `usd2kg serve` has options for the first five."""
 
     seconds: float = 10.0

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from usd2kg.endpoint.limits import Limits
+from usd2kg.endpoint.limits import EndpointLimits
 
 __all__ = ["BusyError", "TimeLimitError", "WorkerAnswer", "WorkerLostError", "WorkerPool"]
 
@@ -39,7 +39,7 @@ class WorkerAnswer(NamedTuple):
 class WorkerPool:
     """Workers over one folder. A killed worker is replaced when it is next needed."""
 
-    def __init__(self, folder: Path, limits: Limits) -> None:
+    def __init__(self, folder: Path, limits: EndpointLimits) -> None:
         self._folder = folder
         self._limits = limits
         self._free = asyncio.Semaphore(limits.workers)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.limits import Limits
+from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError
 from usd2kg.query.load import load_graph
@@ -27,7 +27,7 @@ class ServeOptions:
     """Host names that are served in addition to localhost and IP addresses."""
     origins: Sequence[str] = ()
     """Origins whose pages may send queries (CORS), such as https://my.lab, or *."""
-    limits: Limits = field(default_factory=Limits)
+    limits: EndpointLimits = field(default_factory=EndpointLimits)
 
 
 def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> None:

@@ -2,8 +2,8 @@
 
 Usage: python -m usd2kg.endpoint.worker FOLDER LIMITS
 
-LIMITS is `Limits` as JSON. Each line on stdin is a request as a JSON object. Each answer on stdout is one line of JSON,
-whose `length` is the number of bytes that follow.
+LIMITS is `EndpointLimits` as JSON. Each line on stdin is a request as a JSON object. Each answer on stdout is one line
+of JSON, whose `length` is the number of bytes that follow.
 """
 
 import json
@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 import pyoxigraph as ox
 
 from usd2kg.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
-from usd2kg.endpoint.limits import Limits
+from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
@@ -35,13 +35,13 @@ class NotAcceptableError(Exception):
 def main(arguments: list[str]) -> None:
     """Answer requests until stdin ends."""
     folder, settings = arguments
-    limits = Limits(**json.loads(settings))
+    limits = EndpointLimits(**json.loads(settings))
     store = ox.Store.read_only(folder)
     _limit_memory(limits.memory_mib)
     serve_requests(store, limits, sys.stdin.buffer, sys.stdout.buffer)
 
 
-def serve_requests(store: ox.Store, limits: Limits, requests: BinaryIO, answers: BinaryIO) -> None:
+def serve_requests(store: ox.Store, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer each request; the first line written reports that the process is ready."""
     functions = make_functions(store)
     _write(answers, {"ready": True}, b"")
@@ -59,7 +59,7 @@ def serve_requests(store: ox.Store, limits: Limits, requests: BinaryIO, answers:
         _terminate_after(0)
 
 
-def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: Limits) -> tuple[str, Rendered]:
+def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: EndpointLimits) -> tuple[str, Rendered]:
     """Return the media type and the results of a request with query, accept, default_graphs and named_graphs.
 
     Raises:

@@ -1,4 +1,4 @@
-"""Stores of graphs: many scenes in a folder or on a server, each in a named graph of its own."""
+"""Stores: many scenes in a folder or on a server, each in its own named graph."""
 
 from usd2kg.stores.catalog import StoredGraph, choose_graph
 from usd2kg.stores.embedded import EmbeddedStore

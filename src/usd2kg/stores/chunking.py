@@ -1,4 +1,4 @@
-"""chunks: a graph in parts that can be sent one by one without breaking a blank node in two."""
+"""split_triples: split a graph into chunks that can be uploaded separately, keeping each blank node in one chunk."""
 
 from collections.abc import Iterator, Sequence
 
@@ -8,23 +8,23 @@ __all__ = ["group_by_blank_nodes", "split_triples"]
 
 
 def split_triples(triples: Sequence[ox.Triple], size: int) -> Iterator[tuple[ox.Triple, ...]]:
-    """Yield the triples in parts of about `size`; all that is said of a blank node is in one part.
+    """Yield the triples in chunks of about `size`, with all triples of a blank node in one chunk.
 
-    A server makes new blank nodes of each part that it is sent, so a node in two parts would become two. Nodes that
-    are tied to each other go together, however many they are.
+    A server renames the blank nodes of each upload, so a node in two chunks would become two nodes. Connected blank
+    nodes stay together, even if their chunk exceeds `size`.
     """
-    part: list[ox.Triple] = []
+    chunk: list[ox.Triple] = []
     for group in group_by_blank_nodes(triples):
-        if part and len(part) + len(group) > size:
-            yield tuple(part)
-            part = []
-        part.extend(group)
-    if part:
-        yield tuple(part)
+        if chunk and len(chunk) + len(group) > size:
+            yield tuple(chunk)
+            chunk = []
+        chunk.extend(group)
+    if chunk:
+        yield tuple(chunk)
 
 
 def group_by_blank_nodes(triples: Sequence[ox.Triple]) -> list[list[ox.Triple]]:
-    """Return the triples in groups: those that share blank nodes together, each other one by itself."""
+    """Return groups of triples that are connected by blank nodes; other triples are groups of one."""
     parent: dict[str, str] = {}
 
     def root(label: str) -> str:
@@ -40,22 +40,22 @@ def group_by_blank_nodes(triples: Sequence[ox.Triple]) -> list[list[ox.Triple]]:
         for other in others:
             parent[root(other)] = root(first)
     groups: dict[str, list[ox.Triple]] = {}
-    alone: list[list[ox.Triple]] = []
+    ordered: list[list[ox.Triple]] = []
     for triple in triples:
         blanks = _blanks(triple)
         if not blanks:
-            alone.append([triple])
+            ordered.append([triple])
             continue
         key = root(blanks[0])
         if key not in groups:
             groups[key] = []
-            alone.append(groups[key])
+            ordered.append(groups[key])
         groups[key].append(triple)
-    return alone
+    return ordered
 
 
 def _blanks(triple: ox.Triple) -> list[str]:
-    """Return the names of the blank nodes in a triple, those of a triple in it as well."""
+    """Return the labels of the blank nodes in a triple, including those of a quoted triple."""
     found = []
     for term in (triple.subject, triple.object):
         if isinstance(term, ox.BlankNode):

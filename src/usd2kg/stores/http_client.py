@@ -1,6 +1,6 @@
-"""HttpClient: requests to a server of graphs, sent again where that can help, and never with a secret in a message.
+"""SparqlClient: HTTP requests to a SPARQL server, with retries; messages never contain secrets.
 
-The standard library speaks all that SPARQL's protocols need, so the core install has no HTTP package.
+It uses the standard library, which covers the SPARQL protocols, so that the core install needs no HTTP package.
 """
 
 import email.utils
@@ -18,211 +18,214 @@ from urllib.parse import urlsplit
 
 from usd2kg.errors import StoreError
 from usd2kg.stores.addresses import shown_address
+from usd2kg.stores.limits import HttpLimits
 
-__all__ = ["HttpClient", "HttpRequest", "HttpResponse", "OutcomeUnknownError"]
+__all__ = ["HttpRequest", "HttpResponse", "OutcomeUnknownError", "SparqlClient"]
 
 logger = logging.getLogger(__name__)
 
-_TRIES = 5
-_FIRST_PAUSE_S = 0.5
-_LONGEST_PAUSE_S = 30.0
-_PASSING = frozenset({429, 500, 502, 503, 504})
-"""Statuses that may be gone the next time."""
-_LARGEST = 1 << 30
-"""Bytes of an unpacked answer: about 7 million triples."""
-_PIECE = 1 << 20
-_NOT_DONE = frozenset({429, 503})
-"""Statuses of a server that turned the request away before it began."""
+_TRANSIENT = frozenset({429, 500, 502, 503, 504})
+"""Status codes that are worth a retry."""
+_NOT_PROCESSED = frozenset({429, 503})
+"""Status codes of a server that rejected the request before processing it."""
+_BLOCK_BYTES = 1 << 20
+"""Bytes that are read and decompressed at a time."""
+_MAX_SHOWN = 500
+"""Characters of a response in a message."""
 _LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 class OutcomeUnknownError(StoreError):
-    """The connection broke after a request was sent that must not be done twice: it may be done or not."""
+    """The connection broke after sending a request that must not be repeated; the server may have processed it."""
 
 
 @dataclass(frozen=True)
 class HttpRequest:
-    """A request."""
+    """A request to a server."""
 
     method: str
     url: str
     body: bytes | None = None
     headers: Mapping[str, str] | None = None
     is_idempotent: bool = True
-    """Whether doing it twice is the same as doing it once."""
+    """Whether repeating the request has no further effect."""
 
     @property
-    def place(self) -> str:
-        """The address as a message may hold it."""
+    def shown_url(self) -> str:
+        """The address for messages."""
         return shown_address(self.url)
 
 
 @dataclass(frozen=True)
 class HttpResponse:
-    """What the server answered."""
+    """The response of a server."""
 
     status: int
     content_type: str
     body: bytes
 
 
-class _PassingError(Exception):
-    """A fault that may be gone the next time."""
+class _TransientError(Exception):
+    """A failure that is worth a retry."""
 
-    def __init__(self, reason: str, *, is_done: bool, pause_s: float | None = None) -> None:
+    def __init__(self, reason: str, *, may_be_processed: bool, pause_s: float | None = None) -> None:
         super().__init__(reason)
-        self.is_done = is_done
-        """Whether the server may have done what was asked."""
+        self.may_be_processed = may_be_processed
+        """Whether the server may have processed the request."""
         self.pause_s = pause_s
+        """Pause that the server requests; None if it does not say."""
 
 
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
-    """Follows no redirect: neither credentials nor a scene shall go to a server that the user did not name."""
+    """Follows no redirects: credentials and scenes must not go to a server that the user did not name."""
 
-    # Before it asks whether to follow, the library reads the new address, and fails where that is none.
+    # `redirect_request` is too late: the base class parses the new address first, and fails if it is malformed.
     def http_error_302(self, req: object, fp: object, code: object, msg: object, headers: object) -> None:
         return None
 
     http_error_301 = http_error_303 = http_error_307 = http_error_308 = http_error_302
 
 
-class HttpClient:
+class SparqlClient:
     """Sends requests to one server; TLS certificates are verified, redirects are not followed."""
 
     def __init__(
         self,
         authorization: str | None = None,
         *,
-        timeout_s: float = 120.0,
+        limits: HttpLimits | None = None,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self._authorization = authorization
-        self._timeout_s = timeout_s
+        self._limits = limits or HttpLimits()
         self._sleep = sleep
-        self._openers = {
-            is_near: urllib.request.build_opener(_NoRedirects, *([urllib.request.ProxyHandler({})] if is_near else []))
-            for is_near in (True, False)
-        }
+        self._opener = urllib.request.build_opener(_NoRedirects)
+        self._loopback_opener = urllib.request.build_opener(_NoRedirects, urllib.request.ProxyHandler({}))
         self._has_warned = False
 
-    def send(self, call: HttpRequest, accepted: frozenset[int] = frozenset()) -> HttpResponse:
-        """Return the answer to a request; one of 200 to 299, or of `accepted`.
+    def send(self, request: HttpRequest, accepted: frozenset[int] = frozenset()) -> HttpResponse:
+        """Return the response to a request, with a status of 200 to 299 or in `accepted`.
 
         Raises:
-            OutcomeUnknownError: the connection broke, and the request may not be repeated.
-            StoreError: the server is out of reach, keeps failing, or refuses.
+            OutcomeUnknownError: the connection broke, and the request is not idempotent.
+            StoreError: the server is unreachable, keeps failing, or refuses the request.
         """
-        for attempt in range(_TRIES):
+        attempts = self._limits.attempts
+        for attempt in range(attempts):
             try:
-                return self._send_once(call, accepted)
-            except _PassingError as fault:
-                if fault.is_done and not call.is_idempotent:
-                    raise OutcomeUnknownError(f"{call.place}: {fault}; it is not known what was done") from fault
-                if attempt == _TRIES - 1:
-                    raise StoreError(f"{call.place}: {fault}, {_TRIES} times; try again later") from fault
-                pause = _pause(attempt, fault.pause_s)
-                logger.info("%s: %s; tries again in %.1f s", call.place, fault, pause)
+                return self._send_once(request, accepted)
+            except _TransientError as error:
+                if error.may_be_processed and not request.is_idempotent:
+                    raise OutcomeUnknownError(f"{request.shown_url}: {error}; the outcome is unknown") from error
+                if attempt == attempts - 1:
+                    raise StoreError(f"{request.shown_url}: {error}, {attempts} times; try again later") from error
+                pause = self._pause(attempt, error.pause_s)
+                logger.info("%s: %s; retry in %.1f s", request.shown_url, error, pause)
                 self._sleep(pause)
         raise AssertionError("the last attempt returns or raises")
 
-    def _send_once(self, call: HttpRequest, accepted: frozenset[int]) -> HttpResponse:
-        request = urllib.request.Request(call.url, call.body, dict(call.headers or {}), method=call.method)
-        request.add_header("Accept-Encoding", "gzip")
-        request.add_header("User-Agent", "usd2kg")
-        host = urlsplit(call.url).hostname
+    def _send_once(self, request: HttpRequest, accepted: frozenset[int]) -> HttpResponse:
+        message = urllib.request.Request(request.url, request.body, dict(request.headers or {}), method=request.method)
+        message.add_header("Accept-Encoding", "gzip")
+        message.add_header("User-Agent", "usd2kg")
+        is_loopback = urlsplit(request.url).hostname in _LOOPBACK
         if self._authorization is not None:
-            self._warn(call.url, host)
-            request.add_unredirected_header("Authorization", self._authorization)
+            if request.url.startswith("http:") and not is_loopback:
+                self._warn_unencrypted(request)
+            message.add_unredirected_header("Authorization", self._authorization)
+        opener = self._loopback_opener if is_loopback else self._opener
         try:
-            with self._openers[host in _LOOPBACK].open(request, timeout=self._timeout_s) as response:
-                return _read(call, response.status, response)
+            with opener.open(message, timeout=self._limits.timeout_s) as response:
+                return self._read(request, response.status, response)
         except urllib.error.HTTPError as error:
             with error:
-                return _judge(call, error, accepted, self._authorization)
+                return self._read_error(request, error, accepted)
         except urllib.error.URLError as error:
-            raise _fault(call, error.reason) from error
+            raise _connection_error(request, error.reason) from error
         except (OSError, http.client.HTTPException, EOFError, zlib.error) as error:
-            raise _fault(call, error) from error
+            raise _connection_error(request, error) from error
 
-    def _warn(self, url: str, host: str | None) -> None:
-        if url.startswith("http:") and host not in _LOOPBACK and not self._has_warned:
-            logger.warning("%s: the credentials travel unencrypted; use https", shown_address(url))
+    def _warn_unencrypted(self, request: HttpRequest) -> None:
+        if not self._has_warned:
+            logger.warning("%s: credentials are sent unencrypted; use https", request.shown_url)
             self._has_warned = True
 
+    def _pause(self, attempt: int, requested_s: float | None) -> float:
+        """Return seconds to wait: what the server requests, else an exponential backoff with jitter."""
+        if requested_s is not None:
+            return min(requested_s, self._limits.max_pause_s)
+        longest: float = self._limits.first_pause_s * 2**attempt
+        return random.uniform(longest / 2, longest)
 
-def _read(call: HttpRequest, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError) -> HttpResponse:
-    """Return an answer, unpacked piece by piece: a small one may unpack to more than the memory holds."""
-    is_packed = response.headers.get("Content-Encoding", "").lower() == "gzip"
-    source = gzip.GzipFile(fileobj=response) if is_packed else response
-    body = bytearray()
-    while piece := source.read(_PIECE):
-        body += piece
-        if len(body) > _LARGEST:
-            raise StoreError(f"{call.place}: the server's answer is over {_LARGEST >> 20} MiB; ask for less of it")
-    # What is read by pieces and cut off is else taken for whole.
-    if missing := getattr(response, "length", None):
-        raise http.client.IncompleteRead(b"", missing)
-    return HttpResponse(status, response.headers.get_content_type(), bytes(body))
+    def _read(
+        self, request: HttpRequest, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError
+    ) -> HttpResponse:
+        """Return a response, decompressed block by block, since a small body can expand beyond the memory."""
+        is_gzip = response.headers.get("Content-Encoding", "").lower() == "gzip"
+        source = gzip.GzipFile(fileobj=response) if is_gzip else response
+        body = bytearray()
+        while block := source.read(_BLOCK_BYTES):
+            body += block
+            if len(body) > self._limits.max_response_bytes:
+                size = self._limits.max_response_bytes >> 20
+                raise StoreError(f"{request.shown_url}: the response is larger than {size} MiB; select fewer triples")
+        # Reading in blocks does not detect a truncated body by itself.
+        if missing := getattr(response, "length", None):
+            raise http.client.IncompleteRead(b"", missing)
+        return HttpResponse(status, response.headers.get_content_type(), bytes(body))
 
-
-def _judge(
-    call: HttpRequest, error: urllib.error.HTTPError, accepted: frozenset[int], secret: str | None
-) -> HttpResponse:
-    """Return the answer with an error status if it is accepted, else raise what it means."""
-    status = error.code
-    if status in accepted:
-        return _read(call, status, error)
-    if status in _PASSING:
-        pause = _retry_after(error.headers.get("Retry-After"))
-        raise _PassingError(
-            f"the server answers {status} {error.reason}", is_done=status not in _NOT_DONE, pause_s=pause
-        )
-    if status in {401, 403}:
+    def _read_error(
+        self, request: HttpRequest, error: urllib.error.HTTPError, accepted: frozenset[int]
+    ) -> HttpResponse:
+        """Return a response with an error status if that is accepted; otherwise raise."""
+        status = error.code
+        if status in accepted:
+            return self._read(request, status, error)
+        if status in _TRANSIENT:
+            raise _TransientError(
+                f"the server answers {status} {error.reason}",
+                may_be_processed=status not in _NOT_PROCESSED,
+                pause_s=_parse_retry_after(error.headers.get("Retry-After")),
+            )
+        if status in {401, 403}:
+            raise StoreError(
+                f"{request.shown_url}: the server denies access ({status}); set USD2KG_STORE_USER and "
+                "USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN, to credentials with this permission"
+            )
+        if 300 <= status < 400:
+            target = shown_address(error.headers.get("Location", "nowhere"))
+            raise StoreError(f"{request.shown_url}: redirects to {target}, which is not followed; use that address")
+        try:
+            body = self._read(request, status, error).body
+        except (OSError, http.client.HTTPException, EOFError, zlib.error):
+            body = b""
+        text = " ".join(body.decode("utf-8", "replace").split())
+        reason = _redact(text, self._authorization)[:_MAX_SHOWN] or error.reason
         raise StoreError(
-            f"{call.place}: the server refuses ({status}); give credentials that may do this by USD2KG_STORE_USER and "
-            "USD2KG_STORE_PASSWORD, or by USD2KG_STORE_TOKEN"
+            f"{request.shown_url}: the server answers {status} ({reason}); check the address and the request"
         )
-    if 300 <= status < 400:
-        place = shown_address(error.headers.get("Location", "nowhere"))
-        raise StoreError(f"{call.place}: the server redirects to {place}, which is not followed; name that address")
-    try:
-        told = _read(call, status, error).body
-    except (OSError, http.client.HTTPException, EOFError, zlib.error):
-        told = b""
-    reason = _without(secret, " ".join(told.decode("utf-8", "replace").split()))[:500] or error.reason
-    raise StoreError(f"{call.place}: the server answers {status} ({reason}); check the address and what was asked")
 
 
-def _without(secret: str | None, text: str) -> str:
-    """Return a text without the credentials that a server may have sent back."""
-    return text.replace(secret.partition(" ")[2], "…") if secret else text
+def _redact(text: str, authorization: str | None) -> str:
+    """Return a text without the credentials, which a server may echo."""
+    return text.replace(authorization.partition(" ")[2], "…") if authorization else text
 
 
-def _fault(call: HttpRequest, reason: object) -> Exception:
-    """Return what a broken connection means."""
+def _connection_error(request: HttpRequest, reason: object) -> Exception:
+    """Return the error for a failed connection."""
     if isinstance(reason, ConnectionRefusedError) or type(reason).__name__ == "gaierror":
-        return _PassingError(f"cannot be reached ({_text(reason)})", is_done=False)
+        return _TransientError(f"is unreachable ({_text(reason)})", may_be_processed=False)
     if type(reason).__name__ == "SSLCertVerificationError":
-        return StoreError(
-            f"{call.place}: its certificate is not trusted ({_text(reason)}); the connection was not made"
-        )
-    return _PassingError(f"the connection broke ({_text(reason)})", is_done=True)
+        return StoreError(f"{request.shown_url}: its certificate is not trusted ({_text(reason)}); nothing was sent")
+    return _TransientError(f"the connection broke ({_text(reason)})", may_be_processed=True)
 
 
 def _text(reason: object) -> str:
     return " ".join(str(reason).split()) or type(reason).__name__
 
 
-def _pause(attempt: int, asked_s: float | None) -> float:
-    """Return seconds to wait: what the server asked for, else twice as long each time, more or less."""
-    if asked_s is not None:
-        return min(asked_s, _LONGEST_PAUSE_S)
-    longest: float = _FIRST_PAUSE_S * 2**attempt
-    return random.uniform(longest / 2, longest)
-
-
-def _retry_after(value: str | None) -> float | None:
-    """Return the seconds of a Retry-After header (RFC 9110, section 10.2.3); None where it is not understood."""
+def _parse_retry_after(value: str | None) -> float | None:
+    """Return the seconds of a Retry-After header (RFC 9110, section 10.2.3); None if missing or malformed."""
     if value is None:
         return None
     try:

@@ -1,4 +1,4 @@
-"""Answers of servers, as our own."""
+"""Conversion between our answers and the SPARQL protocol of servers."""
 
 import re
 
@@ -12,10 +12,10 @@ __all__ = ["declare_prefixes", "parse_results"]
 
 
 def parse_results(body: bytes, sparql: str) -> Answer:
-    """Return what a server answered in SPARQL's JSON or in N-Triples.
+    """Return the answer in a response body: SPARQL results JSON or N-Triples.
 
     Raises:
-        StoreError: it is neither.
+        StoreError: the body is in neither format.
     """
     try:
         if not body.lstrip().startswith(b"{"):
@@ -27,11 +27,14 @@ def parse_results(body: bytes, sparql: str) -> Answer:
         columns = tuple(variable.value for variable in found.variables)
         return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], sparql)
     except (SyntaxError, UnicodeDecodeError) as error:
-        raise StoreError(f"the server's answer is neither SPARQL's JSON nor N-Triples ({error})") from error
+        raise StoreError(
+            f"the server's answer is neither SPARQL results JSON nor N-Triples ({error}); check that it is a SPARQL "
+            "server"
+        ) from error
 
 
 def declare_prefixes(sparql: str) -> str:
-    """Return a query or update with our usual prefixes declared, where it uses and does not declare them.
+    """Return a query or update with declarations of the package's prefixes that it uses and does not declare.
 
     >>> declare_prefixes("ASK { ?s u2k:primPath ?p }")
     'PREFIX u2k: <https://w3id.org/usd2kg#> ASK { ?s u2k:primPath ?p }'
