@@ -59,7 +59,10 @@ def test_loading_removing_and_updating(run: Run, graph: Path, tmp_path: Path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["store", "list", "--store", "nowhere"], "nowhere: is not a store; expected a folder that usd2kg build --store"),
+        (
+            ["store", "list", "--store", "nowhere"],
+            "nowhere: is not a store; expected a folder that usd2kg build --store",
+        ),
         (["store", "load", "nothing.ttl", "--store", "s"], "nothing.ttl: no such file"),
         (
             ["store", "list", "--store", "http://me:secret@x/"],

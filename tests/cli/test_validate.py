@@ -84,7 +84,7 @@ def test_many_findings_are_cut_and_shown_on_request(run: Run, home_tbox: TBox, t
     ("name", "text", "told"),
     [
         ("none.ttl", None, "no such file"),
-        ("empty.ttl", "", "holds no object"),
+        ("empty.ttl", "", "contains no usd:Prim"),
         ("broken.ttl", "<a", "does not parse"),
     ],
 )

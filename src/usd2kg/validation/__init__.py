@@ -1,4 +1,4 @@
-"""Checking a graph: shapes, clashes with the ontology, and what is hard to believe."""
+"""Validation of a graph: SHACL shapes, contradictions with its ontology, and implausible objects."""
 
 from usd2kg.validation.axiom_index import AxiomIndex
 from usd2kg.validation.elk import ElkAnswer, ElkClash, ask_elk, elk_jars

@@ -1,4 +1,4 @@
-"""The usual size of things of a class: from our table of classes, else by the class's label from that of nouns."""
+"""Typical size of a class: from `class_sizes.csv` by its IRI, else from `everyday_objects.csv` by its label."""
 
 from functools import lru_cache
 
@@ -18,11 +18,11 @@ def _class_extents() -> dict[str, float]:
 
 
 def typical_class_extent(class_iri: str, label: str) -> float | None:
-    """Return the usual longest extent of things of a class in metres; None if it is not known.
+    """Return the typical longest extent of a class in metres; None if unknown.
 
     Args:
         class_iri: the class.
-        label: its label in small letters.
+        label: its label in lower case.
     """
     known = _class_extents().get(class_iri)
     if known is not None:
