@@ -6,7 +6,7 @@ import pytest
 
 from tests.graph.records import build_graph, open_store, thing
 from tests.grounding.records import make_object
-from usd2kg.assistant import ask_offline, describe, list_objects
+from usd2kg.assistant import ask_offline, describe_objects, list_objects
 from usd2kg.assistant.phrases import list_phrases, match_phrase
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
@@ -149,14 +149,14 @@ def test_describes_an_object(graph: GraphStore):
     facts = {(fact, value) for _, fact, value in ask_offline(graph, "tell me about the cup").answer.rows}
     expected = {("class", "cup"), ("size_m", "0.1 × 0.1 × 0.1"), ("mass_kg", "0.4"), ("stands_on", "tray")}
     assert expected <= facts
-    (table,) = describe(graph, "dining table")["objects"]
+    (table,) = describe_objects(graph, "dining table")["objects"]
     assert table["center_m"] == pytest.approx((0.8, 0.4, 0.35))
     assert table["on_it"] == ["FruitBowl", "plate_1", "tray"]
     assert table["classes"][0]["class"] == "table"
 
 
 def test_cuts_long_lists_and_counts_all(graph: GraphStore):
-    assert describe(graph, "/Room/tray", limit=0) == {"count": 1, "objects": []}
+    assert describe_objects(graph, "/Room/tray", limit=0) == {"count": 1, "objects": []}
     page = list_objects(graph, limit=2, start=1)
     assert (page["count"], [row["object"] for row in page["objects"]]) == (9, ["dining table", "Floor"])
 

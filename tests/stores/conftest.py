@@ -11,8 +11,8 @@ from usd2kg.graph import KnowledgeGraph
 from usd2kg.ontology import TBox
 from usd2kg.stores import NamedGraph, make_named_graph
 from usd2kg.stores.http_client import SparqlClient
-from usd2kg.stores.limits import HttpLimits, UploadLimits
 from usd2kg.stores.remote import RemoteStore
+from usd2kg.stores.store_limits import HttpLimits, UploadLimits
 
 
 def scene_graph(tbox: TBox, base: str, names: list[str]) -> KnowledgeGraph:

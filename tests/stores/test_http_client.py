@@ -13,10 +13,10 @@ from tests.stores.conftest import open_remote
 from tests.stores.servers import free_port, proxy_to
 from usd2kg.errors import StoreError
 from usd2kg.stores import NamedGraph
-from usd2kg.stores.addresses import check_address, read_credentials, shown_address
 from usd2kg.stores.catalog import StoredGraph
 from usd2kg.stores.http_client import HttpRequest, OutcomeUnknownError, SparqlClient
-from usd2kg.stores.limits import HttpLimits
+from usd2kg.stores.server_addresses import check_address, read_credentials, redact_address
+from usd2kg.stores.store_limits import HttpLimits
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_rejects_a_password_in_an_address_without_showing_it(url: str):
 
 
 def test_does_not_show_query_strings():
-    assert shown_address("http://my.lab/ds?key=S3CRET") == "http://my.lab/ds"
+    assert redact_address("http://my.lab/ds?key=S3CRET") == "http://my.lab/ds"
     with pytest.raises(StoreError, match=r"store 'http://my\.lab/é': is not a server address"):
         check_address("http://my.lab/é?key=S3CRET")
     with proxy_to("http://127.0.0.1:1") as proxy:

@@ -1,6 +1,6 @@
 """Questions in English, answered with the ready questions or by a language model, and tools for assistants."""
 
-from usd2kg.assistant.describe import describe, list_objects
+from usd2kg.assistant.describe import describe_objects, list_objects
 from usd2kg.assistant.model_queries import ask_model
 from usd2kg.assistant.offline import InterpretedAnswer, ask_offline
 
@@ -8,6 +8,6 @@ __all__ = [
     "InterpretedAnswer",
     "ask_model",
     "ask_offline",
-    "describe",
+    "describe_objects",
     "list_objects",
 ]

@@ -7,7 +7,7 @@ from usd2kg.assistant.settings import RESULTS
 from usd2kg.query import Answer, GraphStore
 from usd2kg.validation import read_graph_objects
 
-__all__ = ["describe", "description_answer", "list_objects"]
+__all__ = ["describe_objects", "description_answer", "list_objects"]
 
 _CLASSES = """
 SELECT DISTINCT ?object ?path ?class ?iri ?confidence ?why WHERE {
@@ -55,7 +55,7 @@ def list_objects(
     return {"count": len(rows), "start": start, "objects": rows[start : start + limit]}
 
 
-def describe(graph: GraphStore, thing: str, *, limit: int = RESULTS.max_described) -> dict[str, Any]:
+def describe_objects(graph: GraphStore, thing: str, *, limit: int = RESULTS.max_described) -> dict[str, Any]:
     """Return everything that a graph states about the objects that match a name.
 
     Lengths are metres and masses kilograms, in the z-up world frame.
@@ -128,7 +128,7 @@ def description_answer(graph: GraphStore, thing: str) -> Answer:
         GraphError: no object matches.
     """
     facts: list[tuple[str, str, str]] = []
-    for obj in describe(graph, thing)["objects"]:
+    for obj in describe_objects(graph, thing)["objects"]:
         for cls in obj["classes"]:
             facts.append((obj["object"], "class", cls["class"]))
             facts += [(obj["object"], key, _text(cls[key])) for key in ("confidence", "why") if cls[key] is not None]

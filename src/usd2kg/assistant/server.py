@@ -12,7 +12,7 @@ from mcp.server.mcpserver import Image
 from mcp.server.mcpserver.exceptions import ToolError
 from mcp.types import ToolAnnotations
 
-from usd2kg.assistant.describe import describe, list_objects
+from usd2kg.assistant.describe import describe_objects, list_objects
 from usd2kg.assistant.offline import ask_offline
 from usd2kg.assistant.settings import RESULTS
 from usd2kg.errors import Usd2kgError
@@ -51,7 +51,7 @@ def make_server(
 
     def look_up(thing: str) -> dict[str, Any]:
         """Describe a thing, given by label, prim path or class: class, size, position, neighbours, contents."""
-        return _call(lambda: describe(graph, thing))
+        return _call(lambda: describe_objects(graph, thing))
 
     def ask(question: str) -> dict[str, Any]:
         """Answer a question in English, such as 'what is on the table?' or 'how many cups are there?'."""

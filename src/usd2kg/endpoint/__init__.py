@@ -1,7 +1,7 @@
 """A read-only SPARQL 1.1 endpoint over a graph or a store, with a query page."""
 
 from usd2kg.endpoint.bounded import BoundedQueries
-from usd2kg.endpoint.limits import EndpointLimits
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.serving import ServeOptions, serve
 
 __all__ = [

@@ -18,10 +18,10 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
-from usd2kg.endpoint.examples import Example
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
+from usd2kg.endpoint.examples import ExampleQuery
 from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
-from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.endpoint.pool import BusyError, TimeLimitError, WorkerLostError, WorkerPool
 from usd2kg.graph.vocabulary import PREFIXES, named_node
@@ -56,7 +56,7 @@ def make_app(
     *,
     title: str,
     graphs: Iterable[str],
-    examples: Iterable[Example],
+    examples: Iterable[ExampleQuery],
     when_ready: Callable[[], None] = lambda: None,
     hosts: Iterable[str] = (),
     origins: Iterable[str] = (),

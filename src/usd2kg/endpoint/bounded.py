@@ -10,7 +10,7 @@ from typing import Self
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.limits import EndpointLimits
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.pool import TimeLimitError, WorkerLostError, WorkerPool
 from usd2kg.errors import GraphError
 from usd2kg.query.answer import Answer

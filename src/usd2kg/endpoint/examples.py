@@ -1,4 +1,4 @@
-"""Example queries of the page: the ready questions, with parameters from the served graph."""
+"""ExampleQuery queries of the page: the ready questions, with parameters from the served graph."""
 
 import re
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import PREFIXES, RDFS
 from usd2kg.query.questions import Parameter, Question, list_questions, parse_number
 
-__all__ = ["Example", "make_examples"]
+__all__ = ["ExampleQuery", "make_examples"]
 
 _MOST_USED = """
 SELECT ?o (COUNT(DISTINCT ?x) AS ?n) WHERE {
@@ -24,21 +24,21 @@ _FIRST = "count"
 
 
 @dataclass(frozen=True)
-class Example:
+class ExampleQuery:
     """A query with its question in English."""
 
     title: str
     query: str
 
 
-def make_examples(store: ox.Store) -> tuple[Example, ...]:
+def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
     """Return the ready questions as queries, with each parameter replaced by a term of the store."""
     terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
     questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
     return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)
 
 
-def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> Example | None:
+def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> ExampleQuery | None:
     """Return a question with each parameter replaced by a term; None if the graph lacks such a term."""
     title, query = question.text, question.sparql
     for parameter in question.parameters:
@@ -49,7 +49,7 @@ def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | N
         unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
         title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
     lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
-    return Example(title, "\n".join((f"# {_line(title)}", *lines)))
+    return ExampleQuery(title, "\n".join((f"# {_line(title)}", *lines)))
 
 
 def _replace(query: str, name: str, term: ox.NamedNode | ox.Literal) -> str:

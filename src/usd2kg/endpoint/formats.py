@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.limits import EndpointLimits
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.graph.vocabulary import PREFIXES
 
 __all__ = ["GRAPH_TYPES", "TABLE_TYPES", "Rendered", "render"]

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from usd2kg.endpoint.limits import EndpointLimits
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 
 __all__ = ["BusyError", "TimeLimitError", "WorkerAnswer", "WorkerLostError", "WorkerPool"]
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.limits import EndpointLimits
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError
-from usd2kg.query.load import load_graph
+from usd2kg.query.graph_file import load_graph
 from usd2kg.stores import EmbeddedStore
 
 __all__ = ["ServeOptions", "serve"]

@@ -14,8 +14,8 @@ from typing import Any, BinaryIO
 
 import pyoxigraph as ox
 
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
-from usd2kg.endpoint.limits import EndpointLimits
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES

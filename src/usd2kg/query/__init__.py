@@ -2,8 +2,8 @@
 
 from usd2kg.query.answer import Answer
 from usd2kg.query.functions import FUNCTION_NAMESPACE, FUNCTIONS
+from usd2kg.query.graph_file import load_graph
 from usd2kg.query.graph_store import GraphStore
-from usd2kg.query.load import load_graph
 from usd2kg.query.lookup import term_list
 from usd2kg.query.questions import Parameter, Question, list_questions
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.vocabulary import OWL, RDFS, U2K
-from usd2kg.stores.named_graph import short_name
+from usd2kg.stores.named_graph import last_segment
 
 __all__ = ["Select", "StoredGraph", "choose_graph", "list_graphs", "read_number"]
 
@@ -44,7 +44,7 @@ class StoredGraph:
     @property
     def name(self) -> str:
         """The last segment of the IRI."""
-        return short_name(self.iri)
+        return last_segment(self.iri)
 
     def count_triples(self, select: Select) -> int:
         """Return the number of triples."""

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 from usd2kg.errors import StoreError
-from usd2kg.stores.addresses import check_address, shown_address
 from usd2kg.stores.http_client import HttpRequest, SparqlClient
+from usd2kg.stores.server_addresses import check_address, redact_address
 
 __all__ = ["FORM", "Endpoints", "find_query", "find_writing"]
 
@@ -45,7 +45,7 @@ def find_query(client: SparqlClient, address: str) -> str:
         reply = client.send(call, _UNSUPPORTED)
         if reply.status == 200 and reply.content_type in {_RESULTS, "application/json"}:
             return url
-    shown = shown_address(address)
+    shown = redact_address(address)
     raise StoreError(f"{shown}: is not a SPARQL endpoint, nor is {shown.rstrip('/')}/query; check the address")
 
 
@@ -69,7 +69,7 @@ def _find_update(client: SparqlClient, base: str) -> str:
         call = HttpRequest("POST", url, urlencode({"update": "INSERT DATA {}"}).encode(), {"Content-Type": FORM})
         if client.send(call, _UNSUPPORTED).status < 300:
             return url
-    shown = shown_address(base)
+    shown = redact_address(base)
     raise StoreError(
         f"{shown}: has no SPARQL update endpoint; check that it is writable, or give the endpoint with --store-update"
     )

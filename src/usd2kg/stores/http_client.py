@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from usd2kg.errors import StoreError
-from usd2kg.stores.addresses import shown_address
-from usd2kg.stores.limits import HttpLimits
+from usd2kg.stores.server_addresses import redact_address
+from usd2kg.stores.store_limits import HttpLimits
 
 __all__ = ["HttpRequest", "HttpResponse", "OutcomeUnknownError", "SparqlClient"]
 
@@ -53,7 +53,7 @@ class HttpRequest:
     @property
     def shown_url(self) -> str:
         """The address for messages."""
-        return shown_address(self.url)
+        return redact_address(self.url)
 
 
 @dataclass(frozen=True)
@@ -193,7 +193,7 @@ class SparqlClient:
                 "USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN, to credentials with this permission"
             )
         if 300 <= status < 400:
-            target = shown_address(error.headers.get("Location", "nowhere"))
+            target = redact_address(error.headers.get("Location", "nowhere"))
             raise StoreError(f"{request.shown_url}: redirects to {target}, which is not followed; use that address")
         try:
             body = self._read(request, status, error).body

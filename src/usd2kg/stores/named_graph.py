@@ -15,15 +15,15 @@ from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, named_node
 from usd2kg.ontology import Closure, TBox, without_header
-from usd2kg.query.load import load_graph
+from usd2kg.query.graph_file import load_graph
 
 __all__ = [
     "NamedGraph",
+    "last_segment",
     "make_named_graph",
     "make_ontology_graph",
     "read_named_graph",
     "relabel_blank_nodes",
-    "short_name",
 ]
 
 _HEADERS = "SELECT ?g WHERE { ?g a owl:Ontology ; u2k:run ?run }"
@@ -83,10 +83,10 @@ def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
     return NamedGraph(iri, triples)
 
 
-def short_name(iri: str) -> str:
+def last_segment(iri: str) -> str:
     """Return the last segment of a graph's IRI, percent-decoded.
 
-    >>> short_name("https://example.org/my%20kitchen")
+    >>> last_segment("https://example.org/my%20kitchen")
     'my kitchen'
     """
     return unquote(iri.rstrip("/#").replace("#", "/").rpartition("/")[2])

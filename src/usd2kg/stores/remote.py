@@ -15,14 +15,14 @@ from usd2kg.graph.vocabulary import DCTERMS
 from usd2kg.query.answer import Answer
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_QUERY, REMOTE_UPDATE, has_remote_clause
-from usd2kg.stores.addresses import check_address, shown_address
 from usd2kg.stores.catalog import StoredGraph, list_graphs, read_number
 from usd2kg.stores.chunking import split_triples
 from usd2kg.stores.endpoints import FORM, Endpoints, find_query, find_writing
 from usd2kg.stores.http_client import HttpRequest, HttpResponse, OutcomeUnknownError, SparqlClient
-from usd2kg.stores.limits import UploadLimits
 from usd2kg.stores.named_graph import NamedGraph
 from usd2kg.stores.query_results import declare_prefixes, parse_results
+from usd2kg.stores.server_addresses import check_address, redact_address
+from usd2kg.stores.store_limits import UploadLimits
 
 __all__ = ["RemoteStore"]
 
@@ -63,7 +63,7 @@ class RemoteStore:
     @property
     def address(self) -> str:
         """The address for messages."""
-        return shown_address(self._address)
+        return redact_address(self._address)
 
     @cached_property
     def _query_url(self) -> str:
@@ -79,7 +79,7 @@ class RemoteStore:
         Raises:
             StoreError: the server is unreachable, denies access, or has no endpoints for queries and updates.
         """
-        logger.info("%s: update endpoint is %s", self.address, shown_address(self._endpoints.update))
+        logger.info("%s: update endpoint is %s", self.address, redact_address(self._endpoints.update))
 
     def load(self, graph: NamedGraph) -> None:
         """Add or replace a graph atomically.

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 from usd2kg.errors import StoreError
 
-__all__ = ["check_address", "read_credentials", "shown_address"]
+__all__ = ["check_address", "read_credentials", "redact_address"]
 
 _MAX_SHOWN = 300
 """Characters of an address in a message."""
@@ -23,7 +23,7 @@ def check_address(url: str) -> str:
     Raises:
         StoreError: the address is invalid, or contains a password; the message does not contain the password.
     """
-    shown = shown_address(url)
+    shown = redact_address(url)
     # The limits of a password in a malformed address are unclear, so reject every @.
     if "@" in url:
         raise StoreError(
@@ -40,12 +40,12 @@ def check_address(url: str) -> str:
     return url
 
 
-def shown_address(url: str) -> str:
+def redact_address(url: str) -> str:
     """Return an address for messages, without user, password and query string, which may contain secrets.
 
-    >>> shown_address("https://robot:s3cret@my.lab/ds?key=s3cret")
+    >>> redact_address("https://robot:s3cret@my.lab/ds?key=s3cret")
     'https://…@my.lab/ds'
-    >>> shown_address("https://my.lab/ds?mail=s3cret@my.lab")
+    >>> redact_address("https://my.lab/ds?mail=s3cret@my.lab")
     'https://…'
     """
     scheme = url.partition("://")[0]
