@@ -1,4 +1,4 @@
-"""A real client over stdio asks the server about the demo kitchen."""
+"""The MCP server over stdio, called by a real client on the demo kitchen."""
 
 import asyncio
 import json
@@ -24,7 +24,7 @@ def kitchen(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def talk_to(arguments: list[str], conversation: Callable[[Client], Awaitable[Any]]) -> Any:
-    """Run `usd2kg mcp` in a process of its own and return what a conversation with it gives."""
+    """Run `usd2kg mcp` as a subprocess and return the result of a conversation with it."""
     command = StdioServerParameters(
         command=sys.executable, args=["-m", "usd2kg", "mcp", *arguments], env=dict(os.environ)
     )
@@ -42,7 +42,7 @@ async def call(client: Client, tool: str, **arguments: Any) -> Any:
     return text if result.is_error else json.loads(text)
 
 
-def test_an_assistant_finds_its_way(kitchen: Path):
+def test_each_tool_answers(kitchen: Path):
     async def conversation(client: Client) -> None:
         tools = {tool.name: tool for tool in (await client.list_tools()).tools}
         assert set(tools) == {"objects", "look_up", "ask", "questions", "ready_question", "sparql"}
@@ -73,25 +73,25 @@ def test_an_assistant_finds_its_way(kitchen: Path):
     talk_to([str(kitchen)], conversation)
 
 
-def test_errors_are_told_and_nothing_changes(kitchen: Path):
+def test_errors_are_one_line_and_the_graph_is_unchanged(kitchen: Path):
     before = kitchen.read_bytes()
 
     async def conversation(client: Client) -> None:
-        assert "nothing is called 'unicorn'" in await call(client, "look_up", thing="unicorn")
+        assert "nothing is named 'unicorn'" in await call(client, "look_up", thing="unicorn")
         assert "is not understood" in await call(client, "ask", question="sing me a song")
         assert "question 'nope' is unknown" in await call(client, "ready_question", id="nope")
         assert "not valid SPARQL" in await call(client, "sparql", query="DELETE WHERE { ?s ?p ?o }")
         service = "SELECT * { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }"
-        assert "no query leaves this machine" in await call(client, "sparql", query=service)
+        assert "SERVICE contacts another server" in await call(client, "sparql", query=service)
         endless = "SELECT (COUNT(*) AS ?n) { ?a ?b ?c . ?d ?e ?f . ?g ?h ?i }"
-        assert "query: stopped after 10 s; ask for less" in await call(client, "sparql", query=endless)
+        assert "query: stopped after 10 s; simplify it" in await call(client, "sparql", query=endless)
         assert (await call(client, "objects"))["count"] == 294
 
     talk_to([str(kitchen)], conversation)
     assert kitchen.read_bytes() == before
 
 
-def test_a_picture_is_shown_where_the_stage_is_given(kitchen: Path):
+def test_shows_a_picture_if_the_stage_is_given(kitchen: Path):
     async def conversation(client: Client) -> Any:
         return await client.call_tool("show", {"thing": "toaster"})
 

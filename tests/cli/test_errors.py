@@ -168,11 +168,11 @@ def test_rejects_an_unreadable_graph(run: Run, tmp_path: Path, name: str, data: 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["on", "unicorn"], "nothing is called 'unicorn'"),
-        (["all", "of", "unicorns"], "no class is called 'unicorns'; the graph holds artifact, bowl, cup, table"),
+        (["on", "unicorn"], "nothing is named 'unicorn'"),
+        (["all", "of", "unicorns"], "no class is named 'unicorns'; expected one of artifact, bowl, cup, table"),
         (["sing"], "question 'sing' is not understood"),
         (["--sparql", "SELECT"], "not valid SPARQL"),
-        (["--sparql", "DROP ALL"], "only SELECT, ASK, CONSTRUCT and DESCRIBE run here"),
+        (["--sparql", "DROP ALL"], "expected SELECT, ASK, CONSTRUCT or DESCRIBE"),
         (["--sparql", "@none.rq"], "none.rq: cannot be read as a query"),
         (["--sparql", "ASK { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }"], "query"),
     ],

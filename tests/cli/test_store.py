@@ -52,25 +52,28 @@ def test_loads_removes_and_updates_graphs(run: Run, graph: Path, tmp_path: Path)
     assert run("store", "remove", "room", "--store", place).code == 0
     assert json.loads(run("store", "list", "--store", place, "--json").out) == []
     assert run("query", place, "on", "table").err == (
-        f"usd2kg: {place}: holds no graph of ours; load one with usd2kg build SCENE --store\n"
+        f"usd2kg: {place}: contains no usd2kg graph; load one with usd2kg build SCENE --store\n"
     )
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["store", "list", "--store", "nowhere"], "nowhere: is no store; expected a folder that usd2kg build --store"),
+        (
+            ["store", "list", "--store", "nowhere"],
+            "nowhere: is not a store; expected a folder that usd2kg build --store",
+        ),
         (["store", "load", "nothing.ttl", "--store", "s"], "nothing.ttl: no such file"),
         (
             ["store", "list", "--store", "http://me:secret@x/"],
-            "store http://…@x/: its address holds a user or password",
+            "store http://…@x/: its address contains a user or password",
         ),
-        (["store", "list", "--store", "gopher://x/"], "is no address of a server"),
+        (["store", "list", "--store", "gopher://x/"], "is not a server address"),
         (
             ["query", "no.ttl", "--scene", "x", "on", "y"],
-            "no.ttl: is one graph; --scene chooses among those of a store",
+            "no.ttl: is a single graph; --scene selects one of a store",
         ),
-        (["serve", "http://x/"], "http://x/: is a server already; expected a graph or a folder to serve"),
+        (["serve", "http://x/"], "http://x/: is already a server; expected a graph file or a store folder"),
         (["serve", "no.ttl", "--port", "0"], "no.ttl: no such file"),
     ],
 )
@@ -86,7 +89,7 @@ def test_rejects_invalid_stores(run: Run, arguments: list[str], message: str):
 def test_loads_no_graph_if_one_file_is_invalid(run: Run, graph: Path, tmp_path: Path):
     (tmp_path / "bad.ttl").write_text("<urn:a> <urn:b> 1 .")
     done = run("store", "load", graph, tmp_path / "bad.ttl", "--store", tmp_path / "s")
-    assert (done.code, "names no graph; expected one that usd2kg build wrote" in done.err) == (2, True)
+    assert (done.code, "states no graph IRI; expected a graph that usd2kg build wrote" in done.err) == (2, True)
     assert not (tmp_path / "s").exists()
 
 

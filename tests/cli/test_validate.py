@@ -84,7 +84,7 @@ def test_limits_findings_of_a_rule_without_all(run: Run, home_tbox: TBox, tmp_pa
     ("name", "text", "message"),
     [
         ("none.ttl", None, "no such file"),
-        ("empty.ttl", "", "holds no object"),
+        ("empty.ttl", "", "contains no usd:Prim"),
         ("broken.ttl", "<a", "does not parse"),
     ],
 )

@@ -152,8 +152,8 @@ class TestCommand:
         ("arguments", "message"),
         [
             (["table", "-o", "x.gif"], "expected a file name ending in .svg or .png"),
-            (["dinner plate", "-o", "x.svg"], "matches 4 objects; expected a prim path"),
-            (["unicorn", "-o", "x.svg"], "nothing is called 'unicorn'"),
+            (["dinner plate", "-o", "x.svg"], "means 4 objects; expected one, by its prim path"),
+            (["unicorn", "-o", "x.svg"], "nothing is named 'unicorn'"),
         ],
     )
     def test_rejects_what_cannot_be_drawn(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):

@@ -1,4 +1,4 @@
-"""The endpoint as a process of its own, asked over HTTP as strangers would."""
+"""The endpoint as a running server, queried over HTTP."""
 
 import json
 import os
@@ -21,7 +21,7 @@ import pytest
 
 from tests.graph.records import build_graph, thing
 from usd2kg.ontology import TBox
-from usd2kg.stores import EmbeddedStore, named_graph, open_store
+from usd2kg.stores import EmbeddedStore, make_named_graph, open_store
 
 HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">'\"\t=1+1"
 ASK = "ASK { ?s ?p ?o }"
@@ -37,14 +37,14 @@ class Reply(NamedTuple):
 
 @pytest.fixture(scope="module")
 def port(home_tbox: TBox, tmp_path_factory: pytest.TempPathFactory) -> Iterator[int]:
-    """The port of an endpoint over two scenes, one with a hostile name in it."""
+    """The port of an endpoint over two scenes, one with markup in an object's name."""
     folder = tmp_path_factory.mktemp("serve") / "store"
     store = EmbeddedStore(folder)
     table = (thing("/Table", (0, 0, 0), (1, 1, 1)), "Table")
     cups = [(thing(f"/{name}", (0.4, 0.4, 1), (0.1, 0.1, 0.1), name=name), "Cup") for name in ("Mug", HOSTILE)]
     for base, placed in (("https://my.lab/a/", [table, cups[0]]), ("https://my.lab/b/", [table, cups[1]])):
-        store.load(named_graph(build_graph(home_tbox, placed, base=base)))
-    # A class, too, whose label comes first of all.
+        store.load(make_named_graph(build_graph(home_tbox, placed, base=base)))
+    # Also the label of a class, which sorts first.
     hostile = ox.Literal(HOSTILE)
     store.update(f"INSERT {{ GRAPH ?g {{ ?c rdfs:label {hostile} }} }} WHERE {{ GRAPH ?g {{ ?c rdfs:label 'cup' }} }}")
     options = ["--port", "0", "--time-limit", "2", "--max-rows", "50", "--max-body", "2000", "--memory-limit", "200"]
@@ -54,7 +54,7 @@ def port(home_tbox: TBox, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
         line = process.stderr.readline()
         assert "serves " in line, line
         found = int(line.partition("http://127.0.0.1:")[2].partition("/")[0])
-        # Answers once its workers are warm.
+        # It accepts connections when its workers are ready.
         for _ in range(600):
             try:
                 ask(found, ASK)
@@ -78,7 +78,7 @@ def ask(port: int, query: str, *more: tuple[str, str], **headers: str) -> Reply:
     return request(port, "GET", f"/sparql?{urlencode([('query', query), *more])}", **headers)
 
 
-def test_the_three_ways_of_asking(port: int):
+def test_accepts_queries_by_get_form_and_body(port: int):
     form = urlencode({"query": ASK}).encode()
     replies = [
         ask(port, ASK),
@@ -91,7 +91,7 @@ def test_the_three_ways_of_asking(port: int):
 
 
 @pytest.mark.parametrize("media_type", ["application/sparql-results+json", "application/sparql-results+xml"])
-def test_tables_are_read_back_by_another_parser(port: int, media_type: str):
+def test_tables_parse_with_pyoxigraph(port: int, media_type: str):
     query = "SELECT ?o ?label ?n { ?o u2k:primPath ?p ; rdfs:label ?label . OPTIONAL { ?o <urn:none> ?n } } ORDER BY ?p"
     reply = ask(port, query, Accept=media_type)
     assert reply.headers["content-type"] == media_type
@@ -104,7 +104,7 @@ def test_tables_are_read_back_by_another_parser(port: int, media_type: str):
     assert all(row["n"] is None for row in rows)
 
 
-def test_csv_and_tsv_are_as_the_standard_has_them(port: int):
+def test_csv_and_tsv_follow_the_standard(port: int):
     query = "SELECT * { VALUES (?a ?b) { ('x,\"y\"' 1) (<urn:z> UNDEF) ('tab\\there'@en true) } }"
     assert ask(port, query, Accept="text/csv").body == 'a,b\r\n"x,""y""",1\r\nurn:z,\r\ntab\there,true\r\n'
     tsv = ask(port, query, Accept="text/tab-separated-values").body.splitlines()
@@ -113,13 +113,13 @@ def test_csv_and_tsv_are_as_the_standard_has_them(port: int):
 
 
 @pytest.mark.parametrize("kind", ["text/turtle", "application/n-triples", "application/rdf+xml", "application/ld+json"])
-def test_graphs_are_read_back(port: int, kind: str):
+def test_graphs_parse_with_pyoxigraph(port: int, kind: str):
     reply = ask(port, "CONSTRUCT { ?o u2k:primPath ?p } WHERE { ?o u2k:primPath ?p }", Accept=kind)
     assert reply.headers["content-type"].partition(";")[0] == kind
     assert len(list(ox.parse(reply.body, format=ox.RdfFormat.from_media_type(kind)))) == 4
 
 
-def test_a_dataset_can_be_chosen(port: int):
+def test_graph_parameters_select_the_dataset(port: int):
     a, b = "https://my.lab/a", "https://my.lab/b"
     assert len(json.loads(ask(port, PATHS).body)["results"]["bindings"]) == 4
     assert ask(port, PATHS, ("default-graph-uri", a), Accept="text/csv").body == "path\r\n/Mug\r\n/Table\r\n"
@@ -134,19 +134,19 @@ def test_a_dataset_can_be_chosen(port: int):
     ("query", "text"),
     [
         ("SELECT * {", "not valid SPARQL"),
-        ("INSERT DATA { <urn:a> <urn:b> 1 }", "only SELECT, ASK, CONSTRUCT and DESCRIBE run here"),
-        ("LOAD <http://127.0.0.1:9/>", "no query leaves this machine"),
-        ("SELECT * { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }", "no query leaves this machine"),
+        ("INSERT DATA { <urn:a> <urn:b> 1 }", "expected SELECT, ASK, CONSTRUCT or DESCRIBE"),
+        ("LOAD <http://127.0.0.1:9/>", "SERVICE contacts another server"),
+        ("SELECT * { SERVICE <http://127.0.0.1:9/> { ?s ?p ?o } }", "SERVICE contacts another server"),
         (" ", "expected one query"),
     ],
 )
-def test_what_cannot_be_asked_is_400(port: int, query: str, text: str):
+def test_a_refused_query_is_400_with_one_line(port: int, query: str, text: str):
     reply = ask(port, query)
     assert (reply.status, text in reply.body, reply.body.count("\n")) == (400, True, 1)
     assert json.loads(ask(port, query, Accept="application/json").body)["error"] == reply.body.rstrip("\n")
 
 
-def test_other_refusals_have_their_own_status(port: int):
+def test_other_refusals_have_the_status_of_the_protocol(port: int):
     assert ask(port, ASK, Accept="image/png").status == 406
     assert request(port, "POST", "/sparql", b"x", Content_Type="text/plain").status == 415
     assert (
@@ -158,7 +158,7 @@ def test_other_refusals_have_their_own_status(port: int):
     assert ask(port, ASK, ("query", ASK)).status == 400
 
 
-def test_answers_are_cut_and_say_so(port: int):
+def test_cuts_answers_and_reports_the_number_of_rows(port: int):
     reply = ask(port, "SELECT * { ?s ?p ?o }", Accept="text/csv")
     assert (len(reply.body.splitlines()), reply.headers["x-sparql-maxrows"]) == (51, "50")
     assert "x-sparql-maxrows" not in ask(port, PATHS).headers
@@ -166,7 +166,7 @@ def test_answers_are_cut_and_say_so(port: int):
     assert (len(graph.body.splitlines()), graph.headers["x-sparql-maxrows"]) == (50, "50")
 
 
-def test_a_hostile_query_is_stopped_while_others_are_answered(port: int):
+def test_stops_a_long_query_while_others_are_answered(port: int):
     with ThreadPoolExecutor(2) as threads:
         start = time.monotonic()
         hostile = threads.submit(ask, port, CROSS)
@@ -179,16 +179,16 @@ def test_a_hostile_query_is_stopped_while_others_are_answered(port: int):
     assert ask(port, ASK).status == 200
 
 
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is limited where the system can say it")
-def test_a_query_that_eats_memory_is_stopped(port: int):
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the memory limit needs procfs")
+def test_stops_a_query_that_exceeds_its_memory(port: int):
     grow = "BIND(CONCAT(?x0, ?x0, ?x0, ?x0, ?x0, ?x0, ?x0, ?x0) AS ?x1) "
     steps = "".join(grow.replace("x1", f"x{i + 1}").replace("x0", f"x{i}") for i in range(9))
     reply = ask(port, f"SELECT (STRLEN(?x9) AS ?n) {{ BIND('0123456789' AS ?x0) {steps} }}")
-    assert (reply.status, "was stopped; ask for less" in reply.body) == (503, True)
+    assert (reply.status, "was stopped; simplify it" in reply.body) == (503, True)
     assert ask(port, ASK).status == 200
 
 
-def test_other_names_and_other_sites_are_turned_away(port: int):
+def test_refuses_unknown_hosts_and_other_origins(port: int):
     assert ask(port, ASK, Host="evil.example").status == 403
     assert ask(port, ASK, Host="127.0.0.1.evil.example").status == 403
     for host in ("localhost:1", "[::1]", "graphs.lab", "127.0.0.1"):
@@ -198,7 +198,7 @@ def test_other_names_and_other_sites_are_turned_away(port: int):
     assert ask(port, ASK, Origin=f"http://127.0.0.1:{port}").status == 200
 
 
-def test_headers_keep_a_browser_careful(port: int):
+def test_sends_security_headers(port: int):
     page = request(port, "GET", "/")
     policy = page.headers["content-security-policy"]
     assert policy.startswith("default-src 'none'; script-src 'sha256-")
@@ -208,7 +208,7 @@ def test_headers_keep_a_browser_careful(port: int):
     assert "http://" not in page.body.replace("https?://", "")
 
 
-def test_the_service_describes_itself(port: int):
+def test_returns_a_service_description(port: int):
     reply = request(port, "GET", "/sparql", Accept="text/turtle")
     text = {
         str(triple.predicate.value).rpartition("#")[2] for triple in ox.parse(reply.body, format=ox.RdfFormat.TURTLE)
@@ -217,7 +217,7 @@ def test_the_service_describes_itself(port: int):
     assert request(port, "GET", "/sparql", Accept="text/html").headers["location"] == "/"
 
 
-def test_our_own_client_asks_it(port: int):
+def test_remote_store_reads_the_endpoint(port: int):
     store = open_store(f"http://127.0.0.1:{port}")
     assert [graph.name for graph in store.graphs()] == ["a", "b"]
 
@@ -229,7 +229,7 @@ def test_every_example_of_the_page_runs(port: int):
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="needs the browser chromium")
-def test_the_page_shows_hostile_names_as_text(port: int, tmp_path: Path):
+def test_the_page_shows_markup_in_names_as_text(port: int, tmp_path: Path):
     query = "SELECT ?label { ?o rdfs:label ?label ; u2k:primPath ?p }"
     browser = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}"]
     page = f"http://127.0.0.1:{port}/"
@@ -240,9 +240,9 @@ def test_the_page_shows_hostile_names_as_text(port: int, tmp_path: Path):
         check=True,
         timeout=120,
     )
-    assert "Look at the query, then ask." in done.stdout
+    assert "Check the query, then run it." in done.stdout
     assert "<td" not in done.stdout
-    # Without a query in the address it asks the first example by itself: the number of objects by label of class.
+    # Without a query in the address, it runs the first example: the number of objects by class label.
     done = subprocess.run(
         [*browser, "--virtual-time-budget=8000", "--dump-dom", page],
         capture_output=True,
@@ -255,14 +255,14 @@ def test_the_page_shows_hostile_names_as_text(port: int, tmp_path: Path):
     assert "<img" not in done.stdout
 
 
-def test_the_default_is_loopback_only(port: int):
+def test_listens_on_ipv4_loopback_only_by_default(port: int):
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(f"http://[::1]:{port}/", timeout=2)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="processes are not ended by signals there")
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
-def test_it_ends_quietly_and_leaves_nothing(tmp_path: Path, sent: signal.Signals):
+def test_a_signal_stops_it_and_removes_the_copy(tmp_path: Path, sent: signal.Signals):
     graph, temporary = tmp_path / "a.nt", tmp_path / "temporary"
     graph.write_text("<urn:a> <urn:b> <urn:c> .\n")
     temporary.mkdir()

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from usd2kg.ontology.components import find_components
 from usd2kg.ontology.documents import read_triples
 from usd2kg.ontology.scope import ancestors, nearest_parents
-from usd2kg.validation.axioms import Axioms
+from usd2kg.validation.axiom_index import AxiomIndex
 
 NAMES = st.sampled_from("abcdefgh")
 HIERARCHIES = st.dictionaries(NAMES, st.sets(NAMES, max_size=3))
@@ -47,7 +47,7 @@ def test_a_chain_of_2000_classes_is_fast(load, write_turtle):
     text = "".join(f":C{n} a owl:Class ; rdfs:subClassOf :C{n + 1} .\n" for n in range(2000))
     start = process_time()
     tbox = load(text)
-    axioms = Axioms(read_triples(write_turtle(text)))
+    axioms = AxiomIndex(read_triples(write_turtle(text)))
     assert process_time() - start < 5
     first = "http://example.com/home#C0"
     assert tbox.by_iri[first].parents == ("http://example.com/home#C1",)

@@ -1,4 +1,4 @@
-"""Graphs in KnowRob's engine, SWI-Prolog's semantic-web library, asked as KnowRob asks; and in other readers."""
+"""Graphs load in SWI-Prolog, answer KnowRob's queries there, and load in other RDF and OWL readers."""
 
 import csv
 import shutil
@@ -36,7 +36,7 @@ Answers = dict[str, set[tuple[str, ...]]]
 
 @pytest.fixture(scope="module")
 def write(tmp_path_factory: pytest.TempPathFactory) -> Write:
-    """A function that writes the demo kitchen's graph, once for each way."""
+    """A function that writes the demo kitchen's graph, cached by its options."""
     folder = tmp_path_factory.mktemp("kitchen")
     scene = usd2kg.read_scene(demo_scene())
     relations = RelationOptions(kinds=ALL_KINDS, viewpoint=parse_viewpoint("0,0,1.6"))
@@ -58,9 +58,9 @@ def write(tmp_path_factory: pytest.TempPathFactory) -> Write:
 
 
 def ask_knowrob(path: Path) -> Answers:
-    """Return what SWI-Prolog answers about a graph: kind of question → rows; individuals by their local names."""
+    """Return SWI-Prolog's answers: kind of question → rows, with local names of individuals."""
     done = subprocess.run(["swipl", str(QUESTIONS), str(path)], capture_output=True, text=True, check=True, timeout=120)
-    # A parser that stumbles warns there, and goes on with what it has.
+    # The parser recovers from errors with a warning on stderr.
     assert done.stderr == ""
     found: Answers = {}
     for line in done.stdout.splitlines():
@@ -74,7 +74,7 @@ def triples_of(path: Path) -> set[ox.Triple]:
 
 
 def authored(relation: str) -> set[tuple[str, str]]:
-    """Return what is on or inside what by construction, as local names."""
+    """Return the authored pairs of a relation, as local names."""
     rows = csv.DictReader(demo_relations().read_text("utf-8").splitlines())
     pairs = [(row["subject"], row["object"]) for row in rows if row["relation"] == relation]
     return {(one[1:].replace("/", "."), other[1:].replace("/", ".")) for one, other in pairs}
@@ -98,27 +98,27 @@ class TestKnowRob:
         table = {row[1:] for row in ask_knowrob(write())["dimensions"] if row[0].endswith(".barTable")}
         assert table == {("1.2", "0.5", "1.04")}
 
-    def test_poses_and_meshes(self, write: Write):
+    def test_answers_poses_and_mesh_files(self, write: Write):
         found = ask_knowrob(write())
         name = "KitchenDining.breakfastBar.fruitBowl"
-        # Authored on the table's top, 0.1 cm above 104 cm; the stage's y goes up, so that it is turned by 90° about x.
+        # Authored 0.1 cm above the table's top at 104 cm; the stage is y-up, so the pose includes 90° about x.
         assert (name, "world", "-1.5 0.4 1.041 0.7071068 0 0 0.7071068") in found["pose"]
         assert (name, "assets/fruit_bowl.usdc") in found["mesh"]
 
-    def test_support_is_what_the_kitchen_is_authored_with(self, write: Write):
+    def test_support_matches_the_authored_layout(self, write: Write):
         found = ask_knowrob(write())
         assert found["supported"] == found["ontop"]
-        stands = authored("on")
-        assert len(stands) > 100
-        assert len(stands & found["supported"]) / len(stands) > 0.98
+        on = authored("on")
+        assert len(on) > 100
+        assert len(on & found["supported"]) / len(on) > 0.98
 
-    def test_types_are_those_above_the_stated_one(self, write: Write):
+    def test_types_include_superclasses(self, write: Write):
         types = ask_knowrob(write())["type"]
         mug = {cls.rpartition("#")[2] for name, cls in types if name.endswith(".mug_dirty")}
         assert {"Cup", "Crockery", "DesignedContainer", "DesignedArtifact", "Prim"} <= mug
         assert "Furniture" not in mug
 
-    def test_soma_merged_in_knows_the_inverse_of_inside(self, write: Write):
+    def test_merged_soma_entails_the_inverse_of_inside(self, write: Write):
         found = ask_knowrob(write(merges=True))
         holds = {(inner, outer) for outer, inner in found["contains"]}
         inside = authored("inside")
@@ -127,7 +127,7 @@ class TestKnowRob:
         mug = {cls for name, cls in found["type"] if name.endswith(".mug_dirty")}
         assert {SOMA + "Cup", SOMA + "DesignedContainer", DUL + "PhysicalObject", DUL + "Object"} <= mug
 
-    def test_each_format_gives_the_same_answers(self, write: Write):
+    def test_turtle_and_ntriples_give_the_same_answers(self, write: Write):
         first, second = (ask_knowrob(write(merges=True, ending=ending)) for ending in (".ttl", ".nt"))
         assert {row[1] for row in first.pop("loaded")} == {row[1] for row in second.pop("loaded")}
         assert first == second
@@ -143,7 +143,7 @@ class TestReaders:
         assert len(rdflib.Graph().parse(path)) == len(triples_of(path))
 
     def test_an_owl_parser_reads_every_class_assertion(self, write: Write, profile: str, merges: bool, ending: str):
-        # It reads RDF/XML alone of RDF's syntaxes.
+        # horned-owl reads no other RDF syntax.
         triples = triples_of(write(profile, ending, merges=merges))
         data = ox.serialize(triples, format=ox.RdfFormat.RDF_XML)
         ontology = pyhornedowl.open_ontology_from_string(data.decode(), serialization="rdf")

@@ -1,4 +1,4 @@
-"""Real servers of graphs, and a way between them and us that fails on demand."""
+"""Real SPARQL servers, and a proxy that injects faults."""
 
 import http.client
 import shutil
@@ -28,7 +28,7 @@ def free_port() -> int:
 
 @contextmanager
 def running(command: list[str], port: int, folder: Path) -> Iterator[None]:
-    """Run a server until the block ends; it is ready when it takes connections."""
+    """Run a server until the block ends; it is ready when it accepts connections."""
     log = folder / "server.log"
     with log.open("wb") as written, subprocess.Popen(command, stdout=written, stderr=written, cwd=folder) as process:
         try:
@@ -65,26 +65,26 @@ def fuseki(folder: Path, *options: str) -> Iterator[str]:
 
 
 @dataclass
-class Way:
-    """A proxy before a server. What `fault` returns for a request happens to it."""
+class Proxy:
+    """A proxy in front of a server that injects faults."""
 
     target: str
     address: str = ""
     fault: Callable[[str, str, bytes], str | None] = lambda *_: None
-    """Gets method, path and body. Status, or `status retry-after`: answered without asking the server; "cut before"
-    and "cut after": the connection breaks, and the server was asked or not; None: as it should be."""
-    seen: list[tuple[str, str, dict[str, str]]] = field(default_factory=list)
+    """(method, path, body) → fault. "STATUS" or "STATUS RETRY-AFTER" answers without the server; "cut before" and
+    "cut after" break the connection before or after the server processed the request; None forwards the request."""
+    requests: list[tuple[str, str, dict[str, str]]] = field(default_factory=list)
 
 
 @contextmanager
-def way_to(target: str) -> Iterator[Way]:
-    way = Way(target)
+def proxy_to(target: str) -> Iterator[Proxy]:
+    proxy = Proxy(target)
 
     class Handler(BaseHTTPRequestHandler):
         def handle_all(self) -> None:
             body = self.rfile.read(int(self.headers.get("Content-Length") or 0))
-            way.seen.append((self.command, self.path, dict(self.headers)))
-            fault = way.fault(self.command, self.path, body)
+            proxy.requests.append((self.command, self.path, dict(self.headers)))
+            fault = proxy.fault(self.command, self.path, body)
             if fault is not None and fault[0].isdigit():
                 status, _, wait = fault.partition(" ")
                 self.send_response(int(status))
@@ -96,7 +96,7 @@ def way_to(target: str) -> Iterator[Way]:
             if fault == "cut before":
                 self.connection.shutdown(socket.SHUT_RDWR)
                 return
-            reply, answer = forward(way.target, self.command, self.path, body, dict(self.headers))
+            reply, answer = forward(proxy.target, self.command, self.path, body, dict(self.headers))
             if fault == "cut after":
                 self.connection.shutdown(socket.SHUT_RDWR)
                 return
@@ -118,11 +118,11 @@ def way_to(target: str) -> Iterator[Way]:
             pass
 
     with Quiet(("127.0.0.1", 0), Handler) as server:
-        way.address = f"http://127.0.0.1:{server.server_port}{urlsplit(target).path}"
+        proxy.address = f"http://127.0.0.1:{server.server_port}{urlsplit(target).path}"
         thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05})
         thread.start()
         try:
-            yield way
+            yield proxy
         finally:
             server.shutdown()
             thread.join()

@@ -1,4 +1,4 @@
-"""A folder: whole or not at all, one writer at a time, the same nodes each time."""
+"""Store folders: atomic loads, one writer at a time, stable blank nodes."""
 
 import signal
 import subprocess
@@ -9,9 +9,12 @@ import pyoxigraph as ox
 import pytest
 
 from usd2kg.errors import GraphError, StoreError
-from usd2kg.stores import EmbeddedStore, NamedGraph, chosen_graphs, open_graph
-from usd2kg.stores.folder_lock import hold_for_reading, hold_for_writing
+from usd2kg.stores import EmbeddedStore, NamedGraph, open_graph, select_graphs
+from usd2kg.stores.folder_lock import lock_exclusive, lock_shared
 from usd2kg.stores.pending import PENDING_NAME, write_pending
+from usd2kg.stores.store_limits import FolderLimits
+
+SHORT = FolderLimits(lock_wait_s=0.1)
 
 
 def held(folder: Path) -> set[str]:
@@ -22,7 +25,7 @@ def triples(graph: NamedGraph) -> int:
     return len(graph.triples)
 
 
-def test_a_scene_is_kept_and_asked(tmp_path: Path, large: NamedGraph):
+def test_stores_and_queries_a_scene(tmp_path: Path, large: NamedGraph):
     store = EmbeddedStore(tmp_path / "store")
     store.load(large)
     (graph,) = store.graphs()
@@ -35,7 +38,7 @@ def test_a_scene_is_kept_and_asked(tmp_path: Path, large: NamedGraph):
     ]
 
 
-def test_loading_again_gives_the_same_nodes(tmp_path: Path, large: NamedGraph, other: NamedGraph):
+def test_reloading_gives_the_same_nodes(tmp_path: Path, large: NamedGraph, other: NamedGraph):
     store = EmbeddedStore(tmp_path)
     store.load(large)
     store.load(other)
@@ -45,7 +48,7 @@ def test_loading_again_gives_the_same_nodes(tmp_path: Path, large: NamedGraph, o
     assert len(before) == triples(large) + triples(other)
 
 
-def test_nodes_of_two_graphs_are_not_one(tmp_path: Path):
+def test_keeps_blank_nodes_of_two_graphs_apart(tmp_path: Path):
     store = EmbeddedStore(tmp_path)
     blank = ox.Triple(ox.BlankNode("x"), ox.NamedNode("urn:p"), ox.BlankNode("y"))
     store.load(NamedGraph("urn:a", (blank,)))
@@ -54,7 +57,7 @@ def test_nodes_of_two_graphs_are_not_one(tmp_path: Path):
     assert len(nodes) == 4
 
 
-def test_a_smaller_graph_replaces_all_of_a_larger_one(tmp_path: Path, small: NamedGraph, large: NamedGraph):
+def test_replaces_a_graph_completely(tmp_path: Path, small: NamedGraph, large: NamedGraph):
     store = EmbeddedStore(tmp_path)
     store.load(large)
     store.load(small)
@@ -78,11 +81,9 @@ EmbeddedStore(sys.argv[1]).load(graph)
 """
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="processes are not killed like this there")
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 @pytest.mark.parametrize("moment", ["unnamed", "named", "emptied", "full"])
-def test_a_killed_load_is_finished_by_the_next_reader(
-    tmp_path: Path, small: NamedGraph, large: NamedGraph, moment: str
-):
+def test_the_next_reader_finishes_a_killed_load(tmp_path: Path, small: NamedGraph, large: NamedGraph, moment: str):
     folder, file = tmp_path / "store", tmp_path / "k.nt"
     EmbeddedStore(folder).load(small)
     ox.serialize(large.triples, str(file), format=ox.RdfFormat.N_TRIPLES)
@@ -90,77 +91,77 @@ def test_a_killed_load_is_finished_by_the_next_reader(
     assert done.returncode == -signal.SIGKILL
     assert list(folder.glob(f"{PENDING_NAME}*"))
     found = EmbeddedStore(folder).fetch([large.iri])
-    # The new graph counts as loaded once it is on the disk under its name.
+    # The load is committed when the pending file has its name.
     assert len(found) == (triples(small) if moment == "unnamed" else triples(large))
     EmbeddedStore(folder).load(large)
     assert len(held(folder)) == triples(large)
     assert not list(folder.glob("usd2kg.pending*"))
 
 
-def test_a_second_writer_waits_and_is_told(tmp_path: Path, small: NamedGraph):
+def test_a_second_writer_waits_and_gives_up(tmp_path: Path, small: NamedGraph):
     EmbeddedStore(tmp_path).load(small)
     with (
-        hold_for_writing(tmp_path, 1),
-        pytest.raises(StoreError, match=r"another process is still using it after 0.1 s"),
+        lock_exclusive(tmp_path, 1),
+        pytest.raises(StoreError, match=r"another process still uses it after 0.1 s"),
     ):
-        EmbeddedStore(tmp_path, wait_s=0.1).load(small)
-    with hold_for_reading(tmp_path, 1):
-        assert len(EmbeddedStore(tmp_path, wait_s=0.1).graphs()) == 1
+        EmbeddedStore(tmp_path, limits=SHORT).load(small)
+    with lock_shared(tmp_path, 1):
+        assert len(EmbeddedStore(tmp_path, limits=SHORT).graphs()) == 1
         with pytest.raises(StoreError, match="wait for it, then try again"):
-            EmbeddedStore(tmp_path, wait_s=0.1).load(small)
-    EmbeddedStore(tmp_path, wait_s=0.1).load(small)
+            EmbeddedStore(tmp_path, limits=SHORT).load(small)
+    EmbeddedStore(tmp_path, limits=SHORT).load(small)
 
 
-def test_another_program_in_the_folder_is_named(tmp_path: Path, small: NamedGraph):
+def test_reports_another_program_that_uses_the_folder(tmp_path: Path, small: NamedGraph):
     EmbeddedStore(tmp_path).load(small)
-    theirs = ox.Store(str(tmp_path))
-    with pytest.raises(StoreError, match="another program holds it, like a running Oxigraph server"):
+    opened = ox.Store(str(tmp_path))
+    with pytest.raises(StoreError, match="is in use by another program, such as an Oxigraph server"):
         EmbeddedStore(tmp_path).load(small)
-    del theirs
+    del opened
 
 
-def test_a_folder_of_other_things_is_left_alone(tmp_path: Path, small: NamedGraph):
+def test_rejects_a_folder_with_other_files(tmp_path: Path, small: NamedGraph):
     (tmp_path / "thesis.tex").write_text("mine")
-    with pytest.raises(StoreError, match="holds other things; expected a new folder or a store"):
+    with pytest.raises(StoreError, match="contains other files; expected a new folder or a store"):
         EmbeddedStore(tmp_path).load(small)
     with pytest.raises(StoreError, match="is a file; expected a folder"):
         EmbeddedStore(tmp_path / "thesis.tex").load(small)
-    with pytest.raises(StoreError, match="is no store; expected a folder that usd2kg build"):
+    with pytest.raises(StoreError, match="is not a store; expected a folder that usd2kg build"):
         EmbeddedStore(tmp_path).graphs()
     assert list(tmp_path.iterdir()) == [tmp_path / "thesis.tex"]
 
 
-def test_an_update_is_done_whole_or_not(tmp_path: Path, small: NamedGraph):
+def test_updates_are_atomic(tmp_path: Path, small: NamedGraph):
     store = EmbeddedStore(tmp_path)
     store.load(small)
     with pytest.raises(GraphError, match="update: not valid SPARQL"):
         store.update("DELETE NONSENSE")
     with pytest.raises(GraphError, match="nothing was changed"):
         store.update(f"DROP GRAPH <{small.iri}> ; CREATE GRAPH <urn:x> ; CREATE GRAPH <urn:x>")
-    with pytest.raises(GraphError, match="LOAD and SERVICE ask another server"):
+    with pytest.raises(GraphError, match="LOAD and SERVICE contact another server"):
         store.update("LOAD <http://127.0.0.1:9/>")
     assert len(held(tmp_path)) == triples(small)
     store.update(f"INSERT DATA {{ GRAPH <{small.iri}> {{ <urn:x> u2k:note 'new' }} }}")
     assert len(held(tmp_path)) == triples(small) + 1
 
 
-def test_scenes_are_chosen_by_name_label_or_iri(tmp_path: Path, small: NamedGraph, other: NamedGraph):
+def test_selects_scenes_by_name_label_or_iri(tmp_path: Path, small: NamedGraph, other: NamedGraph):
     store = EmbeddedStore(tmp_path)
-    with pytest.raises(StoreError, match="is no store"):
-        chosen_graphs(store, None)
+    with pytest.raises(StoreError, match="is not a store"):
+        select_graphs(store, None)
     store.load(small)
     store.load(other)
-    assert chosen_graphs(store, None) == ["https://my.lab/k", "https://my.lab/other"]
+    assert select_graphs(store, None) == ["https://my.lab/k", "https://my.lab/other"]
     for name in ("k", "https://my.lab/k", "https://my.lab/k/"):
-        assert chosen_graphs(store, name) == ["https://my.lab/k"]
-    with pytest.raises(GraphError, match=r"holds no graph 'x'; it holds https://my.lab/k, https://my.lab/other"):
-        chosen_graphs(store, "x")
-    with pytest.raises(GraphError, match=r"may be https://my.lab/k, https://my.lab/other; expected one, by its IRI"):
-        chosen_graphs(store, store.graphs()[0].label)
+        assert select_graphs(store, name) == ["https://my.lab/k"]
+    with pytest.raises(GraphError, match=r"has no graph 'x'; expected one of https://my.lab/k, https://my.lab/other"):
+        select_graphs(store, "x")
+    with pytest.raises(GraphError, match=r"is ambiguous: https://my.lab/k, https://my.lab/other; expected the IRI"):
+        select_graphs(store, store.graphs()[0].label)
 
 
 @pytest.mark.parametrize("damage", ["garbage", "letters", "cut", "cut between triples", "folder", "other graph"])
-def test_a_damaged_load_is_set_aside_and_the_store_still_read(
+def test_sets_a_damaged_load_aside_and_reads_the_store(
     tmp_path: Path, small: NamedGraph, caplog: pytest.LogCaptureFixture, damage: str
 ):
     store, pending = EmbeddedStore(tmp_path), tmp_path / PENDING_NAME
@@ -180,28 +181,28 @@ def test_a_damaged_load_is_set_aside_and_the_store_still_read(
     else:
         pending.write_bytes(damaged[damage])
     assert len(store.fetch([small.iri])) == triples(small)
-    assert "what it left is damaged" in caplog.text
+    assert "an interrupted load left a damaged file" in caplog.text
     assert "load that scene again" in caplog.text
     assert not pending.exists()
     assert len(list(tmp_path.glob("usd2kg.damaged.*"))) == 1
 
 
 @pytest.mark.parametrize("name", ["CURRENT", "MANIFEST-*", "*.sst"])
-def test_a_damaged_store_is_one_line(tmp_path: Path, small: NamedGraph, name: str):
+def test_reports_a_damaged_store_in_one_line(tmp_path: Path, small: NamedGraph, name: str):
     store = EmbeddedStore(tmp_path)
     store.load(small)
     for path in tmp_path.glob(name):
         path.write_bytes(b"junk\n")
     for use in (store.graphs, store.check):
-        with pytest.raises(StoreError, match=r"the store is damaged .*; restore the folder from a copy, or") as error:
+        with pytest.raises(StoreError, match=r"the store is damaged .*; restore the folder from a backup, or") as error:
             use()
         assert "\n" not in str(error.value)
 
 
-def test_a_lock_alone_makes_no_store_of_other_things(tmp_path: Path, small: NamedGraph):
+def test_accepts_an_incomplete_store_but_no_other_files(tmp_path: Path, small: NamedGraph):
     (tmp_path / "usd2kg.lock").touch()
     (tmp_path / "thesis.tex").write_text("mine")
-    with pytest.raises(StoreError, match="holds other things; expected a new folder or a store"):
+    with pytest.raises(StoreError, match="contains other files; expected a new folder or a store"):
         EmbeddedStore(tmp_path).load(small)
     assert {path.name for path in tmp_path.iterdir()} == {"thesis.tex", "usd2kg.lock"}
     (tmp_path / "thesis.tex").rename(tmp_path / "OPTIONS-000007")

@@ -1,4 +1,4 @@
-"""A small room in which all is well, and edits that break one thing in it."""
+"""A small valid room, and edits that each violate one rule."""
 
 from typing import Any, NamedTuple
 
@@ -25,7 +25,7 @@ HINGE = make_joint(prim_path="/Cupboard/hinge", body0="/Cupboard", body1="/Cupbo
 
 
 class Break(NamedTuple):
-    """An edit and the one rule that it breaks."""
+    """An edit and the one rule that it violates."""
 
     rule: str
     profile: str
@@ -33,7 +33,7 @@ class Break(NamedTuple):
 
 
 def replaced(node: str, name: str, value: str) -> str:
-    """Return the edit that gives a property of a node another value."""
+    """Return an update that replaces the value of a property."""
     old = f"{node} {name} ?old"
     return f"DELETE {{ {old} }} INSERT {{ {node} {name} {value} }} WHERE {{ {old} }}"
 
@@ -105,7 +105,7 @@ SHAPES = [
 
 
 def open_room(tbox: TBox, profile: str, update: str = "", placed: list[Any] | None = None) -> GraphStore:
-    """Return the graph of the room after an edit; JOINT stands for the hinge's IRI."""
+    """Return the graph of the room after an update, in which JOINT is replaced by the hinge's IRI."""
     store: ox.Store = reread(build_graph(tbox, placed or ROOM, joints=[] if placed else [HINGE], profile=profile))
     if update:
         text = update.replace("JOINT", f"{BASE}Cupboard.hinge-joint")

@@ -1,4 +1,4 @@
-"""Contradictions between a graph and an ontology, explained by the axioms."""
+"""Contradictions between a graph and its ontology are found and explained by an axiom."""
 
 import pyoxigraph as ox
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from tests.conftest import shared_file
 from tests.validation.broken import added, found_in, open_room
 from usd2kg.ontology import Closure, TBox, load_tbox, read_closure
-from usd2kg.validation.axioms import Axioms, Disjointness
+from usd2kg.validation.axiom_index import AxiomIndex, Disjointness
 
 PREFIXES = """@prefix : <https://lab.example/onto#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .
@@ -24,8 +24,8 @@ def closure_of(text: str, missing: tuple[str, ...] = ()) -> Closure:
     return Closure(tuple(quad.triple for quad in quads), (), missing)
 
 
-def axioms_of(text: str) -> Axioms:
-    return Axioms(closure_of(text).triples)
+def axioms_of(text: str) -> AxiomIndex:
+    return AxiomIndex(closure_of(text).triples)
 
 
 LAB = "https://lab.example/onto#"
@@ -40,16 +40,16 @@ LAB = "https://lab.example/onto#"
         ":All owl:disjointUnionOf ( :Thing :Event ) .",
     ],
 )
-def test_disjoint_classes_on_one_object(home_tbox: TBox, stated: str):
+def test_finds_disjoint_classes_of_an_object(home_tbox: TBox, stated: str):
     graph = open_room(home_tbox, "plain", added("k:Cup a <https://lab.example/onto#Party>"))
     (finding,) = found_in(graph, closure=closure_of(f"{KNOWN} {TOP} {ABOVE} {stated}"))
     assert (finding.severity, finding.rule, finding.prim_path) == ("error", "disjoint-classes", "/Cup")
     assert "“event” (https://lab.example/onto#Event)" in finding.found
-    assert "it is soma:Cup, below “thing” (https://lab.example/onto#Thing)" in finding.found
+    assert "it is soma:Cup, a subclass of “thing” (https://lab.example/onto#Thing)" in finding.found
     assert finding.found.count("owl:disjointWith") == 1
 
 
-def test_no_clash_where_nothing_is_disjoint(home_tbox: TBox):
+def test_finds_nothing_without_disjointness(home_tbox: TBox):
     graph = open_room(home_tbox, "plain", added("k:Cup a <https://lab.example/onto#Party>"))
     assert found_in(graph, closure=closure_of(f"{KNOWN} {TOP} {ABOVE}")) == ()
 
@@ -65,8 +65,8 @@ def test_no_clash_where_nothing_is_disjoint(home_tbox: TBox):
         ("u2k:on rdfs:domain [ owl:intersectionOf ( :Event :Late ) ]", "domain-clash", "/Cup"),
     ],
 )
-def test_what_a_property_demands(home_tbox: TBox, stated: str, rule: str, path: str):
-    # In the room, the cup is on the table; for the range, the table's fork is put on the cup.
+def test_finds_violations_of_domain_and_range(home_tbox: TBox, stated: str, rule: str, path: str):
+    # In the room, the cup is on the table; the edit adds a fork on the cup, which violates the range.
     text = (
         f"@prefix u2k: <https://w3id.org/usd2kg#> . {KNOWN} {TOP} {ABOVE} :Thing owl:disjointWith :Event . {stated} ."
     )
@@ -76,7 +76,7 @@ def test_what_a_property_demands(home_tbox: TBox, stated: str, rule: str, path: 
     assert "“event”" in found[0].expected
 
 
-def test_one_possible_member_of_a_union_is_enough(home_tbox: TBox):
+def test_accepts_one_compatible_member_of_a_union(home_tbox: TBox):
     text = (
         f"@prefix u2k: <https://w3id.org/usd2kg#> . {KNOWN} {TOP} {ABOVE} :Thing owl:disjointWith :Event . "
         "u2k:on rdfs:domain [ owl:unionOf ( :Event :Other ) ] ."
@@ -84,7 +84,7 @@ def test_one_possible_member_of_a_union_is_enough(home_tbox: TBox):
     assert found_in(open_room(home_tbox, "plain"), closure=closure_of(text)) == ()
 
 
-def test_deprecated_and_unknown_classes(home_tbox: TBox):
+def test_finds_deprecated_and_unknown_classes(home_tbox: TBox):
     text = f"{DECLARED} soma:Cupboard a owl:Class . soma:Bowl a owl:Class . soma:Cup owl:deprecated true ."
     found = found_in(open_room(home_tbox, "soma"), closure=closure_of(text))
     assert [(f.severity, f.rule, f.prim_path) for f in found] == [
@@ -94,17 +94,17 @@ def test_deprecated_and_unknown_classes(home_tbox: TBox):
     assert found[0].found == "its class soma:Door is not in the ontology"
 
 
-def test_nothing_is_unknown_that_may_be_of_a_missing_import(home_tbox: TBox):
+def test_classes_of_a_missing_import_are_not_unknown(home_tbox: TBox):
     closure = closure_of(DECLARED, ("http://www.ease-crc.org/ont/SOMA.owl",))
     assert found_in(open_room(home_tbox, "soma"), closure=closure) == ()
 
 
-def test_the_most_special_axiom_explains():
+def test_explains_by_the_most_specific_axiom():
     axioms = axioms_of(":A rdfs:subClassOf :B . :B owl:disjointWith :C . :A owl:disjointWith :C . :C a owl:Class .")
     assert axioms.clash(f"{LAB}A", f"{LAB}C") == Disjointness(f"{LAB}A", f"{LAB}C")
 
 
-def test_cycles_of_classes_properties_and_lists_end():
+def test_handles_cyclic_classes_properties_and_lists():
     axioms = axioms_of(
         ":A rdfs:subClassOf :B . :B rdfs:subClassOf :A . :p rdfs:subPropertyOf :q ; rdfs:domain :A . "
         ":q rdfs:subPropertyOf :p . [] a owl:AllDisjointClasses ; owl:members _:l . "
@@ -115,7 +115,7 @@ def test_cycles_of_classes_properties_and_lists_end():
     assert axioms.ends(f"{LAB}q", is_subject=True) == [(f"{LAB}p", (f"{LAB}A",))]
 
 
-def test_equivalent_classes_and_intersections_lie_above():
+def test_equivalent_classes_and_intersections_are_superclasses():
     axioms = axioms_of(":A owl:equivalentClass [ owl:intersectionOf ( :B :C ) ] . :B owl:equivalentClass :D .")
     assert axioms.closure(f"{LAB}A") == {LAB + name for name in "ABCD"}
     assert axioms.closure(f"{LAB}D") == {LAB + name for name in "BD"}
@@ -126,11 +126,11 @@ def soma() -> Closure:
     return read_closure(load_tbox(shared_file("ontologies/soma/SOMA-HOME.owl")))
 
 
-def test_the_room_does_not_clash_with_soma(home_tbox: TBox, soma: Closure):
+def test_the_room_is_consistent_with_soma(home_tbox: TBox, soma: Closure):
     assert found_in(open_room(home_tbox, "soma"), closure=soma) == ()
 
 
-def test_an_event_is_no_cup_and_carries_nothing(home_tbox: TBox, soma: Closure):
+def test_finds_contradictions_with_soma(home_tbox: TBox, soma: Closure):
     graph = open_room(home_tbox, "soma", added("k:Cup a dul:Event . k:Fork soma:isOntopOf k:Cup"))
     found = found_in(graph, closure=soma)
     assert {(finding.rule, finding.prim_path) for finding in found} == {
@@ -138,6 +138,6 @@ def test_an_event_is_no_cup_and_carries_nothing(home_tbox: TBox, soma: Closure):
         ("domain-clash", "/Cup"),
         ("range-clash", "/Cup"),
     }
-    told = next(finding.found for finding in found if finding.rule == "disjoint-classes")
-    assert "(dul:Event)" in told
-    assert "(dul:Object)" in told
+    text = next(finding.found for finding in found if finding.rule == "disjoint-classes")
+    assert "(dul:Event)" in text
+    assert "(dul:Object)" in text

@@ -1,13 +1,13 @@
-"""Questions in plain words: answered by ready questions, by a model that writes SPARQL, or for an assistant."""
+"""Questions in English, answered with the ready questions or by a language model, and tools for assistants."""
 
-from usd2kg.assistant.asking import AskedAnswer, ask_offline
-from usd2kg.assistant.describe import describe, list_objects
-from usd2kg.assistant.writing import ask_model
+from usd2kg.assistant.describe import describe_objects, list_objects
+from usd2kg.assistant.model_queries import ask_model
+from usd2kg.assistant.offline import InterpretedAnswer, ask_offline
 
 __all__ = [
-    "AskedAnswer",
+    "InterpretedAnswer",
     "ask_model",
     "ask_offline",
-    "describe",
+    "describe_objects",
     "list_objects",
 ]

@@ -1,12 +1,13 @@
-"""What a graph holds of one thing, together; and lists of things."""
+"""Descriptions of objects: everything that a graph states about a thing, and lists of objects."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from usd2kg.assistant.settings import RESULTS
 from usd2kg.query import Answer, GraphStore
-from usd2kg.validation import read_objects
+from usd2kg.validation import read_graph_objects
 
-__all__ = ["describe", "description_answer", "list_objects"]
+__all__ = ["describe_objects", "description_answer", "list_objects"]
 
 _CLASSES = """
 SELECT DISTINCT ?object ?path ?class ?iri ?confidence ?why WHERE {
@@ -31,112 +32,109 @@ SELECT DISTINCT ?path ?material ?asset ?room WHERE {
   OPTIONAL { ?o u2k:inRoom/rdfs:label ?room }
 }"""
 
-_RELATIONS = ("on", "inside", "near", "parts_of")
+_Row = Mapping[str, Any]
 
 
 def list_objects(
-    graph: GraphStore, class_name: str | None = None, *, most: int = 100, start: int = 0
+    graph: GraphStore, class_name: str | None = None, *, limit: int = RESULTS.max_listed, start: int = 0
 ) -> dict[str, Any]:
-    """Return objects with class and confidence by prim path, a page at a time.
+    """Return one page of the objects with class and confidence, in the order of prim paths.
 
     Args:
         graph: the graph.
-        class_name: only things of this class, subclasses included.
-        most: rows of the page.
-        start: rows that are passed over.
+        class_name: only objects of this class, subclasses included.
+        limit: rows of the page.
+        start: index of the first row.
 
     Raises:
-        GraphError: no class is called so.
+        GraphError: the class is unknown.
     """
     answer = graph.sparql(_CLASSES) if class_name is None else graph.all_of(class_name)
     kept = [i for i, column in enumerate(answer.columns) if column in {"object", "class", "path", "confidence"}]
     rows = [{answer.columns[i]: row[i] for i in kept} for row in answer.values]
-    return {"count": len(rows), "start": start, "objects": rows[start : start + most]}
+    return {"count": len(rows), "start": start, "objects": rows[start : start + limit]}
 
 
-def describe(graph: GraphStore, thing: str, *, most: int = 10) -> dict[str, Any]:
-    """Return all that a graph holds of the things that are called so, for a person or an assistant to read.
+def describe_objects(graph: GraphStore, thing: str, *, limit: int = RESULTS.max_described) -> dict[str, Any]:
+    """Return everything that a graph states about the objects that match a name.
 
     Lengths are metres and masses kilograms, in the z-up world frame.
 
     Args:
         graph: the graph.
-        thing: a prim path, label, class, or words of a label.
-        most: things that are described; the others are counted.
+        thing: prim path, label, class or words, see `GraphStore.find`.
+        limit: objects that are described; all are counted.
 
     Raises:
-        GraphError: nothing is called so.
+        GraphError: no object matches.
     """
-    wanted = {node.value for node in graph.find(thing)}
-    objects = [obj for obj in read_objects(graph.store) if obj.iri in wanted]
-    classes = _by_path(graph.sparql(_CLASSES))
-    words = _by_path(graph.sparql(_WORDS))
-    found = []
-    for obj in objects[:most]:
-        told = classes.get(obj.prim_path, [])
-        said = words.get(obj.prim_path, [])
-        found.append(
+    found = {node.value for node in graph.find(thing)}
+    objects = [obj for obj in read_graph_objects(graph.store) if obj.iri in found]
+    classes = _rows_by_path(graph.sparql(_CLASSES))
+    words = _rows_by_path(graph.sparql(_WORDS))
+    described = []
+    for obj in objects[:limit]:
+        rows = words.get(obj.prim_path, [])
+        described.append(
             {
                 "object": obj.label,
                 "path": obj.prim_path,
                 "iri": obj.iri,
                 "classes": [
-                    {key: row[key] for key in ("class", "iri", "confidence", "why")} for row in told if row["iri"]
+                    {key: row[key] for key in ("class", "iri", "confidence", "why")}
+                    for row in classes.get(obj.prim_path, [])
+                    if row["iri"]
                 ],
                 "center_m": obj.center,
                 "size_m": obj.size,
                 "mass_kg": obj.mass_kg,
-                "room": next((row["room"] for row in said if row["room"]), None),
-                "materials": sorted({row["material"] for row in said if row["material"]}),
-                "assets": sorted({row["asset"] for row in said if row["asset"]}),
-                **_related(graph, obj.prim_path),
+                "room": next((row["room"] for row in rows if row["room"]), None),
+                "materials": sorted({row["material"] for row in rows if row["material"]}),
+                "assets": sorted({row["asset"] for row in rows if row["asset"]}),
+                **_related_objects(graph, obj.prim_path),
             }
         )
-    return {"count": len(objects), "objects": found}
+    return {"count": len(objects), "objects": described}
 
 
-def _class(row: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: row[key] for key in ("class", "iri", "confidence", "why")}
-
-
-def _related(graph: GraphStore, path: str) -> dict[str, Any]:
-    """Return what stands on a thing, is in it, near it and part of it, and what it is on and in."""
-    place = graph.where_is(path)
-    rows = [dict(zip(place.columns, row, strict=True)) for row in place.values]
-    told: dict[str, Any] = {
-        "stands_on": sorted({row["on"] for row in rows if row.get("on")}),
-        "lies_in": sorted({row["inside"] for row in rows if row.get("inside")}),
+def _related_objects(graph: GraphStore, path: str) -> dict[str, Any]:
+    """Return the supporters, containers, neighbours, parts and contents of an object by name of the relation."""
+    location = _to_rows(graph.where_is(path))
+    related: dict[str, Any] = {
+        "stands_on": sorted({row["on"] for row in location if row.get("on")}),
+        "lies_in": sorted({row["inside"] for row in location if row.get("inside")}),
     }
-    names = {"on": "on_it", "inside": "in_it", "near": "near_it", "parts_of": "parts"}
-    for method in _RELATIONS:
-        answer = getattr(graph, method)(path)
-        column = answer.columns.index("object")
-        told[names[method]] = list(dict.fromkeys(row[column] for row in answer.rows))
-    return told
+    queries = {"on_it": graph.on, "in_it": graph.inside, "near_it": graph.near, "parts": graph.parts_of}
+    for name, query in queries.items():
+        related[name] = list(dict.fromkeys(row["object"] for row in _to_rows(query(path))))
+    return related
 
 
-def _by_path(answer: Answer) -> Mapping[str, list[dict[str, Any]]]:
-    found: dict[str, list[dict[str, Any]]] = {}
-    for row in answer.values:
-        told = dict(zip(answer.columns, row, strict=True))
-        found.setdefault(str(told["path"]), []).append(told)
+def _to_rows(answer: Answer) -> list[_Row]:
+    return [dict(zip(answer.columns, row, strict=True)) for row in answer.values]
+
+
+def _rows_by_path(answer: Answer) -> Mapping[str, list[_Row]]:
+    found: dict[str, list[_Row]] = {}
+    for row in _to_rows(answer):
+        found.setdefault(str(row["path"]), []).append(row)
     return found
 
 
 def description_answer(graph: GraphStore, thing: str) -> Answer:
-    """Return the description of the things that are called so as a table of facts.
+    """Return the description of the objects that match a name as a table of facts.
 
     Raises:
-        GraphError: nothing is called so.
+        GraphError: no object matches.
     """
     facts: list[tuple[str, str, str]] = []
-    for told in describe(graph, thing)["objects"]:
-        for cls in told["classes"]:
-            facts.append((told["object"], "class", cls["class"]))
-            facts += [(told["object"], key, _text(cls[key])) for key in ("confidence", "why") if cls[key] is not None]
+    for obj in describe_objects(graph, thing)["objects"]:
+        for cls in obj["classes"]:
+            facts.append((obj["object"], "class", cls["class"]))
+            facts += [(obj["object"], key, _text(cls[key])) for key in ("confidence", "why") if cls[key] is not None]
         facts += [
-            (told["object"], name, _text(value))
-            for name, value in told.items()
+            (obj["object"], name, _text(value))
+            for name, value in obj.items()
             if name not in {"object", "iri", "classes"} and value not in (None, [], ())
         ]
     rows = tuple(facts)

@@ -1,4 +1,4 @@
-"""English phrases for the ready questions: what is asked, and about what. They stand in `phrases.txt`."""
+"""match_phrase: question in English → id of a ready question and its parameters, by the patterns in `phrases.txt`."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -10,12 +10,12 @@ __all__ = ["Phrase", "list_phrases", "match_phrase"]
 
 
 class Phrase(NamedTuple):
-    """What a person asks, understood."""
+    """A question that was understood."""
 
     question: str
-    """Id of a listed question, or a word of `phrases.txt` for one in words: `on`, `where`, `how-many`, `is-on`…"""
+    """Id in `phrases.txt`: that of a ready question, or another such as `on`, `where`, `how-many`, `is-on`."""
     given: Mapping[str, str]
-    """Parameter → what the person said for it; those left unsaid are missing."""
+    """Parameter → its text in the question; omitted parameters are missing."""
 
 
 _PARAMETERS = {
@@ -34,7 +34,7 @@ _APOSTROPHE = "\u2019"
 
 @cache
 def list_phrases() -> Sequence[tuple[str, re.Pattern[str]]]:
-    """Return (id of a question, pattern of a whole question) in the order in which they are tried."""
+    """Return pairs of an id and the pattern of a whole question, in the order in which they are tried."""
     words: dict[str, str] = {name: f"(?P<{name}>{pattern})" for name, pattern in _PARAMETERS.items()}
     phrases = []
     for line in (files("usd2kg.assistant") / "phrases.txt").read_text("utf-8").splitlines():
@@ -46,14 +46,14 @@ def list_phrases() -> Sequence[tuple[str, re.Pattern[str]]]:
 
 
 def _expand(pattern: str, words: Mapping[str, str]) -> str:
-    """Return a pattern with the words in angle brackets replaced, those within them too; groups keep their names."""
+    """Return a pattern with all `<word>` definitions expanded recursively; group names `(?P<name>` are kept."""
     while (expanded := re.sub(r"(?<!\?P)<(\w+)>", lambda found: words[found[1]], pattern)) != pattern:
         pattern = expanded
     return pattern
 
 
 def match_phrase(text: str) -> Phrase | None:
-    """Return what a question in English asks; None if no phrase fits.
+    """Return the interpretation of a question; None if no pattern matches.
 
     >>> match_phrase("Please tell me, what's on the table?")
     Phrase(question='on', given={'thing': 'the table'})
@@ -64,5 +64,5 @@ def match_phrase(text: str) -> Phrase | None:
     asked = re.sub(r"^(what|where)'s\b", r"\1 is", asked, flags=re.IGNORECASE)
     for question, pattern in list_phrases():
         if found := pattern.fullmatch(asked):
-            return Phrase(question, {name: said.strip() for name, said in found.groupdict().items() if said})
+            return Phrase(question, {name: value.strip() for name, value in found.groupdict().items() if value})
     return None

@@ -14,7 +14,7 @@ from usd2kg.cli.query import answer_rows, answer_text
 from usd2kg.errors import Usd2kgError
 
 if TYPE_CHECKING:
-    from usd2kg.assistant import AskedAnswer
+    from usd2kg.assistant import InterpretedAnswer
     from usd2kg.query import GraphStore
 
 __all__ = ["ask_command", "mcp_command"]
@@ -52,7 +52,7 @@ def ask_command(
         emit(asked.summary() + answer_text(asked.answer))
 
 
-def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "AskedAnswer":
+def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "InterpretedAnswer":
     from usd2kg.assistant import ask_model  # noqa: PLC0415
     from usd2kg.endpoint import BoundedQueries  # noqa: PLC0415
     from usd2kg.grounding.llm.settings import LLMSettings, open_asker  # noqa: PLC0415

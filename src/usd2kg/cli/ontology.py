@@ -144,9 +144,9 @@ def shapes_command(
     profile: Annotated[str, Option("--profile", help="Profile of the graphs: soma or plain.")] = "soma",
 ) -> None:
     """Print the SHACL shapes of the graphs that usd2kg builds, as Turtle."""
-    from usd2kg.validation import shapes_text  # noqa: PLC0415 - loads the RDF parser
+    from usd2kg.validation import read_shapes  # noqa: PLC0415 - loads the RDF parser
 
-    emit(shapes_text(profile))
+    emit(read_shapes(profile))
 
 
 def _load(file: Path | None, roots: list[str] | None) -> "TBox":

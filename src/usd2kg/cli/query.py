@@ -41,7 +41,7 @@ def query_command(
     json: JsonOutput = False,
 ) -> None:
     """Query a graph by a question in words, a predefined question, or SPARQL."""
-    from usd2kg.stores import chosen_graphs, is_store, open_graph, open_store  # noqa: PLC0415
+    from usd2kg.stores import is_store, open_graph, open_store, select_graphs  # noqa: PLC0415
 
     if is_list:
         _print_questions(json)
@@ -56,7 +56,7 @@ def query_command(
     if sparql is not None and is_store(graph):
         # A server evaluates the query itself; its graphs may exceed the memory here.
         store = open_store(graph)
-        answer = store.query(read_sparql(sparql), chosen_graphs(store, scene))
+        answer = store.query(read_sparql(sparql), select_graphs(store, scene))
     elif sparql is not None:
         answer = open_graph(graph, scene).sparql(read_sparql(sparql))
     elif question is not None:

@@ -46,9 +46,9 @@ def serve_command(
     ] = None,
 ) -> None:
     """Serve a graph as a read-only SPARQL 1.1 endpoint with a query page, until Ctrl+C."""
-    from usd2kg.endpoint import Limits, ServeOptions, serve  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.endpoint import EndpointLimits, ServeOptions, serve  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-    limits = Limits(time_limit, max_rows, max_body, memory_limit, workers)
+    limits = EndpointLimits(time_limit, max_rows, max_body, memory_limit, workers)
     if not _is_loopback(host):
         notify(f"{host}: the endpoint has no authentication; anyone who reaches this machine can query it")
     # Service managers stop it with SIGTERM. As after Ctrl+C, the temporary copy of the graph has to be removed.

@@ -1,12 +1,12 @@
-"""A read-only SPARQL 1.1 endpoint over a graph or a store, with a page to ask from."""
+"""A read-only SPARQL 1.1 endpoint over a graph or a store, with a query page."""
 
 from usd2kg.endpoint.bounded import BoundedQueries
-from usd2kg.endpoint.pool import Limits
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.serving import ServeOptions, serve
 
 __all__ = [
     "BoundedQueries",
-    "Limits",
+    "EndpointLimits",
     "ServeOptions",
     "serve",
 ]

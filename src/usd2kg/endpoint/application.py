@@ -1,4 +1,4 @@
-"""make_app: a read-only SPARQL 1.1 Protocol endpoint with a page to ask from."""
+"""make_app: the ASGI application of a read-only SPARQL 1.1 Protocol endpoint with a query page."""
 
 import base64
 import hashlib
@@ -18,15 +18,16 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
-from usd2kg.endpoint.examples import Example
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
+from usd2kg.endpoint.examples import ExampleQuery
 from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
 from usd2kg.endpoint.negotiation import negotiate
-from usd2kg.endpoint.pool import BusyError, Limits, TimeLimitError, WorkerLostError, WorkerPool
+from usd2kg.endpoint.pool import BusyError, TimeLimitError, WorkerLostError, WorkerPool
 from usd2kg.graph.vocabulary import PREFIXES, named_node
 from usd2kg.query.functions import FUNCTION_NAMESPACE
 
-__all__ = ["RequestFaultError", "make_app"]
+__all__ = ["RefusedRequestError", "make_app"]
 
 _FORM = "application/x-www-form-urlencoded"
 _QUERY = "application/sparql-query"
@@ -41,8 +42,8 @@ CONSTRUCT {
 } WHERE {}"""
 
 
-class RequestFaultError(Exception):
-    """A request that cannot be answered, with the status and a text for the person behind it."""
+class RefusedRequestError(Exception):
+    """A request that is refused, with its HTTP status and a message."""
 
     def __init__(self, status: int, text: str) -> None:
         super().__init__(text)
@@ -51,11 +52,11 @@ class RequestFaultError(Exception):
 
 def make_app(
     pool: WorkerPool,
-    limits: Limits,
+    limits: EndpointLimits,
     *,
     title: str,
     graphs: Iterable[str],
-    examples: Iterable[Example],
+    examples: Iterable[ExampleQuery],
     when_ready: Callable[[], None] = lambda: None,
     hosts: Iterable[str] = (),
     origins: Iterable[str] = (),
@@ -63,14 +64,14 @@ def make_app(
     """Return the application.
 
     Args:
-        pool: who answers.
-        limits: what one request may take.
-        title: what is served, for the page.
-        graphs: IRIs of its named graphs.
+        pool: the workers that answer queries.
+        limits: the limits of a request.
+        title: heading of the page.
+        graphs: IRIs of the named graphs.
         examples: queries that the page offers.
-        when_ready: called once queries can be answered.
-        hosts: names, besides localhost and addresses in digits, that it may be asked by.
-        origins: sites whose pages may ask it, like https://my.lab, or *.
+        when_ready: called when queries can be answered.
+        hosts: host names that are served in addition to localhost and IP addresses.
+        origins: origins whose pages may send queries, such as https://my.lab, or *.
     """
     about = {
         "title": title,
@@ -87,8 +88,8 @@ def make_app(
     async def show_about(_: Request) -> Response:
         return JSONResponse(about)
 
-    async def ask(request: Request) -> Response:
-        return await _ask(request, pool, limits)
+    async def handle(request: Request) -> Response:
+        return await _handle(request, pool, limits)
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
@@ -102,8 +103,8 @@ def make_app(
         routes=[
             Route("/", show_page),
             Route("/about", show_about),
-            Route("/sparql", ask, methods=methods),
-            Route("/query", ask, methods=methods),
+            Route("/sparql", handle, methods=methods),
+            Route("/query", handle, methods=methods),
         ],
         middleware=[Middleware(Guard, hosts=tuple(hosts), origins=tuple(origins))],
         lifespan=lifespan,
@@ -111,7 +112,7 @@ def make_app(
 
 
 def _page_policy(page: str) -> str:
-    """Return the policy under which only the script and the style of the page itself run."""
+    """Return the Content-Security-Policy that allows only the page's own script and style."""
 
     def digest(tag: str) -> str:
         found = re.search(rf"<{tag}>(.*?)</{tag}>", page, flags=re.DOTALL)
@@ -124,48 +125,50 @@ def _page_policy(page: str) -> str:
     )
 
 
-async def _ask(request: Request, pool: WorkerPool, limits: Limits) -> Response:
+async def _handle(request: Request, pool: WorkerPool, limits: EndpointLimits) -> Response:
     """Answer one request of the SPARQL 1.1 Protocol (section 2.1)."""
     if request.method == "OPTIONS":
         return Response(status_code=204, headers={"Allow": "GET, POST, OPTIONS"})
     try:
-        wanted = await _read_request(request, limits)
-        if wanted is None:
+        query = await _read_request(request, limits)
+        if query is None:
             return _describe(request)
-        return await _answer(wanted, pool, limits)
-    except RequestFaultError as fault:
-        return _refusal(request, fault)
+        return await _answer(query, pool, limits)
+    except RefusedRequestError as error:
+        return _refusal(request, error)
 
 
-async def _answer(wanted: dict[str, Any], pool: WorkerPool, limits: Limits) -> Response:
+async def _answer(query: dict[str, Any], pool: WorkerPool, limits: EndpointLimits) -> Response:
     start = time.perf_counter()
     try:
-        result = await pool.run(wanted)
+        header, body = await pool.run(query)
     except BusyError as error:
-        raise RequestFaultError(503, "too many queries are waiting; try again in a moment") from error
+        raise RefusedRequestError(503, "too many queries are waiting; try again in a moment") from error
     except TimeLimitError as error:
-        raise RequestFaultError(
-            503, f"the query took more than {limits.seconds:g} s and was stopped; ask for less, or raise --time-limit"
+        raise RefusedRequestError(
+            503, f"the query took more than {limits.seconds:g} s and was stopped; simplify it, or raise --time-limit"
         ) from error
     except WorkerLostError as error:
-        raise RequestFaultError(
-            503, f"the query needed more than {limits.memory_mib} MiB and was stopped; ask for less, like with LIMIT"
+        raise RefusedRequestError(
+            503, f"the query needed more than {limits.memory_mib} MiB and was stopped; simplify it, or add a LIMIT"
         ) from error
-    if result.told["status"] != 200:
-        raise RequestFaultError(result.told["status"], result.body.decode())
-    seconds = time.perf_counter() - start
-    headers = {"Usd2kg-Rows": str(result.told["rows"]), "Server-Timing": f"query;dur={1000 * seconds:.1f}"}
-    if result.told["cut"]:
-        headers["X-SPARQL-MaxRows"] = str(result.told["rows"])
-    media_type = result.told["type"]
-    charset = "; charset=utf-8" if media_type.startswith("text/") else ""
-    headers["Content-Type"] = media_type + charset
-    headers["Vary"] = "Accept"
-    return Response(result.body, headers=headers)
+    if header["status"] != 200:
+        raise RefusedRequestError(header["status"], body.decode())
+    milliseconds = 1000 * (time.perf_counter() - start)
+    charset = "; charset=utf-8" if header["type"].startswith("text/") else ""
+    headers = {
+        "Usd2kg-Rows": str(header["rows"]),
+        "Server-Timing": f"query;dur={milliseconds:.1f}",
+        "Content-Type": header["type"] + charset,
+        "Vary": "Accept",
+    }
+    if header["cut"]:
+        headers["X-SPARQL-MaxRows"] = str(header["rows"])
+    return Response(body, headers=headers)
 
 
-async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | None:
-    """Return what is asked; None where nothing is, and the service is to describe itself."""
+async def _read_request(request: Request, limits: EndpointLimits) -> dict[str, Any] | None:
+    """Return the request for a worker; None if there is no query, which asks for the service description."""
     fields = parse_qsl(request.url.query, keep_blank_values=True)
     if request.method == "POST":
         body = await _read_body(request, limits.body_bytes)
@@ -175,16 +178,16 @@ async def _read_request(request: Request, limits: Limits) -> dict[str, Any] | No
         elif content_type == _QUERY:
             fields.append(("query", body))
         else:
-            raise RequestFaultError(
-                415, f"content type {content_type or 'none'} is not read; expected {_QUERY} or {_FORM}"
+            raise RefusedRequestError(
+                415, f"content type {content_type or 'none'} is not supported; expected {_QUERY} or {_FORM}"
             )
     elif not fields:
         return None
     if any(name in {"update", "using-graph-uri", "using-named-graph-uri"} for name, _ in fields):
-        raise RequestFaultError(400, "this endpoint is read only: updates are not done here")
+        raise RefusedRequestError(400, "this endpoint is read-only; updates are not supported")
     queries = [value for name, value in fields if name == "query"]
     if len(queries) != 1 or not queries[0].strip():
-        raise RequestFaultError(400, f"expected one query, found {len(queries) if any(queries) else 'none'}")
+        raise RefusedRequestError(400, f"expected one query, found {len(queries) if any(queries) else 'none'}")
     return {
         "query": queries[0],
         "accept": request.headers.get("accept"),
@@ -197,42 +200,42 @@ def _graphs(fields: list[tuple[str, str]], name: str) -> list[str]:
     found = [value for field, value in fields if field == name]
     for value in found:
         if named_node(value) is None:
-            raise RequestFaultError(400, f"{name}={value}: expected an absolute IRI")
+            raise RefusedRequestError(400, f"{name}={value}: expected an absolute IRI")
     return found
 
 
-async def _read_body(request: Request, most: int) -> str:
+async def _read_body(request: Request, max_bytes: int) -> str:
     body = b""
     try:
         async for piece in request.stream():
             body += piece
-            if len(body) > most:
-                raise RequestFaultError(413, f"the request is larger than {most} bytes; send a shorter query")
+            if len(body) > max_bytes:
+                raise RefusedRequestError(413, f"the request is larger than {max_bytes} bytes; send a shorter query")
         return body.decode()
     except UnicodeDecodeError as error:
-        raise RequestFaultError(400, "the request is not UTF-8") from error
+        raise RefusedRequestError(400, "the request is not UTF-8") from error
     except ClientDisconnect as error:
-        raise RequestFaultError(400, "the request broke off") from error
+        raise RefusedRequestError(400, "the request is incomplete") from error
 
 
 def _describe(request: Request) -> Response:
-    """Return what this service can do (SPARQL 1.1 Service Description), or the page for a browser."""
+    """Return the SPARQL 1.1 Service Description, or a redirect to the page for browsers."""
     accept = request.headers.get("accept")
     media_type = negotiate(accept, (*GRAPH_TYPES, "text/html"))
     if media_type == "text/html":
         return RedirectResponse("/", 303)
-    # The address was checked by its host, and prints itself escaped.
+    # Guard has checked the host; NamedNode escapes the rest.
     endpoint = str(ox.NamedNode(str(request.url.replace(query=""))))
     found = ox.Store().query(_DESCRIPTION.replace("ENDPOINT", endpoint))
     assert isinstance(found, ox.QueryTriples), "the description is a CONSTRUCT"
     chosen = media_type or GRAPH_TYPES[0]
-    return Response(render(found, chosen, 100).body, media_type=chosen)
+    return Response(render(found, chosen, EndpointLimits()).body, media_type=chosen)
 
 
-def _refusal(request: Request, fault: RequestFaultError) -> Response:
-    """Return the text of a fault, as JSON for clients that read JSON."""
-    headers = {"Retry-After": "1"} if str(fault).startswith("too many") else {}
+def _refusal(request: Request, error: RefusedRequestError) -> Response:
+    """Return the message of an error, as JSON for clients that accept JSON."""
+    headers = {"Retry-After": "1"} if isinstance(error.__cause__, BusyError) else {}
     accept = request.headers.get("accept", "")
     if "json" in accept and "text/plain" not in accept:
-        return JSONResponse({"error": str(fault)}, fault.status, headers=headers)
-    return PlainTextResponse(str(fault) + "\n", fault.status, headers=headers)
+        return JSONResponse({"error": str(error)}, error.status, headers=headers)
+    return PlainTextResponse(str(error) + "\n", error.status, headers=headers)

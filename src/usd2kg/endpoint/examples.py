@@ -1,4 +1,4 @@
-"""Queries that the page offers: the ready questions, about things of the graph that is served."""
+"""ExampleQuery queries of the page: the ready questions, with parameters from the served graph."""
 
 import re
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import PREFIXES, RDFS
 from usd2kg.query.questions import Parameter, Question, list_questions, parse_number
 
-__all__ = ["Example", "make_examples"]
+__all__ = ["ExampleQuery", "make_examples"]
 
 _MOST_USED = """
 SELECT ?o (COUNT(DISTINCT ?x) AS ?n) WHERE {
@@ -20,26 +20,26 @@ SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; 
 GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
 _POSITION = "0 0 1"
 _FIRST = "count"
-"""The question that the page opens with: any graph has an answer."""
+"""Question that the page opens with; every graph has an answer."""
 
 
 @dataclass(frozen=True)
-class Example:
-    """A query with its question in words."""
+class ExampleQuery:
+    """A query with its question in English."""
 
     title: str
     query: str
 
 
-def make_examples(store: ox.Store) -> tuple[Example, ...]:
-    """Return the ready questions as queries without parameters, about what a store holds."""
+def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
+    """Return the ready questions as queries, with each parameter replaced by a term of the store."""
     terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
     questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
     return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)
 
 
-def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> Example | None:
-    """Return a question with each parameter replaced by a term; None where the graph has none for it."""
+def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> ExampleQuery | None:
+    """Return a question with each parameter replaced by a term; None if the graph lacks such a term."""
     title, query = question.text, question.sparql
     for parameter in question.parameters:
         term = _term(parameter, terms)
@@ -49,11 +49,11 @@ def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | N
         unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
         title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
     lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
-    return Example(title, "\n".join((f"# {_line(title)}", *lines)))
+    return ExampleQuery(title, "\n".join((f"# {_line(title)}", *lines)))
 
 
 def _replace(query: str, name: str, term: ox.NamedNode | ox.Literal) -> str:
-    """Return a query with a term in place of a variable; what is selected and grouped by has to be variables."""
+    """Return a query with a variable replaced in WHERE by a term, and removed from SELECT and GROUP BY."""
     head, where, rest = query.partition("WHERE")
     body, brace, tail = rest.rpartition("}")
     variable = re.compile(rf"\s*\?{name}\b")

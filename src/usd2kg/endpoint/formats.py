@@ -1,4 +1,4 @@
-"""Results of queries as the bytes that SPARQL's media types ask for, cut at a number of rows."""
+"""render: query results in the media types of SPARQL and RDF, cut at a number of rows."""
 
 import itertools
 import json
@@ -9,13 +9,12 @@ from xml.sax.saxutils import escape, quoteattr
 
 import pyoxigraph as ox
 
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.graph.vocabulary import PREFIXES
 
 __all__ = ["GRAPH_TYPES", "TABLE_TYPES", "Rendered", "render"]
 
 _XSD_STRING = "http://www.w3.org/2001/XMLSchema#string"
-_MOST_BYTES = 64 * 1024 * 1024
-"""An answer ends where it reaches this size."""
 
 TABLE_TYPES = (
     "application/sparql-results+json",
@@ -25,7 +24,7 @@ TABLE_TYPES = (
     "application/json",
     "application/xml",
 )
-"""Media types of the results of SELECT and ASK, the usual one first."""
+"""Media types of SELECT and ASK results, the default first."""
 _RDF_FORMATS = {
     "text/turtle": ox.RdfFormat.TURTLE,
     "application/n-triples": ox.RdfFormat.N_TRIPLES,
@@ -33,40 +32,40 @@ _RDF_FORMATS = {
     "application/ld+json": ox.RdfFormat.JSON_LD,
 }
 GRAPH_TYPES = tuple(_RDF_FORMATS)
-"""Media types of the results of CONSTRUCT and DESCRIBE, the usual one first."""
+"""Media types of CONSTRUCT and DESCRIBE results, the default first."""
 
 Row = Sequence[Any]
 
 
 class Rendered(NamedTuple):
-    """An answer as it is sent."""
+    """A serialised answer."""
 
     body: bytes
     rows: int
     is_cut: bool
-    """Whether there was more than was allowed."""
+    """Whether rows are missing because of the limits."""
 
 
-def render(found: Any, media_type: str, most: int) -> Rendered:
-    """Return results of pyoxigraph in a media type, at most so many rows or triples of them."""
+def render(found: Any, media_type: str, limits: EndpointLimits) -> Rendered:
+    """Return pyoxigraph's results in a media type, cut at the limits of rows and bytes."""
     if isinstance(found, ox.QueryBoolean):
         return Rendered(_boolean(bool(found), media_type).encode(), 1, False)
     if isinstance(found, ox.QueryTriples):
-        kept = list(itertools.islice(found, most + 1))
+        kept = list(itertools.islice(found, limits.rows + 1))
         rdf_format = _RDF_FORMATS[media_type]
         prefixes = PREFIXES if rdf_format == ox.RdfFormat.TURTLE else None
-        text = ox.serialize(kept[:most], format=rdf_format, prefixes=prefixes)
+        text = ox.serialize(kept[: limits.rows], format=rdf_format, prefixes=prefixes)
         assert text is not None, "without an output file, serialize returns the bytes"
         if rdf_format == ox.RdfFormat.RDF_XML:
-            text = _NO_XML.sub("\N{REPLACEMENT CHARACTER}", text.decode()).encode()
-        return Rendered(text, min(len(kept), most), len(kept) > most)
+            text = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text.decode()).encode()
+        return Rendered(text, min(len(kept), limits.rows), len(kept) > limits.rows)
     names = [variable.value for variable in found.variables]
-    head, line, joint, tail = _WRITERS[media_type](names)
+    head, line, separator, tail = _WRITERS[media_type](names)
     body, rows = bytearray(head.encode()), 0
     for solution in found:
-        if rows == most or len(body) > _MOST_BYTES:
+        if rows == limits.rows or len(body) > limits.answer_bytes:
             return Rendered(bytes(body) + tail.encode(), rows, True)
-        body += ((joint if rows else "") + line([solution[name] for name in names])).encode()
+        body += ((separator if rows else "") + line([solution[name] for name in names])).encode()
         rows += 1
     return Rendered(bytes(body) + tail.encode(), rows, False)
 
@@ -74,7 +73,7 @@ def render(found: Any, media_type: str, most: int) -> Rendered:
 class _Writer(NamedTuple):
     head: str
     line: Callable[[Row], str]
-    joint: str
+    separator: str
     tail: str
 
 
@@ -117,13 +116,13 @@ def _xml(names: list[str]) -> _Writer:
 _XML_HEAD = '<?xml version="1.0"?>\n<sparql xmlns="http://www.w3.org/2005/sparql-results#">'
 
 
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 cannot hold in any spelling (section 2.2), as RDF can: one such character makes all rows unreadable."""
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""Characters that RDF allows and XML 1.0 excludes even as references (section 2.2)."""
 
 
 def _xml_text(text: str) -> str:
-    """Return a text as XML; what XML cannot hold becomes U+FFFD, and JSON, CSV and TSV still give it as it is."""
-    return escape(_NO_XML.sub("\N{REPLACEMENT CHARACTER}", text), {"\r": "&#13;"})
+    """Return a text as XML; characters that XML excludes become U+FFFD (JSON, CSV and TSV keep them)."""
+    return escape(_NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text), {"\r": "&#13;"})
 
 
 def _xml_term(term: Any) -> str:
@@ -141,7 +140,7 @@ def _xml_term(term: Any) -> str:
 
 
 def _csv(names: list[str]) -> _Writer:
-    """Write SPARQL 1.1 Query Results CSV: values without what they are."""
+    """Write SPARQL 1.1 Query Results CSV: values without types."""
 
     def cell(term: Any) -> str:
         text = "" if term is None else _plain(term)
@@ -157,7 +156,7 @@ def _plain(term: Any) -> str:
 
 
 def _tsv(names: list[str]) -> _Writer:
-    """Write SPARQL 1.1 Query Results TSV: terms as in SPARQL."""
+    """Write SPARQL 1.1 Query Results TSV: terms in SPARQL syntax."""
 
     def line(row: Row) -> str:
         return "\t".join("" if term is None else str(term).replace("\t", "\\t") for term in row) + "\n"

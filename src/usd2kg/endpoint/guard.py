@@ -1,4 +1,4 @@
-"""Guard: what a browser could be tricked into is turned away before a query is read."""
+"""Guard: ASGI middleware against DNS rebinding and cross-site requests."""
 
 import ipaddress
 from collections.abc import Iterable
@@ -18,14 +18,14 @@ _HEADERS = {
     "Cache-Control": "no-store",
 }
 _STRICT = "default-src 'none'; frame-ancestors 'none'"
-"""Content-Security-Policy of all that brings none of its own."""
+"""Content-Security-Policy of responses without their own."""
 
 
 class Guard:
-    """Checks Host and Origin of each request, and adds the headers that keep a browser careful.
+    """Checks Host and Origin of each request, and adds security headers to each response.
 
-    A page of another site may have a name of its own point to this machine and then ask as if it were from here (DNS
-    rebinding): so only names that are known are served. Addresses in digits need no name, and so cannot be rebound.
+    In DNS rebinding, another site lets its own host name resolve to this machine, which makes its requests same-origin.
+    Therefore only known host names are served. IP addresses are not resolved and cannot be rebound.
     """
 
     def __init__(self, app: ASGIApp, hosts: Iterable[str], origins: Iterable[str]) -> None:
@@ -34,12 +34,12 @@ class Guard:
         self._origins = frozenset(origins)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve a request, or turn it away."""
+        """Pass a request on, or refuse it with 403."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        fault = self._fault(headers)
+        refusal = self._refusal(headers)
         origin = headers.get("origin")
         is_shared = origin in self._origins or "*" in self._origins
 
@@ -58,22 +58,23 @@ class Guard:
                     added.add_vary_header("Origin")
             await send(message)
 
-        app = self._app if fault is None else PlainTextResponse(fault + "\n", 403)
+        app = self._app if refusal is None else PlainTextResponse(refusal + "\n", 403)
         await app(scope, receive, send_guarded)
 
-    def _fault(self, headers: Headers) -> str | None:
+    def _refusal(self, headers: Headers) -> str | None:
+        """Return why a request is refused; None if it is allowed."""
         host = host_of(headers.get("host", ""))
         if not (host in self._hosts or _is_address(host)):
-            return "this host name is not served here; start usd2kg serve with --allow-host to add it"
+            return "this host name is not served; add it with usd2kg serve --allow-host"
         origin = headers.get("origin")
         is_own = origin is not None and urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
         if origin is None or is_own or origin in self._origins or "*" in self._origins:
             return None
-        return "pages of other sites may not ask here; start usd2kg serve with --cors to let them"
+        return "cross-site requests are not allowed; add the origin with usd2kg serve --cors"
 
 
 def host_of(netloc: str) -> str:
-    """Return the host in a Host header, without its port and brackets.
+    """Return the host of a Host header, without port and brackets.
 
     >>> host_of("LOCALHOST:7878"), host_of("[::1]:80"), host_of("::1:x")
     ('localhost', '::1', '')

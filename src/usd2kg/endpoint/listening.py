@@ -1,44 +1,31 @@
-"""open_socket: the port to serve on, taken before any work is spent."""
+"""open_socket: bind the port before the graph is copied."""
 
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Protocol
 
 from usd2kg.errors import OutputError
 
-__all__ = ["Address", "open_socket"]
-
-
-class Address(Protocol):
-    """A host and a port."""
-
-    @property
-    def host(self) -> str:
-        """Name or address of this machine."""
-        ...
-
-    @property
-    def port(self) -> int:
-        """0 for one that is free."""
-        ...
+__all__ = ["open_socket"]
 
 
 @contextmanager
-def open_socket(address: Address) -> Iterator[socket.socket]:
-    """Return a socket that is bound to an address.
+def open_socket(host: str, port: int) -> Iterator[socket.socket]:
+    """Yield a bound socket, closed at the end of the block.
+
+    Args:
+        host: name or address of this machine.
+        port: 0 selects a free port.
 
     Raises:
-        OutputError: the port is taken, or the host is not this machine.
+        OutputError: the port is in use, or the host is not this machine.
     """
     try:
-        family, kind, _, _, place = socket.getaddrinfo(address.host, address.port, type=socket.SOCK_STREAM)[0]
+        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
         bound = socket.socket(family, kind)
         bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        bound.bind(place)
+        bound.bind(address)
     except (OSError, OverflowError) as error:
-        raise OutputError(
-            f"{address.host}:{address.port}: cannot be served on ({error}); choose another --port or --host"
-        ) from error
+        raise OutputError(f"{host}:{port}: cannot be bound ({error}); choose another --port or --host") from error
     with bound:
         yield bound

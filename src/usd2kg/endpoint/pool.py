@@ -1,137 +1,123 @@
-"""WorkerPool: processes that answer queries and are killed where a query takes too long or too much memory."""
+"""WorkerPool: processes that answer queries, killed if a query exceeds its time or memory."""
 
 import asyncio
 import json
 import sys
 from asyncio.subprocess import DEVNULL, PIPE, Process
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-__all__ = ["BusyError", "Limits", "Result", "TimeLimitError", "WorkerLostError", "WorkerPool"]
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
 
-_LONGEST_LINE = 1 << 20
-_WAITING_PER_WORKER = 8
-"""Queries that may wait for each worker; more are turned away at once."""
+__all__ = ["BusyError", "TimeLimitError", "WorkerAnswer", "WorkerLostError", "WorkerPool"]
+
+_HEADER_BYTES = 1 << 20
+"""Longest header line of a worker."""
 
 
 class BusyError(Exception):
-    """Too many queries wait already."""
+    """The queue of waiting queries is full."""
 
 
 class TimeLimitError(Exception):
-    """The query took too long, and was stopped."""
+    """The query exceeded its time and was stopped."""
 
 
 class WorkerLostError(Exception):
-    """The process died: the query needed more memory than it may have."""
+    """The worker died because the query exceeded its memory."""
 
 
-@dataclass(frozen=True)
-class Limits:
-    """What one query and one client may take."""
+class WorkerAnswer(NamedTuple):
+    """The answer of a worker, see `worker`."""
 
-    seconds: float = 10.0
-    rows: int = 10_000
-    body_bytes: int = 1 << 20
-    """Of a request."""
-    memory_mib: int = 1024
-    """Of one query, beyond what a worker needs by itself."""
-    workers: int = 2
-
-
-class Result(NamedTuple):
-    """What a worker answered."""
-
-    told: dict[str, Any]
+    header: dict[str, Any]
     body: bytes
 
 
 class WorkerPool:
-    """Some workers over one folder. A worker that is killed is replaced when it is next needed."""
+    """Workers over one folder. A killed worker is replaced when it is next needed."""
 
-    def __init__(self, folder: Path, limits: Limits) -> None:
+    def __init__(self, folder: Path, limits: EndpointLimits) -> None:
         self._folder = folder
         self._limits = limits
-        self._places = asyncio.Semaphore(limits.workers)
+        self._free = asyncio.Semaphore(limits.workers)
         self._idle: list[Process] = []
         self._waiting = 0
 
-    async def run(self, request: dict[str, Any]) -> Result:
+    async def run(self, request: dict[str, Any]) -> WorkerAnswer:
         """Return the answer to a request.
 
         Raises:
-            BusyError: too many wait already.
-            TimeLimitError: it took too long.
-            WorkerLostError: it took too much memory.
+            BusyError: too many requests are waiting.
+            TimeLimitError: the query exceeded its time.
+            WorkerLostError: the query exceeded its memory.
         """
-        if self._waiting >= _WAITING_PER_WORKER * self._limits.workers:
+        if self._waiting >= self._limits.queued_per_worker * self._limits.workers:
             raise BusyError
         self._waiting += 1
         try:
-            async with self._places:
+            async with self._free:
                 worker = self._idle.pop() if self._idle else await self._start()
                 return await self._run_in(worker, request)
         finally:
             self._waiting -= 1
 
-    async def _run_in(self, worker: Process, request: dict[str, Any]) -> Result:
+    async def _run_in(self, worker: Process, request: dict[str, Any]) -> WorkerAnswer:
         is_done = False
         try:
-            result = await asyncio.wait_for(_ask(worker, request), self._limits.seconds)
+            answer = await asyncio.wait_for(_send(worker, request), self._limits.seconds)
             is_done = True
         except TimeoutError as error:
             raise TimeLimitError from error
         except (asyncio.IncompleteReadError, ConnectionError) as error:
             raise WorkerLostError from error
         finally:
-            # Also where the client has left and this task is cancelled: half an answer may be in the pipe.
+            # A disconnected client cancels this task, possibly with half an answer in the pipe.
             if is_done:
                 self._idle.append(worker)
             else:
                 _kill(worker)
-        return result
+        return answer
 
     async def _start(self) -> Process:
-        limits = map(str, (self._limits.rows, self._limits.memory_mib, self._limits.seconds))
-        module = "usd2kg.endpoint.worker"
         worker = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", module, str(self._folder), *limits),
+            *(sys.executable, "-m", "usd2kg.endpoint.worker", str(self._folder), json.dumps(asdict(self._limits))),
             stdin=PIPE,
             stdout=PIPE,
             stderr=DEVNULL,
-            limit=_LONGEST_LINE,
+            limit=_HEADER_BYTES,
         )
         try:
-            await _read_reply(worker)
+            await _read_answer(worker)
         except asyncio.IncompleteReadError as error:
             raise WorkerLostError from error
         return worker
 
     async def warm(self) -> None:
-        """Start all workers, so that the first query need not wait for one."""
+        """Start all workers, so that the first queries do not wait."""
         self._idle += await asyncio.gather(*(self._start() for _ in range(self._limits.workers)))
 
     async def close(self) -> None:
-        """Stop all workers that are idle."""
+        """Stop all idle workers."""
         while self._idle:
             worker = self._idle.pop()
             _kill(worker)
             await worker.wait()
 
 
-async def _ask(worker: Process, request: dict[str, Any]) -> Result:
+async def _send(worker: Process, request: dict[str, Any]) -> WorkerAnswer:
     assert worker.stdin is not None, "workers are started with pipes"
     worker.stdin.write(json.dumps(request).encode() + b"\n")
     await worker.stdin.drain()
-    return await _read_reply(worker)
+    return await _read_answer(worker)
 
 
-async def _read_reply(worker: Process) -> Result:
+async def _read_answer(worker: Process) -> WorkerAnswer:
     assert worker.stdout is not None, "workers are started with pipes"
-    told = json.loads(await worker.stdout.readuntil(b"\n"))
-    return Result(told, await worker.stdout.readexactly(told["length"]))
+    header = json.loads(await worker.stdout.readuntil(b"\n"))
+    return WorkerAnswer(header, await worker.stdout.readexactly(header["length"]))
 
 
 def _kill(worker: Process) -> None:

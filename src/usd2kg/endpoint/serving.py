@@ -1,4 +1,4 @@
-"""serve: the endpoint as a running server."""
+"""serve: run the endpoint as an HTTP server."""
 
 import tempfile
 from collections.abc import Callable, Sequence
@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.pool import Limits, WorkerPool
+from usd2kg.endpoint.endpoint_limits import EndpointLimits
+from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError
-from usd2kg.query.load import load_graph
+from usd2kg.query.graph_file import load_graph
 from usd2kg.stores import EmbeddedStore
 
 __all__ = ["ServeOptions", "serve"]
@@ -17,43 +18,46 @@ __all__ = ["ServeOptions", "serve"]
 
 @dataclass(frozen=True)
 class ServeOptions:
-    """Where to serve, and for whom."""
+    """Address, allowed clients and limits."""
 
     host: str = "127.0.0.1"
     port: int = 7878
-    """0 for one that is free."""
+    """0 selects a free port."""
     hosts: Sequence[str] = ()
+    """Host names that are served in addition to localhost and IP addresses."""
     origins: Sequence[str] = ()
-    limits: Limits = field(default_factory=Limits)
+    """Origins whose pages may send queries (CORS), such as https://my.lab, or *."""
+    limits: EndpointLimits = field(default_factory=EndpointLimits)
 
 
-def serve(place: str, options: ServeOptions, told: Callable[[str], None]) -> None:
-    """Serve a graph or the folder of a store until the process is interrupted.
+def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> None:
+    """Serve a graph, or a store folder, until the process is interrupted.
 
-    What is served is the state at the start: a copy that does not change, and that workers only read.
+    The server answers from a copy made at the start.
 
     Args:
-        place: a graph that `usd2kg build` wrote, or the folder of a store.
-        options: where, for whom, within which limits.
-        told: gets one line once the server is ready.
+        place: a graph file, or the folder of a store.
+        options: address, allowed clients and limits.
+        report: receives one line when the server is ready.
 
     Raises:
-        GraphError: the graph cannot be read, or the package for serving is not installed.
-        StoreError: the folder is no store, or another process writes to it.
-        OutputError: the port is taken.
+        GraphError: the graph cannot be read, or the extra `serve` is not installed.
+        StoreError: the folder is not a store, or another process writes to it.
+        OutputError: the port is in use.
     """
     try:
         import uvicorn  # noqa: PLC0415
 
         from usd2kg.endpoint.application import make_app  # noqa: PLC0415
     except ModuleNotFoundError as error:
-        raise GraphError(
-            f"serving a graph needs the package {error.name}; install it with pip install 'usd2kg[serve]'"
-        ) from error
+        raise GraphError(f"serve: {error.name} is not installed; run: pip install 'usd2kg[serve]'") from error
     from usd2kg.endpoint.examples import make_examples  # noqa: PLC0415
     from usd2kg.endpoint.listening import open_socket  # noqa: PLC0415
 
-    with tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary, open_socket(options) as socket:
+    with (
+        tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary,
+        open_socket(options.host, options.port) as socket,
+    ):
         folder = Path(temporary) / "store"
         _copy(place, folder)
         host, port = socket.getsockname()[:2]
@@ -65,23 +69,24 @@ def serve(place: str, options: ServeOptions, told: Callable[[str], None]) -> Non
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
             examples=make_examples(store),
-            when_ready=lambda: told(f"serves {place} at {address} (SPARQL at /sparql)"),
+            when_ready=lambda: report(f"serves {place} at {address} (SPARQL at /sparql)"),
             hosts=[*options.hosts, options.host],
             origins=options.origins,
         )
         del store
-        config = uvicorn.Config(app, log_level="warning", server_header=False, timeout_graceful_shutdown=3)
+        seconds = options.limits.shutdown_s
+        config = uvicorn.Config(app, log_level="warning", server_header=False, timeout_graceful_shutdown=seconds)
         uvicorn.Server(config).run(sockets=[socket])
 
 
 def _copy(place: str, folder: Path) -> None:
-    """Write what is to be served to a folder."""
+    """Write the graphs to serve to a folder."""
     if Path(place).is_dir():
         EmbeddedStore(place).snapshot(folder)
         return
     if "://" in place:
-        raise GraphError(f"{place}: is a server already; expected a graph or a folder to serve")
-    read = load_graph(place)
+        raise GraphError(f"{place}: is already a server; expected a graph file or a store folder")
+    graph = load_graph(place)
     store = ox.Store(str(folder))
-    store.bulk_extend(read.store)
+    store.bulk_extend(graph.store)
     store.flush()

@@ -1,9 +1,9 @@
-"""Questions to a graph: SPARQL, measuring functions, and ready questions in plain words."""
+"""Queries over a graph: SPARQL, measuring functions, and ready questions in English."""
 
 from usd2kg.query.answer import Answer
 from usd2kg.query.functions import FUNCTION_NAMESPACE, FUNCTIONS
+from usd2kg.query.graph_file import load_graph
 from usd2kg.query.graph_store import GraphStore
-from usd2kg.query.load import load_graph
 from usd2kg.query.lookup import term_list
 from usd2kg.query.questions import Parameter, Question, list_questions
 

@@ -1,4 +1,4 @@
-"""A table of results: what a question to a graph gives."""
+"""Answer: the result table of a query."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -15,19 +15,19 @@ Value = str | float | int | bool | None
 
 @dataclass(frozen=True)
 class Answer:
-    """A table of results."""
+    """The result table of a query."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[str | None, ...], ...]
-    """Values as text; None where a row has none."""
+    """Cells as text; None for an unbound variable."""
     values: tuple[tuple[Value, ...], ...]
-    """The same with numbers and truth values as such."""
+    """The same cells, with numbers and booleans as such."""
     sparql: str
     """The query that was run."""
 
 
 def without_columns(answer: Answer, left_out: set[str]) -> Answer:
-    """Return an answer with some of its columns left out."""
+    """Return an answer without some of its columns."""
     kept = [index for index, column in enumerate(answer.columns) if column not in left_out]
     return replace(
         answer,
@@ -38,7 +38,7 @@ def without_columns(answer: Answer, left_out: set[str]) -> Answer:
 
 
 def with_columns(answer: Answer, added: Mapping[str, str]) -> Answer:
-    """Return an answer with more columns that are alike in all rows."""
+    """Return an answer with additional columns that have the same value in all rows."""
     more = tuple(added.values())
     return replace(
         answer,
@@ -49,20 +49,20 @@ def with_columns(answer: Answer, added: Mapping[str, str]) -> Answer:
 
 
 def join_answers(answers: Sequence[Answer]) -> Answer:
-    """Return the rows of several answers to one question, each once."""
+    """Return the union of several answers to one question, without duplicate rows."""
     rows = {row: value for answer in answers for row, value in zip(answer.rows, answer.values, strict=True)}
     return replace(answers[0], rows=tuple(rows), values=tuple(rows.values()))
 
 
 def make_answer(columns: tuple[str, ...], rows: Sequence[tuple[Any, ...]], query: str) -> Answer:
-    """Return the rows of terms that a query gave as a table of plain values; None stands for an unbound variable."""
+    """Return query solutions, rows of terms, as a table of plain values; None is an unbound variable."""
     texts = tuple(tuple(_plain(term) for term in row) for row in rows)
     values = tuple(tuple(_value(term) for term in row) for row in rows)
     return Answer(columns, texts, values, query)
 
 
 def _value(term: Any) -> Value:
-    """Return a term as a JSON value: numbers and truth values as such, all else as text."""
+    """Return a term as a JSON value: numbers and booleans as such, everything else as text."""
     datatype = term.datatype.value.rpartition("#")[2] if isinstance(term, ox.Literal) else ""
     if datatype in {"double", "float", "decimal"} and math.isfinite(float(term.value)):
         return float(term.value)

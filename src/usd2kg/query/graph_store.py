@@ -1,4 +1,4 @@
-"""Asking a graph: SPARQL, and ready questions in plain words."""
+"""GraphStore: a graph in memory with its queries."""
 
 import itertools
 from collections.abc import Mapping, Sequence
@@ -8,14 +8,14 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
-from usd2kg.query import plain_questions as spoken
+from usd2kg.query import query_templates as templates
 from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns, without_columns
-from usd2kg.query.depth import check_depth
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.bodies import parse_vector
+from usd2kg.query.complexity import check_complexity
 from usd2kg.query.functions import FUNCTION_NAMESPACE, make_functions
 from usd2kg.query.lookup import Lookup, term_list
-from usd2kg.query.object_boxes import parse_vector
 from usd2kg.query.questions import Parameter, find_question, parse_number
+from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 
 __all__ = ["GraphStore"]
 
@@ -25,7 +25,7 @@ _Term = ox.NamedNode | ox.Literal
 
 
 class GraphStore:
-    """A graph in memory that answers questions. It never changes."""
+    """An immutable graph in memory that answers SPARQL queries and ready questions."""
 
     def __init__(self, store: ox.Store, source: str) -> None:
         self._store = store
@@ -38,59 +38,59 @@ class GraphStore:
 
     @property
     def store(self) -> ox.Store:
-        """The triples, to be read only."""
+        """The triples; do not modify."""
         return self._store
 
     @property
     def source(self) -> str:
-        """The file that the graph was read from."""
+        """The file or store that the graph was read from."""
         return self._source
 
     def sparql(self, query: str) -> Answer:
-        """Return the answer to a SPARQL 1.1 query; our usual prefixes need no declaration, our functions are known.
+        """Return the answer to a SPARQL 1.1 query; the package's prefixes and functions are predefined.
 
         Raises:
-            GraphError: the query does not parse, updates, or is nested too deep.
+            GraphError: the query does not parse, is an update, is too complex, or contacts another server.
         """
-        check_depth(query)
+        check_complexity(query)
         return self._run(query, {})
 
     def answer(self, question_id: str, given: Mapping[str, str] | None = None) -> Answer:
         """Return the answer to one of `list_questions`, with values for its parameters.
 
-        Where a name means several objects, it is asked for each, and a last column says for which a row is.
+        If a name matches several objects, the question is answered for each, and a last column names the object.
 
         Raises:
-            GraphError: the question, a parameter or what it names is unknown, or a number is none.
+            GraphError: the question, a parameter or the object is unknown, or a value does not parse.
         """
         question = find_question(question_id)
         filled = question.fill(given or {})
         choices = [self._terms(parameter, value) for parameter, value in filled.items()]
-        told = [p for p, terms in zip(filled, choices, strict=True) if p.kind == "object" and len(terms) > 1]
-        labels = {node.value: label for node, _, label in self._lookup.objects} if told else {}
+        ambiguous = [p for p, terms in zip(filled, choices, strict=True) if p.kind == "object" and len(terms) > 1]
+        labels = {node.value: label for node, _, label in self._lookup.objects} if ambiguous else {}
         answers = []
         for terms in itertools.product(*choices):
             bound = dict(zip(filled, terms, strict=True))
             found = self._run(question.sparql, {ox.Variable(p.variable): term for p, term in bound.items()})
             found = without_columns(found, {parameter.variable for parameter in filled})
-            answers.append(with_columns(found, {p.name: labels[str(bound[p].value)] for p in told}))
+            answers.append(with_columns(found, {p.name: labels[str(bound[p].value)] for p in ambiguous}))
         return join_answers(answers)
 
     def _terms(self, parameter: Parameter, value: str) -> Sequence[_Term]:
-        """Return the terms that a value may mean."""
+        """Return the terms that a value can denote."""
         if parameter.kind == "object":
             return self.find(value)
         if parameter.kind == "class":
             return self._lookup.classes(value)
         if parameter.kind == "position":
             if parse_vector(value) is None:
-                raise GraphError(f"{parameter.name} {value!r} is no position; expected x y z in metres, like '1 0.5 2'")
+                raise GraphError(f"{parameter.name} {value!r} is not a position; expected x y z in metres: '1 0.5 2'")
             return [ox.Literal(value)]
         return [ox.Literal(parse_number(value, parameter.kind))]
 
     def _run(self, query: str, bindings: Mapping[ox.Variable, _Term]) -> Answer:
-        if reaches_out(query):
-            raise GraphError("query: SERVICE asks another server, and no query leaves this machine; take that part out")
+        if has_remote_clause(query):
+            raise GraphError(REMOTE_QUERY)
         try:
             found = self._store.query(
                 query,
@@ -102,7 +102,7 @@ class GraphStore:
         except SyntaxError as error:
             reason = " ".join(str(error).split())
             raise GraphError(
-                f"query: not valid SPARQL ({reason}); only SELECT, ASK, CONSTRUCT and DESCRIBE run here"
+                f"query: not valid SPARQL ({reason}); expected SELECT, ASK, CONSTRUCT or DESCRIBE"
             ) from error
         if isinstance(found, ox.QueryBoolean):
             return Answer(("answer",), ((str(bool(found)).lower(),),), ((bool(found),),), query)
@@ -113,57 +113,58 @@ class GraphStore:
         return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], query)
 
     def on(self, thing: str, *, is_direct: bool = True) -> Answer:
-        """Return what stands or lies on a thing, named by label, class, words or prim path.
+        """Return the objects on a thing.
 
         Args:
-            thing: what is asked about.
-            is_direct: whether what lies on something that lies on it is left out.
+            thing: prim path, label, class or words, see `find`.
+            is_direct: whether to exclude objects on other objects on the thing.
         """
-        return self._about(spoken.ON if is_direct else spoken.ALL_ON, thing)
+        return self._about(templates.ON if is_direct else templates.ALL_ON, thing)
 
     def inside(self, thing: str, *, is_direct: bool = True) -> Answer:
-        """Return what is inside a thing or in a room; on request also what is on or in something inside it."""
-        return self._about(spoken.INSIDE if is_direct else spoken.ALL_INSIDE, thing)
+        """Return the objects inside a thing or room; if not `is_direct`, also objects on or in those."""
+        return self._about(templates.INSIDE if is_direct else templates.ALL_INSIDE, thing)
 
     def where_is(self, thing: str) -> Answer:
-        """Return where a thing is: the centre of its box in metres, what it is on and inside of, and its room."""
-        return self._about(spoken.WHERE_IS, thing)
+        """Return the location of a thing: centre of its box in metres, supporters, containers and room."""
+        return self._about(templates.WHERE_IS, thing)
 
     def near(self, thing: str) -> Answer:
-        """Return what is near a thing, next to it or touching it, the nearest first."""
-        return self._about(spoken.NEAR, thing)
+        """Return the objects near, next to or touching a thing, nearest first."""
+        return self._about(templates.NEAR, thing)
 
     def above(self, thing: str) -> Answer:
-        """Return what is above a thing, or above something on it."""
-        return self._about(spoken.ABOVE, thing)
+        """Return the objects above a thing, or above something on it."""
+        return self._about(templates.ABOVE, thing)
 
     def parts_of(self, thing: str) -> Answer:
-        """Return the parts of a thing, and theirs."""
-        return self._about(spoken.PARTS_OF, thing)
+        """Return the parts of a thing, recursively."""
+        return self._about(templates.PARTS_OF, thing)
 
     def all_of(self, name: str) -> Answer:
-        """Return all things of a class, subclasses included; the class is named by label, local name or IRI."""
-        return self._about(spoken.ALL_OF, name)
+        """Return the objects of a class, subclasses included, named by label, local name, CURIE or IRI."""
+        return self._about(templates.ALL_OF, name)
 
     def ask(self, words: Sequence[str]) -> Answer:
-        """Return the answer to a ready question, like `on X`, `in X`, `near X`, `parts of X` or `all of CLASS`.
+        """Return the answer to a short question: `on X`, `in X`, `near X`, `parts of X`, `all of CLASS`.
 
         Raises:
-            GraphError: the question is none of these, or what it asks about is not in the graph.
+            GraphError: the question is not understood, or the object or class is not in the graph.
         """
-        return self._about(*spoken.parse_question(words))
+        return self._about(*templates.parse_question(words))
 
     def find(self, thing: str) -> list[ox.NamedNode]:
-        """Return the objects that a person means, by the first way that finds any.
+        """Return the objects that match a name, by the first criterion with a match.
 
-        Ways: prim path; label; class (subclasses included); all words in the label.
+        Criteria in order: prim path; label; class, subclasses included; all words in the label; all words in the
+        asset's name.
 
         Raises:
-            GraphError: there is no such thing.
+            GraphError: no object matches.
         """
         return self._lookup.find(thing)
 
-    def _about(self, question: spoken.SpokenQuestion, name: str) -> Answer:
-        things = self._lookup.classes(name) if question.names_class else self._lookup.find(name)
-        answer = self.sparql(question.sparql(term_list(things)))
-        return replace(answer, columns=tuple(question.columns.get(column, column) for column in answer.columns))
+    def _about(self, template: templates.QueryTemplate, name: str) -> Answer:
+        things = self._lookup.classes(name) if template.takes_class else self._lookup.find(name)
+        answer = self.sparql(template.fill(term_list(things)))
+        return replace(answer, columns=tuple(template.columns.get(column, column) for column in answer.columns))

@@ -1,4 +1,4 @@
-"""What a person means by a name: objects by prim path, label, class or words; classes by label, name or IRI."""
+"""Find the objects and classes that a user names: by prim path, label, class, words or IRI."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -11,6 +11,7 @@ from rapidfuzz import fuzz, process
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import expand_curie
+from usd2kg.query.settings import LOOKUP
 from usd2kg.words import split_identifier
 
 __all__ = ["Lookup", "NamedObject", "term_list"]
@@ -18,8 +19,6 @@ __all__ = ["Lookup", "NamedObject", "term_list"]
 _OBJECTS = "SELECT ?o ?p ?l WHERE { ?o u2k:primPath ?p ; rdfs:label ?l } ORDER BY ?p"
 
 _ASSETS = "SELECT DISTINCT ?o ?a ?p WHERE { ?o u2k:primPath ?p ; u2k:asset ?a } ORDER BY ?p"
-_ALIKE = 80
-"""Of 100: labels that are so like an unknown name are offered."""
 
 _MEMBERS = """
 SELECT DISTINCT ?o ?p WHERE {{
@@ -33,7 +32,7 @@ _USED_LABELS = "SELECT DISTINCT ?l WHERE { ?o u2k:primPath [] ; a ?c . ?c rdfs:l
 
 
 class NamedObject(NamedTuple):
-    """An object of a graph, and what it is called."""
+    """An object of a graph with one of its labels."""
 
     node: ox.NamedNode
     prim_path: str
@@ -41,7 +40,7 @@ class NamedObject(NamedTuple):
 
 
 class Lookup:
-    """Finds the objects and classes of one graph by what people call them."""
+    """Finds objects and classes of one graph by name."""
 
     def __init__(self, store: ox.Store, source: str) -> None:
         self._store = store
@@ -49,48 +48,57 @@ class Lookup:
 
     @cached_property
     def objects(self) -> list[NamedObject]:
-        """All objects with each of their labels, by prim path."""
+        """All objects with each of their labels, in the order of prim paths."""
         return [NamedObject(row["o"], row["p"].value, row["l"].value) for row in self._select(_OBJECTS)]
 
     def find(self, thing: str) -> list[ox.NamedNode]:
-        """Return the objects that a person means, by the first way that finds any.
+        """Return the objects that match a name, by the first criterion with a match.
 
-        Ways: prim path; label; class (subclasses included); all words in the label; all words in the asset's name.
+        Criteria in order: prim path; label; class, subclasses included; all words in the label; all words in the
+        asset's name.
 
         Raises:
-            GraphError: there is no such thing.
+            GraphError: no object matches.
         """
         thing = re.sub(r"^(the|a|an)\s+", "", thing.strip(), flags=re.IGNORECASE)
         wanted = _words(thing)
-        ways: tuple[Callable[[], list[ox.NamedNode]], ...] = (
+        criteria: tuple[Callable[[], list[ox.NamedNode]], ...] = (
             lambda: [node for node, path, _ in self.objects if path == thing],
             lambda: [node for node, _, label in self.objects if label.lower() == thing.lower()],
             lambda: self._members(self._find_classes(thing)),
             lambda: [node for node, _, label in self.objects if wanted and wanted <= _words(label)],
             lambda: [row["o"] for row in self._select(_ASSETS) if wanted and wanted <= _words(row["a"].value)],
         )
-        for way in ways:
-            if found := way():
+        for criterion in criteria:
+            if found := criterion():
                 return found
-        labels = list(dict.fromkeys(label for _, _, label in self.objects))
-        alike = process.extract(thing, labels, scorer=fuzz.WRatio, processor=str.lower, score_cutoff=_ALIKE, limit=3)
-        near = [label for label, _, _ in alike]
-        meant = f" (is {' or '.join(map(repr, near))} meant?)" if near else ""
         raise GraphError(
-            f"{self._source}: nothing is called {thing!r}{meant}; expected a label, a class or a prim path, "
-            "see usd2kg query GRAPH all of CLASS"
+            f"{self._source}: nothing is named {thing!r}{self._suggest(thing)}; expected a label, a class or a prim "
+            "path; usd2kg query GRAPH all of CLASS lists objects"
         )
 
+    def _suggest(self, thing: str) -> str:
+        labels = list(dict.fromkeys(label for _, _, label in self.objects))
+        similar = process.extract(
+            thing,
+            labels,
+            scorer=fuzz.WRatio,
+            processor=str.lower,
+            score_cutoff=LOOKUP.min_label_similarity,
+            limit=LOOKUP.max_suggestions,
+        )
+        return f" (did you mean {' or '.join(repr(label) for label, _, _ in similar)}?)" if similar else ""
+
     def classes(self, name: str) -> list[ox.NamedNode]:
-        """Return the classes that a person means, by label, local name, CURIE or IRI.
+        """Return the classes with this label, local name, CURIE or IRI.
 
         Raises:
-            GraphError: there is none; the message says which classes there are.
+            GraphError: there is none; the message lists the classes of the graph's objects.
         """
         found = self._find_classes(name)
         if not found:
             known = ", ".join(row["l"].value for row in self._select(_USED_LABELS))
-            raise GraphError(f"{self._source}: no class is called {name!r}; the graph holds {known}")
+            raise GraphError(f"{self._source}: no class is named {name!r}; expected one of {known}")
         return found
 
     def _find_classes(self, name: str) -> list[ox.NamedNode]:
@@ -117,9 +125,9 @@ class Lookup:
 
 
 def term_list(nodes: Iterable[ox.NamedNode]) -> str:
-    """Return nodes as they stand in a query.
+    """Return nodes in SPARQL syntax, for VALUES.
 
-    They come from the store and print themselves escaped: no text of a user or a stage enters a query.
+    Nodes come from the store and escape themselves, so that no text of a user or a stage becomes part of a query.
     """
     return " ".join(str(node) for node in nodes)
 
@@ -129,7 +137,7 @@ def _words(text: str) -> frozenset[str]:
 
 
 def _singular(word: str) -> str:
-    """Return a word without its plural ending, roughly: both sides of a comparison are treated alike."""
+    """Return an approximate singular; errors cancel out, since both sides of a comparison are stemmed."""
     for ending, singular in (("ves", "f"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("fe", "f"), ("s", "")):
         if word.endswith(ending) and len(word) > len(ending) + 2 and not word.endswith("ss"):
             return word.removesuffix(ending) + singular

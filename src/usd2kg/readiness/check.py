@@ -7,7 +7,7 @@ from usd2kg.ontology import TBox, read_closure
 from usd2kg.readiness.hierarchy import find_hierarchy_faults
 from usd2kg.readiness.labels import LabelIndex, find_label_faults
 from usd2kg.readiness.senses import ClassSenses, find_sense_faults
-from usd2kg.validation import Axioms, Finding, sort_findings
+from usd2kg.validation import AxiomIndex, Finding, sort_findings
 
 __all__ = ["OntologyReport", "check_ontology"]
 
@@ -57,7 +57,7 @@ def check_ontology(tbox: TBox) -> OntologyReport:
         OntologyError: a document can no longer be read.
     """
     closure = read_closure(tbox)
-    axioms, labels, senses = Axioms(closure.triples), LabelIndex(closure.triples), ClassSenses(tbox)
+    axioms, labels, senses = AxiomIndex(closure.triples), LabelIndex(closure.triples), ClassSenses(tbox)
     findings = [*find_label_faults(tbox, labels), *find_hierarchy_faults(tbox, axioms, senses.default)]
     findings += find_sense_faults(tbox, senses)
     return OntologyReport(

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri, local_name
 from usd2kg.readiness.labels import class_finding
-from usd2kg.validation import Axioms, Finding, Severity
+from usd2kg.validation import AxiomIndex, Finding, Severity
 
 __all__ = ["find_hierarchy_faults"]
 
@@ -15,7 +15,7 @@ _MOST_NAMED = 20
 _NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
 
 
-def find_hierarchy_faults(tbox: TBox, axioms: Axioms, default: ClassIRI | None) -> Iterator[Finding]:
+def find_hierarchy_faults(tbox: TBox, axioms: AxiomIndex, default: ClassIRI | None) -> Iterator[Finding]:
     """Yield the faults of a hierarchy.
 
     Args:
@@ -98,7 +98,7 @@ def _narrow_default(tbox: TBox, default: ClassIRI | None) -> Finding | None:
     )
 
 
-def _unsatisfiable(cls: OntologyClass, axioms: Axioms) -> Iterator[Finding]:
+def _unsatisfiable(cls: OntologyClass, axioms: AxiomIndex) -> Iterator[Finding]:
     clash = axioms.clash(cls.iri, cls.iri)
     if clash is not None:
         found = f"below {axioms.named(clash.first)} and {axioms.named(clash.second)}, which are disjoint"

@@ -1,9 +1,9 @@
-"""Stores of graphs: many scenes in a folder or on a server, each in a named graph of its own."""
+"""Stores: many scenes in a folder or on a server, each in its own named graph."""
 
 from usd2kg.stores.catalog import StoredGraph, choose_graph
 from usd2kg.stores.embedded import EmbeddedStore
-from usd2kg.stores.named_graph import NamedGraph, named_graph, ontology_graph, read_named_graph
-from usd2kg.stores.opening import SceneStore, chosen_graphs, is_store, open_graph, open_store
+from usd2kg.stores.named_graph import NamedGraph, make_named_graph, make_ontology_graph, read_named_graph
+from usd2kg.stores.opening import SceneStore, is_store, open_graph, open_store, select_graphs
 from usd2kg.stores.remote import RemoteStore
 
 __all__ = [
@@ -13,11 +13,11 @@ __all__ = [
     "SceneStore",
     "StoredGraph",
     "choose_graph",
-    "chosen_graphs",
     "is_store",
-    "named_graph",
-    "ontology_graph",
+    "make_named_graph",
+    "make_ontology_graph",
     "open_graph",
     "open_store",
     "read_named_graph",
+    "select_graphs",
 ]

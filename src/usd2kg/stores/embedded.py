@@ -1,4 +1,4 @@
-"""EmbeddedStore: many scenes in one folder, asked without a server."""
+"""EmbeddedStore: many scenes in one folder, without a server."""
 
 import logging
 import re
@@ -11,84 +11,84 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer
-from usd2kg.query.depth import check_depth
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.complexity import check_complexity
 from usd2kg.query.graph_store import GraphStore
+from usd2kg.query.remote_clauses import REMOTE_UPDATE, has_remote_clause
 from usd2kg.stores.catalog import StoredGraph, list_graphs
-from usd2kg.stores.folder_lock import LOCK_NAME, hold_for_reading, hold_for_writing
-from usd2kg.stores.named_graph import NamedGraph, renamed_blanks
+from usd2kg.stores.folder_lock import LOCK_NAME, lock_exclusive, lock_shared
+from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
+from usd2kg.stores.store_limits import FolderLimits
 
 __all__ = ["EmbeddedStore"]
 
 logger = logging.getLogger(__name__)
 
-_ROCKS = "CURRENT"
-"""Every folder of Oxigraph has a file of this name."""
-_OURS = re.compile(
+_ROCKSDB_FILE = "CURRENT"
+"""Present in every Oxigraph folder."""
+_STORE_FILES = re.compile(
     r"usd2kg\.(lock|pending|damaged).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
 )
-"""Names of what a store that is only begun may hold."""
-_WAIT_S = 10.0
+"""Names of files in an incompletely created store."""
 
 
 class EmbeddedStore:
-    """A folder of Oxigraph's, which it can also serve itself. One writer or many readers at a time.
+    """An Oxigraph folder with one writer or many readers at a time; `oxigraph serve` can serve it too.
 
-    Each call holds the folder only while it runs.
+    Each call locks the folder only while it runs.
     """
 
-    def __init__(self, folder: Path | str, *, wait_s: float = _WAIT_S) -> None:
+    def __init__(self, folder: Path | str, *, limits: FolderLimits | None = None) -> None:
         self._folder = Path(folder)
-        self._wait_s = wait_s
+        self._wait_s = (limits or FolderLimits()).lock_wait_s
 
     @property
     def address(self) -> str:
-        """The folder, as the user named it."""
+        """The folder, as the user wrote it."""
         return str(self._folder)
 
     def check(self) -> None:
-        """Make the folder ready for graphs.
+        """Create the folder if it is missing, and finish an interrupted load.
 
         Raises:
-            StoreError: the folder holds other things, cannot be written to, or another process holds it.
+            StoreError: the folder contains other files, is not writable, or is locked by another process.
         """
         with self._writing():
             pass
 
     def load(self, graph: NamedGraph) -> None:
-        """Put a graph under its name, in place of what was there: all of it, or nothing, whatever happens.
+        """Add or replace a graph atomically, even if the process is killed.
 
         Raises:
-            StoreError: as `check`, or the disk is full.
+            StoreError: as for `check`, or the disk is full.
         """
         with self._writing() as store:
             try:
-                write_pending(self._folder, graph.iri, renamed_blanks(graph))
+                write_pending(self._folder, graph.iri, relabel_blank_nodes(graph))
                 self._finish(store)
             except OSError as error:
-                raise StoreError(f"{self._folder}: could not be written ({_reason(error)}); free some space") from error
+                raise StoreError(f"{self._folder}: cannot be written ({_reason(error)}); free disk space") from error
 
     def remove(self, iri: str) -> None:
-        """Take a graph out.
+        """Remove a graph.
 
         Raises:
-            StoreError: as `check`.
+            StoreError: as for `check`.
         """
         with self._writing() as store:
             store.remove_graph(ox.NamedNode(iri))
             store.flush()
 
     def update(self, sparql: str) -> None:
-        """Run a SPARQL 1.1 update, all of it or nothing; our usual prefixes need no declaration.
+        """Run a SPARQL 1.1 update atomically; the package's prefixes are predefined.
 
         Raises:
-            GraphError: the update does not parse, is nested too deep, or asks for a file of another server.
-            StoreError: as `check`.
+            GraphError: the update does not parse, is nested too deep, or contacts another server.
+            StoreError: as for `check`.
         """
-        check_depth(sparql, is_update=True)
-        if reaches_out(sparql):
-            raise GraphError("update: LOAD and SERVICE ask another server, and none is asked; load a file instead")
+        check_complexity(sparql, is_update=True)
+        if has_remote_clause(sparql):
+            raise GraphError(REMOTE_UPDATE)
         with self._writing() as store:
             try:
                 store.update(sparql, prefixes=PREFIXES)
@@ -96,15 +96,15 @@ class EmbeddedStore:
             except SyntaxError as error:
                 raise GraphError(f"update: not valid SPARQL ({_reason(error)})") from error
             except (RuntimeError, OSError) as error:
-                raise GraphError(f"update: could not be done, nothing was changed ({_reason(error)})") from error
+                raise GraphError(f"update: failed, nothing was changed ({_reason(error)})") from error
 
     def graphs(self) -> tuple[StoredGraph, ...]:
-        """Return the graphs of scenes and ontologies in the folder."""
+        """Return the graphs of scenes and ontologies."""
         return list_graphs(self.select)
 
     def select(self, sparql: str) -> list[dict[str, str | None]]:
-        """Return the rows of a SELECT over the folder as it is."""
-        check_depth(sparql)
+        """Return the rows of a SELECT over all graphs."""
+        check_complexity(sparql)
         with self._reading() as store:
             found = store.query(sparql)
             assert isinstance(found, ox.QuerySolutions)
@@ -112,19 +112,19 @@ class EmbeddedStore:
             return [{name: row[name] and row[name].value for name in names} for row in found]
 
     def query(self, sparql: str, graphs: Sequence[str]) -> Answer:
-        """Return the answer to a query over the union of these graphs.
+        """Return the answer to a query over the union of the given graphs.
 
         Raises:
-            GraphError: the query does not parse, or updates.
-            StoreError: the folder is no store, or another process writes to it.
+            GraphError: the query does not parse, or is an update.
+            StoreError: the folder is not a store, or another process writes to it.
         """
         return self.fetch(graphs).sparql(sparql)
 
     def fetch(self, graphs: Sequence[str]) -> GraphStore:
-        """Return these graphs as one, in memory: 10 million triples need some gigabytes.
+        """Return the union of the given graphs in memory; 10 million triples need several gigabytes.
 
         Raises:
-            StoreError: the folder is no store, or another process writes to it.
+            StoreError: the folder is not a store, or another process writes to it.
         """
         copy = ox.Store()
         with self._reading() as store:
@@ -134,10 +134,10 @@ class EmbeddedStore:
         return GraphStore(copy, self.address)
 
     def snapshot(self, target: Path) -> None:
-        """Write the store as it is now to a folder that does not exist yet; it does not change with this one.
+        """Copy the store to a new folder.
 
         Raises:
-            StoreError: the folder is no store, or another process writes to it.
+            StoreError: the folder is not a store, or another process writes to it.
         """
         with self._reading() as store:
             store.backup(str(target))
@@ -147,15 +147,15 @@ class EmbeddedStore:
         if self._folder.exists() and not self._folder.is_dir():
             raise StoreError(f"{self._folder}: is a file; expected a folder for the store")
         if self._folder.is_dir() and not self._is_store() and not self._is_empty():
-            raise StoreError(f"{self._folder}: holds other things; expected a new folder or a store")
+            raise StoreError(f"{self._folder}: contains other files; expected a new folder or a store")
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise StoreError(f"{self._folder}: cannot be made ({error.strerror}); choose another folder") from error
-        with hold_for_writing(self._folder, self._wait_s):
-            for remains in self._folder.glob(f"{PENDING_NAME}.*"):
-                remains.unlink()
-            with self._told():
+            raise StoreError(f"{self._folder}: cannot be created ({error.strerror}); choose another folder") from error
+        with lock_exclusive(self._folder, self._wait_s):
+            for temporary in self._folder.glob(f"{PENDING_NAME}.*"):
+                temporary.unlink()
+            with self._damage_reported():
                 store = self._open_store()
                 if (self._folder / PENDING_NAME).exists() and not set_aside_damaged(self._folder):
                     self._finish(store)
@@ -165,12 +165,13 @@ class EmbeddedStore:
     def _reading(self) -> Iterator[ox.Store]:
         if not self._is_store():
             raise StoreError(
-                f"{self._folder}: is no store; expected a folder that usd2kg build --store or usd2kg store load made"
+                f"{self._folder}: is not a store; expected a folder that usd2kg build --store or usd2kg store load "
+                "created"
             )
         if (self._folder / PENDING_NAME).exists():
-            # Whoever was loading has died, or is still at it: then this waits.
+            # Another process has died while loading, or is still loading; the lock tells which.
             self.check()
-        with hold_for_reading(self._folder, self._wait_s), self._told():
+        with lock_shared(self._folder, self._wait_s), self._damage_reported():
             try:
                 store = ox.Store.read_only(str(self._folder))
             except OSError as error:
@@ -178,14 +179,14 @@ class EmbeddedStore:
             yield store
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
-        """Say what to do where the files of the store turn out to be damaged, which may be at any read of them."""
+    def _damage_reported(self) -> Iterator[None]:
+        """Translate the engine's error for damaged files, which any read can raise."""
         try:
             yield
         except RuntimeError as error:
             raise StoreError(
-                f"{self._folder}: the store is damaged ({_reason(error)}); restore the folder from a copy, or load its "
-                "scenes into a new folder"
+                f"{self._folder}: the store is damaged ({_reason(error)}); restore the folder from a backup, or load "
+                "its scenes into a new folder"
             ) from error
 
     def _open_store(self) -> ox.Store:
@@ -194,27 +195,27 @@ class EmbeddedStore:
         except OSError as error:
             if "lock" in str(error).lower():
                 raise StoreError(
-                    f"{self._folder}: another program holds it, like a running Oxigraph server; stop that, or give its "
+                    f"{self._folder}: is in use by another program, such as an Oxigraph server; stop it, or give its "
                     "address with --store http://…"
                 ) from error
             raise StoreError(f"{self._folder}: cannot be opened as a store ({_reason(error)})") from error
 
     def _is_store(self) -> bool:
-        return (self._folder / _ROCKS).is_file()
+        return (self._folder / _ROCKSDB_FILE).is_file()
 
     def _is_empty(self) -> bool:
-        # A first load that was killed early leaves its lock, and maybe a store that is only begun.
+        # An early kill of the first load leaves the lock, and possibly an incompletely created store.
         names = {path.name for path in self._folder.iterdir()}
-        return not names or (LOCK_NAME in names and all(map(_OURS.fullmatch, names)))
+        return not names or (LOCK_NAME in names and all(map(_STORE_FILES.fullmatch, names)))
 
     def _finish(self, store: ox.Store) -> None:
-        """Put the pending graph in place; may be done again after it was broken off."""
+        """Move the pending graph into the store; idempotent."""
         path = self._folder / PENDING_NAME
         with path.open("rb") as file:
             node = read_name(file)
-            logger.info("%s: puts %s in place", self._folder, node)
+            logger.info("%s: loads %s", self._folder, node)
             store.remove_graph(node)
-            # Neither renames blank nodes.
+            # Parsing and loading keep blank node labels, so that repeating the load gives the same nodes.
             store.bulk_extend(ox.parse(file, format=ox.RdfFormat.N_QUADS))
         store.flush()
         path.unlink()

@@ -1,4 +1,4 @@
-"""One writer or many readers of a folder, on every system, and free again when a process dies."""
+"""Lock of a folder: one writer or many readers, on every platform, released when a process dies."""
 
 import sqlite3
 from collections.abc import Iterator
@@ -7,44 +7,44 @@ from pathlib import Path
 
 from usd2kg.errors import StoreError
 
-__all__ = ["LOCK_NAME", "hold_for_reading", "hold_for_writing"]
+__all__ = ["LOCK_NAME", "lock_exclusive", "lock_shared"]
 
 LOCK_NAME = "usd2kg.lock"
-"""An empty SQLite database: its locks are those of the file, shared or exclusive, on every system."""
+"""An empty SQLite database, whose file locks are shared or exclusive on every platform."""
 
 
 @contextmanager
-def hold_for_writing(folder: Path, seconds: float) -> Iterator[None]:
-    """Keep all other processes out of a folder; wait so long for those that are in it.
+def lock_exclusive(folder: Path, seconds: float) -> Iterator[None]:
+    """Hold a folder exclusively; wait up to `seconds` for other processes.
 
     Raises:
-        StoreError: another process is still in it, or the folder cannot be written to.
+        StoreError: another process still uses the folder, or it is not writable.
     """
     try:
         lock = sqlite3.connect(folder / LOCK_NAME, timeout=seconds, isolation_level=None)
     except sqlite3.OperationalError as error:
-        raise StoreError(f"{folder}: cannot be written to ({error}); change its permissions") from error
+        raise StoreError(f"{folder}: is not writable ({error}); change its permissions") from error
     with closing(lock):
         _take(lock, "BEGIN EXCLUSIVE", folder, seconds)
         yield
 
 
 @contextmanager
-def hold_for_reading(folder: Path, seconds: float) -> Iterator[None]:
-    """Keep writers out of a folder; wait so long for one that is in it.
+def lock_shared(folder: Path, seconds: float) -> Iterator[None]:
+    """Hold a folder against writers; wait up to `seconds` for a writer.
 
     Raises:
-        StoreError: a writer is still in it.
+        StoreError: a writer still uses the folder.
     """
     path = folder / LOCK_NAME
     if not path.exists():
-        # No writer of ours was ever here, and a folder that is only read need not become writable.
+        # Without a lock file no writer of ours ever used the folder, which may be read-only.
         yield
         return
     with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, timeout=seconds)) as lock:
         lock.isolation_level = None
         _take(lock, "BEGIN", folder, seconds)
-        # A transaction takes its lock when it first reads.
+        # SQLite acquires the shared lock at the first read of a transaction.
         _take(lock, "SELECT name FROM sqlite_master", folder, seconds)
         yield
 
@@ -55,8 +55,8 @@ def _take(lock: sqlite3.Connection, statement: str, folder: Path, seconds: float
     except sqlite3.OperationalError as error:
         if error.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY:
             raise StoreError(
-                f"{folder}: another process is still using it after {seconds:g} s; wait for it, then try again"
+                f"{folder}: another process still uses it after {seconds:g} s; wait for it, then try again"
             ) from error
-        raise StoreError(f"{folder}: cannot be locked ({error}); expected a folder that can be written to") from error
+        raise StoreError(f"{folder}: cannot be locked ({error}); expected a writable folder") from error
     except sqlite3.DatabaseError as error:
-        raise StoreError(f"{folder / LOCK_NAME}: is no lock of ours ({error}); remove that file") from error
+        raise StoreError(f"{folder / LOCK_NAME}: is not a usd2kg lock ({error}); remove that file") from error

@@ -1,7 +1,7 @@
-"""NamedGraph: triples under the IRI that names them in a store, and how that IRI is found."""
+"""NamedGraph: a scene or an ontology as a named graph of a store."""
 
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -15,9 +15,16 @@ from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, named_node
 from usd2kg.ontology import Closure, TBox, without_header
-from usd2kg.query.load import load_graph
+from usd2kg.query.graph_file import load_graph
 
-__all__ = ["NamedGraph", "named_graph", "ontology_graph", "read_named_graph", "renamed_blanks", "short_name"]
+__all__ = [
+    "NamedGraph",
+    "last_segment",
+    "make_named_graph",
+    "make_ontology_graph",
+    "read_named_graph",
+    "relabel_blank_nodes",
+]
 
 _HEADERS = "SELECT ?g WHERE { ?g a owl:Ontology ; u2k:run ?run }"
 _TRIPLES = "CONSTRUCT { ?s ?p ?o } WHERE { ?s ?p ?o }"
@@ -25,23 +32,23 @@ _TRIPLES = "CONSTRUCT { ?s ?p ?o } WHERE { ?s ?p ?o }"
 
 @dataclass(frozen=True)
 class NamedGraph:
-    """What a store keeps under one name, put there and replaced as a whole."""
+    """Triples that a store keeps and replaces as a whole."""
 
     iri: str
-    """IRI of the OWL ontology that the triples are: the scene's base without its last / or #."""
+    """IRI of the OWL ontology that the triples form: the scene's base without its last / or #."""
     triples: tuple[ox.Triple, ...]
-    """Each once."""
+    """Without duplicates."""
 
 
-def named_graph(graph: KnowledgeGraph) -> NamedGraph:
-    """Return the graph of a scene as a store keeps it."""
+def make_named_graph(graph: KnowledgeGraph) -> NamedGraph:
+    """Return the named graph of a scene."""
     return NamedGraph(graph.iri, tuple(dict.fromkeys(graph.triples)))
 
 
-def ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
-    """Return an ontology, all that it imports and our vocabulary, as one graph that all scenes of a store share."""
+def make_ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
+    """Return an ontology, its imports and the u2k vocabulary as one named graph that all scenes of a store share."""
     iri = tbox.ontology_iri
-    # A path on this machine says nothing to others, and is not theirs to know.
+    # Do not publish local paths.
     iri = f"urn:usd2kg:ontology:{tbox.content_hash}" if iri.startswith("file:") else iri
     node = ox.NamedNode(iri)
     sources = (VOCABULARY_IRI, *(d for d in closure.documents if not d.startswith("file:")))
@@ -52,57 +59,54 @@ def ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
 
 
 def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
-    """Return the graph in a file, named as it names itself, or by `iri`.
+    """Return the graph in a file, named by `iri` or by its own ontology IRI.
 
     Raises:
-        GraphError: the file cannot be read, is empty, does not say whose graph it is, or `iri` is no IRI.
+        GraphError: the file cannot be read, is empty, or states no single ontology IRI; or `iri` is invalid.
     """
     read = load_graph(path)
     if iri is None:
         found = [row[0] for row in read.sparql(_HEADERS).rows]
         if len(found) != 1 or found[0] is None:
-            held = "names no graph" if not found else f"names {len(found)} graphs"
-            raise GraphError(f"{path}: {held}; expected one that usd2kg build wrote, or its IRI with --scene")
+            stated = f"{len(found)} graph IRIs" if found else "no graph IRI"
+            raise GraphError(
+                f"{path}: states {stated}; expected a graph that usd2kg build wrote, or its IRI with --scene"
+            )
         iri = found[0]
     if named_node(iri) is None:
-        raise GraphError(f"graph {iri!r}: is no absolute IRI; expected one like https://my.lab/kitchen")
+        raise GraphError(f"graph {iri!r}: is not an absolute IRI; expected one like https://my.lab/kitchen")
     found_triples = read.store.query(_TRIPLES, use_default_graph_as_union=True)
     assert isinstance(found_triples, ox.QueryTriples)
     triples = tuple(dict.fromkeys(found_triples))
     if not triples:
-        raise GraphError(f"{path}: holds no triple; build the graph again")
+        raise GraphError(f"{path}: contains no triples; build the graph again")
     return NamedGraph(iri, triples)
 
 
-def short_name(iri: str) -> str:
-    """Return the last part of a graph's IRI, as a person writes it.
+def last_segment(iri: str) -> str:
+    """Return the last segment of a graph's IRI, percent-decoded.
 
-    >>> short_name("https://example.org/my%20kitchen")
+    >>> last_segment("https://example.org/my%20kitchen")
     'my kitchen'
     """
     return unquote(iri.rstrip("/#").replace("#", "/").rpartition("/")[2])
 
 
-def renamed_blanks(graph: NamedGraph) -> Iterator[ox.Triple]:
-    """Yield the triples with blank nodes whose names depend on the graph and their own name alone.
+def relabel_blank_nodes(graph: NamedGraph) -> Iterator[ox.Triple]:
+    """Yield the triples with blank node labels derived from the graph's IRI and the original labels.
 
-    In a store two scenes may use the same names for nodes that are not the same, and a graph that is loaded again
-    must give the same nodes.
+    Labels of two scenes must not collide in a store, and a reloaded graph must get the same nodes.
     """
-    return _renamed(graph.triples, graph.iri)
 
-
-def _renamed(triples: Iterable[ox.Triple], salt: str) -> Iterator[ox.Triple]:
     @cache
-    def name(label: str) -> ox.BlankNode:
-        return ox.BlankNode("b" + hashlib.blake2b(f"{salt}\n{label}".encode(), digest_size=12).hexdigest())
+    def derive(label: str) -> ox.BlankNode:
+        return ox.BlankNode("b" + hashlib.blake2b(f"{graph.iri}\n{label}".encode(), digest_size=12).hexdigest())
 
-    def rename(term: Any) -> Any:
+    def relabel(term: Any) -> Any:
         if isinstance(term, ox.BlankNode):
-            return name(term.value)
+            return derive(term.value)
         if isinstance(term, ox.Triple):
-            return ox.Triple(rename(term.subject), term.predicate, rename(term.object))
+            return ox.Triple(relabel(term.subject), term.predicate, relabel(term.object))
         return term
 
-    for triple in triples:
-        yield ox.Triple(rename(triple.subject), triple.predicate, rename(triple.object))
+    return map(relabel, graph.triples)

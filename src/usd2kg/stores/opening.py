@@ -1,4 +1,4 @@
-"""Opening what a user names: a file with one graph, a folder with many, or the address of a server."""
+"""Open a graph file, a store folder or a server by path or address."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,36 +6,36 @@ from typing import Protocol
 
 from usd2kg.errors import GraphError
 from usd2kg.query.answer import Answer
+from usd2kg.query.graph_file import load_graph
 from usd2kg.query.graph_store import GraphStore
-from usd2kg.query.load import load_graph
-from usd2kg.stores.addresses import read_credentials
 from usd2kg.stores.catalog import StoredGraph, choose_graph
 from usd2kg.stores.embedded import EmbeddedStore
-from usd2kg.stores.http import HttpClient
+from usd2kg.stores.http_client import SparqlClient
 from usd2kg.stores.named_graph import NamedGraph
 from usd2kg.stores.remote import RemoteStore
+from usd2kg.stores.server_addresses import read_credentials
 
-__all__ = ["SceneStore", "chosen_graphs", "is_store", "open_graph", "open_store"]
+__all__ = ["SceneStore", "is_store", "open_graph", "open_store", "select_graphs"]
 
 
 class SceneStore(Protocol):
-    """Where graphs of many scenes are kept, each under its name."""
+    """A store of named graphs, one for each scene."""
 
     @property
     def address(self) -> str:
-        """Where it is, as the user named it."""
+        """Folder or address for messages."""
         ...
 
     def check(self) -> None:
-        """Raise StoreError now if graphs could not be loaded later, before any work is spent."""
+        """Raise StoreError if graphs cannot be loaded; call it before expensive work."""
         ...
 
     def load(self, graph: NamedGraph) -> None:
-        """Put a graph under its name, in place of what was there: all of it, or nothing."""
+        """Add or replace a graph atomically."""
         ...
 
     def remove(self, iri: str) -> None:
-        """Take a graph out."""
+        """Remove a graph."""
         ...
 
     def update(self, sparql: str) -> None:
@@ -47,45 +47,46 @@ class SceneStore(Protocol):
         ...
 
     def select(self, sparql: str) -> list[dict[str, str | None]]:
-        """Return the rows of a SELECT over all graphs as they are."""
+        """Return the rows of a SELECT over all graphs."""
         ...
 
     def query(self, sparql: str, graphs: Sequence[str]) -> Answer:
-        """Return the answer to a query over the union of these graphs."""
+        """Return the answer to a query over the union of the given graphs."""
         ...
 
     def fetch(self, graphs: Sequence[str]) -> GraphStore:
-        """Return these graphs as one, in memory."""
+        """Return the union of the given graphs in memory."""
         ...
 
 
 def is_store(place: str) -> bool:
-    """Return whether a place is a folder or an address, not a file."""
+    """Return whether a place is a folder or an address, rather than a file."""
     return _is_address(place) or Path(place).is_dir()
 
 
 def open_store(place: str, *, update: str | None = None, data: str | None = None) -> SceneStore:
-    """Return the store in a folder or at an address; `update` and `data` are further addresses of that server.
+    """Return the store in a folder or at an address; `update` and `data` are other endpoints of the server.
 
     Raises:
-        StoreError: the address or the credentials in the environment are none.
+        StoreError: the address or the credentials in the environment are invalid.
+        GraphError: endpoints are given for a folder.
     """
     if _is_address(place):
-        return RemoteStore(place, HttpClient(read_credentials()), update=update, data=data)
+        return RemoteStore(place, SparqlClient(read_credentials()), update=update, data=data)
     if update is not None or data is not None:
-        raise GraphError(f"{place}: is a folder, which has no addresses to update; expected an address with --store")
+        raise GraphError(f"{place}: is a folder, which has no endpoints; expected the address of a server with --store")
     return EmbeddedStore(place)
 
 
-def chosen_graphs(store: SceneStore, scene: str | None) -> list[str]:
-    """Return the IRIs of the graphs to ask: those of a scene and of the ontologies beside it, or all.
+def select_graphs(store: SceneStore, scene: str | None) -> list[str]:
+    """Return the IRIs of the graphs to query: those of one scene and all ontologies, or all graphs.
 
     Raises:
-        GraphError: no graph is there, or none or several are called so.
+        GraphError: the store contains no graph, or no graph or several graphs match `scene`.
     """
     graphs = store.graphs()
     if not graphs:
-        raise GraphError(f"{store.address}: holds no graph of ours; load one with usd2kg build SCENE --store")
+        raise GraphError(f"{store.address}: contains no usd2kg graph; load one with usd2kg build SCENE --store")
     if scene is None:
         return [graph.iri for graph in graphs]
     chosen = choose_graph(graphs, scene, store.address)
@@ -93,17 +94,17 @@ def chosen_graphs(store: SceneStore, scene: str | None) -> list[str]:
 
 
 def open_graph(place: str, scene: str | None = None) -> GraphStore:
-    """Return a graph in a file; or of a store, one scene's or the union of all, in memory.
+    """Return the graph in a file, or one scene of a store, or the union of all its scenes, in memory.
 
     Raises:
-        GraphError: the file or the folder is none, or no scene is called so.
-        StoreError: the store is out of reach, refuses, or is held by another process.
+        GraphError: the file cannot be read, or the scene is unknown.
+        StoreError: the store is unreachable, refuses access, or is locked by another process.
     """
     if is_store(place):
         store = open_store(place)
-        return store.fetch(chosen_graphs(store, scene))
+        return store.fetch(select_graphs(store, scene))
     if scene is not None:
-        raise GraphError(f"{place}: is one graph; --scene chooses among those of a store")
+        raise GraphError(f"{place}: is a single graph; --scene selects one of a store")
     return load_graph(place)
 
 

@@ -1,4 +1,4 @@
-"""The graph that is being put in place in a folder: whole under its name, or not there."""
+"""Write-ahead file of a store folder: a graph that is complete on disk and not yet in the store."""
 
 import logging
 import os
@@ -16,14 +16,14 @@ __all__ = ["PENDING_NAME", "read_name", "set_aside_damaged", "write_pending"]
 logger = logging.getLogger(__name__)
 
 PENDING_NAME = "usd2kg.pending.nq"
-"""Once it has this name it counts as loaded: whoever opens the folder next finishes the work if this process dies."""
+"""A file with this name is committed: if this process dies, the next process that opens the folder applies it."""
 _DAMAGED_NAME = "usd2kg.damaged"
 _END = b"# end\n"
-"""The last line: a file that was cut off, even between two triples, lacks it."""
+"""The last line, which a truncated file lacks."""
 
 
 def write_pending(folder: Path, iri: str, triples: Iterable[ox.Triple]) -> None:
-    """Write a graph beside the store, whole or not at all, and on the disk before anything is replaced."""
+    """Write a graph to the pending file, atomically and synced to disk."""
     node = ox.NamedNode(iri)
     handle, temporary = tempfile.mkstemp(dir=folder, prefix=f"{PENDING_NAME}.")
     try:
@@ -41,48 +41,47 @@ def write_pending(folder: Path, iri: str, triples: Iterable[ox.Triple]) -> None:
 
 
 def read_name(file: BinaryIO) -> ox.NamedNode:
-    """Return the name of the graph in a pending file, from its first line.
+    """Return the IRI of the graph in a pending file, from its first line.
 
     Raises:
-        ValueError: there is none.
+        ValueError: the line contains no IRI.
     """
     return ox.NamedNode(file.readline().decode().strip("# <>\n"))
 
 
 def set_aside_damaged(folder: Path) -> bool:
-    """Return whether what is pending is damaged; then it gets another name, so that the store can still be used."""
+    """Rename a damaged pending file, so that the store stays usable; return whether it was damaged."""
     path = folder / PENDING_NAME
-    fault = _fault(path)
-    if fault is None:
+    damage = _find_damage(path)
+    if damage is None:
         return False
     aside = path.replace(folder / f"{_DAMAGED_NAME}.{uuid.uuid4().hex[:8]}")
     logger.warning(
-        "%s: a load was broken off, and what it left is damaged (%s); it is now %s; load that scene again, then delete "
-        "that file",
+        "%s: an interrupted load left a damaged file (%s), renamed to %s; load that scene again, then delete the file",
         folder,
-        fault,
+        damage,
         aside.name,
     )
     return True
 
 
-def _fault(path: Path) -> str | None:
-    """Return what is wrong with a pending file; None where it is whole."""
+def _find_damage(path: Path) -> str | None:
+    """Return what is wrong with a pending file; None if it is complete."""
     if not path.is_file():
-        return "it is no file"
+        return "it is not a file"
     with path.open("rb") as file:
         try:
             node = read_name(file)
             if any(quad.graph_name != node for quad in ox.parse(file, format=ox.RdfFormat.N_QUADS)):
-                return "it holds other graphs than it says"
+                return "it contains other graphs than its first line names"
         except (ValueError, SyntaxError) as error:
             return " ".join(str(error).split())
         file.seek(-min(len(_END), path.stat().st_size), os.SEEK_END)
-        return None if file.read() == _END else "it is cut off"
+        return None if file.read() == _END else "it is truncated"
 
 
 def _sync_folder(folder: Path) -> None:
-    """Have a new name in a folder survive a loss of power, where the system knows how."""
+    """Sync a renamed entry to disk, if the platform supports it."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:

@@ -1,16 +1,16 @@
-// Asks ELK whether a graph is consistent with its ontology, and which individuals it is not.
+// Checks the consistency of a graph with its ontology by ELK, and finds the contradictory individuals.
 //
-// Usage: AskElk ONTOLOGY GRAPH        both without imports, Turtle; GRAPH holds what ONTOLOGY states, too
+// Usage: AskElk ONTOLOGY GRAPH        both in Turtle without imports; GRAPH includes ONTOLOGY
 //
-// Prints one line for each answer, fields parted by tabs:
-//   beyond      NUMBER     axioms of GRAPH that are beyond OWL 2 EL, which ELK does not hear
+// Prints one line per result, with tab-separated fields:
+//   beyond      NUMBER     axioms of GRAPH beyond OWL 2 EL, which ELK ignores
 //   axioms      NUMBER     logical axioms of GRAPH
-//   impossible  CLASS      a class that can have no member, by ONTOLOGY alone
+//   impossible  CLASS      an unsatisfiable class of ONTOLOGY
 //   verdict     consistent | inconsistent
-//   clash       INDIVIDUAL                    what is said of it cannot be
-//   type        INDIVIDUAL  CLASS             part of why: a smallest set of what is said of it
-//   relation    INDIVIDUAL  PROPERTY  OTHER   the same
-//   follows     INDIVIDUAL                    cannot be, because it is related to one that cannot be
+//   clash       INDIVIDUAL                    its assertions are contradictory
+//   type        INDIVIDUAL  CLASS             an assertion of a minimal contradictory set
+//   relation    INDIVIDUAL  PROPERTY  OTHER   an assertion of a minimal contradictory set
+//   follows     INDIVIDUAL                    contradictory only through its relations to contradictory individuals
 
 import java.io.File;
 import java.util.ArrayList;
@@ -40,20 +40,20 @@ import org.semanticweb.owlapi.profiles.OWL2ELProfile;
 import org.semanticweb.owlapi.reasoner.OWLReasoner;
 
 public class AskElk {
-    /** What the graph says of an individual: that it is of a class, or related to another individual. */
-    private record Statement(OWLIndividual subject, OWLClassExpression type, OWLObjectPropertyAssertionAxiom relation) {
-        void print() {
+    /** An assertion of the graph about an individual: its class, or its relation to another individual. */
+    private record Assertion(OWLIndividual subject, OWLClassExpression type, OWLObjectPropertyAssertionAxiom relation) {
+        void printFields() {
             if (relation == null) {
-                say("type", name(subject), type.isAnonymous() ? type.toString() : name(type.asOWLClass()));
+                print("type", name(subject), type.isAnonymous() ? type.toString() : name(type.asOWLClass()));
             } else {
-                say("relation", name(subject), relation.getProperty().getNamedProperty().getIRI(), name(relation.getObject()));
+                print("relation", name(subject), relation.getProperty().getNamedProperty().getIRI(), name(relation.getObject()));
             }
         }
     }
 
     private static final OWLDataFactory FACTORY = OWLManager.getOWLDataFactory();
 
-    private static void say(Object... fields) {
+    private static void print(Object... fields) {
         Stream<String> clean = Stream.of(fields).map(field -> String.valueOf(field).replaceAll("\\s+", " "));
         System.out.println(clean.collect(Collectors.joining("\t")));
     }
@@ -69,16 +69,16 @@ public class AskElk {
     public static void main(String[] arguments) throws Exception {
         OWLOntology ontology = load(arguments[0]);
         OWLOntology graph = load(arguments[1]);
-        say("axioms", graph.getLogicalAxiomCount());
-        say("beyond", new OWL2ELProfile().checkOntology(graph).getViolations().stream()
+        print("axioms", graph.getLogicalAxiomCount());
+        print("beyond", new OWL2ELProfile().checkOntology(graph).getViolations().stream()
             .map(violation -> violation.getAxiom()).filter(axiom -> axiom != null && axiom.isLogicalAxiom()).distinct().count());
-        for (OWLClass cls : impossible(ontology)) {
-            say("impossible", cls.getIRI());
+        for (OWLClass cls : unsatisfiable(ontology)) {
+            print("impossible", cls.getIRI());
         }
         OWLReasoner reasoner = new ElkReasonerFactory().createReasoner(graph);
         boolean isConsistent = reasoner.isConsistent();
         reasoner.dispose();
-        say("verdict", isConsistent ? "consistent" : "inconsistent");
+        print("verdict", isConsistent ? "consistent" : "inconsistent");
         if (!isConsistent) {
             explain(graph);
         }
@@ -90,7 +90,7 @@ public class AskElk {
         return OWLManager.createOWLOntologyManager().loadOntologyFromOntologyDocument(source);
     }
 
-    private static List<OWLClass> impossible(OWLOntology ontology) {
+    private static List<OWLClass> unsatisfiable(OWLOntology ontology) {
         OWLReasoner reasoner = new ElkReasonerFactory().createReasoner(ontology);
         List<OWLClass> found = new ArrayList<>();
         if (reasoner.isConsistent()) {
@@ -100,71 +100,71 @@ public class AskElk {
         return found;
     }
 
-    // From an inconsistent graph all follows. So each individual is made a class of its own, below what is said of it;
-    // those that can have no member are the individuals that cannot be, and the others remain as they are.
+    // An inconsistent graph entails everything. Therefore each individual becomes a class below its assertions: the
+    // unsatisfiable classes are the contradictory individuals, and the others are unaffected.
     private static void explain(OWLOntology graph) throws Exception {
-        Map<OWLIndividual, List<Statement>> said = statements(graph);
+        Map<OWLIndividual, List<Assertion>> assertionsOf = assertions(graph);
         Map<OWLIndividual, OWLClass> classes = new LinkedHashMap<>();
-        for (OWLIndividual individual : said.keySet()) {
+        for (OWLIndividual individual : assertionsOf.keySet()) {
             classes.put(individual, FACTORY.getOWLClass(IRI.create("urn:usd2kg:individual:" + classes.size())));
         }
         Set<OWLAxiom> axioms = graph.logicalAxioms().filter(axiom -> !isAssertion(axiom)).collect(Collectors.toSet());
-        said.forEach((individual, statements) -> statements.forEach(statement -> axioms.add(
-            FACTORY.getOWLSubClassOfAxiom(classes.get(individual), expression(statement, classes, Set.of())))));
+        assertionsOf.forEach((individual, assertions) -> assertions.forEach(assertion -> axioms.add(
+            FACTORY.getOWLSubClassOfAxiom(classes.get(individual), expression(assertion, classes, Set.of())))));
         OWLReasoner reasoner = new ElkReasonerFactory().createReasoner(OWLManager.createOWLOntologyManager().createOntology(axioms));
         Set<OWLClass> bottom = reasoner.getUnsatisfiableClasses().entities().collect(Collectors.toSet());
-        Set<OWLIndividual> lost = new HashSet<>();
+        Set<OWLIndividual> contradictory = new HashSet<>();
         classes.forEach((individual, cls) -> {
             if (bottom.contains(cls)) {
-                lost.add(individual);
+                contradictory.add(individual);
             }
         });
-        lost.stream().sorted().forEach(individual -> explain(individual, said.get(individual), classes, lost, reasoner));
+        contradictory.stream().sorted().forEach(individual -> explain(individual, assertionsOf.get(individual), classes, contradictory, reasoner));
     }
 
-    private static void explain(OWLIndividual individual, List<Statement> said, Map<OWLIndividual, OWLClass> classes,
-            Set<OWLIndividual> lost, OWLReasoner reasoner) {
-        if (reasoner.isSatisfiable(together(said, classes, lost))) {
-            say("follows", name(individual));
+    private static void explain(OWLIndividual individual, List<Assertion> assertions, Map<OWLIndividual, OWLClass> classes,
+            Set<OWLIndividual> contradictory, OWLReasoner reasoner) {
+        if (reasoner.isSatisfiable(conjunction(assertions, classes, contradictory))) {
+            print("follows", name(individual));
             return;
         }
-        List<Statement> needed = new ArrayList<>(said);
-        List<Statement> relationsFirst = new ArrayList<>(said);
-        Collections.reverse(relationsFirst);
-        // Two classes that exclude each other tell more than a class and one of the many relations that imply the other.
-        for (Statement statement : relationsFirst) {
-            List<Statement> fewer = new ArrayList<>(needed);
-            fewer.remove(statement);
-            if (!fewer.isEmpty() && !reasoner.isSatisfiable(together(fewer, classes, lost))) {
+        List<Assertion> needed = new ArrayList<>(assertions);
+        List<Assertion> candidates = new ArrayList<>(assertions);
+        Collections.reverse(candidates);
+        // Remove relations first: two disjoint classes explain more than a class and one of many relations.
+        for (Assertion assertion : candidates) {
+            List<Assertion> fewer = new ArrayList<>(needed);
+            fewer.remove(assertion);
+            if (!fewer.isEmpty() && !reasoner.isSatisfiable(conjunction(fewer, classes, contradictory))) {
                 needed = fewer;
             }
         }
-        say("clash", name(individual));
-        needed.forEach(Statement::print);
+        print("clash", name(individual));
+        needed.forEach(Assertion::printFields);
     }
 
-    private static OWLClassExpression together(List<Statement> said, Map<OWLIndividual, OWLClass> classes, Set<OWLIndividual> lost) {
-        return FACTORY.getOWLObjectIntersectionOf(said.stream().map(statement -> expression(statement, classes, lost)));
+    private static OWLClassExpression conjunction(List<Assertion> assertions, Map<OWLIndividual, OWLClass> classes, Set<OWLIndividual> contradictory) {
+        return FACTORY.getOWLObjectIntersectionOf(assertions.stream().map(assertion -> expression(assertion, classes, contradictory)));
     }
 
-    /** As a class; what is said of the individuals `unheard` is left out of it. */
-    private static OWLClassExpression expression(Statement statement, Map<OWLIndividual, OWLClass> classes, Set<OWLIndividual> unheard) {
-        if (statement.relation() == null) {
-            return statement.type();
+    /** Returns an assertion as a class expression; ignores the assertions of the individuals in `ignored`. */
+    private static OWLClassExpression expression(Assertion assertion, Map<OWLIndividual, OWLClass> classes, Set<OWLIndividual> ignored) {
+        if (assertion.relation() == null) {
+            return assertion.type();
         }
-        OWLIndividual other = statement.relation().getObject();
-        OWLClassExpression filler = unheard.contains(other) || !classes.containsKey(other) ? FACTORY.getOWLThing() : classes.get(other);
-        return FACTORY.getOWLObjectSomeValuesFrom(statement.relation().getProperty(), filler);
+        OWLIndividual other = assertion.relation().getObject();
+        OWLClassExpression filler = ignored.contains(other) || !classes.containsKey(other) ? FACTORY.getOWLThing() : classes.get(other);
+        return FACTORY.getOWLObjectSomeValuesFrom(assertion.relation().getProperty(), filler);
     }
 
-    private static Map<OWLIndividual, List<Statement>> statements(OWLOntology graph) {
-        Map<OWLIndividual, List<Statement>> found = new LinkedHashMap<>();
+    private static Map<OWLIndividual, List<Assertion>> assertions(OWLOntology graph) {
+        Map<OWLIndividual, List<Assertion>> found = new LinkedHashMap<>();
         graph.axioms(AxiomType.CLASS_ASSERTION).sorted().forEach((OWLClassAssertionAxiom axiom) -> found
             .computeIfAbsent(axiom.getIndividual(), key -> new ArrayList<>())
-            .add(new Statement(axiom.getIndividual(), axiom.getClassExpression(), null)));
+            .add(new Assertion(axiom.getIndividual(), axiom.getClassExpression(), null)));
         graph.axioms(AxiomType.OBJECT_PROPERTY_ASSERTION).sorted().forEach((OWLObjectPropertyAssertionAxiom axiom) -> found
             .computeIfAbsent(axiom.getSubject(), key -> new ArrayList<>())
-            .add(new Statement(axiom.getSubject(), null, axiom)));
+            .add(new Assertion(axiom.getSubject(), null, axiom)));
         return found;
     }
 

@@ -1,15 +1,15 @@
-"""Checking a graph: shapes, clashes with the ontology, and what is hard to believe."""
+"""Validation of a graph: SHACL shapes, contradictions with its ontology, and implausible objects."""
 
-from usd2kg.validation.axioms import Axioms
+from usd2kg.validation.axiom_index import AxiomIndex
 from usd2kg.validation.elk import ElkAnswer, ElkClash, ask_elk, elk_jars
 from usd2kg.validation.finding import Finding, Severity, sort_findings
-from usd2kg.validation.objects import GraphObject, read_objects
-from usd2kg.validation.rules import Rule, Rules, read_rules
-from usd2kg.validation.shapes import shapes_text
+from usd2kg.validation.graph_objects import GraphObject, read_graph_objects
+from usd2kg.validation.plausibility_rules import Rule, Rules, read_rules
+from usd2kg.validation.shacl import read_shapes
 from usd2kg.validation.validate import ValidationReport, imports_of, ontology_of, validate_graph
 
 __all__ = [
-    "Axioms",
+    "AxiomIndex",
     "ElkAnswer",
     "ElkClash",
     "Finding",
@@ -22,9 +22,9 @@ __all__ = [
     "elk_jars",
     "imports_of",
     "ontology_of",
-    "read_objects",
+    "read_graph_objects",
     "read_rules",
-    "shapes_text",
+    "read_shapes",
     "sort_findings",
     "validate_graph",
 ]

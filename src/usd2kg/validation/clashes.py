@@ -1,7 +1,7 @@
-"""Where a graph contradicts its ontology: disjoint classes, domains and ranges, deprecated and unknown classes.
+"""Contradictions between a graph and its ontology: disjoint classes, domains, ranges, deprecated and unknown classes.
 
-No reasoner: only what named classes, their disjointness, and domains and ranges say. What is found is a contradiction;
-what is not found may still be one.
+Only named classes, disjointness, domains and ranges are used. The check is sound but incomplete: a reasoner can find
+further contradictions.
 """
 
 from collections.abc import Callable, Iterator
@@ -13,35 +13,35 @@ import pyoxigraph as ox
 from usd2kg.graph.declarations import vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, RDF
 from usd2kg.ontology import Closure, compact_iri
-from usd2kg.validation.axioms import Axioms, Disjointness
+from usd2kg.validation.axiom_index import AxiomIndex, Disjointness
 from usd2kg.validation.finding import Finding, Severity
-from usd2kg.validation.objects import GraphObject, values_of
+from usd2kg.validation.graph_objects import GraphObject, values_of
 
 __all__ = ["find_clashes", "read_axioms"]
 
-_MEND_CLASS = "Correct the class with a decision (usd2kg build --decisions), or remove the other statement."
+_CORRECT_CLASS = "Correct the class with a decision (usd2kg build --decisions), or remove the other statement."
 
-MakeFinding = Callable[..., Finding]
-"""Makes a finding about a node: severity, rule, node, found, expected, advice."""
+FindingFactory = Callable[..., Finding]
+"""(severity, rule, node, found, expected, advice) → finding about a node."""
 _Types = frozenset[str]
 
 
-def read_axioms(closure: Closure) -> Axioms:
-    """Return what an ontology, with its imports and our vocabulary, states."""
-    return Axioms((*closure.triples, *vocabulary_triples()))
+def read_axioms(closure: Closure) -> AxiomIndex:
+    """Return the axioms of an ontology, its imports and the u2k vocabulary."""
+    return AxiomIndex((*closure.triples, *vocabulary_triples()))
 
 
 def find_clashes(
-    store: ox.Store, objects: list[GraphObject], axioms: Axioms, missing: tuple[str, ...], make: MakeFinding
+    store: ox.Store, objects: list[GraphObject], axioms: AxiomIndex, missing: tuple[str, ...], make: FindingFactory
 ) -> Iterator[Finding]:
     """Yield each contradiction between a graph and an ontology.
 
     Args:
         store: the graph.
         objects: its objects.
-        axioms: what the ontology states.
-        missing: IRIs of imports that are not at hand: nothing is unknown that may be theirs.
-        make: makes a finding about a node.
+        axioms: the axioms of the ontology.
+        missing: IRIs of unavailable imports; classes in their namespaces are not reported as unknown.
+        make: creates a finding about a node.
     """
     types = _types(store)
     yield from _disjoint(types, axioms, make)
@@ -50,7 +50,7 @@ def find_clashes(
 
 
 def _types(store: ox.Store) -> dict[Any, _Types]:
-    """Return individual → its classes; equal sets are one object, so that they are compared once."""
+    """Return individual → its classes; equal sets are the same object, which makes hashing cheap."""
     known: dict[_Types, _Types] = {}
     found = {}
     for node, values in values_of(store, RDF.type).items():
@@ -59,18 +59,18 @@ def _types(store: ox.Store) -> dict[Any, _Types]:
     return found
 
 
-def _way(axioms: Axioms, start: str, end: str) -> str:
-    return axioms.named(start) if start == end else f"{axioms.named(start)}, below {axioms.named(end)},"
+def _with_superclass(axioms: AxiomIndex, cls: str, above: str) -> str:
+    return axioms.named(cls) if cls == above else f"{axioms.named(cls)}, a subclass of {axioms.named(above)},"
 
 
-def _explain(axioms: Axioms, first: str, second: str, clash: Disjointness) -> str:
+def _explain(axioms: AxiomIndex, first: str, second: str, clash: Disjointness) -> str:
     return (
-        f"{_way(axioms, first, clash.first)} and {_way(axioms, second, clash.second)}; "
+        f"{_with_superclass(axioms, first, clash.first)} and {_with_superclass(axioms, second, clash.second)}; "
         f"axiom: {compact_iri(clash.first)} owl:disjointWith {compact_iri(clash.second)}"
     ).replace(",;", ";")
 
 
-def _disjoint(types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> Iterator[Finding]:
+def _disjoint(types: dict[Any, _Types], axioms: AxiomIndex, make: FindingFactory) -> Iterator[Finding]:
     clashes: dict[_Types, str | None] = {}
     for node, own in types.items():
         if own not in clashes:
@@ -78,11 +78,12 @@ def _disjoint(types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> It
             clashes[own] = next((_explain(axioms, a, b, clash) for a, b, clash in pairs if clash is not None), None)
         found = clashes[own]
         if found is not None:
-            expected = "classes that can have a member in common"
-            yield make(Severity.ERROR, "disjoint-classes", node, f"it is {found}", expected, _MEND_CLASS)
+            yield make(
+                Severity.ERROR, "disjoint-classes", node, f"it is {found}", "no disjoint classes", _CORRECT_CLASS
+            )
 
 
-def _ends(store: ox.Store, types: dict[Any, _Types], axioms: Axioms, make: MakeFinding) -> Iterator[Finding]:
+def _ends(store: ox.Store, types: dict[Any, _Types], axioms: AxiomIndex, make: FindingFactory) -> Iterator[Finding]:
     for iri in sorted(axioms.properties):
         name = ox.NamedNode(iri)
         if next(iter(store.quads_for_pattern(None, name, None)), None) is None:
@@ -101,10 +102,10 @@ def _unfit(
     nodes: dict[Any, None],
     demands: list[tuple[str, tuple[str, ...]]],
     types: dict[Any, _Types],
-    axioms: Axioms,
-    make: MakeFinding,
+    axioms: AxiomIndex,
+    make: FindingFactory,
 ) -> Iterator[Finding]:
-    """Yield the nodes at one end of a property whose classes rule out what the property demands."""
+    """Yield the nodes at one end of a property whose classes are disjoint with its domain or range."""
     end = "domain" if rule == "domain-clash" else "range"
     verdicts: dict[_Types, tuple[str, str] | None] = {}
     for node in nodes:
@@ -113,13 +114,13 @@ def _unfit(
             verdicts[own] = _verdict(axioms, iri, end, own, demands)
         verdict = verdicts[own]
         if verdict is not None:
-            yield make(Severity.ERROR, rule, node, *verdict, _MEND_CLASS)
+            yield make(Severity.ERROR, rule, node, *verdict, _CORRECT_CLASS)
 
 
 def _verdict(
-    axioms: Axioms, iri: str, end: str, own: _Types, demands: list[tuple[str, tuple[str, ...]]]
+    axioms: AxiomIndex, iri: str, end: str, own: _Types, demands: list[tuple[str, tuple[str, ...]]]
 ) -> tuple[str, str] | None:
-    """Return what was found and expected, if all alternatives of a demand are disjoint with a class."""
+    """Return the found and expected texts if all alternatives of a domain or range are disjoint with a class."""
     for stated, alternatives in demands:
         for cls in sorted(own):
             clashes = [(other, axioms.clash(cls, other)) for other in alternatives]
@@ -133,17 +134,17 @@ def _verdict(
 
 
 def _odd_classes(
-    objects: list[GraphObject], axioms: Axioms, missing: tuple[str, ...], make: MakeFinding
+    objects: list[GraphObject], axioms: AxiomIndex, missing: tuple[str, ...], make: FindingFactory
 ) -> Iterator[Finding]:
-    elsewhere = tuple(f"{iri.rstrip('#/')}{end}" for iri in missing for end in "#/")
+    unavailable = tuple(f"{iri.rstrip('#/')}{end}" for iri in missing for end in "#/")
     for obj in objects:
         node = ox.NamedNode(obj.iri)
         for cls in obj.classes:
             if cls in axioms.deprecated:
-                advice = "Take the class that the ontology names instead, with a decision (usd2kg build --decisions)."
+                advice = "Use the replacement that the ontology names, with a decision (usd2kg build --decisions)."
                 found = f"its class {axioms.named(cls)} is deprecated"
-                yield make(Severity.WARNING, "class-deprecated", node, found, "a class that is in use", advice)
-            if cls not in axioms.classes and cls not in axioms.parents and not cls.startswith(elsewhere):
-                advice = "Name the ontology that the graph was built with (--ontology), or build the graph again."
+                yield make(Severity.WARNING, "class-deprecated", node, found, "a class that is not deprecated", advice)
+            if cls not in axioms.classes and cls not in axioms.parents and not cls.startswith(unavailable):
+                advice = "Give the ontology that the graph was built with (--ontology), or build the graph again."
                 found = f"its class {compact_iri(cls)} is not in the ontology"
                 yield make(Severity.ERROR, "class-unknown", node, found, "a class of the ontology", advice)

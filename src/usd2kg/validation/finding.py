@@ -1,4 +1,4 @@
-"""A finding: what is wrong with a graph, in words that a person can act on."""
+"""Finding: one problem of a graph, with advice."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,11 +10,11 @@ class Severity(StrEnum):
     """How serious a finding is."""
 
     ERROR = "error"
-    """The graph is malformed or contradicts its ontology: programs that read it fail or conclude nonsense."""
+    """The graph is malformed or contradicts its ontology: programs that read it can fail or draw false conclusions."""
     WARNING = "warning"
-    """The graph is well formed and most likely wrong about the object."""
+    """The graph is well-formed and probably wrong about the object."""
     NOTE = "note"
-    """Worth a look."""
+    """Worth checking."""
 
 
 _ORDER = {severity: rank for rank, severity in enumerate(Severity)}
@@ -22,26 +22,24 @@ _ORDER = {severity: rank for rank, severity in enumerate(Severity)}
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What one rule found on one object."""
+    """A violation of one rule by one node."""
 
     severity: Severity
     rule: str
-    """Id of the rule: of a shape, of a clash with the ontology, or of the table of plausibility."""
+    """Id of a shape, of a contradiction with the ontology, or of a plausibility rule."""
     label: str
-    """The object's label; empty if it has none, or the finding is about no object."""
+    """Label of the object; empty if it has none, or the finding is not about an object."""
     prim_path: str
-    """The object's path on the stage, or a joint's; empty in the same way."""
+    """Prim path of the object or joint; empty if there is none."""
     iri: str
-    """The node that the finding is about: the object, or its box, joint…; a blank node's name, a literal's text."""
+    """The node: IRI of the object, its box, joint…; label of a blank node; text of a literal."""
     found: str
-    """With numbers and their units."""
+    """What was found, with units."""
     expected: str
     advice: str
-    """What to do about it."""
+    """How to correct it."""
 
 
 def sort_findings(findings: list[Finding]) -> tuple[Finding, ...]:
-    """Return findings most serious first, those of one rule together, in the order of prim paths."""
-    return tuple(
-        sorted(findings, key=lambda f: (_ORDER[f.severity], f.rule, f.prim_path, f.iri, f.found)),
-    )
+    """Return findings by severity (most serious first), rule and prim path."""
+    return tuple(sorted(findings, key=lambda f: (_ORDER[f.severity], f.rule, f.prim_path, f.iri, f.found)))

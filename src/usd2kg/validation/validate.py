@@ -1,4 +1,4 @@
-"""validate_graph: what is wrong with a graph, by shapes, by its ontology and by plausibility."""
+"""validate_graph: check a graph against shapes, its ontology and rules of plausibility."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,16 +13,16 @@ from usd2kg.query.graph_store import GraphStore
 from usd2kg.validation.clashes import find_clashes, read_axioms
 from usd2kg.validation.elk import ElkAnswer
 from usd2kg.validation.finding import Finding, Severity, sort_findings
-from usd2kg.validation.kinds import Kinds
-from usd2kg.validation.objects import GraphObject, find_owner, profile_of, read_objects, values_of
-from usd2kg.validation.plausibility import SceneOfObjects, find_oddities
-from usd2kg.validation.rules import Rules, read_rules
-from usd2kg.validation.shapes import compile_shapes, find_violations
+from usd2kg.validation.graph_objects import GraphObject, find_owner, profile_of, read_graph_objects, values_of
+from usd2kg.validation.object_classes import ObjectClasses
+from usd2kg.validation.plausibility_checks import CheckedScene, find_implausible
+from usd2kg.validation.plausibility_rules import Rules, read_rules
+from usd2kg.validation.shacl import compile_shapes, find_violations
 
 __all__ = ["ValidationReport", "imports_of", "ontology_of", "validate_graph"]
 
-_MEND_ONTOLOGY = "Mend the ontology, or take another class with a decision (usd2kg build --decisions)."
-_MEND_STATEMENT = "Correct the class with a decision (usd2kg build --decisions), or remove one of these statements."
+_CORRECT_ONTOLOGY = "Correct the ontology, or choose another class with a decision (usd2kg build --decisions)."
+_CORRECT_STATEMENT = "Correct the class with a decision (usd2kg build --decisions), or remove one of these statements."
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class ValidationReport:
     profile: str
     objects: int
     findings: tuple[Finding, ...]
-    """Most serious first, those of one rule together."""
+    """Sorted by severity and rule, see `sort_findings`."""
 
     def counts(self) -> dict[str, int]:
         """Return severity → number of findings."""
@@ -40,7 +40,7 @@ class ValidationReport:
 
 
 def ontology_of(graph: GraphStore) -> str | None:
-    """Return the IRI of the ontology that the objects of a graph were grounded to, as the graph says."""
+    """Return the IRI of the ontology that a graph states to be grounded to; None if it states none."""
     return next((value.value for values in values_of(graph.store, U2K.ontologyIri).values() for value in values), None)
 
 
@@ -55,25 +55,25 @@ def validate_graph(
     rules: Rules | None = None,
     answer: ElkAnswer | None = None,
 ) -> ValidationReport:
-    """Return what is wrong with a graph that usd2kg built.
+    """Return the findings for a graph that usd2kg built.
 
     Args:
         graph: the graph.
-        closure: the ontology that its objects were grounded to, with its imports; without it, clashes are not looked
-            for and classes are known by what the graph itself says of them.
-        rules: the rules of plausibility; our own by default.
-        answer: what a reasoner said of it, see `ask_elk`.
+        closure: the ontology that its objects were grounded to, with its imports; without it, contradictions with the
+            ontology are not checked, and superclasses are those in the graph.
+        rules: the rules of plausibility; by default those of `plausibility.toml`.
+        answer: the result of a reasoner, see `ask_elk`; None for no reasoner.
 
     Raises:
-        GraphError: there is no object in the graph.
+        GraphError: the graph contains no objects.
     """
     profile = profile_of(graph.store)
     if profile is None:
         raise GraphError(
-            f"{graph.source}: holds no object (no usd:Prim, no u2k:Object); expected a graph that usd2kg build wrote"
+            f"{graph.source}: contains no usd:Prim and no u2k:Object; expected a graph that usd2kg build wrote"
         )
     run = _Run(graph.store, closure)
-    findings = [*run.shapes(profile), *run.clashes(), *run.oddities(read_rules() if rules is None else rules)]
+    findings = [*run.shapes(profile), *run.clashes(), *run.implausible(read_rules() if rules is None else rules)]
     if answer is not None and not answer.is_consistent:
         findings += run.inconsistencies(answer)
     return ValidationReport(profile, len(run.objects), sort_findings(findings))
@@ -86,45 +86,44 @@ class _Run:
         self._store = store
         self._closure = closure
         self._axioms = read_axioms(closure) if closure is not None else None
-        self.objects = read_objects(store)
+        self.objects = read_graph_objects(store)
         self._by_iri = {obj.iri: obj for obj in self.objects}
 
     def shapes(self, profile: str) -> Iterator[Finding]:
-        """Yield what breaks the shapes of the profile."""
+        """Yield the violations of the profile's shapes."""
         for rule in compile_shapes(profile):
-            for broken in find_violations(self._store, rule):
-                found = ", ".join(broken.found)
-                yield self._finding(rule.severity, rule.id, broken.focus, found, rule.expected, rule.advice)
+            for violation in find_violations(self._store, rule):
+                found = ", ".join(violation.found)
+                yield self._finding(rule.severity, rule.id, violation.focus, found, rule.expected, rule.advice)
 
     def clashes(self) -> Iterator[Finding]:
-        """Yield what contradicts the ontology."""
+        """Yield the contradictions with the ontology."""
         if self._axioms is not None and self._closure is not None:
             yield from find_clashes(self._store, self.objects, self._axioms, self._closure.missing, self._finding)
 
     def inconsistencies(self, answer: ElkAnswer) -> Iterator[Finding]:
-        """Yield what a reasoner calls inconsistent."""
+        """Yield the inconsistencies that a reasoner reports."""
         for clash in answer.clashes:
             node = ox.NamedNode(clash.iri) if not clash.iri.startswith("_:") else ox.BlankNode(clash.iri[2:])
             if clash.impossible is not None:
-                found = f"it is {compact_iri(clash.impossible)}, which can have no member by the ontology itself"
-                yield self._finding(
-                    Severity.ERROR, "elk-impossible-class", node, found, "a class that can have members", _MEND_ONTOLOGY
-                )
+                found = f"it is {compact_iri(clash.impossible)}, which is unsatisfiable in the ontology itself"
+                rule, expected, advice = "elk-impossible-class", "a satisfiable class", _CORRECT_ONTOLOGY
             else:
-                found = f"stated of it: {'; '.join(clash.statements)}"
-                yield self._finding(
-                    Severity.ERROR, "elk-clash", node, found, "statements that can be true together", _MEND_STATEMENT
-                )
+                found = f"its statements: {'; '.join(clash.statements)}"
+                rule, expected, advice = "elk-clash", "consistent statements", _CORRECT_STATEMENT
+            yield self._finding(Severity.ERROR, rule, node, found, expected, advice)
         if not answer.clashes:
-            found = "ELK calls the graph inconsistent, and no single individual is to blame"
-            yield Finding(Severity.ERROR, "elk-inconsistent", "", "", "", found, "a consistent graph", _MEND_STATEMENT)
+            found = "ELK finds the graph inconsistent, but no single individual contradictory"
+            yield Finding(
+                Severity.ERROR, "elk-inconsistent", "", "", "", found, "a consistent graph", _CORRECT_STATEMENT
+            )
 
-    def oddities(self, rules: Rules) -> Iterator[Finding]:
-        """Yield what is implausible."""
+    def implausible(self, rules: Rules) -> Iterator[Finding]:
+        """Yield the violations of the rules of plausibility."""
         calibrated = values_of(self._store, U2K.isCalibrated).values()
         has_probabilities = not any(value.value in {"false", "0"} for values in calibrated for value in values)
-        scene = SceneOfObjects(self.objects, Kinds(self._store, self._axioms, self.objects), has_probabilities)
-        for rule, obj, found, expected in find_oddities(scene, rules):
+        scene = CheckedScene(self.objects, ObjectClasses(self._store, self._axioms, self.objects), has_probabilities)
+        for rule, obj, found, expected in find_implausible(scene, rules):
             yield _about(obj, rule.severity, rule.id, obj.iri, found, expected, rule.advice)
 
     def _finding(self, severity: Severity, rule: str, node: Any, found: str, expected: str, advice: str) -> Finding:

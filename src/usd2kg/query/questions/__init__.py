@@ -1,9 +1,9 @@
-"""Questions that robots ask: SPARQL with parameters, one file each, with its question in words at its head.
+"""Ready questions for robot tasks: parameterised SPARQL, one file each.
 
-A file begins with comments: `# id:`, `# question:` with the parameters in braces, for each of them a line
-`# parameter: NAME | KIND | DEFAULT`, and notes. A kind is `object`, `class`, `position`, or the unit of a number, `m`,
-`kg` or `share`. In the query the parameter is the variable `?the_NAME`; the query selects it, since only what is
-selected can be bound, and the answer leaves it out. What a user gives is bound as a term: none of it is pasted in.
+A file begins with comments: `# id:`, `# question:` with the parameters in braces, `# parameter: NAME | KIND | DEFAULT`
+for each parameter, and `# note:`. A kind is `object`, `class`, `position`, or the unit of a number: `m`, `kg` or
+`share`. In the query, the parameter is the variable `?the_NAME`. The query must select it, because only selected
+variables can be bound; the answer omits it. Values are bound as terms, never inserted as text.
 """
 
 import math
@@ -28,35 +28,35 @@ _UNITS: dict[str, dict[str, float]] = {
     "kg": {"kg": 1.0, "g": 0.001},
     "share": {"": 1.0, "%": 0.01},
 }
-"""Unit of a parameter → units that a person may write → how many of the first one they are."""
+"""Unit of a parameter → accepted units → factor to the unit of the parameter."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is left open in a question."""
+    """A parameter of a question."""
 
     name: str
     kind: str
     """`object`, `class`, `position` ("x y z", metres), or the unit of a number: m, kg, share."""
     default: str | None
-    """None where it must be given."""
+    """None if the parameter is required."""
 
     @property
     def variable(self) -> str:
-        """Name of the variable that it is in the query."""
+        """Name of the variable in the query."""
         return f"the_{self.name}"
 
 
 @dataclass(frozen=True)
 class Question:
-    """A question that a graph answers."""
+    """A ready question."""
 
     id: str
     text: str
-    """In words, with the parameters in braces."""
+    """In English, with the parameters in braces."""
     parameters: tuple[Parameter, ...]
     note: str
-    """How it is answered, and what is not seen; may be empty."""
+    """Method and limits of the answer; may be empty."""
     sparql: str
 
     def fill(self, given: Mapping[str, str]) -> dict[Parameter, str]:
@@ -68,7 +68,7 @@ class Question:
         names = [parameter.name for parameter in self.parameters]
         for name in given:
             if name not in names:
-                expected = f"expected {', '.join(names)}" if names else "it takes none"
+                expected = f"expected {', '.join(names)}" if names else "expected none"
                 raise GraphError(f"question {self.id}: has no parameter {name!r}; {expected}")
         values = {p: given.get(p.name, p.default) for p in self.parameters}
         missing = [p for p, value in values.items() if value is None]
@@ -90,7 +90,7 @@ def find_question(question_id: str) -> Question:
     """Return a question by its id.
 
     Raises:
-        GraphError: there is none of this id.
+        GraphError: the id is unknown.
     """
     by_id = {question.id: question for question in list_questions()}
     if question_id not in by_id:
@@ -99,20 +99,20 @@ def find_question(question_id: str) -> Question:
 
 
 def parse_number(text: str, unit: str) -> float:
-    """Return a number with or without its unit, in the unit of the parameter.
+    """Return a number, written with or without a unit, in the unit of the parameter.
 
     >>> parse_number("50 cm", "m"), parse_number("0.5", "m"), parse_number("80 %", "share")
     (0.5, 0.5, 0.8)
 
     Raises:
-        GraphError: it is no number, or has another unit.
+        GraphError: the text is not a finite number, or has another unit.
     """
     found = re.fullmatch(r"([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?)\s*([a-z%]*)", text.strip())
     factor = _UNITS[unit].get(found.group(2) or ("" if unit == "share" else unit)) if found else None
     value = float(found.group(1)) * factor if found and factor is not None else math.inf
     if not math.isfinite(value):
-        units = ", ".join(name or "none" for name in _UNITS[unit])
-        raise GraphError(f"{text!r} is not what was expected: a number, with one of these units or without: {units}")
+        units = ", ".join(name for name in _UNITS[unit] if name)
+        raise GraphError(f"{text!r} is not a quantity; expected a number, without a unit or with one of {units}")
     return value
 
 

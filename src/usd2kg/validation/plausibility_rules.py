@@ -1,4 +1,4 @@
-"""The table of plausibility: our own thresholds, classes and texts, and a user's in their place."""
+"""Rules of plausibility: `plausibility.toml`, with a user's overrides."""
 
 import math
 import tomllib
@@ -17,14 +17,14 @@ __all__ = ["Rule", "Rules", "read_rules"]
 
 @dataclass(frozen=True)
 class Rule:
-    """One table: what it goes by, how serious it is and what to do."""
+    """One table of `plausibility.toml`."""
 
     id: str
     severity: Severity
     advice: str
     is_enabled: bool
     settings: Mapping[str, Any]
-    """Its other keys as they stand in the table."""
+    """All keys of the table."""
 
     def number(self, key: str) -> float:
         """Return a threshold."""
@@ -35,7 +35,7 @@ class Rule:
         return frozenset(map(expand_curie, self.settings[key]))
 
     def words(self, key: str) -> frozenset[str]:
-        """Return a list of words in small letters."""
+        """Return a list of words in lower case."""
         return frozenset(word.lower() for word in self.settings[key])
 
 
@@ -44,10 +44,10 @@ Rules = Mapping[str, Rule]
 
 
 def read_rules(path: Path | str | None = None) -> Rules:
-    """Return the rules of plausibility, with what the TOML file at `path` says in place of our own.
+    """Return the rules of plausibility, with single values overridden by the TOML file at `path`.
 
     Raises:
-        GraphError: the file cannot be read, or has a table, a key or a value that no rule knows.
+        GraphError: the file cannot be read, or contains an unknown table or key, or a value of the wrong type.
     """
     tables = tomllib.loads(read_text("plausibility.toml"))
     if path is not None:
@@ -60,23 +60,23 @@ def read_rules(path: Path | str | None = None) -> Rules:
 
 def _replace(tables: dict[str, dict[str, Any]], path: Path) -> None:
     try:
-        own = tomllib.loads(path.read_text("utf-8"))
+        overrides = tomllib.loads(path.read_text("utf-8"))
     except (OSError, UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:
-        raise GraphError(f"{path}: cannot be read as rules ({error}); expected a TOML file of tables") from error
-    for name, table in own.items():
+        raise GraphError(f"{path}: cannot be read ({error}); expected a TOML file with tables") from error
+    for name, table in overrides.items():
         if name not in tables or not isinstance(table, dict):
-            raise GraphError(f"{path}: {name!r} is no rule; expected tables named {', '.join(tables)}")
+            raise GraphError(f"{path}: {name!r} is not a rule; expected tables named {', '.join(tables)}")
         for key, value in table.items():
             if key not in tables[name]:
                 raise GraphError(f"{path}: [{name}] has no key {key!r}; expected {', '.join(tables[name])}")
             tables[name][key] = _checked(f"{path}: [{name}] {key}", key, value, tables[name][key])
 
 
-def _checked(where: str, key: str, value: Any, usual: Any) -> Any:
-    """Return a user's value if it is of the kind of our own.
+def _checked(where: str, key: str, value: Any, default: Any) -> Any:
+    """Return a user's value if it has the type of the default.
 
     Raises:
-        GraphError: it is not.
+        GraphError: it has another type.
     """
     if key == "severity" and value not in list(Severity):
         raise GraphError(f"{where} is {value!r}; expected one of {', '.join(Severity)}")
@@ -84,11 +84,11 @@ def _checked(where: str, key: str, value: Any, usual: Any) -> Any:
     is_list = isinstance(value, list) and all(isinstance(item, str) for item in value)
     kinds: tuple[tuple[type | tuple[type, ...], bool, str], ...] = (
         (bool, isinstance(value, bool), "true or false"),
-        ((int, float), is_number, "a number from 0"),
-        (str, isinstance(value, str), "a text"),
-        (list, is_list, "a list of texts"),
+        ((int, float), is_number, "a number of at least 0"),
+        (str, isinstance(value, str), "a string"),
+        (list, is_list, "a list of strings"),
     )
-    is_good, wanted = next((good, wanted) for kind, good, wanted in kinds if isinstance(usual, kind))
-    if not is_good:
-        raise GraphError(f"{where} is {value!r}; expected {wanted}")
+    is_valid, expected = next((valid, expected) for kind, valid, expected in kinds if isinstance(default, kind))
+    if not is_valid:
+        raise GraphError(f"{where} is {value!r}; expected {expected}")
     return value

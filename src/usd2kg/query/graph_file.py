@@ -1,4 +1,4 @@
-"""Reading a graph from a file."""
+"""load_graph: RDF file → graph."""
 
 import zlib
 from pathlib import Path
@@ -13,10 +13,10 @@ __all__ = ["load_graph"]
 
 
 def load_graph(path: Path | str) -> GraphStore:
-    """Return the graph in a file, ready to be asked.
+    """Return the graph in a file.
 
     Raises:
-        GraphError: the file is missing, its ending names no RDF format, or it does not parse.
+        GraphError: the file is missing, its extension is not that of an RDF format, or it does not parse.
     """
     path = Path(path)
     if path.is_dir():
@@ -29,7 +29,7 @@ def load_graph(path: Path | str) -> GraphStore:
         with open_rdf(path) as file:
             store.bulk_load(file, format=syntax)
     except MemoryError as error:
-        # So pyoxigraph says it, whose parser holds no text of more than 16 MiB.
+        # pyoxigraph raises this for a literal above 16 MiB, its parser's limit.
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = " ".join(str(error).split())

@@ -1,4 +1,4 @@
-"""Ready questions in plain words, as SPARQL: on X, in X, near X, above X, parts of X, where is X, all of CLASS."""
+"""SPARQL templates of the short questions: on X, in X, near X, above X, parts of X, where is X, all of CLASS."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ __all__ = [
     "ON",
     "PARTS_OF",
     "WHERE_IS",
-    "SpokenQuestion",
+    "QueryTemplate",
     "parse_question",
 ]
 
@@ -26,7 +26,7 @@ _WITHIN = f"{_INSIDE}|u2k:inRoom"
 _NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
-"""What is above a thing on the table is above the table, though only the nearest is written."""
+"""The graph states only the nearest anchor: what is above an object on the table is above the table."""
 
 _RELATED = """
 SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
@@ -79,37 +79,38 @@ SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
 
 
 @dataclass(frozen=True)
-class SpokenQuestion:
-    """A question about things that are named, or about the things of a class that is named."""
+class QueryTemplate:
+    """A query about given objects, or about the objects of given classes."""
 
-    template: str
+    text: str
+    """SPARQL as a format string."""
     terms: Mapping[str, str]
-    """Name in the template → property paths that stand for it."""
+    """Placeholder → property path."""
     columns: Mapping[str, str] = field(default_factory=dict)
-    """Variable → column of the answer, where they differ."""
-    names_class: bool = False
-    """Whether what is named is a class, not a thing."""
+    """Variable → column of the answer, if they differ."""
+    takes_class: bool = False
+    """Whether the query is about a class."""
 
-    def sparql(self, things: str) -> str:
-        """Return the query about things, which are written as terms of SPARQL."""
-        return self.template.format(things=things, **self.terms)
+    def fill(self, things: str) -> str:
+        """Return the query about things, given as SPARQL terms (see `term_list`)."""
+        return self.text.format(things=things, **self.terms)
 
 
-ON = SpokenQuestion(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
-INSIDE = SpokenQuestion(_RELATED, {"predicate": _WITHIN, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
-ALL_ON = SpokenQuestion(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
-"""What is on a thing, or on what is on it."""
-ALL_INSIDE = SpokenQuestion(
+ON = QueryTemplate(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
+INSIDE = QueryTemplate(_RELATED, {"predicate": _WITHIN, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
+ALL_ON = QueryTemplate(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
+"""On a thing, or on something on it."""
+ALL_INSIDE = QueryTemplate(
     _RELATED,
     {"predicate": f"({_ON}|{_INSIDE})*/({_WITHIN})", "number": "u2k:insideRatio"},
     {"number": "inside_ratio"},
 )
-"""What is inside a thing, or on or in what is inside it."""
-ABOVE = SpokenQuestion(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
-NEAR = SpokenQuestion(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
-PARTS_OF = SpokenQuestion(_PARTS, {"predicate": _PART_OF})
-WHERE_IS = SpokenQuestion(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
-ALL_OF = SpokenQuestion(_ALL, {}, names_class=True)
+"""Inside a thing, or on or in something inside it."""
+ABOVE = QueryTemplate(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
+NEAR = QueryTemplate(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
+PARTS_OF = QueryTemplate(_PARTS, {"predicate": _PART_OF})
+WHERE_IS = QueryTemplate(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
+ALL_OF = QueryTemplate(_ALL, {}, takes_class=True)
 
 _PHRASES = (
     (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
@@ -122,14 +123,14 @@ _PHRASES = (
 )
 
 
-def parse_question(words: Sequence[str]) -> tuple[SpokenQuestion, str]:
-    """Return which question is asked, and the name of what it is asked about.
+def parse_question(words: Sequence[str]) -> tuple[QueryTemplate, str]:
+    """Return the template for a short question, and the name of its subject.
 
     >>> parse_question(["what", "is", "on", "the table?"])[1]
     'the table'
 
     Raises:
-        GraphError: the words are no such question.
+        GraphError: the question is not understood.
     """
     text = " ".join(words).strip().rstrip("?").strip()
     for pattern, question in _PHRASES:

@@ -1,4 +1,4 @@
-"""No query makes this machine ask another: whatever the guard lets through, a real engine does not connect."""
+"""SERVICE and LOAD clauses are found in every spelling that the engine accepts."""
 
 import socket
 import threading
@@ -6,7 +6,7 @@ import threading
 import pyoxigraph as ox
 import pytest
 
-from usd2kg.query.federation import reaches_out
+from usd2kg.query.remote_clauses import has_remote_clause
 
 CALLS = [
     "SELECT * { SERVICE <URL> { ?s ?p ?o } }",
@@ -26,36 +26,36 @@ HARMLESS = [
 
 
 @pytest.mark.parametrize("query", CALLS)
-def test_calls_are_found(query: str):
-    assert reaches_out(query.replace("URL", "http://127.0.0.1:9/"))
+def test_finds_service_clauses(query: str):
+    assert has_remote_clause(query.replace("URL", "http://127.0.0.1:9/"))
 
 
 @pytest.mark.parametrize("query", HARMLESS)
-def test_names_are_no_calls(query: str):
-    assert not reaches_out(query)
+def test_ignores_keywords_in_names_and_labels(query: str):
+    assert not has_remote_clause(query)
 
 
 @pytest.mark.parametrize(
     "update", ["LOAD <http://x/>", "load silent <http://x/> into graph <urn:g>", "LOAD#\n<http://x>"]
 )
-def test_loads_are_found(update: str):
-    assert reaches_out(update)
+def test_finds_load_clauses(update: str):
+    assert has_remote_clause(update)
 
 
-def test_the_engine_would_connect_without_the_guard():
+def test_the_engine_connects_without_the_check():
     with socket.socket() as listening:
         listening.bind(("127.0.0.1", 0))
         listening.listen()
-        met = threading.Event()
+        connected = threading.Event()
 
         def accept() -> None:
             connection, _ = listening.accept()
             with connection:
-                met.set()
+                connected.set()
 
         thread = threading.Thread(target=accept)
         thread.start()
         with pytest.raises(OSError, match=r"."):
             list(ox.Store().query(CALLS[0].replace("URL", f"http://127.0.0.1:{listening.getsockname()[1]}/")))  # type: ignore[arg-type]
         thread.join(10)
-        assert met.is_set()
+        assert connected.is_set()

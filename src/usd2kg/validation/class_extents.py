@@ -1,4 +1,4 @@
-"""The usual size of things of a class: from our table of classes, else by the class's label from that of nouns."""
+"""Typical size of a class: from `class_sizes.csv` by its IRI, else from `everyday_objects.csv` by its label."""
 
 from functools import lru_cache
 
@@ -6,7 +6,7 @@ from usd2kg.grounding.lexical.concepts.sizes import typical_extents
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import expand_curie
 
-__all__ = ["usual_extent"]
+__all__ = ["typical_class_extent"]
 
 _SIDES = ("width_m", "depth_m", "height_m")
 
@@ -17,12 +17,12 @@ def _class_extents() -> dict[str, float]:
     return {expand_curie(row["class"]): max(float(row[side]) for side in _SIDES) for row in rows}
 
 
-def usual_extent(class_iri: str, label: str) -> float | None:
-    """Return the usual longest extent of things of a class in metres; None if it is not known.
+def typical_class_extent(class_iri: str, label: str) -> float | None:
+    """Return the typical longest extent of a class in metres; None if unknown.
 
     Args:
         class_iri: the class.
-        label: its label in small letters.
+        label: its label in lower case.
     """
     known = _class_extents().get(class_iri)
     if known is not None:

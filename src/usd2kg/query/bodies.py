@@ -1,4 +1,4 @@
-"""The boxes, masses and moving ties of the objects of a graph, as numbers that functions of SPARQL compute with."""
+"""Boxes, masses and joints of a graph's objects, as numbers for the SPARQL functions."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from usd2kg.graph.vocabulary import PREFIXES
 
-__all__ = ["Bodies", "Body", "JointMotion", "parse_vector"]
+__all__ = ["Body", "BodyIndex", "JointMotion", "parse_vector"]
 
 Vector = NDArray[np.float64]
 
@@ -49,38 +49,38 @@ SELECT DISTINCT ?carrier ?o WHERE {
 
 @dataclass(frozen=True)
 class Body:
-    """What is known of the size and mass of one object."""
+    """Size and mass of one object, as far as the graph states them."""
 
     lower: Vector | None
-    """(3,) metres, world frame: lower corner of the box; None without a box."""
+    """(3,) metres, world frame: lower corner of the AABB; None without a box."""
     upper: Vector | None
     extents: tuple[float, float, float] | None
-    """Metres, ascending; along the object's own axes where those are known."""
+    """Metres, ascending; along the object's own axes if known."""
     mass: float | None
     """Kilograms."""
 
 
 @dataclass(frozen=True)
 class JointMotion:
-    """A joint with two limits: what it moves, and how."""
+    """A joint with two limits."""
 
     parent: str | None
-    """IRI of the object it hangs on; the world, where None."""
+    """IRI of the object that it is fixed to; None for the world."""
     child: str | None
-    """IRI of the object it moves; None where it moves a part of `whole`."""
+    """IRI of the object that it moves; None if it moves a part of `whole`."""
     whole: str | None
-    turns: bool
-    """Whether it turns; otherwise it slides."""
+    is_revolute: bool
+    """False for a prismatic joint."""
     axis: Vector
     """(3,) unit vector, world frame."""
     origin: Vector
     """(3,) metres, world frame."""
     opening: float
-    """From where it stands to its farther limit, with sign: radians or metres."""
+    """From the current position to the farther limit, signed; radians or metres."""
 
 
 def parse_vector(text: str) -> Vector | None:
-    """Return three numbers written as "x y z"; None if the text is no such thing.
+    """Return the vector written as "x y z"; None if the text is not three finite numbers.
 
     >>> parse_vector("1 2.5 0")
     array([1. , 2.5, 0. ])
@@ -94,8 +94,8 @@ def parse_vector(text: str) -> Vector | None:
     return values if values.shape == (3,) and bool(np.isfinite(values).all()) else None
 
 
-class Bodies:
-    """The objects of one graph by their IRI; read once, when first asked for."""
+class BodyIndex:
+    """The objects of one graph by IRI, read on first access."""
 
     def __init__(self, store: ox.Store) -> None:
         self._store = store
@@ -107,12 +107,12 @@ class Bodies:
 
     @cached_property
     def joints(self) -> dict[str, JointMotion]:
-        """Joint IRI → how it moves, of the joints with an axis and two limits."""
+        """Joint IRI → its motion, for joints with an axis and two limits."""
         found = ((row["j"].value, _motion(row)) for row in self._select(_JOINTS))
         return {iri: motion for iri, motion in found if motion is not None}
 
     def carried_by(self, iri: str) -> set[str]:
-        """Return the IRIs of all that moves with an object: on it, in it, part of it, jointed to it; not itself."""
+        """Return the IRIs of the objects that move with an object: on it, in it, part of it or jointed to it."""
         found: set[str] = set()
         waiting = [iri]
         while waiting:
@@ -150,12 +150,13 @@ def _motion(row: ox.QuerySolution) -> JointMotion | None:
     lower, upper = _number(row["lower"]), _number(row["upper"])
     if axis is None or origin is None or lower is None or upper is None:
         return None
-    stands = _number(row["position"])
-    if stands is None:
-        stands = min(max(0.0, lower), upper)
+    position = _number(row["position"])
+    if position is None:
+        position = min(max(0.0, lower), upper)
     parent, child, whole = (row[name].value if row[name] else None for name in ("parent", "child", "whole"))
-    turns = row["type"].value.endswith("RevoluteJoint")
-    return JointMotion(parent, child, whole, turns, axis, origin, max(lower - stands, upper - stands, key=abs))
+    is_revolute = row["type"].value.endswith("RevoluteJoint")
+    opening = max(lower - position, upper - position, key=abs)
+    return JointMotion(parent, child, whole, is_revolute, axis, origin, opening)
 
 
 def _number(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple | None) -> float | None:

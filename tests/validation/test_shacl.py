@@ -1,4 +1,4 @@
-"""Our shapes find what is broken, each in its place, and a SHACL processor finds the same."""
+"""The compiled shapes find each violation, and agree with a SHACL processor."""
 
 import warnings
 
@@ -10,29 +10,29 @@ from usd2kg.graph import GraphOptions
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore
-from usd2kg.validation.shapes import compile_shapes, find_violations, shapes_text
+from usd2kg.validation.shacl import compile_shapes, find_violations, read_shapes
 
 CASES = pytest.mark.parametrize("case", SHAPES, ids=[f"{i}-{c.profile}-{c.rule}" for i, c in enumerate(SHAPES)])
 PROFILES = pytest.mark.parametrize("profile", ["soma", "plain"])
 
 
 @PROFILES
-def test_nothing_is_found_where_all_is_well(home_tbox: TBox, profile: str):
+def test_finds_nothing_in_a_valid_graph(home_tbox: TBox, profile: str):
     assert found_in(open_room(home_tbox, profile)) == ()
 
 
 @CASES
-def test_each_edit_breaks_its_rule_and_no_other(home_tbox: TBox, case: Break):
+def test_finds_exactly_the_violated_rule(home_tbox: TBox, case: Break):
     found = found_in(open_room(home_tbox, case.profile, case.update))
     assert {finding.rule for finding in found} == {case.rule}
 
 
 @PROFILES
-def test_each_shape_is_broken_by_a_case(profile: str):
+def test_every_shape_has_a_case(profile: str):
     assert {c.rule for c in SHAPES if c.profile == profile} == {rule.id for rule in compile_shapes(profile)}
 
 
-def test_a_finding_says_whose_box_it_is_what_was_found_and_what_to_do(home_tbox: TBox):
+def test_a_finding_names_the_object_the_value_and_the_advice(home_tbox: TBox):
     case = next(c for c in SHAPES if c.rule == "box-width" and c.profile == "soma")
     (finding,) = found_in(open_room(home_tbox, "soma", case.update))
     assert (finding.severity, finding.label, finding.prim_path) == ("error", "Fork", "/Fork")
@@ -41,24 +41,24 @@ def test_a_finding_says_whose_box_it_is_what_was_found_and_what_to_do(home_tbox:
     assert "metersPerUnit" in finding.advice
 
 
-def test_a_joint_is_named_by_its_prim(home_tbox: TBox):
+def test_a_finding_on_a_joint_names_its_prim(home_tbox: TBox):
     case = next(c for c in SHAPES if c.rule == "joint-limits" and c.profile == "plain")
     (finding,) = found_in(open_room(home_tbox, "plain", case.update))
     assert (finding.label, finding.prim_path, finding.found) == ("hinge", "/Cupboard/hinge", "2")
 
 
 @CASES
-def test_a_shacl_processor_finds_the_same_in_a_broken_graph(home_tbox: TBox, case: Break):
+def test_agrees_with_pyshacl_on_invalid_graphs(home_tbox: TBox, case: Break):
     compare_with_pyshacl(open_room(home_tbox, case.profile, case.update), case.profile)
 
 
 @PROFILES
-def test_a_shacl_processor_finds_nothing_where_all_is_well(home_tbox: TBox, profile: str):
+def test_agrees_with_pyshacl_on_a_valid_graph(home_tbox: TBox, profile: str):
     assert compare_with_pyshacl(open_room(home_tbox, profile), profile) == set()
 
 
 def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]]:
-    """Assert that both find the same; return it as pairs of rule and node, blank nodes without a name."""
+    """Assert that both find the same; return pairs of rule and node IRI, which is empty for blank nodes."""
     import pyoxigraph as ox  # noqa: PLC0415
 
     with warnings.catch_warnings():
@@ -69,7 +69,7 @@ def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]
         triples = ox.serialize((quad.triple for quad in graph.store), format=ox.RdfFormat.N_TRIPLES)
         data = rdflib.Graph().parse(data=triples, format="nt")
         _, report, _ = pyshacl.validate(
-            data, shacl_graph=shapes_text(profile), shacl_graph_format="turtle", inference="none"
+            data, shacl_graph=read_shapes(profile), shacl_graph_format="turtle", inference="none"
         )
     shacl = rdflib.Namespace("http://www.w3.org/ns/shacl#")
     theirs = set()
@@ -86,7 +86,7 @@ def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]
     return ours
 
 
-def test_confidences_on_triple_terms_are_checked_too(home_tbox: TBox):
+def test_checks_confidences_on_triple_terms(home_tbox: TBox):
     graph = GraphStore(reread(build_graph(home_tbox, ROOM, options=GraphOptions(annotations="rdf12"))), "room.ttl")
     assert found_in(graph) == ()
     graph.store.update(

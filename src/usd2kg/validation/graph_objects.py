@@ -1,4 +1,4 @@
-"""The objects of a graph as records, read from either profile."""
+"""GraphObject: the objects of a graph as records, from either profile."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -9,49 +9,49 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD
 
-__all__ = ["GraphObject", "find_owner", "profile_of", "read_objects", "values_of"]
+__all__ = ["GraphObject", "find_owner", "profile_of", "read_graph_objects", "values_of"]
 
 Vector = tuple[float, float, float]
-_NO_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
-_LARGEST = 100_000.0
-"""Metres, as in the shapes: what is larger is no extent."""
-_DEEPEST_PART = 4
-"""Steps from an object to the farthest node that belongs to it."""
+_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+_MAX_EXTENT = 100_000.0
+"""Metres; the limit of the shapes in `shapes-*.ttl`."""
+_MAX_STEPS = 4
+"""Properties between an object and the farthest node that belongs to it: joint limits and box regions."""
 
 
 @dataclass(frozen=True, slots=True)
 class GraphObject:
-    """What a graph says of one object; what cannot be read as such is None, and a shape tells of it."""
+    """The statements of a graph about one object; a malformed value is None, and violates a shape."""
 
     iri: str
     label: str
     prim_path: str
     classes: tuple[str, ...]
-    """IRIs of the classes that it was grounded to, sorted; not those that every object has."""
+    """IRIs of the classes that it was grounded to, sorted, without the generic ones of every object."""
     size: Vector | None
     """Extents of the world box along x, y and z, metres."""
     center: Vector | None
     """Of the world box, metres, world frame."""
     oriented_size: Vector | None
-    """Extents along the object's own axes, metres, where those are turned against the world's."""
+    """Extents along the object's own axes, metres; None if those are the world's."""
     orientation: tuple[float, ...] | None
     """Quaternion x y z w."""
     mass_kg: float | None
     confidence: float | None
     """Of its class, 0 to 1."""
     supporters: tuple[str, ...]
-    """IRIs of what it is on, sorted."""
+    """IRIs of the objects that it is on, sorted."""
     containers: tuple[str, ...]
-    """IRIs of what it is inside of, sorted."""
+    """IRIs of the objects that it is inside, sorted."""
 
     @property
     def own_size(self) -> Vector | None:
-        """Extents along its own axes where those are known, else along the world's; metres."""
+        """Extents along the object's own axes if known, else along the world's; metres."""
         return self.oriented_size or self.size
 
 
 def profile_of(store: ox.Store) -> str | None:
-    """Return the profile that a graph is written in; None if it holds no object of either."""
+    """Return the profile of a graph; None if it contains no objects."""
     for profile, cls in (("soma", USD.Prim), ("plain", U2K.Object)):
         if next(iter(store.quads_for_pattern(None, RDF.type, cls)), None) is not None:
             return profile
@@ -69,7 +69,7 @@ def values_of(store: ox.Store, name: ox.NamedNode) -> dict[Any, list[Any]]:
     return found
 
 
-def read_objects(store: ox.Store) -> list[GraphObject]:
+def read_graph_objects(store: ox.Store) -> list[GraphObject]:
     """Return the objects of a graph in the order of their prim paths."""
     reader = _Reader(store)
     rooms = {quad.subject for quad in store.quads_for_pattern(None, RDF.type, U2K.RoomGroup)}
@@ -79,7 +79,7 @@ def read_objects(store: ox.Store) -> list[GraphObject]:
 
 
 class _Reader:
-    """Looks up properties, each read whole once: faster than a query for each object."""
+    """Reads objects; each property is read once for all objects, which is faster than a query per object."""
 
     def __init__(self, store: ox.Store) -> None:
         self._store = store
@@ -92,13 +92,14 @@ class _Reader:
         size = [self._number(region, *names) for names in extents]
         pose = self._vector(self._first(self._steps(node, SOMA.hasLocalization, DUL.hasRegion)), SOMA.hasPositionData)
         mass = self._number(self._first(self._steps(node, SOMA.hasMassAttribute)), SOMA.hasMassValue)
-        classes = [c for c in self._values(node, RDF.type) if c not in _NO_CLASSES and isinstance(c, ox.NamedNode)]
+        types = self._values(node, RDF.type)
+        classes = [cls for cls in types if cls not in _GENERIC_CLASSES and isinstance(cls, ox.NamedNode)]
         return GraphObject(
             iri=node.value,
             label=self._text(node, RDFS.label),
             prim_path=str(path.value),
             classes=tuple(cls.value for cls in classes),
-            size=_triple(size) if all(0 <= side <= _LARGEST for side in size if side is not None) else None,
+            size=_triple(size) if all(0 <= side <= _MAX_EXTENT for side in size if side is not None) else None,
             center=_triple(self._vector(region, U2K.boxCenter)),
             oriented_size=_triple(self._vector(node, U2K.orientedSize)),
             orientation=pose[3:] if pose else self._vector(node, U2K.orientation),
@@ -142,7 +143,7 @@ class _Reader:
 
 
 def _numbers(text: str) -> tuple[float, ...]:
-    """Return the numbers of a text; none at all if one is no finite number."""
+    """Return the numbers in a text; empty if any of them is not finite."""
     try:
         numbers = tuple(float(word) for word in text.split())
     except ValueError:
@@ -158,7 +159,7 @@ def _triple(values: Any) -> Vector | None:
 
 
 def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
-    """Yield each object with the confidence in its class, from OWL's annotations or from RDF 1.2's reifiers."""
+    """Yield each object with the confidence of its class, from OWL axiom annotations or RDF 1.2 reifiers."""
     typed = {q.subject for q in store.quads_for_pattern(None, OWL.annotatedProperty, RDF.type)}
     annotated = store.quads_for_pattern(None, OWL.annotatedSource, None)
     sources = {quad.subject: quad.object for quad in annotated if quad.subject in typed}
@@ -172,20 +173,20 @@ def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
 
 
 def find_owner(store: ox.Store, node: Any, objects: Mapping[str, GraphObject]) -> GraphObject | None:
-    """Return the object that a node belongs to: its box, its mass, the axiom about its class; None if it has none."""
+    """Return the object to which a node belongs (its box, its mass, the annotation of its class); None if to none."""
     seen, pending = {node}, [node]
-    for _ in range(_DEEPEST_PART):
+    for _ in range(_MAX_STEPS):
         for each in pending:
             owner = objects.get(getattr(each, "value", ""))
             if owner is not None and isinstance(each, ox.NamedNode):
                 return owner
-        pending = [near for each in pending for near in _whose(store, each) if near not in seen]
+        pending = [near for each in pending for near in _possible_owners(store, each) if near not in seen]
         seen.update(pending)
     return None
 
 
-def _whose(store: ox.Store, node: Any) -> list[Any]:
-    """Return what a node may belong to, the nearest first."""
+def _possible_owners(store: ox.Store, node: Any) -> list[Any]:
+    """Return the nodes to which a node may directly belong."""
     if isinstance(node, ox.BlankNode):
         about = [quad.object for quad in store.quads_for_pattern(node, OWL.annotatedSource, None)]
         reified = (quad.object for quad in store.quads_for_pattern(node, RDF.reifies, None))

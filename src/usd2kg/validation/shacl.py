@@ -1,8 +1,8 @@
-"""Running SHACL shapes over a graph, by SPARQL: a full SHACL processor takes minutes where this takes a second.
+"""Compile the package's SHACL shapes to SPARQL, which is much faster than a SHACL processor.
 
-What our own shapes use of SHACL Core is known here, and no more: targets by class and by property; paths of one step,
-of several, or one backwards; counts, bounds, patterns, node kinds, the order of two properties, qualified shapes of a
-class or of what is not in a list, and alternatives of what has to be there.
+Supported is the subset of SHACL Core that those shapes use: targets by class, subjects and objects of a property;
+predicate, sequence and inverse paths; counts, bounds, patterns, node kinds, lessThanOrEquals, qualified shapes with
+sh:class or sh:not sh:in, and sh:or of properties with a minimum count.
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import RDF, Namespace
 from usd2kg.validation.finding import Severity
 
-__all__ = ["ShapeRule", "Violation", "compile_shapes", "find_violations", "shapes_text"]
+__all__ = ["ShapeRule", "Violation", "compile_shapes", "find_violations", "read_shapes"]
 
 _PROFILES = ("soma", "plain")
 SH = Namespace("http://www.w3.org/ns/shacl#")
@@ -31,12 +31,12 @@ _TARGETS = {
 }
 
 Node = Any
-"""A term of the shapes: pyoxigraph's types of what a store returns are too wide to be of use."""
+"""A term of the shapes graph; pyoxigraph's union types would need a cast at each use."""
 
 
 @dataclass(frozen=True)
 class ShapeRule:
-    """One shape as queries that return each `?focus` that breaks it, and a `?value` that does or a `?count`."""
+    """One shape as queries that return each `?focus` that violates it, with the `?value` or the `?count`."""
 
     id: str
     severity: Severity
@@ -47,19 +47,19 @@ class ShapeRule:
 
 @dataclass(frozen=True)
 class Violation:
-    """A node that breaks a shape."""
+    """A focus node that violates a shape."""
 
     rule: ShapeRule
     focus: Node
     found: tuple[str, ...]
-    """The values that break it, or how many there are."""
+    """The violating values, or their number."""
 
 
-def shapes_text(profile: str) -> str:
+def read_shapes(profile: str) -> str:
     """Return the SHACL shapes of a profile, `soma` or `plain`, as Turtle.
 
     Raises:
-        GraphError: there is no such profile.
+        GraphError: the profile is unknown.
     """
     if profile not in _PROFILES:
         raise GraphError(f"profile {profile!r} has no shapes; expected one of {', '.join(_PROFILES)}")
@@ -68,12 +68,12 @@ def shapes_text(profile: str) -> str:
 
 @cache
 def compile_shapes(profile: str) -> tuple[ShapeRule, ...]:
-    """Return the rules of a profile's shapes, sorted by id."""
-    return tuple(sorted(_Compiler(shapes_text(profile)).rules(), key=lambda rule: rule.id))
+    """Return a profile's shapes as rules, sorted by id."""
+    return tuple(sorted(_Compiler(read_shapes(profile)).rules(), key=lambda rule: rule.id))
 
 
 def find_violations(store: ox.Store, rule: ShapeRule) -> Iterator[Violation]:
-    """Yield the nodes of a graph that break a rule, each once."""
+    """Yield each focus node that violates a rule, once."""
     broken: dict[Node, dict[str, None]] = {}
     for query in rule.queries:
         solutions: Any = store.query(query, use_default_graph_as_union=True)
@@ -81,19 +81,19 @@ def find_violations(store: ox.Store, rule: ShapeRule) -> Iterator[Violation]:
         for row in solutions:
             found = broken.setdefault(row["focus"], {})
             if "count" in names:
-                found[f"{row['count'].value} of them"] = None
+                found[f"{row['count'].value} values"] = None
             elif "value" in names:
-                found[_said(row["value"])] = None
+                found[_text(row["value"])] = None
     for focus, found in broken.items():
         yield Violation(rule, focus, tuple(sorted(found)) or ("none",))
 
 
-def _said(term: Node) -> str:
+def _text(term: Node) -> str:
     return str(term) if isinstance(term, ox.Triple) else str(term.value)
 
 
 class _Compiler:
-    """Turns a shapes graph into queries."""
+    """Compiles a shapes graph to queries."""
 
     def __init__(self, text: str) -> None:
         self._store = ox.Store()
@@ -156,7 +156,7 @@ class _Compiler:
         values = f"?focus {path} ?v . {self._qualified(qualified)}" if qualified is not None else f"?focus {path} ?v ."
         match name:
             case "minCount" | "qualifiedMinCount":
-                # NOT EXISTS would look through all members of a qualified shape's class for each focus.
+                # With NOT EXISTS, the engine scans all members of the qualified class for each focus.
                 return f"SELECT ?focus WHERE {{ {focus} MINUS {{ {values} }} }}"
             case "maxCount" | "qualifiedMaxCount":
                 return (
@@ -176,7 +176,7 @@ class _Compiler:
 
 
 def _filtered(focus: str, values: str, condition: str) -> str:
-    # What cannot be compared, such as a word with a number, breaks the rule (SHACL, section 4.3).
+    # Incomparable values, such as a string and a number, violate a bound (SHACL, section 4.3).
     return f"SELECT ?focus ?value WHERE {{ {focus} {values} FILTER(!COALESCE({condition}, false)) }}"
 
 
@@ -187,6 +187,4 @@ def _condition(name: str, value: Node) -> str:
         return f"REGEX(STR(?value), {value})"
     if name == "nodeKind" and value == SH.Literal:
         return "ISLITERAL(?value)"
-    raise GraphError(
-        f"shapes: sh:{name} is not among what usd2kg runs of SHACL; run these shapes with a SHACL processor"
-    )
+    raise GraphError(f"shapes: sh:{name} is not supported; run these shapes with a SHACL processor")

@@ -1,16 +1,13 @@
-"""Queries that are nested too deep, or chained too long, for the engine's stack: it would end the process."""
+"""Queries too deep or too long for the engine, whose stack overflow would end the process."""
 
 import re
 from collections import Counter
 
 from usd2kg.errors import GraphError
+from usd2kg.query.settings import COMPLEXITY
 
-__all__ = ["check_depth"]
+__all__ = ["check_complexity"]
 
-# The engine recurses for each of these; a stack of 8 MiB bears about twice as many.
-_MOST_NESTED = 500
-_MOST_CHAINED = 1000
-_MOST_TRIPLES = 1000
 _CHAIN = r"&&|\|\||[!/|^*+]|-(?![A-Za-z])|\b(?:AS|OPTIONAL|UNION|MINUS|FILTER|BIND|SELECT|GRAPH)\b"
 _TRIPLE = r"[;,]|\.(?!\d)"
 _LONG_STRINGS = r"'''(?s:\\.|(?!''').)*'''|" + r'"""(?s:\\.|(?!""").)*"""'
@@ -25,33 +22,33 @@ _TOKEN = re.compile(
 )
 
 
-def check_depth(sparql: str, *, is_update: bool = False) -> None:
-    """Refuse a query or an update on which the engine would run out of its stack; an update's data may be long.
+def check_complexity(sparql: str, *, is_update: bool = False) -> None:
+    """Refuse a query or update that would overflow the engine's stack; the data of an update may be long.
 
-    Strings, comments and IRIs with `://` do not count. Whether `<2>` is an IRI or two comparisons depends on the
-    grammar: what opens in there counts, and what closes does not. If it holds a # or a quote, what follows may be a
-    comment or a string or not, so from there on nothing is left out and nothing closes: no bracket can be hidden.
+    Brackets and operators in strings, comments and IRIs with `://` are not counted. Only the grammar decides whether
+    `<2>` is an IRI or two comparisons: opening brackets in it are counted, closing ones are not. If it contains a `#`
+    or a quote, the text behind it could be a comment or a string; from there on everything is counted and nothing
+    closes, so that no bracket can be hidden.
 
     Raises:
-        GraphError: brackets within each other more than 500 deep; in a query also more than 1,000 operators and
-            clauses, or 1,000 triple patterns.
+        GraphError: brackets are nested too deep; or a query has too many operators and clauses, or triple patterns.
 
-    >>> check_depth("SELECT * " + "{" * 501 + "}" * 501)
+    >>> check_complexity("SELECT * " + "{" * 501 + "}" * 501)
     Traceback (most recent call last):
-    usd2kg.errors.GraphError: SPARQL: brackets are nested 501 deep; expected at most 500, so write it flatter
+    usd2kg.errors.GraphError: SPARQL: brackets are nested 501 deep; expected at most 500, write it flatter
     """
     counts = _count(sparql)
-    # Groups side by side are joined one by one, and so are the conditions of HAVING, which have no word between them.
+    # The engine joins adjacent groups one by one, as it does conditions of HAVING, which no keyword separates.
     counts["chain"] += counts["{"] + (counts["("] if re.search("HAVING", sparql, re.IGNORECASE) else 0)
-    deepest, chained, triples = counts["deepest"], counts["chain"], counts["triple"]
-    if deepest > _MOST_NESTED:
+    deepest, operators, triples = counts["deepest"], counts["chain"], counts["triple"]
+    if deepest > COMPLEXITY.max_nesting:
         raise GraphError(
-            f"SPARQL: brackets are nested {deepest} deep; expected at most {_MOST_NESTED}, so write it flatter"
+            f"SPARQL: brackets are nested {deepest} deep; expected at most {COMPLEXITY.max_nesting}, write it flatter"
         )
-    if not is_update and (chained > _MOST_CHAINED or triples > _MOST_TRIPLES):
+    if not is_update and (operators > COMPLEXITY.max_operators or triples > COMPLEXITY.max_triples):
         raise GraphError(
-            f"query: has {chained} operators and clauses and {triples} triple patterns or list members; expected at "
-            f"most {_MOST_CHAINED} and {_MOST_TRIPLES}, so ask in several queries, or list values with VALUES"
+            f"query: has {operators} operators and clauses and {triples} triple patterns or list members; expected at "
+            f"most {COMPLEXITY.max_operators} and {COMPLEXITY.max_triples}; split it, or list values with VALUES"
         )
 
 
@@ -74,7 +71,7 @@ def _count(sparql: str) -> Counter[str]:
 
 
 def _count_loosely(counts: Counter[str], text: str) -> None:
-    """Count as if all that opens stayed open."""
+    """Count all opening brackets, and no closing ones."""
     for token in _LOOSE.finditer(text):
         counts["depth" if token.lastgroup == "open" else str(token.lastgroup)] += 1
         counts[token.group()] += 1

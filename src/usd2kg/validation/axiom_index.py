@@ -1,4 +1,4 @@
-"""What an ontology states about classes and properties that a graph can contradict."""
+"""AxiomIndex: the axioms of an ontology that a graph can contradict."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -11,27 +11,27 @@ from usd2kg.graph.vocabulary import OWL, RDF, RDFS
 from usd2kg.ontology import compact_iri
 from usd2kg.ontology.components import Components, find_components
 
-__all__ = ["Alternatives", "Axioms", "Disjointness"]
+__all__ = ["Alternatives", "AxiomIndex", "Disjointness"]
 
 Alternatives = tuple[str, ...]
-"""IRIs of classes of which a thing is at least one: a single class, or the members of a union."""
+"""IRIs of a class, or of the members of a union."""
 _CLASS_KINDS = {OWL.Class, RDFS.Class}
 _LANGUAGES = ("en", "")
 
 
 @dataclass(frozen=True, slots=True)
 class Disjointness:
-    """Two classes that share no individual, as the ontology states it of these very two."""
+    """Two classes that the ontology states to be disjoint."""
 
     first: str
     second: str
 
 
-class Axioms:
+class AxiomIndex:
     """Named superclasses, disjoint classes, domains and ranges, from the triples of an ontology with its imports.
 
-    Of class expressions are heard: intersections, whose members are superclasses, and unions as domains and ranges.
-    Everything else (restrictions, complements, keys) is left to a reasoner.
+    Supported class expressions are intersections, whose members are superclasses, and unions as domains and ranges.
+    Others (restrictions, complements, keys) need a reasoner.
     """
 
     def __init__(self, triples: Iterable[ox.Triple]) -> None:
@@ -57,12 +57,12 @@ class Axioms:
         return [node.value for node in nodes if isinstance(node, ox.NamedNode)]
 
     def _lists(self, node: Any, name: ox.NamedNode) -> list[str]:
-        """Return the named members of the lists that a property leads to."""
+        """Return the named members of the RDF lists that are values of a property."""
         return [iri for head in self._all(name).get(node, ()) for iri in self._named(self._list(head))]
 
     @cached_property
     def classes(self) -> frozenset[str]:
-        """IRIs of all that is stated to be a class."""
+        """IRIs of all declared classes."""
         return frozenset(
             node.value
             for node, kinds in self._all(RDF.type).items()
@@ -71,14 +71,14 @@ class Axioms:
 
     @cached_property
     def deprecated(self) -> frozenset[str]:
-        """IRIs of what is stated to be deprecated."""
+        """IRIs of all deprecated terms."""
         found = {n for n, values in self._all(OWL.deprecated).items() if any(v.value in {"true", "1"} for v in values)}
         found |= {node for node, kinds in self._all(RDF.type).items() if OWL.DeprecatedClass in kinds}
         return frozenset(self._named(found))
 
     @cached_property
     def parents(self) -> dict[str, set[str]]:
-        """Class → its stated superclasses, equivalent classes among them."""
+        """Class → its stated superclasses, including equivalent classes."""
         found: dict[str, set[str]] = {}
         for name in (RDFS.subClassOf, OWL.equivalentClass):
             for node, values in self._all(name).items():
@@ -99,7 +99,7 @@ class Axioms:
 
     @cached_property
     def disjoint(self) -> dict[str, set[str]]:
-        """Class → the classes that it is stated to be disjoint with, in both directions."""
+        """Class → the classes stated to be disjoint with it; symmetric."""
         groups = [
             [*self._named([node]), iri]
             for node, values in self._all(OWL.disjointWith).items()
@@ -117,15 +117,15 @@ class Axioms:
         return found
 
     def closure(self, iri: str) -> frozenset[str]:
-        """Return a class with all its named superclasses."""
+        """Return a class and all its named superclasses."""
         group = self._components.component_of.get(iri)
         if group is None:
             return frozenset({iri})
         pending = [group]
         while pending:
-            waiting = [up for up in self._components.above[pending[-1]] if up not in self._closures]
-            if waiting:
-                pending.extend(waiting)
+            missing = [up for up in self._components.above[pending[-1]] if up not in self._closures]
+            if missing:
+                pending.extend(missing)
                 continue
             done = pending.pop()
             ups = (self._closures[up] for up in self._components.above[done])
@@ -137,12 +137,12 @@ class Axioms:
         return find_components(self.parents)
 
     def clash(self, first: str, second: str) -> Disjointness | None:
-        """Return why two classes cannot have a member in common: of the axioms that say so the most special one."""
+        """Return the most specific axiom by which two classes are disjoint; None if they are not."""
         key = (first, second)
         if key not in self._clashes:
             above = self.closure(second)
             pairs = [(a, b) for a in self.closure(first) & self.disjoint.keys() for b in self.disjoint[a] & above]
-            # Most superclasses means most special; IRIs settle the rest.
+            # A class with more superclasses is more specific; ties are broken by IRI.
             pairs.sort(key=lambda pair: (-len(self.closure(pair[0])) - len(self.closure(pair[1])), pair))
             self._clashes[key] = Disjointness(*pairs[0]) if pairs else None
         return self._clashes[key]
@@ -166,23 +166,23 @@ class Axioms:
 
     @cached_property
     def properties(self) -> frozenset[str]:
-        """IRIs of the properties that a domain, a range, or a property above them is stated of."""
+        """IRIs of the properties with a stated domain, range or superproperty, and their inverses."""
         stated = {*self._all(RDFS.domain), *self._all(RDFS.range), *self._all(RDFS.subPropertyOf)}
         named = set(self._named(stated))
         return frozenset(named | {inverse for iri in named for inverse in self._inverses.get(iri, ())})
 
     def ends(self, iri: str, *, is_subject: bool) -> list[tuple[str, Alternatives]]:
-        """Return what a property demands of its subjects, or of its values.
+        """Return the domains of a property, or its ranges, including inherited and inverse ones.
 
         Returns:
-            Pairs of the property that it is stated of, which may be above or inverse to `iri`, and the classes.
+            Pairs of the property with the axiom (`iri`, a superproperty or an inverse) and the alternatives.
         """
         own, other = (RDFS.domain, RDFS.range) if is_subject else (RDFS.range, RDFS.domain)
         found = []
         for above in sorted(self._properties_above(iri)):
-            found += [(above, alternatives) for alternatives in self._demanded(above, own)]
+            found += [(above, alternatives) for alternatives in self._alternatives(above, own)]
             for inverse in sorted(self._inverses.get(above, ())):
-                found += [(inverse, alternatives) for alternatives in self._demanded(inverse, other)]
+                found += [(inverse, alternatives) for alternatives in self._alternatives(inverse, other)]
         return found
 
     def _properties_above(self, iri: str) -> set[str]:
@@ -193,7 +193,7 @@ class Axioms:
             pending.extend(new)
         return found
 
-    def _demanded(self, iri: str, name: ox.NamedNode) -> Iterator[Alternatives]:
+    def _alternatives(self, iri: str, name: ox.NamedNode) -> Iterator[Alternatives]:
         for node in self._all(name).get(ox.NamedNode(iri), ()):
             if isinstance(node, ox.NamedNode):
                 yield (node.value,)
@@ -205,7 +205,7 @@ class Axioms:
                     yield tuple(member.value for member in members)
 
     def label(self, iri: str) -> str:
-        """Return the label of a term for people, the English one if there are several; else its CURIE or IRI."""
+        """Return the label of a term, preferably English; without a label its CURIE or IRI."""
         labels = self._all(RDFS.label).get(ox.NamedNode(iri), [])
         ranked = sorted(
             (_LANGUAGES.index(x.language or "") if (x.language or "") in _LANGUAGES else 2, x.value) for x in labels
@@ -213,6 +213,6 @@ class Axioms:
         return ranked[0][1] if ranked else compact_iri(iri)
 
     def named(self, iri: str) -> str:
-        """Return label and CURIE or IRI of a term, “Cup” (soma:Cup); without a label only the latter."""
+        """Return the label and the CURIE or IRI of a term, “Cup” (soma:Cup); without a label only the latter."""
         label, short = self.label(iri), compact_iri(iri)
         return short if label == short else f"“{label}” ({short})"

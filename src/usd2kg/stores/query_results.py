@@ -1,4 +1,4 @@
-"""Answers of servers, as our own."""
+"""Conversion between our answers and the SPARQL protocol of servers."""
 
 import re
 
@@ -8,14 +8,14 @@ from usd2kg.errors import StoreError
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer, make_answer
 
-__all__ = ["read_answer", "with_prefixes"]
+__all__ = ["declare_prefixes", "parse_results"]
 
 
-def read_answer(body: bytes, sparql: str) -> Answer:
-    """Return what a server answered in SPARQL's JSON or in N-Triples.
+def parse_results(body: bytes, sparql: str) -> Answer:
+    """Return the answer in a response body: SPARQL results JSON or N-Triples.
 
     Raises:
-        StoreError: it is neither.
+        StoreError: the body is in neither format.
     """
     try:
         if not body.lstrip().startswith(b"{"):
@@ -27,13 +27,16 @@ def read_answer(body: bytes, sparql: str) -> Answer:
         columns = tuple(variable.value for variable in found.variables)
         return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], sparql)
     except (SyntaxError, UnicodeDecodeError) as error:
-        raise StoreError(f"the server's answer is neither SPARQL's JSON nor N-Triples ({error})") from error
+        raise StoreError(
+            f"the server's answer is neither SPARQL results JSON nor N-Triples ({error}); check that it is a SPARQL "
+            "server"
+        ) from error
 
 
-def with_prefixes(sparql: str) -> str:
-    """Return a query or update with our usual prefixes declared, where it uses and does not declare them.
+def declare_prefixes(sparql: str) -> str:
+    """Return a query or update with declarations of the package's prefixes that it uses and does not declare.
 
-    >>> with_prefixes("ASK { ?s u2k:primPath ?p }")
+    >>> declare_prefixes("ASK { ?s u2k:primPath ?p }")
     'PREFIX u2k: <https://w3id.org/usd2kg#> ASK { ?s u2k:primPath ?p }'
     """
     declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}

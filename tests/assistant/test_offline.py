@@ -1,4 +1,4 @@
-"""Questions in English are understood as the ready questions, and answered from either profile."""
+"""Questions in English are interpreted as ready questions, and answered in both profiles."""
 
 from collections.abc import Mapping
 
@@ -6,14 +6,14 @@ import pytest
 
 from tests.graph.records import build_graph, open_store, thing
 from tests.grounding.records import make_object
-from usd2kg.assistant import ask_offline, describe, list_objects
+from usd2kg.assistant import ask_offline, describe_objects, list_objects
 from usd2kg.assistant.phrases import list_phrases, match_phrase
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore
 from usd2kg.query.questions import list_questions
 
-# On a table: a tray with a cup on it, a plate, and a bowl with an apple in it; a wardrobe apart.
+# On a table: a cup on a tray, a plate, and an apple in a bowl; a wardrobe away from it.
 ROOM = [
     (thing("/Room/Floor", (-5, -5, -0.1), (10, 10, 0.1)), "Floor"),
     (thing("/Room/DiningTable", (0, 0, 0), (1.6, 0.8, 0.7), display_name="dining table"), "Table"),
@@ -67,25 +67,25 @@ UNDERSTOOD: Mapping[str, tuple[str, dict[str, str]]] = {
 
 
 @pytest.mark.parametrize("text", UNDERSTOOD)
-def test_a_question_is_understood(text: str):
+def test_understands_a_question(text: str):
     phrase = match_phrase(text)
     assert phrase is not None
     assert (phrase.question, dict(phrase.given)) == UNDERSTOOD[text]
 
 
 @pytest.mark.parametrize("text", ["", "sing me a song", "delete everything", "?", "on"])
-def test_other_texts_are_not(text: str):
+def test_does_not_match_other_texts(text: str):
     assert match_phrase(text) is None
 
 
-def test_each_phrase_leads_to_a_question_with_its_parameters():
+def test_patterns_use_the_parameters_of_their_question():
     parameters = {q.id: {p.name for p in q.parameters} for q in list_questions()}
     for question, pattern in list_phrases():
         if question in parameters:
             assert pattern.groupindex.keys() <= parameters[question]
 
 
-def test_long_nonsense_takes_no_time():
+def test_matching_long_texts_is_fast():
     assert match_phrase("what is on the " + "on the in the of the " * 200 + "table on") is not None
     assert match_phrase("which " * 2000) is None
 
@@ -100,7 +100,7 @@ def objects(graph: GraphStore, text: str) -> list[str | None]:
     return [row[answer.columns.index("object")] for row in answer.rows]
 
 
-def test_things_on_things(graph: GraphStore):
+def test_answers_with_objects(graph: GraphStore):
     assert objects(graph, "what is on the dining table?") == ["FruitBowl", "plate_1", "tray"]
     assert objects(graph, "which cups are on the dining table?") == ["cup_red"]
     assert objects(graph, "how many cups are there?") == ["cup_red"]
@@ -119,7 +119,7 @@ def test_things_on_things(graph: GraphStore):
         ("is there a unicorn?", False),
     ],
 )
-def test_yes_and_no(graph: GraphStore, text: str, verdict: bool):
+def test_answers_yes_or_no(graph: GraphStore, text: str, verdict: bool):
     assert ask_offline(graph, text).verdict is verdict
 
 
@@ -127,44 +127,44 @@ def test_yes_and_no(graph: GraphStore, text: str, verdict: bool):
     ("text", "number"),
     [("how many cups are there?", 1), ("how many plates are on the table?", 1), ("how many cups are in the bowl", 0)],
 )
-def test_numbers(graph: GraphStore, text: str, number: int):
+def test_answers_with_a_number(graph: GraphStore, text: str, number: int):
     asked = ask_offline(graph, text)
     assert (asked.number, asked.summary()) == (number, f"{number}\n")
 
 
 def test_distances_are_gaps_between_boxes(graph: GraphStore):
-    # The table ends at x = 1.6, y = 0.8; the wardrobe begins at (3, 3): √(1.4² + 2.2²).
+    # From the table's corner (1.6, 0.8) to the wardrobe's (3, 3): √(1.4² + 2.2²).
     (row,) = ask_offline(graph, "how far is the dining table from the wardrobe?").answer.values
     assert row[-1] == pytest.approx(2.608, abs=1e-3)
 
 
-def test_units_are_read(graph: GraphStore):
+def test_converts_units(graph: GraphStore):
     assert objects(graph, "what is heavier than 50 kilograms and within 4 metres of the table?") == ["Wardrobe"]
     assert objects(graph, "what is heavier than 300 g and within 5 cm of the tray?") == ["cup_red"]
     asked = ask_offline(graph, "what is within 50 centimeters of the tray")
     assert asked.understood.endswith("with distance = 50 cm, thing = the tray")
 
 
-def test_all_about_a_thing(graph: GraphStore):
+def test_describes_an_object(graph: GraphStore):
     facts = {(fact, value) for _, fact, value in ask_offline(graph, "tell me about the cup").answer.rows}
     expected = {("class", "cup"), ("size_m", "0.1 × 0.1 × 0.1"), ("mass_kg", "0.4"), ("stands_on", "tray")}
     assert expected <= facts
-    (table,) = describe(graph, "dining table")["objects"]
+    (table,) = describe_objects(graph, "dining table")["objects"]
     assert table["center_m"] == pytest.approx((0.8, 0.4, 0.35))
     assert table["on_it"] == ["FruitBowl", "plate_1", "tray"]
     assert table["classes"][0]["class"] == "table"
 
 
-def test_a_long_list_is_cut_and_counted(graph: GraphStore):
-    assert describe(graph, "/Room/tray", most=0) == {"count": 1, "objects": []}
-    page = list_objects(graph, most=2, start=1)
+def test_cuts_long_lists_and_counts_all(graph: GraphStore):
+    assert describe_objects(graph, "/Room/tray", limit=0) == {"count": 1, "objects": []}
+    page = list_objects(graph, limit=2, start=1)
     assert (page["count"], [row["object"] for row in page["objects"]]) == (9, ["dining table", "Floor"])
 
 
-def test_what_is_not_there_is_told(graph: GraphStore):
-    with pytest.raises(GraphError, match="nothing is called 'unicorn'"):
+def test_reports_unknown_names_and_questions(graph: GraphStore):
+    with pytest.raises(GraphError, match="nothing is named 'unicorn'"):
         ask_offline(graph, "where is the unicorn?")
-    with pytest.raises(GraphError, match=r"nothing is called 'wardrobbe' \(is 'Wardrobe' meant\?\)"):
+    with pytest.raises(GraphError, match=r"nothing is named 'wardrobbe' \(did you mean 'Wardrobe'\?\)"):
         ask_offline(graph, "where is the wardrobbe?")
-    with pytest.raises(GraphError, match=r"is not understood; ask like .* or let a model write the query with --model"):
+    with pytest.raises(GraphError, match=r"is not understood; expected a question like .* with --model"):
         ask_offline(graph, "sing me a song")

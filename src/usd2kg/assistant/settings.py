@@ -1,0 +1,34 @@
+"""Settings of assistants, read from `knowledge/settings/assistant.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["PROMPT", "RESULTS", "PromptSettings", "ResultSettings"]
+
+
+@dataclass(frozen=True)
+class ResultSettings:
+    """Sizes of the results of tools."""
+
+    max_rows: int
+    max_listed: int
+    max_described: int
+
+
+@dataclass(frozen=True)
+class PromptSettings:
+    """Sizes of the parts of a prompt, in characters unless stated otherwise."""
+
+    max_tokens: int
+    max_terms: int
+    max_repairs: int
+    max_question: int
+    max_query: int
+    max_error: int
+    max_example: int
+    examples: tuple[str, ...]
+
+
+RESULTS = read_settings("assistant", "results", ResultSettings)
+PROMPT = read_settings("assistant", "prompt", PromptSettings)

@@ -1,0 +1,42 @@
+"""Settings of questions to a graph, read from `knowledge/settings/query.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["COMPLEXITY", "LOOKUP", "SWEEP", "ComplexitySettings", "LookupSettings", "SweepSettings"]
+
+
+@dataclass(frozen=True)
+class SweepSettings:
+    """How the movement of a joint is simulated; lengths are metres."""
+
+    step: float
+    max_steps: int
+    tolerated_overlap: float
+    door_thickness: float
+    max_panel_thickness: float
+    max_hinge_depth: float
+    max_level_slope: float
+
+
+@dataclass(frozen=True)
+class LookupSettings:
+    """Which labels are suggested for an unknown name."""
+
+    min_label_similarity: float
+    max_suggestions: int
+
+
+@dataclass(frozen=True)
+class ComplexitySettings:
+    """The largest queries that the engine can run."""
+
+    max_nesting: int
+    max_operators: int
+    max_triples: int
+
+
+SWEEP = read_settings("query", "sweep", SweepSettings)
+LOOKUP = read_settings("query", "lookup", LookupSettings)
+COMPLEXITY = read_settings("query", "complexity", ComplexitySettings)
