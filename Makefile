@@ -76,11 +76,8 @@ lock: $(READY) ## Pin what pyproject.toml asks for into requirements/, with hash
 	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --output-file requirements/sssom.txt -
 
-scene: $(READY) ## Write the demo kitchen and the scenes of the benchmarks anew from their scripts
-	$(BIN)/python -m examples.demo_kitchen.make
-	$(BIN)/python -m examples.demo_office.make
-	$(BIN)/python -m examples.demo_warehouse.make
-	$(BIN)/python -m examples.test_flat.make
+scene: $(READY) ## Write the demo kitchen and the benchmark scenes from their scripts
+	$(BIN)/python -m scenes
 
 clean: ## Remove what was built
 	rm -rf .venv build dist
