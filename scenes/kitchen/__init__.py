@@ -15,14 +15,14 @@ from scenes.kitchen import (
     assets_units,
 )
 from scenes.writer.asset_file import write_geometry
-from scenes.writer.layout import Layout, SceneSpec
+from scenes.writer.layout import AuthoredScene, Layout
 from scenes.writer.palette import ShaderStyle, read_palette
 from scenes.writer.root_layer import write_object
 from scenes.writer.scene import write_scene
 from scenes.writer.shapes import box
 
 TABLES = Path(__file__).parent
-SPEC = SceneSpec(
+SPEC = AuthoredScene(
     root="/KitchenDining",
     tables=TABLES,
     modules=(

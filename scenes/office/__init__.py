@@ -5,12 +5,12 @@ from pathlib import Path
 from pxr import Gf, Usd, UsdGeom, UsdLux
 
 from scenes.office import assets_desk, assets_meeting, assets_room, assets_service, assets_supplies
-from scenes.writer.layout import Layout, SceneSpec
+from scenes.writer.layout import AuthoredScene, Layout
 from scenes.writer.palette import ShaderStyle, read_palette
 from scenes.writer.scene import write_scene
 
 TABLES = Path(__file__).parent
-SPEC = SceneSpec(
+SPEC = AuthoredScene(
     root="/OfficeFloor_02",
     tables=TABLES,
     modules=(assets_desk, assets_meeting, assets_room, assets_service, assets_supplies),

@@ -14,7 +14,7 @@ from scenes.warehouse import (
     assets_workshop,
 )
 from scenes.writer.asset_file import to_stage, write_geometry
-from scenes.writer.layout import Layout, Placement, SceneSpec
+from scenes.writer.layout import AuthoredScene, Layout, Placement
 from scenes.writer.mesh import Vec3
 from scenes.writer.palette import ShaderStyle, read_palette
 from scenes.writer.root_layer import write_object
@@ -22,7 +22,7 @@ from scenes.writer.scene import write_scene
 from scenes.writer.shapes import box
 
 TABLES = Path(__file__).parent
-SPEC = SceneSpec(
+SPEC = AuthoredScene(
     root="/Warehouse_Full",
     tables=TABLES,
     modules=(

@@ -7,16 +7,16 @@ from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
 
 from scenes.writer.assets import Asset, AssetFile, Hinge, Part
-from scenes.writer.layout import SceneSpec, open_stage
+from scenes.writer.layout import AuthoredScene, open_stage
 from scenes.writer.mesh import Floats, Mesh, is_flat
 from scenes.writer.palette import write_materials
 
 
-def write_asset(asset: Asset, file: AssetFile, spec: SceneSpec, path: Path) -> None:
+def write_asset(asset: Asset, file: AssetFile, spec: AuthoredScene, path: Path) -> None:
     """Write an asset; without a kind it has colliders if the scene is simulated."""
     layer = Sdf.Layer.CreateAnonymous(".usda")
-    metric = {"is_z_up": False, "meters_per_unit": 0.01} if file.is_y_up else _metric(spec)
-    stage, root = open_stage(layer, f"/{asset.name}", **metric)
+    unit = 0.01 if file.is_y_up else spec.meters_per_unit
+    stage, root = open_stage(layer, f"/{asset.name}", is_z_up=spec.is_z_up and not file.is_y_up, meters_per_unit=unit)
     model = Usd.ModelAPI(root)
     if file.has_kind:
         model.SetKind(Kind.Tokens.component)
@@ -47,11 +47,7 @@ def write_asset(asset: Asset, file: AssetFile, spec: SceneSpec, path: Path) -> N
     layer.Export(str(path))
 
 
-def _metric(spec: SceneSpec) -> dict[str, float]:
-    return {"is_z_up": spec.is_z_up, "meters_per_unit": spec.meters_per_unit}
-
-
-def to_stage(mesh: Mesh, spec: SceneSpec) -> Mesh:
+def to_stage(mesh: Mesh, spec: AuthoredScene) -> Mesh:
     """Return a mesh in the axes and unit of the stage."""
     unit = 0.01 / spec.meters_per_unit
     return mesh._replace(points=unit * (mesh.points @ spec.axes.T), normals=mesh.normals @ spec.axes.T)
@@ -87,7 +83,7 @@ def _rounded(values: Floats) -> NDArray[np.float32]:
     return np.round(values, 4).astype(np.float32) + np.float32(0)
 
 
-def _shade(mesh: UsdGeom.Mesh, part: Part, spec: SceneSpec, materials: dict[str, UsdShade.Material]) -> None:
+def _shade(mesh: UsdGeom.Mesh, part: Part, spec: AuthoredScene, materials: dict[str, UsdShade.Material]) -> None:
     if part.purpose != "default":
         mesh.CreatePurposeAttr(part.purpose)
         return

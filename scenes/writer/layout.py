@@ -41,7 +41,7 @@ class Placement(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SceneSpec:
+class AuthoredScene:
     """What sets one scene apart from the others: conventions of its files, and content outside the tables."""
 
     root: str
@@ -80,7 +80,7 @@ class SceneSpec:
 class Layout:
     """A scene in memory."""
 
-    spec: SceneSpec
+    spec: AuthoredScene
     files: dict[str, AssetFile]
     assets: dict[str, Asset] = field(default_factory=dict)
     """Used assets by key."""
@@ -147,7 +147,7 @@ class Layout:
                 self.relations.append((path, relation, f"{self.spec.root}/{other.partition('#')[0]}"))
 
 
-def read_layout(spec: SceneSpec) -> Layout:
+def read_layout(spec: AuthoredScene) -> Layout:
     """Return the scene with all objects of `objects.csv` in place."""
     layout = Layout(spec, collect_assets(spec.modules))
     with (spec.tables / "objects.csv").open(encoding="utf-8") as file:

@@ -4,11 +4,11 @@ from pathlib import Path
 
 from scenes.writer.asset_file import write_asset
 from scenes.writer.gold import read_labels, write_gold, write_table
-from scenes.writer.layout import SceneSpec, read_layout
+from scenes.writer.layout import AuthoredScene, read_layout
 from scenes.writer.root_layer import AddExtras, write_root_layer
 
 
-def write_scene(spec: SceneSpec, add_extras: AddExtras, folder: Path) -> str:
+def write_scene(spec: AuthoredScene, add_extras: AddExtras, folder: Path) -> str:
     """Write `FOLDER/{NAME.usda,assets,gold.csv}`, where NAME is that of the table folder; return a summary."""
     layout = read_layout(spec)
     assets = folder / "assets"
