@@ -1,19 +1,18 @@
-"""Write docs/questions.md: the questions that a graph answers, each with its answer in the demo kitchen.
+"""Write docs/questions.md: the prepared questions, each with its answer for the demo kitchen.
 
-Usage: python tools/write_questions_docs.py [--check]
+Usage: python -m tools.write_questions_docs [--check]
 """
 
-import sys
 import tempfile
 from pathlib import Path
 
 import usd2kg
+from tools.generated_docs import DOCS, write_or_check
 from usd2kg.cli.query import answer_text
 from usd2kg.demo import demo_scene
 from usd2kg.query import FUNCTIONS, GraphStore
 from usd2kg.query.questions import Question, list_questions
 
-OUTPUT = Path(__file__).parent.parent / "docs/questions.md"
 _ROWS = 5
 _EXAMPLES = {
     "above": {"thing": "barTable"},
@@ -36,35 +35,33 @@ _EXAMPLES = {
 _INTRODUCTION = f"""\
 # Questions
 
-Written by `tools/write_questions_docs.py`, with the answers that the graph of the demo kitchen gives, cut after {_ROWS}
-rows.
+Written by `tools/write_questions_docs.py`. The answers are those for the demo kitchen, cut after {_ROWS} rows.
 
 ```console
 $ usd2kg query --list
 $ usd2kg query kitchen.ttl --question support-chain --with thing=apple_1
 ```
 
-A thing is named by label, class or prim path; where the name means several, all are asked for, and a last column says
-which one a row is about. Numbers may have units (`50 cm`, `300 g`, `80 %`). `--json` gives the rows as JSON. In Python:
-`load_graph("kitchen.ttl").answer("support-chain", {{"thing": "apple_1"}})`. All work in the `soma` and the `plain`
-profile.
+An object is named by label, class or prim path. If a name matches several objects, the question is asked for each, and
+the last column names the object of a row. Numbers may have units (`50 cm`, `300 g`, `80 %`). `--json` prints JSON. In
+Python: `load_graph("kitchen.ttl").answer("support-chain", {{"thing": "apple_1"}})`. All questions work with both
+profiles, `soma` and `plain`.
 
-Each question is a file of SPARQL in `src/usd2kg/graph/questions`. Lengths are metres, masses kilograms, angles radians;
-things are measured by their boxes along the world's axes, so that what is turned or hollow is taken for larger than it
-is.
+Each question is a SPARQL file in `src/usd2kg/query/questions`. Units are metres, kilograms and radians. Objects are
+measured by their axis-aligned boxes, which overestimate rotated and hollow objects.
 """
 _FUNCTIONS_HEAD = """\
 ## Functions
 
-What SPARQL cannot compute from positions, these functions do, in `--sparql` too: `u2kf:` is
-`https://w3id.org/usd2kg/function#`. An object without a box leaves them unbound.
+These functions compute what SPARQL cannot, from the boxes of objects; they also work with `--sparql`. `u2kf:` is
+`https://w3id.org/usd2kg/function#`. For an object without a box the result is unbound.
 
-| function | what comes back |
+| function | result |
 | --- | --- |
 """
 
 
-def page() -> str:
+def build_page() -> str:
     """Return the page."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "kitchen.ttl"
@@ -86,14 +83,5 @@ def _section(question: Question, store: GraphStore) -> str:
     return f"## {question.id}\n\n{question.text}\n\n{note}```console\n{command}\n{table}```\n"
 
 
-def main() -> None:
-    """Write the page, or check that it is what would be written."""
-    if "--check" in sys.argv:
-        if OUTPUT.read_text("utf-8") != page():
-            raise SystemExit(f"{OUTPUT} is not what the graph answers; run python tools/write_questions_docs.py")
-        return
-    OUTPUT.write_text(page(), "utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(DOCS / "questions.md", build_page(), "tools.write_questions_docs")
