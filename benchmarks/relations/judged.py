@@ -153,7 +153,7 @@ def main(names: list[str]) -> None:
     """Print the table and the errors."""
     unknown = [name for name in names if name not in SCENES]
     if unknown:
-        sys.exit(f"judged.py: there is no scene {unknown[0]}; expected one of {', '.join(SCENES)}")
+        sys.exit(f"judged.py: scene {unknown[0]!r} is unknown; expected one of {', '.join(SCENES)}")
     rows = [
         "| scene | relation | judged | found | right | wrong | open | missed | precision % | recall % |",
         "|" + " --- |" * 10,

@@ -79,7 +79,7 @@ class AssetFile:
     has_kind: bool
     """Whether the default prim has kind `component`; otherwise the referencing prim may author it."""
     is_y_up: bool
-    """Whether the file is Y up in centimetres whatever the scene is, to be corrected by the referencing prim."""
+    """Whether the file is Y up in centimetres in any scene; the referencing prim corrects it."""
     is_model: bool
     """Whether the file is a simulation model: meshes below `base_link/visual`, a box in `base_link/collision`."""
 
