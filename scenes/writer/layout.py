@@ -99,36 +99,32 @@ class Layout:
         turned = self.spec.axes.T @ rotation(placement.turn, self.spec.turn_order).T
         return np.asarray(placement.scale * self.assets[placement.asset].points() @ turned)
 
+    @property
+    def up(self) -> int:
+        """Index of the vertical axis."""
+        return 2 if self.spec.is_z_up else 1
+
     def add(self, row: Mapping[str, str]) -> None:
-        """Add an object; its height, where not given, follows from what it rests on."""
-        path = f"{self.spec.root}/{row['path']}"
-        if path in self.placed:
-            raise ValueError(f"objects.csv: {path} is placed twice; rename one of the objects")
-        key = row["asset"]
-        if key not in self.assets:
-            self.assets[key] = self.files[key].make()
-        up = 2 if self.spec.is_z_up else 1
+        """Add the object of a row; a height that is not given follows from its support.
+
+        Raises:
+            ValueError: the path is taken.
+        """
+        placement = _read_placement(row, self.spec.root, self.up)
+        if placement.path in self.placed:
+            raise ValueError(f"objects.csv: {placement.path} is placed twice; rename one of the objects")
+        if placement.asset not in self.assets:
+            self.assets[placement.asset] = self.files[placement.asset].make()
         at = [float(value) for value in row["at"].split()]
-        turn = [float(value) for value in row["turn"].split()] or [0.0]
-        if len(turn) == 1:
-            turn = [turn[0] if axis == up else 0.0 for axis in range(3)]
-        words = dict(word.partition("=")[::2] for word in row["options"].split())
-        placement = Placement(
-            path,
-            key,
-            (0.0, 0.0, 0.0),
-            (turn[0], turn[1], turn[2]),
-            float(row["mass"]) if row["mass"] else None,
-            frozenset(words),
-            float(words.get("scale", 1)),
-            row["display"],
-            row["doc"],
-        )
         if len(at) == 2:
-            lowest = float(self.points(placement)[:, up].min())
-            at.insert(up, round(self._support_height(row["on"], row["inside"]) + GAP - lowest, 4))
-        self.placed[path] = placement._replace(position=(at[0], at[1], at[2]))
-        self._relate(path, row)
+            lowest = float(self.points(placement)[:, self.up].min())
+            at.insert(self.up, round(self._support_height(row["on"], row["inside"]) + GAP - lowest, 4))
+        self.placed[placement.path] = placement._replace(position=(at[0], at[1], at[2]))
+        for relation in ("on", "inside"):
+            for other in filter(None, row[relation].split("|")):
+                path = f"{self.spec.root}/{other.partition('#')[0]}"
+                if path in self.placed:
+                    self.relations.append((placement.path, relation, path))
 
     def _support_height(self, on: str, inside: str) -> float:
         """Return the height that an object rests at: a number, a surface of its support, or the ground."""
@@ -138,13 +134,26 @@ class Layout:
         except ValueError:
             carrier, _, surface = first.partition("#")
         below = self.placed[f"{self.spec.root}/{carrier}"]
-        height = below.position[2 if self.spec.is_z_up else 1]
-        return height + self.assets[below.asset].surface(surface or ("top" if on else "inside"))
+        return below.position[self.up] + self.assets[below.asset].surface(surface or ("top" if on else "inside"))
 
-    def _relate(self, path: str, row: Mapping[str, str]) -> None:
-        for relation in ("on", "inside"):
-            for other in filter(None, row[relation].split("|")):
-                self.relations.append((path, relation, f"{self.spec.root}/{other.partition('#')[0]}"))
+
+def _read_placement(row: Mapping[str, str], root: str, up: int) -> Placement:
+    """Return the object of a row at the origin."""
+    turn = [float(value) for value in row["turn"].split()] or [0.0]
+    if len(turn) == 1:
+        turn = [turn[0] if axis == up else 0.0 for axis in range(3)]
+    words = dict(word.partition("=")[::2] for word in row["options"].split())
+    return Placement(
+        path=f"{root}/{row['path']}",
+        asset=row["asset"],
+        position=(0.0, 0.0, 0.0),
+        turn=(turn[0], turn[1], turn[2]),
+        mass=float(row["mass"]) if row["mass"] else None,
+        options=frozenset(words),
+        scale=float(words.get("scale", 1)),
+        display_name=row["display"],
+        documentation=row["doc"],
+    )
 
 
 def read_layout(spec: AuthoredScene) -> Layout:
