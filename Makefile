@@ -8,7 +8,7 @@ READY := .venv/.ready
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
 
-setup: $(READY) ## Make .venv with everything that development needs
+setup: $(READY) ## Create .venv with all development dependencies
 
 $(READY): requirements/dev.txt pyproject.toml
 	$(PYTHON) -m venv .venv
@@ -23,29 +23,29 @@ demo: $(READY) ## Build the knowledge graph of the built-in kitchen and ask it t
 test: $(READY) ## Run the tests
 	$(BIN)/python -m pytest -q -n auto --dist loadfile
 
-test-slow: $(READY) ## Run the tests that take long
+test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
 
 data: $(READY) ## Build the package data in src/usd2kg/data from knowledge/
 	$(BIN)/python -m tools.build_data
 
-data-check: $(READY) ## Check that the package data is what knowledge/ gives
+data-check: $(READY) ## Check that the package data is up to date with knowledge/
 	$(BIN)/python -m tools.build_data --check
 
-owl-jars: ## Fetch the OWL API and HermiT into build/owl, for the checks of make test-slow; needs Java 17 and Maven
+owl-jars: ## Download the OWL API and HermiT into build/owl, for make test-slow; needs Java 17 and Maven
 	mvn -q -B -f tools/owl/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/owl
 
-sssom-check-env: ## Make build/sssom with the reference implementation of SSSOM, for the checks of make test-slow
+sssom-check-env: ## Install the reference implementation of SSSOM into build/sssom, for make test-slow
 	$(PYTHON) -m venv build/sssom
 	build/sssom/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/sssom.txt
 
-elk-jars: ## Fetch ELK into build/elk, for usd2kg validate --reasoner elk; needs Java 17 and Maven
+elk-jars: ## Download ELK into build/elk, for usd2kg validate --reasoner elk; needs Java 17 and Maven
 	mvn -q -B -f tools/elk/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/elk
 
-fuseki-jar: ## Fetch Apache Jena Fuseki into build/fuseki, for tests of stores on a server; needs Java 17 and Maven
+fuseki-jar: ## Download Apache Jena Fuseki into build/fuseki, for tests of remote stores; needs Java 17 and Maven
 	mvn -q -B dependency:copy -Dartifact=org.apache.jena:jena-fuseki-server:5.6.0 -DoutputDirectory=$(CURDIR)/build/fuseki
 
-fuzz: $(READY) ## Read mangled stages for ten minutes; keep those that do harm in build/fuzz
+fuzz: $(READY) ## Fuzz the stage reader for ten minutes; keep failing stages in build/fuzz
 	$(BIN)/python -m tests.scene.fuzz --seconds 600 --keep build/fuzz
 
 lint: $(READY) ## Check style and formatting
@@ -55,20 +55,20 @@ lint: $(READY) ## Check style and formatting
 types: $(READY) ## Check types
 	$(BIN)/mypy
 
-layers: $(READY) ## Check that packages import only what lies below them
+layers: $(READY) ## Check that packages import only lower layers
 	$(BIN)/lint-imports --no-logo
 
-accuracy: $(READY) ## Measure the offline grounders on all scenes with gold labels; keep the figures
+accuracy: $(READY) ## Measure the offline grounders on all scenes with gold labels and store the figures
 	$(BIN)/python benchmarks/accuracy/run.py
 
-accuracy-check: $(READY) ## Check that the kept figures are those of the code
+accuracy-check: $(READY) ## Check the stored figures; list the scenes that cannot be measured
 	$(BIN)/python benchmarks/accuracy/run.py --check
 
 wheel: $(READY) ## Build the wheel into dist/
 	@rm -rf dist
 	$(BIN)/uv build --quiet --wheel --no-build-isolation --python $(BIN)/python
 
-lock: $(READY) ## Pin what pyproject.toml asks for into requirements/, with hashes
+lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with hashes
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	  --group dev --output-file requirements/dev.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
@@ -76,11 +76,8 @@ lock: $(READY) ## Pin what pyproject.toml asks for into requirements/, with hash
 	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --output-file requirements/sssom.txt -
 
-scene: $(READY) ## Write the demo kitchen and the scenes of the benchmarks anew from their scripts
-	$(BIN)/python -m examples.demo_kitchen.make
-	$(BIN)/python -m examples.demo_office.make
-	$(BIN)/python -m examples.demo_warehouse.make
-	$(BIN)/python -m examples.test_flat.make
+scene: $(READY) ## Write the demo kitchen and the benchmark scenes from their scripts
+	$(BIN)/python -m scenes
 
-clean: ## Remove what was built
+clean: ## Remove build outputs and .venv
 	rm -rf .venv build dist

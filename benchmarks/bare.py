@@ -1,4 +1,4 @@
-"""Scenes of things of which nothing is known but name, place in the tree, and size."""
+"""Scenes of objects with no evidence but name, place in the tree and size."""
 
 from collections.abc import Sequence
 
@@ -10,12 +10,12 @@ __all__ = ["bare_object", "bare_scene"]
 def bare_object(
     path: str, size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> SceneObject:
-    """Return a thing.
+    """Return an object.
 
     Args:
-        path: its prim path, which ends with its name.
+        path: prim path; its last part is the name.
         size: extents in metres along x, y and z.
-        at: the corner of its box with the least coordinates, in metres.
+        at: lower corner of the box in metres.
     """
     (x, y, z), (width, depth, height) = at, size
     box = Box(at, (x + width, y + depth, z + height))
@@ -43,7 +43,7 @@ def bare_object(
 
 
 def bare_scene(source: str, objects: Sequence[SceneObject]) -> Scene:
-    """Return a scene of these things, in metres, with Z up."""
+    """Return a scene of these objects: metres, Z up."""
     return Scene(
         source=source,
         content_hash="",

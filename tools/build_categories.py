@@ -1,7 +1,7 @@
 """Build the data file of general kinds and their members from `knowledge/categories.csv`.
 
-Left out are members that are below the kind, by each of its names, or below another member, and kinds with too many
-objects to be evidence. The noun taxonomy is the package's; run `make data` after `python -m tools.build_wordnet`.
+Drops members that the taxonomy already has below the kind or below another member, and kinds that are too general to
+be evidence. Reads the noun taxonomy of the package: run `make data` after `python -m tools.build_wordnet`.
 """
 
 from collections.abc import Iterable, Sequence
@@ -11,8 +11,8 @@ from tools.data_files import KNOWLEDGE, SourceError, csv_bytes, read_source_rows
 from usd2kg.grounding.lexical.concepts.categories import find_synset
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 
-MOST_OBJECTS = 3000
-"""Chosen: kinds of more synsets (artifact, equipment) say nothing about what an object is."""
+MAX_SYNSETS = 3000
+"""Chosen: kinds with more synsets (artifact, equipment) are too general to be evidence."""
 
 
 class Row(NamedTuple):
@@ -37,16 +37,13 @@ def build_categories() -> bytes:
         kept = find_informative_members(kinds, members, taxonomy)
         named = (find_synset(name, taxonomy) for name in (*kinds, *members))
         count = count_hyponyms([synset for synset in named if synset is not None], below)
-        if kept and count <= MOST_OBJECTS:
+        if kept and count <= MAX_SYNSETS:
             rows.append(("|".join(kinds), count, "|".join(kept)))
     return csv_bytes(("kinds", "things", "members"), rows)
 
 
 def merge_synonymous_kinds(rows: Iterable[Row], taxonomy: Taxonomy) -> list[Row]:
-    """Return the rows with all lemmas that mean their kind alone, and rows of one kind merged.
-
-    What people count among luminaires they count among lighting fixtures, whichever of the two words a row has.
-    """
+    """Return the rows with all unambiguous synonyms of their kind, and rows of synonymous kinds merged."""
     rows = list(rows)
     lemmas: dict[int, list[str]] = {}
     for lemma in sorted(taxonomy.lemmas):
@@ -70,10 +67,10 @@ def merge_synonymous_kinds(rows: Iterable[Row], taxonomy: Taxonomy) -> list[Row]
 
 
 def find_informative_members(kinds: Sequence[str], members: Sequence[str], taxonomy: Taxonomy) -> list[str]:
-    """Return the members that the taxonomy has neither below the kind, by each of its names, nor below another member.
+    """Return the members that the taxonomy has neither below all names of the kind nor below another member.
 
     Raises:
-        SourceError: a member is no noun of the taxonomy.
+        SourceError: a member is not a noun of the taxonomy.
     """
     synsets: dict[int, str] = {}
     for member in members:
@@ -81,7 +78,7 @@ def find_informative_members(kinds: Sequence[str], members: Sequence[str], taxon
         if synset is None:
             raise SourceError(
                 KNOWLEDGE / "categories.csv",
-                f"{'|'.join(kinds)}: {member!r} is no noun of the taxonomy, or has fewer senses",
+                f"{'|'.join(kinds)}: {member!r} is not a noun of the taxonomy, or has fewer senses",
             )
         synsets.setdefault(synset, member)
     kind_synsets = {find_synset(kind, taxonomy) for kind in kinds}
@@ -97,7 +94,7 @@ def count_hyponyms(chosen: Iterable[int], below: Sequence[Sequence[int]]) -> int
     """Return the number of synsets that are among the chosen or below one of them.
 
     Args:
-        chosen: numbers of synsets.
+        chosen: indices of synsets.
         below: for each synset, its direct hyponyms.
     """
     found: set[int] = set()

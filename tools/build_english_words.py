@@ -1,4 +1,4 @@
-"""Pack the English words that BERT's vocabulary does not have whole into the data file that the grounder reads.
+"""Pack the English words that are not whole words of BERT's vocabulary into a data file of the grounder.
 
 Usage: python -m tools.build_english_words SCOWL
 
@@ -13,8 +13,8 @@ from tools.data_files import gzip_bytes, write_data_file
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_common_word
 
 OUTPUT = "english_words.txt.gz"
-# Class 70 has what few people know, and among it what looks like a misspelling.
 CLASSES = (10, 20, 35, 40, 50, 55, 60)
+"""Classes of commonness; class 70 holds rare words, some of which look like misspellings."""
 
 
 def main() -> None:
@@ -30,7 +30,7 @@ def main() -> None:
 
 
 def is_dictionary_entry(word: str) -> bool:
-    """Return whether a word is long enough, and neither a name nor written with marks."""
+    """Return whether a word is long enough, in lower case and without punctuation or accents."""
     return len(word) >= SHORTEST_WORD and word.isascii() and word.isalpha() and word.islower()
 
 

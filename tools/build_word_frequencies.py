@@ -1,14 +1,14 @@
-"""Join word lists into the frequencies that rate readings of a name.
+"""Merge word lists into the word frequencies by which the reader of names ranks readings.
 
-Usage: python -m tools.build_word_frequencies.py BOOKS SCOWL DICT_FOLDER
+Usage: python -m tools.build_word_frequencies BOOKS SCOWL DICT_FOLDER
 
 BOOKS is `package/lib/data.js` of the npm package `norvig-frequencies`: the 97,565 words of Google Books, most frequent
 first. SCOWL is the folder `usr/share/dict/scowl` of Debian's package `scowl`: word lists in classes of commonness.
-DICT_FOLDER is the folder `dict` of WordNet's database, as for `build_wordnet.py`. BERT's vocabulary, whose whole words
-also stand in order of frequency, and the taxonomy are read from the package, so build those first.
+DICT_FOLDER is the folder `dict` of WordNet's database, as for `build_wordnet.py`. BERT's vocabulary, which also ranks
+words by frequency, and the taxonomy are read from the package; build them first.
 
-The first line of the result has the words, the second for each ten times its Zipf score and its share of noun uses in
-percent, `43/100`; in place of the share "-" for a head word of the home TBox that WordNet lacks.
+The first line of the result holds the words, the second an entry for each, such as `43/100`: ten times the Zipf score,
+and the share of noun uses in percent or "-" for a head word of the home TBox that WordNet lacks.
 """
 
 import gzip
@@ -28,14 +28,14 @@ from usd2kg.words import words_of
 
 OUTPUT = "frequencies.txt.gz"
 
-# The list of Google Books ends with the words seen 100,000 times among its 743,842,922,321.
 BOOKS_WORDS = 97_565
+"""Length of the list of Google Books."""
 BOOKS_END = 100_000 / 743_842_922_321
-# Level 80 and up list what dictionaries of word games hold; such a word is as good as unknown.
+"""Relative frequency of its last words: 100,000 of 743,842,922,321 tokens."""
 SCOWL_CLASSES = (10, 20, 35, 40, 50, 55, 60, 70)
-# A plural counts for its noun up to so many times the singular: `wales` is a country, not ten thousand ridges.
+"""Classes from 80 on hold words of word games."""
 PLURAL_LIMIT = 10
-# Closed classes, whose homographs among nouns (tin can, iodine) are rare; WordNet has counted only the homographs.
+"""Largest ratio of plural to singular uses that counts for the noun: `wales` is a country, not many ridges."""
 FUNCTION_WORDS = frozenset(
     """
     a about above after all am an and any are as at be been before being below both but by can could did do does down
@@ -45,7 +45,7 @@ FUNCTION_WORDS = frozenset(
     up upon us very was we well were what when where which while who whom whose why will with would yet you your
     """.split()
 )
-# Irregular verb forms that are nouns too (a saw, felt): WordNet counts them under their verb.
+"""Closed-class words; WordNet counts only their rare homographs among nouns (tin can, iodine)."""
 VERB_FORMS = dict(
     form.split(":")
     for form in """
@@ -54,6 +54,7 @@ VERB_FORMS = dict(
     thought:think wound:wind wove:weave
     """.split()
 )
+"""Irregular verb forms that are also nouns (a saw, felt) → the verb under which WordNet counts them."""
 
 
 @lru_cache(maxsize=1)
@@ -74,7 +75,7 @@ def fit_rank_law() -> tuple[float, int]:
 
 
 def zipf_of_rank(rank: float) -> float:
-    """Return log10 of the uses per billion words that a word of this rank has."""
+    """Return the Zipf score of a rank: log10 of uses per billion words."""
     constant, bend = fit_rank_law()
     return 9 + math.log10(constant / rank if rank <= bend else constant * bend / rank**2)
 
@@ -108,21 +109,21 @@ def read_scowl(folder: Path) -> list[set[str]]:
 
 
 def merge_lists(books: dict[str, float], bert: dict[str, float], scowl: list[set[str]]) -> dict[str, float]:
-    """Return word → Zipf score: the mean of the two ranked lists, the one that has it, or else SCOWL's.
+    """Return word → Zipf score: the mean over the ranked lists that hold it, or else an estimate from SCOWL.
 
-    SCOWL's words go on with the ranks, class after class; all new words of a class have the rank of its middle.
+    Ranks continue through the classes of SCOWL; all new words of a class get its middle rank.
     """
     scores = {**bert, **books, **{word: (books[word] + bert[word]) / 2 for word in books.keys() & bert.keys()}}
     rank = float(BOOKS_WORDS)
     for words in scowl:
-        news = words - scores.keys()
-        scores.update(dict.fromkeys(sorted(news), zipf_of_rank(rank + len(news) / 2)))
-        rank += len(news)
+        added = words - scores.keys()
+        scores.update(dict.fromkeys(sorted(added), zipf_of_rank(rank + len(added) / 2)))
+        rank += len(added)
     return scores
 
 
 def add_plurals(scores: dict[str, float]) -> dict[str, float]:
-    """Return the scores with the uses of plurals, as far as these are no lemmas themselves, added to the singulars."""
+    """Return the scores with the uses of plurals added to their singulars, unless the plural is a lemma."""
     taxonomy = load_taxonomy()
     uses = {word: 10**score for word, score in scores.items()}
     for word in sorted(scores.keys() - FUNCTION_WORDS):
@@ -144,9 +145,9 @@ def read_proper_names(path: Path) -> set[tuple[str, str]]:
 
 
 def read_noun_shares(folder: Path) -> dict[str, float]:
-    """Return word → share of its uses as a common noun, from the tagged corpora with one use more for each sense.
+    """Return word → share of its uses as a common noun: tag counts with add-one smoothing per sense.
 
-    An irregular verb form (saw, felt) has a third of its verb's uses beside its own: one of some three forms in use.
+    An irregular verb form (saw, felt) also gets a third of the uses of its verb, which has about three forms.
     """
     proper_names = read_proper_names(folder / "data.noun")
     uses: Counter[tuple[str, bool]] = Counter()
@@ -171,7 +172,7 @@ def read_single_lemmas() -> set[str]:
 
 
 def read_home_words() -> dict[str, bool]:
-    """Return the words of the home TBox's labels → whether a label ends with it, as names of things do in English."""
+    """Return word in a label of the home TBox → whether a label ends with it, so that it may be a head noun."""
     words: dict[str, bool] = {}
     for cls in load_home_tbox().classes:
         for label in (cls.label, *cls.alt_labels):
@@ -187,7 +188,7 @@ def main() -> None:
     scowl = read_scowl(scowl_folder)
     scores = add_plurals(merge_lists(read_books(books), read_bert(), scowl))
     shares = read_noun_shares(dictionary)
-    # The labels are in several languages; SCOWL tells which of their words are English.
+    # Labels are in several languages: keep English words, which SCOWL lists.
     home = {word: is_head for word, is_head in read_home_words().items() if any(word in words for words in scowl)}
     entries: dict[str, str] = {}
     for word in sorted(read_single_lemmas() | load_taxonomy().adjectives | home.keys() - FUNCTION_WORDS):
@@ -198,7 +199,7 @@ def main() -> None:
 
 
 def write(entries: dict[str, str]) -> None:
-    """Write the words on one line and their entries on another: two splits read them."""
+    """Write the words on one line and the entries on another, which two splits read fast."""
     text = " ".join(entries) + "\n" + " ".join(entries.values()) + "\n"
     path = write_data_file(OUTPUT, gzip_bytes(text.encode()))
     print(f"{path}: {len(entries)} words, {path.stat().st_size} bytes")

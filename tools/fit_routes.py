@@ -1,147 +1,129 @@
-"""Fit which class of an ontology a noun means, on the lists of `benchmarks/ontologies` that are no tests.
+"""Fit which class of an ontology a noun means, on the training lists of `benchmarks/ontologies`.
 
-Usage: python tools/fit_routes.py
+Usage: python -m tools.fit_routes
 
-Writes `src/usd2kg/data/routes.json`: the weights of a conditional logit over the routes from a noun to a
-class, and how often the likeliest class is right, with lists of ontologies that the weights were not fitted on.
+Writes `src/usd2kg/data/routes.json`: the weights of a conditional logit over the routes from a noun to a class, and the
+share of right answers with each ontology when the weights are fitted on the others.
 """
 
-import json
-import sys
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from benchmarks.names.lists import SHARED_ONTOLOGIES, LabelledName, iter_ontology_lists, resolve_list
+from tools.fitting import Array, fit_conditional_logit, write_weights
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
-from usd2kg.grounding.lexical.alignment.matching import Matcher
-from usd2kg.grounding.lexical.alignment.naming import RULED
-from usd2kg.grounding.lexical.alignment.routes import Features, Routes
+from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.alignment.routes import RouteFeatures, Routes
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
-from usd2kg.grounding.lexical.reading.head_noun import likelihood
+from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox
 
-ROOT = Path(__file__).parents[1]
-OUTPUT = ROOT / "src/usd2kg/data/routes.json"
-sys.path.insert(0, str(ROOT))
-
-from benchmarks.names.lists import (  # noqa: E402  (scripts are no packages of the product)
-    SHARED_ONTOLOGIES,
-    LabelledName,
-    iter_ontology_lists,
-    resolve_list,
-)
-
 RIDGE = 1.0
-"""Strength of the pull of the weights, for features of spread 1, to zero."""
+"""Strength of the L2 penalty on the weights of features scaled to unit variance."""
 ROUNDS, STEP = 3000, 0.5
-LARGEST, TINY = 500.0, 1e-9
-SECOND = 0.5
-"""What a thing counts for which only a class that a person would accept too can be reached."""
-
-Array = NDArray[np.float64]
+TINY = 1e-9
+"""Added to the spread of a feature, which may be constant."""
+ACCEPTED_WEIGHT = 0.5
+"""Weight of a noun that has a route to an accepted class but none to the target."""
 
 
 class Noun(NamedTuple):
-    """The routes from the noun that a thing is called by."""
+    """The routes from the noun of a name."""
 
     features: Array
     """(routes, features)."""
     classes: list[ClassIRI]
-    """The class that each route leads to."""
+    """The class at the end of each route."""
     right: frozenset[ClassIRI]
-    """The target if there is a route to it, else the other classes that a person would accept."""
-    ruled: ClassIRI | None
-    """What the rules say by themselves."""
+    """The target if a route leads to it, else the accepted classes."""
+    matched: ClassIRI | None
+    """The class of the best match without routes."""
     target: ClassIRI
 
 
+class Hit(NamedTuple):
+    """Whether each method gives the target of a noun."""
+
+    by_match: bool
+    """By terms and the nearest aligned hypernym."""
+    by_routes: bool
+
+
 def main() -> None:
-    """Fit, check, write."""
+    """Fit, cross-validate and write."""
     if not SHARED_ONTOLOGIES.is_dir():
-        raise SystemExit(f"{SHARED_ONTOLOGIES} is missing; with three ontologies less the weights would be others")
+        raise SystemExit(f"{SHARED_ONTOLOGIES} is missing; without its ontologies the weights would differ")
     nouns: dict[TBox, list[Noun]] = {}
     for names, tbox in iter_ontology_lists(("train",)):
-        nouns.setdefault(tbox, []).extend(nouns_of(resolve_list(names, tbox), tbox))
+        nouns.setdefault(tbox, []).extend(read_nouns(resolve_list(names, tbox), tbox))
     nouns = {tbox: found for tbox, found in nouns.items() if found}
-    told = [count for tbox, own in nouns.items() for count in right_of(own, fit_others(nouns, tbox))]
-    weights = fit([noun for found in nouns.values() for noun in found])
-    report = {
-        "weights": {name: round(float(weight), 3) for name, weight in zip(Features._fields, weights, strict=True)},
+    hits = []
+    for tbox, own in nouns.items():
+        weights = fit([noun for other, found in nouns.items() if other is not tbox for noun in found])
+        hits += [score(noun, weights) for noun in own]
+    figures = {
         "ontologies": len(nouns),
-        "things": len(told),
-        "right_when_left_out": round(float(np.mean([by_routes for _, by_routes, _ in told])), 4),
-        "right_by_rules": round(float(np.mean([by_rules for by_rules, _, _ in told])), 4),
-        "right_mixed_when_left_out": round(float(np.mean([mixed for _, _, mixed in told])), 4),
+        "nouns": len(hits),
+        "right_when_left_out": round(float(np.mean([hit.by_routes for hit in hits])), 4),
+        "right_without_routes": round(float(np.mean([hit.by_match for hit in hits])), 4),
     }
-    OUTPUT.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
-    print(OUTPUT.read_text(encoding="utf-8"))
+    weights = fit([noun for found in nouns.values() for noun in found])
+    write_weights("routes.json", RouteFeatures._fields, weights, figures, digits=3)
 
 
-def nouns_of(things: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
-    """Yield the routes for the likeliest end of each name that has any; none with classes of the home vocabulary."""
+def read_nouns(names: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
+    """Yield the routes of the likeliest end of each name that has any; none if the TBox has home classes."""
     taxonomy = load_taxonomy()
     lexicon = build_lexicon(tbox, taxonomy, home_names())
-    if not lexicon.listed.isdisjoint(tbox.by_iri):
+    if not lexicon.home_classes.isdisjoint(tbox.by_iri):
         return
     reader = NameReader(lexicon, taxonomy)
-    matcher = Matcher(tbox, lexicon, taxonomy, reader, heeds_routes=False)
+    matcher = PhraseMatcher(tbox, lexicon, taxonomy, reader, use_routes=False)
     paths = Routes(tbox, lexicon, taxonomy)
-    for thing in things:
-        assert thing.obj.box
-        parents = tuple(thing.obj.prim_path.split("/")[1:-1])
-        read = matcher.ends(reader.read(thing.obj.name, parents), parents, thing.obj.box.size)
-        # A `plate_dinner` is looked up as a term.
+    for labelled in names:
+        assert labelled.obj.box
+        parents = tuple(labelled.obj.prim_path.split("/")[1:-1])
+        read = matcher.head_candidates(reader.read(labelled.obj.name, parents), parents, labelled.obj.box.size)
+        # Inverted names such as `plate_dinner` are looked up as a term.
         ends = [(features, named) for _, features, named in read if not features.turned]
         if not ends:
             continue
-        _, named = max(ends, key=lambda end: likelihood(end[0]))
-        routes = paths.find(named.run)
+        _, named = max(ends, key=lambda end: head_likelihood(end[0]))
+        routes = paths.find(named.words)
         classes = [route.class_iri for route in routes]
         if classes:
-            right = frozenset([thing.target]) if thing.target in classes else thing.accepted
-            yield Noun(np.array([route.features for route in routes]), classes, right, named.class_iri, thing.target)
-
-
-def fit_others(nouns: Mapping[TBox, Sequence[Noun]], left_out: TBox) -> Array:
-    """Return the weights by all ontologies but one."""
-    return fit([noun for tbox, found in nouns.items() if tbox is not left_out for noun in found])
+            target = labelled.target
+            right = frozenset([target]) if target in classes else labelled.accepted
+            yield Noun(np.array([route.features for route in routes]), classes, right, named.class_iri, target)
 
 
 def fit(nouns: Sequence[Noun]) -> Array:
-    """Return the weights that make the right classes most likely, by gradient ascent on features of equal spread."""
-    told = [noun for noun in nouns if not noun.right.isdisjoint(noun.classes)]
-    features = np.concatenate([noun.features for noun in told])
+    """Return the weights that make the right classes most likely."""
+    solvable = [noun for noun in nouns if not noun.right.isdisjoint(noun.classes)]
+    features = np.concatenate([noun.features for noun in solvable])
     spread = features.std(axis=0) + TINY
-    scaled = features / spread
-    of_noun = np.repeat(np.arange(len(told)), [len(noun.classes) for noun in told])
-    is_right = np.array([iri in noun.right for noun in told for iri in noun.classes])
-    weight = np.array([1.0 if noun.target in noun.classes else SECOND for noun in told])[of_noun]
-    weights = np.zeros(len(Features._fields))
-    for _ in range(ROUNDS):
-        powers = np.exp(np.clip(scaled @ weights, -LARGEST, LARGEST))
-        shares = powers / np.bincount(of_noun, powers)[of_noun]
-        right = powers * is_right
-        wanted = right / np.bincount(of_noun, right)[of_noun]
-        weights += STEP * (((wanted - shares) * weight) @ scaled - RIDGE * weights) / len(told)
-    found: Array = weights / spread
-    return found
+    weights = fit_conditional_logit(
+        features / spread,
+        [len(noun.classes) for noun in solvable],
+        np.array([iri in noun.right for noun in solvable for iri in noun.classes]),
+        np.array([1.0 if noun.target in noun.classes else ACCEPTED_WEIGHT for noun in solvable]),
+        ridge=RIDGE,
+        step=STEP / len(solvable),
+        rounds=ROUNDS,
+    )
+    return np.asarray(weights / spread)
 
 
-def right_of(nouns: Sequence[Noun], weights: Array) -> Iterator[tuple[bool, bool, bool]]:
-    """Yield for each noun whether the rules, the routes, and both together give the target."""
-    for noun in nouns:
-        shares: dict[ClassIRI, float] = {}
-        for iri, power in zip(noun.classes, np.exp(noun.features @ weights).tolist(), strict=True):
-            shares[iri] = shares.get(iri, 0.0) + power
-        by_routes = min(shares, key=lambda iri: (-shares[iri], iri))
-        mixed = noun.ruled
-        if noun.ruled in shares and shares[by_routes] > RULED * shares[noun.ruled]:
-            mixed = by_routes
-        yield noun.ruled == noun.target, by_routes == noun.target, mixed == noun.target
+def score(noun: Noun, weights: Array) -> Hit:
+    """Return which methods give the target."""
+    shares: dict[ClassIRI, float] = {}
+    for iri, power in zip(noun.classes, np.exp(noun.features @ weights).tolist(), strict=True):
+        shares[iri] = shares.get(iri, 0.0) + power
+    by_routes = min(shares, key=lambda iri: (-shares[iri], iri))
+    return Hit(noun.matched == noun.target, by_routes == noun.target)
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ class Column:
         try:
             value = float(cell)
         except ValueError:
-            return f"{cell!r} is no number"
+            return f"{cell!r} is not a number"
         if not math.isfinite(value) or value <= self.above or value < self.least:
             bound = f"above {self.above:g}" if math.isfinite(self.above) else f"of at least {self.least:g}"
             return f"{cell!r}; expected a number {bound}"

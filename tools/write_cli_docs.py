@@ -1,18 +1,16 @@
 """Write docs/cli.md from the help texts of all commands.
 
-Usage: python tools/write_cli_docs.py [--check]
+Usage: python -m tools.write_cli_docs [--check]
 """
 
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import typer
 from typer.testing import CliRunner
 
+from tools.generated_docs import DOCS, write_or_check
 from usd2kg.cli.app import app
 
-OUTPUT = Path(__file__).parent.parent / "docs/cli.md"
 INTRODUCTION = """\
 # Command line
 
@@ -27,17 +25,17 @@ Written by `tools/write_cli_docs.py` from the help texts. Data goes to stdout, m
 """
 
 
-def command_names(command: object, names: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+def walk_commands(command: object, names: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
     """Yield the names of a command and of all its subcommands, in the order of the help text."""
     yield names
     for name, subcommand in getattr(command, "commands", {}).items():
-        yield from command_names(subcommand, (*names, name))
+        yield from walk_commands(subcommand, (*names, name))
 
 
-def page() -> str:
+def build_page() -> str:
     """Return the page."""
     sections = [INTRODUCTION]
-    for names in command_names(typer.main.get_command(app)):
+    for names in walk_commands(typer.main.get_command(app)):
         result = CliRunner().invoke(app, [*names, "--help"], prog_name="usd2kg", env={"COLUMNS": "100"})
         if result.exit_code:
             raise SystemExit(f"{' '.join(names)}: {result.output}")
@@ -45,14 +43,5 @@ def page() -> str:
     return "\n".join(sections)
 
 
-def main() -> None:
-    """Write the page, or check that it is up to date."""
-    if "--check" in sys.argv:
-        if OUTPUT.read_text("utf-8") != page():
-            raise SystemExit(f"{OUTPUT} differs from the help texts; run python tools/write_cli_docs.py")
-        return
-    OUTPUT.write_text(page(), "utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(DOCS / "cli.md", build_page(), "tools.write_cli_docs")

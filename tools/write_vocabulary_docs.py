@@ -1,17 +1,15 @@
-"""Write the table of our own terms in docs/vocabulary.md from the ontology that defines them.
+"""Write the table of u2k terms in docs/vocabulary.md from the ontology that defines them.
 
-Usage: python tools/write_vocabulary_docs.py [--check]
+Usage: python -m tools.write_vocabulary_docs [--check]
 """
-
-import sys
-from pathlib import Path
 
 import pyoxigraph as ox
 
+from tools.generated_docs import DOCS, write_or_check
 from usd2kg.graph.declarations import vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, SKOS, U2K
 
-OUTPUT = Path(__file__).parent.parent / "docs/vocabulary.md"
+PAGE = DOCS / "vocabulary.md"
 START = "<!-- table: written by tools/write_vocabulary_docs.py -->\n"
 END = "<!-- end of table -->\n"
 KINDS = {
@@ -22,8 +20,8 @@ KINDS = {
 }
 
 
-def table() -> str:
-    """Return the table, in the order in which the ontology defines its terms."""
+def build_table() -> str:
+    """Return the table in the order of the ontology."""
     rows: dict[str, dict[ox.NamedNode, str]] = {}
     for triple in vocabulary_triples():
         subject, value = triple.subject, triple.object
@@ -39,20 +37,11 @@ def table() -> str:
     return "\n".join(lines) + "\n"
 
 
-def page() -> str:
-    """Return the page with the table as it should be."""
-    before, rest = OUTPUT.read_text("utf-8").split(START)
-    return before + START + table() + END + rest.split(END)[1]
-
-
-def main() -> None:
-    """Write the page, or check that it is what would be written."""
-    if "--check" in sys.argv:
-        if OUTPUT.read_text("utf-8") != page():
-            raise SystemExit(f"{OUTPUT} is not what the ontology says; run python tools/write_vocabulary_docs.py")
-        return
-    OUTPUT.write_text(page(), "utf-8")
+def build_page() -> str:
+    """Return the page with its table replaced."""
+    before, rest = PAGE.read_text("utf-8").split(START)
+    return before + START + build_table() + END + rest.split(END)[1]
 
 
 if __name__ == "__main__":
-    main()
+    write_or_check(PAGE, build_page(), "tools.write_vocabulary_docs")

@@ -2,17 +2,21 @@
 
 Usage: python benchmarks/accuracy/run.py [--check]
 
-Without --check the figures are written to results.json and README.md beside this file, and the report to
-build/accuracy. With it they
-are compared with results.json; scenes whose files are absent are left out of the comparison.
+Writes the figures to `results.json` and `README.md` beside this file and the report to `build/accuracy`. With --check,
+compares the figures with `results.json` instead. Lists the scenes that cannot be measured because a file is missing.
 """
 
 import json
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from usd2kg.evaluation import SceneResult, read_matrix, run_matrix
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from benchmarks.labelled_scenes import read_accuracy_matrix
+from usd2kg.evaluation import SceneResult, run_matrix
+from usd2kg.evaluation.matrix import SceneSpec
 from usd2kg.evaluation.report import write_report
 
 HERE = Path(__file__).parent
@@ -36,7 +40,7 @@ INTERVALS = ("ema_interval", "ema_name_interval", "hf1_interval")
 
 
 def figures(results: list[SceneResult]) -> dict[str, Any]:
-    """Return scene → grounder → condition → figures, with selection apart."""
+    """Return scene → grounder → condition → figures, and the object selection of each scene."""
     table: dict[str, Any] = {}
     for result in results:
         scene = table.setdefault(
@@ -55,7 +59,7 @@ def figures(results: list[SceneResult]) -> dict[str, Any]:
 
 
 def round_off(value: Any) -> Any:
-    """Return figures with six significant digits, so that platforms agree on the file."""
+    """Return figures with six significant digits, so that the file is the same on all platforms."""
     if isinstance(value, list):
         return [round_off(item) for item in value]
     return float(f"{value:.6g}") if isinstance(value, float) else value
@@ -67,7 +71,7 @@ def table(now: dict[str, Any]) -> str:
         "# Accuracy of the offline grounders",
         "",
         "Written by `make accuracy` from `matrix.toml`; `make accuracy-check` compares `results.json` with the code.",
-        "EMA % (95 % interval, whole distinct names drawn) / HF1; `also` accepts the gold's second labels.",
+        "EMA % (95 % interval, bootstrap over distinct names) / HF1; `also` accepts the gold's second labels.",
         "",
     ]
     for scene, data in now.items():
@@ -95,8 +99,8 @@ def cell(values: dict[str, Any]) -> str:
     return f"{values['ema']:.1f} ({lower:.0f}–{upper:.0f}) / {values['hf1']:.2f}"
 
 
-def differences(kept: dict[str, Any], now: dict[str, Any]) -> list[str]:
-    """Return what differs between the kept figures and those of now, for the scenes that are here."""
+def find_differences(kept: dict[str, Any], now: dict[str, Any]) -> list[str]:
+    """Return one line per figure that differs from the kept one, for the scenes that were measured."""
     found = []
     for scene, data in now.items():
         old = kept.get(scene, {}).get("grounders", {})
@@ -108,16 +112,22 @@ def differences(kept: dict[str, Any], now: dict[str, Any]) -> list[str]:
     return found
 
 
+def describe_unmeasured(scenes: Iterable[SceneSpec]) -> list[str]:
+    """Return one line per scene with a missing file; empty if all can be measured."""
+    return [f"not measured: {spec.name}, {spec.missing} is missing" for spec in scenes if spec.missing]
+
+
 def main() -> None:
-    """Write or check."""
-    plan = read_matrix(HERE / "matrix.toml")
+    """Write or check the figures."""
+    plan = read_accuracy_matrix()
+    if unmeasured := describe_unmeasured(plan.scenes):
+        print("\n".join([*unmeasured, "Set USD2KG_SHARED to the folder that holds these files."]), flush=True)
     results = run_matrix(plan, BUILD)
     now = figures(results)
     if "--check" in sys.argv:
-        found = differences(json.loads(RESULTS.read_text("utf-8")), now)
-        if found:
-            raise SystemExit("\n".join([*found, "The kept figures are not those of the code; run make accuracy."]))
-        print(f"{len(now)} scenes: the kept figures are those of the code")
+        if found := find_differences(json.loads(RESULTS.read_text("utf-8")), now):
+            raise SystemExit("\n".join([*found, "The kept figures differ from those of the code; run make accuracy."]))
+        print(f"{len(now)} of {len(plan.scenes)} scenes measured; the kept figures are those of the code")
         return
     RESULTS.write_text(json.dumps(now, indent=1) + "\n", encoding="utf-8")
     TABLE.write_text(table(now), encoding="utf-8")

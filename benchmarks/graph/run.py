@@ -1,10 +1,10 @@
-"""Time making a graph from records and writing it, against pyoxigraph's own serialiser on the same triples.
+"""Time instantiating and writing a graph, against pyoxigraph's serialiser on the same triples.
 
 Usage: python benchmarks/graph/run.py [--without-relations] [--profile soma|plain] [OBJECTS...]
 
-By default 1000, 10000 and 100000 objects. The scene is tables with nine cups each, of which everything is known that a
-stage usually says. Files are written in turns by us and by pyoxigraph, in one process; what counts is the ratio. Times
-are processor time, so that other load does not count; all runs on one core. Memory is the process's, at its peak.
+The default is 1000, 10000 and 100000 objects: tables with nine cups each, with the usual metadata of a stage. Files are
+written in turns by usd2kg and pyoxigraph in one process; the ratio counts. Times are processor time on one core. Memory
+is the peak of the process.
 """
 
 import argparse

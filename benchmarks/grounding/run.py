@@ -1,12 +1,11 @@
-"""Time the lexical grounder: how long it takes to load, and how many objects a second it grounds.
+"""Time the lexical grounder: loading, and objects per second.
 
 Usage: python -m benchmarks.grounding.run [NAMES] (default 1500)
 
-Names are those of the lists of `benchmarks/names`, as people write them, or put together from the words of the
-product's own vocabulary; all different, on things of random size in rooms of forty. The first hundred are timed apart:
-with them comes what is loaded when it is first needed. Each measurement runs three times in a fresh interpreter on one
-core, of which the least counts; times are of the processor, memory is the peak. Beside each stands something simple
-that the same run measures.
+Names come from the lists of `benchmarks/names` or are composed of words of the home vocabulary. All are distinct; the
+objects have random sizes, in rooms of forty. The first hundred names are timed separately because they load data
+lazily. Each measurement is the minimum of three fresh interpreters on one core: processor time and peak memory. Each
+is compared with a simple baseline of the same run.
 """
 
 import os
@@ -47,21 +46,21 @@ import numpy as np
 
 data = files("usd2kg") / "data"
 texts = [gzip.decompress((data / name).read_bytes()).decode() for name in ("wordnet.txt.gz", "frequencies.txt.gz")]
-texts += [(data / name).read_text("utf-8") for name in ("home_names.csv", "heads.json", "calibration.json")]
-with np.load(data / "likeness.npz") as arrays:
+texts += [(data / name).read_text("utf-8") for name in ("home_names.csv", "head_noun.json", "calibration.json")]
+with np.load(data / "name_classifier.npz") as arrays:
     weights = [arrays[name] for name in arrays.files]
 texts.append((files("usd2kg") / "data" / "home.ttl").read_text("utf-8"))
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
 print(time.process_time(), peak)
 """
-"""What any program does that imports numpy and reads the files that the first answer needs."""
+"""Baseline: import numpy and read the files that the first answer needs."""
 
 FIRST = 100
-"""Names after which all is loaded."""
+"""Number of names after which all data is loaded."""
 
 
 def written_names(write: Callable[[list[str]], str]) -> Iterator[str]:
-    """Yield different names of two or three words of the vocabulary, without end."""
+    """Yield distinct names of two or three words of the home vocabulary, endlessly."""
     rng = random.Random(0)
     things = sorted(
         {name for names in home_names().values() for name in names if name.isascii() and name.count(" ") < 2}
@@ -69,15 +68,15 @@ def written_names(write: Callable[[list[str]], str]) -> Iterator[str]:
     words = sorted({word.lower() for thing in things for word in thing.split() if word.isalpha()})
     seen = set()
     while True:
-        said = [rng.choice(words), *rng.choice(things).split()]
-        name = write([word.capitalize() for word in said if word.isalnum()])
+        chosen = [rng.choice(words), *rng.choice(things).split()]
+        name = write([word.capitalize() for word in chosen if word.isalnum()])
         if name not in seen:
             seen.add(name)
             yield name
 
 
 def listed_names() -> Iterator[str]:
-    """Yield the different names of all lists, shuffled."""
+    """Yield the distinct names of all lists, shuffled."""
     names = {row["name"]: None for listed in read_names(HOME_TABLE) for row in listed.rows}
     yield from random.Random(2).sample(list(names), len(names))
 
@@ -92,15 +91,15 @@ SAMPLES: dict[str, tuple[Iterator[str], NamingRegime]] = {
     "abbreviated by the regime": (written_names("".join), NamingRegime.ABBREVIATED),
     "opaque": (written_names("".join), NamingRegime.OPAQUE),
 }
-"""Kind of names → the names, and the naming regime."""
+"""Kind of names → names and naming regime."""
 
 
 def make_scene(names: list[str]) -> Scene:
-    """Return things with these names, forty to a room, of 1 cm to 2 m each way."""
+    """Return objects with these names and extents of 1 cm to 2 m, forty per room."""
     rng = random.Random(1)
     sizes = [(rng.uniform(0.01, 2), rng.uniform(0.01, 2), rng.uniform(0.01, 2)) for _ in names]
     paths = [f"/World/Room_{at // ROOM}/{name}" for at, name in enumerate(names)]
-    # Rooms of things that stand apart: what is around a thing is asked, too.
+    # Rooms are apart and objects scattered, so that neighbours are looked up too.
     spots = [
         (10.0 * (at // ROOM) + rng.uniform(0, 6), rng.uniform(0, 6), rng.uniform(0, 2)) for at in range(len(names))
     ]
@@ -108,7 +107,7 @@ def make_scene(names: list[str]) -> Scene:
 
 
 def measure(kind: str, count: int) -> None:
-    """Ground a hundred names, then that many; print the seconds of both, those of plain look-ups, and megabytes."""
+    """Ground a hundred names, then `count`; print seconds for both, for plain look-ups, and peak megabytes."""
     names, regime = SAMPLES[kind]
     first, scene = (make_scene(list(islice(names, number))) for number in (FIRST, count))
     tbox = load_home_tbox()
@@ -117,11 +116,11 @@ def measure(kind: str, count: int) -> None:
     ground(first, tbox, regime=regime)
     loaded = time.process_time()
     ground(scene, tbox, regime=regime)
-    print(loaded - start, time.process_time() - loaded, seconds_of_look_ups(scene), peak_megabytes())
+    print(loaded - start, time.process_time() - loaded, time_look_ups(scene), peak_megabytes())
 
 
-def seconds_of_look_ups(scene: Scene) -> float:
-    """Return the least time that it takes to look the words of each name up in a table, longest run first."""
+def time_look_ups(scene: Scene) -> float:
+    """Return the minimum time to look up the words of each name in a table, longest suffix first."""
     table = {name.lower().replace(" ", ""): iri for iri, names in home_names().items() for name in names}
     took = []
     for _ in range(REPEATS):
@@ -136,12 +135,12 @@ def seconds_of_look_ups(scene: Scene) -> float:
 
 
 def peak_megabytes() -> float:
-    """Return the largest memory that this process had, in megabytes; Linux counts kilobytes, macOS bytes."""
+    """Return the peak memory of this process in megabytes; Linux reports kilobytes, macOS bytes."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
 
 
-def least(*arguments: str) -> list[float]:
-    """Return the least of each number that fresh interpreters print, given one core."""
+def minimum_of_runs(*arguments: str) -> list[float]:
+    """Return the minimum of each number printed by fresh interpreters on one core."""
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     printed = [
         subprocess.run([sys.executable, *arguments], check=True, capture_output=True, text=True, env=environment).stdout
@@ -153,14 +152,14 @@ def least(*arguments: str) -> list[float]:
 def main() -> None:
     """Measure and print."""
     count = sys.argv[1] if len(sys.argv) > 1 else "1500"
-    bare, bare_megabytes = least("-c", BARE)
-    imported, answered, megabytes = least("-c", LOAD)
+    bare, bare_megabytes = minimum_of_runs("-c", BARE)
+    imported, answered, megabytes = minimum_of_runs("-c", LOAD)
     print(f"numpy and the same files:    {bare:.2f} s, {bare_megabytes:.0f} MB")
-    print(f"import:                      {imported:.2f} s, {imported / bare:.1f} times as long")
-    print(f"import and first answer:     {answered:.2f} s, {answered / bare:.1f} times as long, {megabytes:.0f} MB")
+    print(f"import:                      {imported:.2f} s, {imported / bare:.1f} × baseline")
+    print(f"import and first answer:     {answered:.2f} s, {answered / bare:.1f} × baseline, {megabytes:.0f} MB")
     print(f"{'names':<28} {'first 100':>9} {'then':>7} {'a second':>9} {'look-ups each':>14} {'peak MB':>8}")
     for kind in SAMPLES:
-        first, seconds, look_ups, megabytes = least("-m", "benchmarks.grounding.run", count, kind)
+        first, seconds, look_ups, megabytes = minimum_of_runs("-m", "benchmarks.grounding.run", count, kind)
         rate, ratio = int(count) / seconds, seconds / look_ups
         print(f"{kind:<28} {first:>7.2f} s {count:>7} {rate:>9.0f} {ratio:>14.0f} {megabytes:>8.0f}")
 

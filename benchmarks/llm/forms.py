@@ -1,11 +1,11 @@
-"""What each form of asking costs and how right it is, with one model on one scene, and what order and company do.
+"""Measure cost and accuracy of prompt forms with one model on one scene, and the effect of row order and batch size.
 
-Run `PYTHONPATH=src:. python -m benchmarks.llm.forms MODEL SCENE GOLD [FORM …] [--every N] [--completions FOLDER]`.
-MODEL is a model string such as `gguf:FILE` or `openai:NAME@URL`. Every form asks about the same labelled objects.
-Printed, as a Markdown table: tokens an object (read, and of them kept from prompts before), seconds an object, exact
-matches with a 95 % interval, those that accept a second label, hierarchical F1, and the objects that get another class
-than in the first form. What a model said is kept in a folder, a file for each form: a run that was broken off goes on,
-and then its tokens and seconds are those of the rest.
+Usage: python -m benchmarks.llm.forms MODEL SCENE GOLD [FORM …] [--every N] [--completions FOLDER]
+
+MODEL is a model string such as `gguf:FILE` or `openai:NAME@URL`. All forms ask about the same labelled objects. Prints
+a Markdown table: input tokens per object, cached ones among them, seconds per object, exact match with a 95 % interval,
+accepted answers, hierarchical F1, and the number of objects with another class than in the first form. Completions are
+stored in one file per form; an interrupted run resumes, and its tokens and seconds are then those of the rest.
 """
 
 import argparse
@@ -38,12 +38,12 @@ FORMS: Mapping[str, LLMSettings] = {
     "B, shortlist of 8": LLMSettings("", shortlist=8),
     "A, shortlist of 8": LLMSettings("", strategy=Strategy.NAME_ONLY, shortlist=8),
 }
-"""Forms of asking; the first is the one that the others are compared with."""
+"""Prompt forms; the first is the reference for the others."""
 
 
 @dataclass(frozen=True)
 class Task:
-    """What is asked about."""
+    """The labelled objects of a scene."""
 
     scene: Scene
     gold: Sequence[GoldLabel]
@@ -57,7 +57,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a form came to."""
+    """The result of one form."""
 
     name: str
     summary: Summary
@@ -68,13 +68,15 @@ class Outcome:
 
 
 def main() -> None:
-    """Print a row for each form as it is done."""
+    """Print a row for each form when it is done."""
     options = parse_options()
     tbox = load_home_tbox()
     gold = read_gold(options.gold, tbox)[:: options.every]
     task = Task(read_scene(options.scene, paths=[label.prim_path for label in gold]), gold, tbox)
     print(f"{len(gold)} objects of {options.scene.name}, {len(tbox.classes)} classes\n")
-    print("| form | tokens an object | kept | seconds an object | exact % (95 %) | accepting % | HF1 | other class |")
+    print(
+        "| form | tokens per object | cached | seconds per object | exact % (95 %) | accepted % | HF1 | other class |"
+    )
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     plain: Outcome | None = None
     for outcome in outcomes(task, options):
@@ -83,7 +85,7 @@ def main() -> None:
 
 
 def parse_options() -> argparse.Namespace:
-    """Return what the command line says."""
+    """Return the command-line options."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("model")
     parser.add_argument("scene", type=Path)
@@ -95,7 +97,7 @@ def parse_options() -> argparse.Namespace:
 
 
 def outcomes(task: Task, options: argparse.Namespace) -> Iterator[Outcome]:
-    """Yield what each form comes to, and last the default grounder, that asks nobody."""
+    """Yield the result of each form, then that of the default grounder, which uses no model."""
     options.completions.mkdir(parents=True, exist_ok=True)
     for name in options.forms or FORMS:
         settings = replace(FORMS[name], model=options.model, completions=options.completions / f"{slug(name)}.sqlite")
@@ -109,7 +111,7 @@ def outcomes(task: Task, options: argparse.Namespace) -> Iterator[Outcome]:
 
 
 def ask(name: str, task: Task, settings: LLMSettings) -> Outcome:
-    """Return what one form comes to."""
+    """Return the result of one form."""
     with open_llm_grounder(settings) as grounder:
         grounding = ground(task.scene, task.tbox, grounder, paths=task.paths)
         usage, seconds = grounder.report.usage, grounder.report.seconds
@@ -122,7 +124,7 @@ def ask(name: str, task: Task, settings: LLMSettings) -> Outcome:
 
 
 def slug(name: str) -> str:
-    """Return the name of a form as a file's.
+    """Return the name of a form as a file name.
 
     >>> slug("B, each object")
     'B-each-object'
@@ -131,7 +133,7 @@ def slug(name: str) -> str:
 
 
 def row_of(outcome: Outcome, plain: Outcome) -> str:
-    """Return a row of the table."""
+    """Return a table row."""
     summary, interval = outcome.summary, outcome.summary.ema_interval
     others = sum(1 for path, iri in outcome.classes.items() if plain.classes.get(path) != iri)
     return (

@@ -1,9 +1,10 @@
-"""What asking a model costs beside the model, against a local server that answers at once.
+"""Measure the client overhead of a model request against a local server that answers at once.
 
-Run `PYTHONPATH=src:. python -m benchmarks.llm.overhead`. The server streams one event a token, in a process of its own,
-in each of the three wire formats. Printed are medians of what a request takes: by a bare socket; by pydantic-ai, less
-the bare one; and by our client, less what pydantic-ai takes. Milliseconds on the clock, and of processor time, which
-tells more on a busy machine.
+Usage: python -m benchmarks.llm.overhead
+
+The server runs in its own process and streams one event per token, in each of the three wire formats. Prints medians
+per request: of a bare socket, of pydantic-ai above it, and of our client above pydantic-ai; milliseconds of wall time
+and of processor time, which is more reliable on a busy machine.
 """
 
 import argparse
@@ -42,7 +43,7 @@ def main() -> None:
     """Print a row for each format and size of prompt."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--requests", type=int, default=200, help="requests of each kind; default: 200")
-    parser.add_argument("--objects", type=int, nargs="*", default=[1, 20], help="objects a prompt; default: 1 20")
+    parser.add_argument("--objects", type=int, nargs="*", default=[1, 20], help="objects per prompt; default: 1 20")
     arguments = parser.parse_args()
     print(f"{'model':26} {'objects':>7} {'events':>6}   {'bare':>15} {'library':>15} {'ours':>15}")
     for model in REPLIES:
@@ -66,7 +67,7 @@ class Cost(NamedTuple):
 
 
 def measure(model: str, text: str, count: int, times: int) -> list[Cost]:
-    """Return the medians of a bare request, of what the library takes more, and of what our client takes more."""
+    """Return the median cost of a bare request, then the additional cost of the library and of our client."""
     schema = {"type": "object", "properties": {str(number): ANSWER for number in range(1, count + 1)}}
     request = Request("the classes\n" + "\n".join(CLASSES), "the objects", schema)
     with (
@@ -86,7 +87,7 @@ def measure(model: str, text: str, count: int, times: int) -> list[Cost]:
 
 @contextmanager
 def asking_bare(port: int, raw: bytes) -> Iterator[Callable[[], object]]:
-    """What sends a request as it was sent before and reads the answer to its end, over one connection."""
+    """Yield a function that resends a recorded request over one connection and reads the whole answer."""
     with socket.create_connection(("127.0.0.1", port)) as connection:
 
         def ask() -> None:
@@ -100,7 +101,7 @@ def asking_bare(port: int, raw: bytes) -> Iterator[Callable[[], object]]:
 
 @contextmanager
 def asking_the_library(model: str, request: Request) -> Iterator[Callable[[], object]]:
-    """What sends the same request by pydantic-ai alone."""
+    """Yield a function that sends the same request through pydantic-ai only."""
     address = parse_address(model)
     http = open_http(address, 60)
     served = serve_model(address, "none", http)
@@ -127,7 +128,7 @@ def asking_the_library(model: str, request: Request) -> Iterator[Callable[[], ob
 
 
 def clock(work: Callable[[], object]) -> Cost:
-    """Return what it costs."""
+    """Return the cost."""
     wall, cpu = time.perf_counter(), time.process_time()
     work()
     return Cost(1000 * (time.perf_counter() - wall), 1000 * (time.process_time() - cpu))
@@ -135,7 +136,7 @@ def clock(work: Callable[[], object]) -> Cost:
 
 @contextmanager
 def running_server(model: str, text: str) -> Iterator[tuple[int, Callable[[], bytes]]]:
-    """The port of a server in another process, and what returns the first request that it got, as bytes."""
+    """Yield the port of a server in another process, and a function that returns its first request as bytes."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
     process = context.Process(target=serve, args=(model, text, theirs))
@@ -154,7 +155,7 @@ def running_server(model: str, text: str) -> Iterator[tuple[int, Callable[[], by
 
 
 def serve(model: str, text: str, pipe: Connection) -> None:
-    """Answer until told to end; tell the first request when asked for it."""
+    """Serve until the pipe requests the end; send the first request on demand."""
     with servers.serve(REPLIES[model](text)) as server:
         pipe.send(int(server.url.rpartition(":")[2]))
         while pipe.recv() == "first":

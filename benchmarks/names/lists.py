@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from benchmarks.bare import bare_object
+from benchmarks.labelled_scenes import SHARED
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.scene import SceneObject
@@ -36,8 +37,8 @@ BENCHMARKS = Path(__file__).parents[1]
 HOME_TABLE = BENCHMARKS / "names/names.csv"
 """Names labelled with SOMA-HOME."""
 ONTOLOGY_TABLE = BENCHMARKS / "ontologies/names.csv"
-"""Names labelled with other ontologies."""
-SHARED_ONTOLOGIES = BENCHMARKS.parents[1] / "shared/ontologies/other"
+"""Names labelled with other ontologies; read from here or `SHARED_ONTOLOGIES`."""
+SHARED_ONTOLOGIES = SHARED / "ontologies/other"
 PUBLIC_ONTOLOGIES = {
     "SOMA+DFL": "multiverse_soma_dfl/SOMA_DFL_module.owl",
     "DogOnt": "dogont/dogont.owl",
@@ -46,14 +47,14 @@ PUBLIC_ONTOLOGIES = {
 }
 """Ontology → file below `SHARED_ONTOLOGIES`; these may not be redistributed."""
 AUTHORS = "authors"
-"""Source of names that the authors of this project made up; other sources are public repositories."""
+"""Source of names made up by the authors of this project; other sources are public repositories."""
 
 
 class LabelledName(NamedTuple):
     """One row, its classes resolved in a TBox."""
 
     obj: SceneObject
-    """An object at the origin with nothing known but name, parent and size."""
+    """An object at the origin with only name, parent and size."""
     target: ClassIRI
     accepted: frozenset[ClassIRI]
     """The target and the other classes that a careful person would accept."""
@@ -78,14 +79,18 @@ def read_names(table: Path) -> tuple[NameList, ...]:
     with table.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             ontology = row.get("ontology", "")
-            # The lists with a public ontology are samples of many others: one list for each split.
+            # Lists with a public ontology are samples of many lists: merge them by split.
             name = ontology if ontology in PUBLIC_ONTOLOGIES else row["list"]
             grouped.setdefault((name, ontology, row["split"]), []).append(row)
     return tuple(NameList(*key, tuple(rows)) for key, rows in grouped.items())
 
 
 def resolve_list(names: NameList, tbox: TBox) -> list[LabelledName]:
-    """Return the labelled names of a list; raises `OntologyError` for a class that the TBox lacks."""
+    """Return the labelled names of a list.
+
+    Raises:
+        OntologyError: a class is not in the TBox.
+    """
     return [_resolve_row(row, tbox) for row in names.rows]
 
 
@@ -97,12 +102,11 @@ def resolve_home_lists(split: str, tbox: TBox) -> Iterator[list[LabelledName]]:
 
 
 def iter_ontology_lists(splits: Sequence[str], *, public: bool | None = None) -> Iterator[tuple[NameList, TBox]]:
-    """Yield the lists of some splits with their TBoxes; lists whose ontology is absent are left out.
+    """Yield the lists of some splits with their TBoxes, without those whose ontology is missing.
 
     Args:
-        splits: those to yield.
-        public: whether to yield only lists with public ontologies (True) or only those with ontologies that were
-            written for the benchmark (False); None for both.
+        splits: the splits to yield.
+        public: True for public ontologies only, False for those written for the benchmark only, None for both.
     """
     for names in read_names(ONTOLOGY_TABLE):
         is_public = names.ontology in PUBLIC_ONTOLOGIES

@@ -42,7 +42,7 @@ def print_row(name: str, split: str, tallies: list[Tally]) -> None:
 
 
 def print_second_annotators(tbox: TBox) -> None:
-    """Print the agreement on the lists that two annotators labelled, those of one kind of source together."""
+    """Print the agreement of two annotators, by kind of source."""
     groups: dict[bool, list[LabelledName]] = {}
     for names in read_names(HOME_TABLE):
         twice = [name for name in resolve_list(names, tbox) if name.second]

@@ -21,7 +21,7 @@ class Tally(NamedTuple):
     accepted: int = 0
     """Answers that are the target or another accepted class."""
     confidence: float = 0.0
-    """Sum of the stated probabilities that the answer is exact."""
+    """Sum of the confidences."""
 
     def plus(self, other: "Tally") -> "Tally":
         """Return the counts of both."""
@@ -39,7 +39,7 @@ def _share(right: int, count: int) -> str:
 
 
 def tally_answers(names: Sequence[LabelledName], tbox: TBox, regime: NamingRegime = NamingRegime.SEMANTIC) -> Tally:
-    """Ground one list as one scene and return how often the answers are right."""
+    """Ground one list as one scene and count the right answers."""
     scene = bare_scene("a list of names", [name.obj for name in names])
     answers = ground(scene, tbox, regime=regime).by_path
     pairs = [(name, answers[name.obj.prim_path]) for name in names]
@@ -52,7 +52,7 @@ def tally_answers(names: Sequence[LabelledName], tbox: TBox, regime: NamingRegim
 
 
 def tally_agreement(firsts: Sequence[LabelledName], seconds: Sequence[LabelledName]) -> Tally:
-    """Return how often the second annotator's class is the first one's, and one that the first accepts."""
+    """Count the second annotator's classes that the first one chose or accepts."""
     pairs = list(zip(firsts, seconds, strict=True))
     return Tally(
         count=len(pairs),
@@ -62,7 +62,7 @@ def tally_agreement(firsts: Sequence[LabelledName], seconds: Sequence[LabelledNa
 
 
 def second_annotator_lines(names: Sequence[LabelledName], tbox: TBox) -> list[str]:
-    """Return the agreement of two annotators, and of the grounder with each, on the names that both labelled."""
+    """Return the agreement of two annotators and of the grounder with each, on names that both labelled."""
     pairs = [(name, name.second) for name in names if name.second]
     firsts, seconds = [first for first, _ in pairs], [second for _, second in pairs]
     rows = {

@@ -1,10 +1,10 @@
-"""Measure accuracy, on names alone, with ontologies that usd2kg was not made for.
+"""Measure accuracy on names alone with ontologies other than SOMA-HOME.
 
 Usage: python -m benchmarks.ontologies.run
 
 Prints exact match and accepted answers in % with 95 % intervals (Wilson), by list and by split. `conf.` is the mean
-stated probability of an exact answer in %: above the exact share it is overconfident. The columns from `below a root`
-leave out the objects for which the ontology has nothing better than one of its roots. README.md describes the lists.
+stated probability of an exact answer in %: above the exact share the grounder is overconfident. The columns from `below
+a root` exclude objects whose target is a root class. README.md describes the lists.
 """
 
 from benchmarks.names.lists import (

@@ -1,9 +1,8 @@
-"""Time reading a stage against a bare loop that opens it, traverses it and asks for the same boxes and names.
+"""Time reading a stage against a bare loop that opens and traverses it and computes the same boxes and names.
 
 Usage: python benchmarks/reading/run.py [PRIMS...] (default 1000 10000 100000)
 
-Both run in the same process on the same file, one after the other; what is reported is their ratio, and how the memory
-that remains afterwards grows with objects.
+Both run in turns in one process on the same file. Prints their ratio and the memory retained per object.
 """
 
 import gc
@@ -22,7 +21,7 @@ PRIMS_PER_OBJECT = 4
 
 
 def make_stage(path: Path, prims: int, *, instanced: bool) -> int:
-    """Write a stage of about that many prims: components of two meshes and a scope; return the number of objects."""
+    """Write a stage of about `prims` prims, components of two meshes and a scope; return the number of objects."""
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
@@ -76,7 +75,7 @@ def _translate(prim: Sdf.PrimSpec, index: int) -> None:
 
 
 def bare_loop(path: Path) -> int:
-    """Open, traverse, ask each component for its box and asset, and its geometry for the material that is shown."""
+    """Open and traverse a stage; compute box and asset of each component and the bound material of each gprim."""
     stage = Usd.Stage.Open(str(path))
     boxes = UsdGeom.BBoxCache(Usd.TimeCode.EarliestTime(), [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
     found = 0
@@ -92,7 +91,7 @@ def bare_loop(path: Path) -> int:
 
 
 def best_times(repeats: int, *actions: Callable[[], object]) -> list[float]:
-    """Return the shortest of a few runs of each, in seconds; they take turns, so that other load hits all alike."""
+    """Return the minimum time of each action in seconds; actions alternate, so that other load affects all alike."""
     times: list[list[float]] = [[] for _ in actions]
     for _ in range(repeats):
         for action, own in zip(actions, times, strict=True):
@@ -104,12 +103,12 @@ def best_times(repeats: int, *actions: Callable[[], object]) -> list[float]:
 
 
 def repeats(prims: int) -> int:
-    """Return how often a stage of that size is read: small ones need it, large ones take long."""
+    """Return the number of repetitions for a stage of this size."""
     return 9 if prims <= 10_000 else 3 if prims <= 100_000 else 1
 
 
 def memory_of_scene(path: Path) -> float:
-    """Return the bytes of Python memory that a read scene holds once the stage is closed."""
+    """Return the bytes of Python memory per object that a scene retains after its stage is closed."""
     gc.collect()
     tracemalloc.start()
     scene = read_scene(path)
@@ -122,7 +121,7 @@ def memory_of_scene(path: Path) -> float:
 def main() -> None:
     """Measure and print."""
     sizes = [int(argument) for argument in sys.argv[1:]] or [1_000, 10_000, 100_000]
-    print("prims     layout     objects  read_scene s  bare loop s  ratio  bytes/object held")
+    print("prims     layout     objects  read_scene s  bare loop s  ratio  bytes/object retained")
     with tempfile.TemporaryDirectory() as folder:
         for prims in sizes:
             for instanced in (False, True):

@@ -3,12 +3,11 @@
 Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
 The lists are in `judged`; that of the demo kitchen is what it was built with. The two real scenes are read from the
-folder that the variable USD2KG_SHARED names, `../shared` by default; one that is absent is left out.
+folder that the variable USD2KG_SHARED names, `../shared` by default; a missing one is skipped.
 """
 
 import csv
 import math
-import os
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -17,12 +16,11 @@ from typing import NamedTuple
 
 import usd2kg
 from benchmarks.intervals import wilson
+from benchmarks.labelled_scenes import SHARED
 from usd2kg.demo import demo_relations, demo_scene
 from usd2kg.relations import Relation
 
 HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
-SHARED = Path(os.environ.get("USD2KG_SHARED", ROOT.parent / "shared")) / "scenes"
 KINDS = ("on", "inside", "part-of", "room", "touching")
 ANY = "*"
 
@@ -36,8 +34,8 @@ class Sources(NamedTuple):
 
 SCENES = {
     "demo_kitchen": Sources(demo_scene(), demo_relations()),
-    "apartment": Sources(SHARED / "iai_apartment/apartment.usdc", HERE / "judged/apartment.csv"),
-    "small_house": Sources(SHARED / "aws_robomaker/small_house.usdc", HERE / "judged/small_house.csv"),
+    "apartment": Sources(SHARED / "scenes/iai_apartment/apartment.usdc", HERE / "judged/apartment.csv"),
+    "small_house": Sources(SHARED / "scenes/aws_robomaker/small_house.usdc", HERE / "judged/small_house.csv"),
 }
 
 
@@ -155,7 +153,7 @@ def main(names: list[str]) -> None:
     """Print the table and the errors."""
     unknown = [name for name in names if name not in SCENES]
     if unknown:
-        sys.exit(f"judged.py: there is no scene {unknown[0]}; expected one of {', '.join(SCENES)}")
+        sys.exit(f"judged.py: scene {unknown[0]!r} is unknown; expected one of {', '.join(SCENES)}")
     rows = [
         "| scene | relation | judged | found | right | wrong | open | missed | precision % | recall % |",
         "|" + " --- |" * 10,

@@ -2,8 +2,8 @@
 
 Usage: python benchmarks/relations/run.py [OBJECTS...] (default 1000 10000 100000)
 
-Scenes are made in memory; no stage is read. For each size the kinds are timed one by one and the default set at once,
-the best of a few runs. What stands in what and on what is worked out for every kind but part-of: the others go by it.
+Scenes are built in memory, without a stage. For each size, times each kind alone and the default set, as the minimum of
+a few runs. All kinds but part-of include `inside` and `on`, on which they depend.
 """
 
 import gc
@@ -20,7 +20,7 @@ from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, Relation
 from usd2kg.scene import Box, Scene, SceneObject, StageFrame
 
 ROOM = 6.0
-"""Metres along each side."""
+"""Side length of a room in metres."""
 Corner = tuple[float, float, float]
 
 

@@ -1,4 +1,4 @@
-"""What stands in the synthetic scenes: kinds with sizes, and assets of them with names as people give them."""
+"""Objects of the synthetic scenes: kinds with sizes, and assets with names as artists write them."""
 
 import math
 import random
@@ -8,13 +8,13 @@ Size = tuple[float, float, float]
 
 
 class Kind(NamedTuple):
-    """A kind of thing."""
+    """A kind of object."""
 
     nouns: tuple[str, ...]
     size: Size
     """Metres: width, depth, height."""
     boards: int = 0
-    """How many boards it has that carry things, evenly over its height."""
+    """Number of boards that carry objects, evenly spaced over the height."""
 
 
 class Asset(NamedTuple):
@@ -61,11 +61,11 @@ _QUALITIES = """
 """.split()
 _STYLES = 5
 _VARIANTS = 20.0
-"""A scene of n objects has about so many times the square root of n different models."""
+"""A scene of n objects has about this times √n distinct assets."""
 
 
 class Catalogue:
-    """The assets of one scene; a larger scene has more of them, though not in proportion."""
+    """The assets of one scene; their number grows with the square root of the number of objects."""
 
     def __init__(self, objects: int, chance: random.Random) -> None:
         self._chance = chance
@@ -74,7 +74,7 @@ class Catalogue:
         self.by_kind = {kind: self._make(kind, each, names) for kind in KINDS}
 
     def choose(self, kind: str) -> Asset:
-        """Return one of the models of a kind."""
+        """Return an asset of a kind."""
         return self._chance.choice(self.by_kind[kind])
 
     def _make(self, kind: str, count: int, names: set[str]) -> list[Asset]:
@@ -91,7 +91,7 @@ class Catalogue:
         return made
 
     def _name(self, noun: str, number: int) -> str:
-        """Return a name in one of the styles that are met on stages."""
+        """Return a name in one of the usual naming styles."""
         quality = self._chance.choice(_QUALITIES)
         words = noun.split()
         style = self._chance.randrange(_STYLES)

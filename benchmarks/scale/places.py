@@ -8,12 +8,12 @@ from catalogue import Asset, Catalogue
 
 Point = tuple[float, float, float]
 ROOM = 6.0
-"""Metres along each side of a room."""
+"""Side length of a room in metres."""
 ROOMS_PER_FLAT = 4
 FLATS_PER_ROW = 12
 RACKS_PER_AISLE = 24
 AISLE = 4.5
-"""Metres from one aisle to the next."""
+"""Distance between aisles in metres."""
 ROOM_NAMES = ("Kitchen", "Living_Room", "Bedroom", "Office")
 TABLE_TOP = ("plate", "cup", "glass", "bowl", "cutlery", "bottle", "jar", "lamp", "book")
 CUPBOARD = ("plate", "bowl", "pot", "box", "jar", "bottle")
@@ -22,16 +22,16 @@ GOODS = ("tool", "jar", "book", "toy", "bottle", "cup")
 
 
 class Thing(NamedTuple):
-    """An object, where it stands."""
+    """An object and its place."""
 
     path: str
     asset: Asset
     place: Point
-    """Metres: the lower corner of its box."""
+    """Lower corner of the box in metres."""
 
 
 def flats(catalogue: Catalogue, chance: random.Random) -> Iterator[Thing]:
-    """Yield rooms without end: tables laid, shelves and cupboards filled, boxes with boxes and toys in them."""
+    """Yield the objects of rooms endlessly: laid tables, filled shelves and cupboards, nested boxes with toys."""
     room = 0
     while True:
         flat, number = divmod(room, ROOMS_PER_FLAT)
@@ -42,7 +42,7 @@ def flats(catalogue: Catalogue, chance: random.Random) -> Iterator[Thing]:
 
 
 def warehouse(catalogue: Catalogue, chance: random.Random) -> Iterator[Thing]:
-    """Yield aisles without end: racks of four levels, pallets on them, cartons on these in two layers, goods inside."""
+    """Yield the objects of aisles endlessly: racks of four levels, pallets, cartons in two layers, goods inside."""
     aisle = 0
     while True:
         maker = _Maker(f"/World/Hall_{aisle // 20}/Aisle_{aisle:02}", catalogue, chance)
@@ -59,7 +59,7 @@ PLACES: dict[str, Callable[[Catalogue, random.Random], Iterator[Thing]]] = {"fla
 
 
 class _Maker:
-    """Makes things in one group, with names of which none is there twice."""
+    """Makes objects in one group with unique names."""
 
     def __init__(self, group: str, catalogue: Catalogue, chance: random.Random) -> None:
         self.chance = chance
@@ -145,7 +145,7 @@ def _fill_rack(maker: _Maker, x: float, y: float) -> Iterator[Thing]:
 
 
 def _stack(maker: _Maker, x: float, y: float, z: float) -> Iterator[Thing]:
-    """Yield one carton or two, and goods in one of five."""
+    """Yield one or two cartons; every fifth one holds goods."""
     for _ in range(maker.chance.randint(1, 2)):
         carton = maker.put("box", (x, y, z))
         yield carton
@@ -157,5 +157,5 @@ def _stack(maker: _Maker, x: float, y: float, z: float) -> Iterator[Thing]:
 
 
 def board_tops(asset: Asset) -> list[float]:
-    """Return the heights in metres of the upper sides of an asset's boards."""
+    """Return the heights in metres of the tops of an asset's boards."""
     return [asset.size[2] * (board + 0.1) / asset.boards for board in range(asset.boards)]

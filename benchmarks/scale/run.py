@@ -1,11 +1,11 @@
-"""Time the whole chain, from a file to a graph, on furnished flats and on a warehouse, and how it grows.
+"""Time the whole pipeline from file to graph on furnished flats and a warehouse, and its growth with objects.
 
 Usage: python benchmarks/scale/run.py [--places flats warehouse] [--profiles soma plain] [OBJECTS...]
 
-By default 1000, 10000 and 100000 objects of five prims each. Each run has a process of its own, so that its memory at
-the peak is its own. Seconds are of processor time, so that other load counts little; those in brackets are by the
-clock. "Ours / its own" compares writing Turtle with pyoxigraph's own serialiser on the same triples, in turns. The
-exponent is the slope of log seconds over log objects: 1 is in proportion.
+The default is 1000, 10000 and 100000 objects of five prims each. Each run has its own process, for its peak memory.
+Seconds are processor time, which other load affects little; wall time is in brackets. "Ours / its own" compares writing
+Turtle with pyoxigraph's serialiser on the same triples, in turns. The exponent is the slope of log seconds over log
+objects: 1 is linear.
 """
 
 import argparse
@@ -27,14 +27,14 @@ TURNS = 3
 
 
 class Clock:
-    """Seconds of each step, by the processor and by the clock, and the memory at the peak after it."""
+    """Processor time and wall time of each step in seconds."""
 
     def __init__(self) -> None:
         self.cpu: dict[str, float] = {}
         self.wall: dict[str, float] = {}
 
     def step(self, name: str, action: Callable[[], Any]) -> Any:
-        """Return what an action gives, and note how long it took."""
+        """Return the result of an action and record its times."""
         cpu, wall = time.process_time(), time.perf_counter()
         result = action()
         self.cpu[name], self.wall[name] = time.process_time() - cpu, time.perf_counter() - wall
@@ -42,16 +42,16 @@ class Clock:
 
 
 def peak_memory() -> float:
-    """Return the memory at the peak in GB. Linux hands `ru_maxrss` down to programs that are started."""
+    """Return the peak memory in GB; on Linux child processes inherit `ru_maxrss`, hence `/proc`."""
     status = Path("/proc/self/status")
     if status.exists():
-        told = dict(line.split(":", 1) for line in status.read_text().splitlines())
-        return int(told["VmHWM"].split()[0]) * 1024 / 1e9
+        fields = dict(line.split(":", 1) for line in status.read_text().splitlines())
+        return int(fields["VmHWM"].split()[0]) * 1024 / 1e9
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
 
 
 def measure(stage: Path, profile: str) -> dict[str, Any]:
-    """Return how long each step takes on one stage."""
+    """Return the times of each step on one stage."""
     from usd2kg.graph import instantiate, write_graph  # noqa: PLC0415 - only in the child processes
     from usd2kg.grounding import ground  # noqa: PLC0415
     from usd2kg.ontology import load_home_tbox  # noqa: PLC0415
@@ -81,7 +81,7 @@ def measure(stage: Path, profile: str) -> dict[str, Any]:
 
 
 def serialiser_ratio(graph: Any, target: Path) -> float:
-    """Return how many times as long as pyoxigraph's own serialiser we take for the same triples."""
+    """Return the ratio of our serialisation time to that of pyoxigraph on the same triples."""
     import pyoxigraph as ox  # noqa: PLC0415
 
     from usd2kg.graph import write_graph  # noqa: PLC0415
@@ -97,7 +97,7 @@ def serialiser_ratio(graph: Any, target: Path) -> float:
 
 
 def exponent(sizes: list[int], seconds: list[float]) -> float:
-    """Return the slope of log seconds over log size, by least squares: 1 is in proportion."""
+    """Return the slope of log seconds over log size, by least squares: 1 is linear."""
     x, y = [math.log(size) for size in sizes], [math.log(max(value, 1e-4)) for value in seconds]
     middle_x, middle_y = sum(x) / len(x), sum(y) / len(y)
     spread = sum((value - middle_x) ** 2 for value in x)
@@ -105,7 +105,7 @@ def exponent(sizes: list[int], seconds: list[float]) -> float:
 
 
 def run_child(stage: Path, profile: str) -> dict[str, Any]:
-    """Return what `measure` gives in a process of its own."""
+    """Return the result of `measure` in a separate process."""
     command = [sys.executable, __file__, "--measure", str(stage), "--profiles", profile]
     found = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     measured: dict[str, Any] = json.loads(found.stdout)
@@ -113,21 +113,21 @@ def run_child(stage: Path, profile: str) -> dict[str, Any]:
 
 
 def print_row(place: str, profile: str, objects: int, measured: dict[str, Any]) -> None:
-    """Print one run as a line of the table."""
+    """Print one run as a table row."""
     steps = " | ".join(f"{measured['cpu'][step]:.2f} ({measured['wall'][step]:.2f})" for step in STEPS)
     size = f"{objects:,} | {measured['prims']:,} | {measured['triples']:,}"
     print(f"| {place} | {profile} | {size} | {steps} | {measured['peak']:.2f} | {measured['ratio']:.2f} |", flush=True)
 
 
 def print_exponents(place: str, profile: str, sizes: list[int], runs: list[dict[str, Any]]) -> None:
-    """Print how each step grows with objects."""
+    """Print the growth of each step with the number of objects."""
     slopes = " | ".join(f"{exponent(sizes, [run['cpu'][step] for run in runs]):.2f}" for step in STEPS)
     memory = exponent(sizes, [run["peak"] for run in runs])
     print(f"| {place} | {profile} | exponent | | | {slopes} | {memory:.2f} | |", flush=True)
 
 
 def compare(places: list[str], profiles: list[str], sizes: list[int]) -> None:
-    """Make the stages, measure each in all profiles, and print a table."""
+    """Write the stages, measure each with all profiles, and print a table."""
     print(
         "| place | profile | objects | prims | triples | " + ", s | ".join(STEPS) + ", s | peak GB | ours / its own |"
     )

@@ -1,4 +1,4 @@
-"""Writing a synthetic place as a stage: a library of assets, and references to them."""
+"""Write a synthetic place as a stage that references a library of assets."""
 
 import itertools
 import random
@@ -10,12 +10,12 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, Vt
 
 MATERIALS = ("Oak", "Steel", "Plastic", "Ceramic", "Cardboard", "Glass")
 THICKNESS = 0.02
-"""Metres, of a board."""
+"""Thickness of a board in metres."""
 FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
 
 
 def write_place(path: Path, place: str, objects: int) -> None:
-    """Write a stage of so many objects, every third one an instance, and a library of assets beside it."""
+    """Write a stage with a number of objects, every third one an instance, and a library of assets next to it."""
     chance = random.Random(objects)
     catalogue = Catalogue(objects, chance)
     library = path.with_name(f"{path.stem}_assets.usdc")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from examples.test_flat.forms import PROFILES, make_parts, merge
+from scenes.flat.forms import PROFILES, make_parts, merge_parts
 from tests.conftest import shared_file
 from usd2kg.scene import Scene, SceneObject, read_scene
 
@@ -23,7 +23,6 @@ class Benchmark:
     """A committed scene with its gold labels."""
 
     name: str
-    script: str
     objects: int
     most_kib: int
 
@@ -44,15 +43,15 @@ class Benchmark:
         return self.scene.by_path[path]
 
 
-OFFICE = Benchmark("office", "examples.demo_office.make", 228, 700)
-WAREHOUSE = Benchmark("warehouse", "examples.demo_warehouse.make", 230, 700)
-FLAT = Benchmark("flat", "examples.test_flat.make", 190, 300)
+OFFICE = Benchmark("office", 228, 700)
+WAREHOUSE = Benchmark("warehouse", 230, 700)
+FLAT = Benchmark("flat", 190, 300)
 every_scene = pytest.mark.parametrize("benchmark", [OFFICE, WAREHOUSE, FLAT], ids=lambda benchmark: benchmark.name)
 
 
 @every_scene
 def test_scripts_write_the_committed_scene(benchmark: Benchmark, tmp_path: Path) -> None:
-    subprocess.run([sys.executable, "-m", benchmark.script, str(tmp_path)], check=True, cwd=ROOT)
+    subprocess.run([sys.executable, "-m", "scenes", benchmark.name, "--out", str(tmp_path)], check=True, cwd=ROOT)
     committed, made = (
         {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
         for folder in (benchmark.folder, tmp_path)
@@ -153,7 +152,7 @@ class TestFlat:
 
     def test_merged_parts_have_the_sum_of_the_volumes(self) -> None:
         parts = make_parts("table", (1.0, 1.0, 1.0))
-        whole = merge(parts, "geo")
+        whole = merge_parts(parts, "geo")
         # Top 1 × 1 × 0.05, four legs 0.05 × 0.08 × 0.95.
         assert _volume(whole.points, whole.faces) == pytest.approx(0.05 + 4 * 0.05 * 0.08 * 0.95)
         assert not whole.is_block

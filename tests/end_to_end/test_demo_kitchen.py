@@ -109,7 +109,7 @@ def test_output_is_deterministic(tmp_path: Path) -> None:
 
 
 def test_scripts_write_the_packaged_scene(tmp_path: Path) -> None:
-    subprocess.run([sys.executable, "-m", "examples.demo_kitchen.make", str(tmp_path)], check=True, cwd=ROOT)
+    subprocess.run([sys.executable, "-m", "scenes", "kitchen", "--out", str(tmp_path)], check=True, cwd=ROOT)
     shipped = demo_scene().parent
     names = {str(path.relative_to(shipped)) for path in shipped.rglob("*") if path.is_file()}
     made = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}

@@ -4,9 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from tests.grounding.records import make_class, make_tbox
-from usd2kg.grounding.context import Look
 from usd2kg.grounding.lexical.alignment.naming import Match
 from usd2kg.grounding.lexical.concepts.object_likelihoods import (
     Beliefs,
@@ -14,6 +11,9 @@ from usd2kg.grounding.lexical.concepts.object_likelihoods import (
     log_likelihoods_of_look,
     neighbour_weights,
 )
+
+from tests.grounding.records import make_class, make_tbox
+from usd2kg.grounding.context import Look
 from usd2kg.grounding.lexical.concepts.places import PLACES, log_stances, place_shares, stance_of
 from usd2kg.grounding.lexical.concepts.sizes import Size, likelihoods_of
 from usd2kg.grounding.lexical.grounder import _run_for

@@ -59,7 +59,7 @@ class TestFile:
         assert build_categories.find_informative_members(["kit"], ["roll", "bun#2"], TINY) == ["roll"]
 
     def test_a_member_that_the_taxonomy_lacks_is_an_error(self):
-        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is no noun of the taxonomy"):
+        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is not a noun of the taxonomy"):
             build_categories.find_informative_members(["kit", "set"], ["tool", "ghost"], TINY)
 
     def test_rows_of_one_kind_are_united_under_all_of_its_names(self):

@@ -4,10 +4,10 @@ import math
 from dataclasses import replace
 
 import pytest
+from usd2kg.grounding.lexical.concepts.object_likelihoods import NO_BELIEFS
 
 from tests.grounding.records import LAB, make_class, make_tbox
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.lexical.concepts.object_likelihoods import NO_BELIEFS
 from usd2kg.grounding.lexical.confidence import features_of, general_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Prediction, Status

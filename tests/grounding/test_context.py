@@ -3,13 +3,13 @@
 import math
 
 import pytest
+from usd2kg.grounding.lexical.alignment.naming import Match
+from usd2kg.grounding.lexical.concepts.object_likelihoods import Classify
 
 from tests.grounding.records import SOMA, make_object, make_scene
 from usd2kg.grounding import NamingRegime, ObjectView, view_objects
 from usd2kg.grounding.context import Companion, Nearness
 from usd2kg.grounding.lexical import neighbour_vote as context
-from usd2kg.grounding.lexical.alignment.naming import Match
-from usd2kg.grounding.lexical.concepts.object_likelihoods import Classify
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.grounder import LexicalGrounder, _run_for
 from usd2kg.grounding.lexical.neighbour_vote import Votes, ask_company, siblings_as_company, vote_of

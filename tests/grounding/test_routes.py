@@ -5,10 +5,10 @@ import math
 from pathlib import Path
 
 import pytest
+from usd2kg.grounding.lexical.alignment.naming import RULED, Match, Namer
 
 from tests.grounding.records import LAB, ground_names, local, make_class, make_tbox
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
-from usd2kg.grounding.lexical.alignment.naming import RULED, Match, Namer
 from usd2kg.grounding.lexical.alignment.routes import Features, Route, Routes, shares_of, strength
 from usd2kg.grounding.lexical.alignment.terms import Term
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy

@@ -48,7 +48,7 @@ def test_what_a_thing_is_too_is_added_once():
 
 def test_what_a_thing_is_not_is_taken_away():
     assert chains(taxonomy_of({"rack": "-furniture"}), "rack") == [["rack"]]
-    with pytest.raises(ValueError, match="'rack,-lamp': WordNet does not have"):
+    with pytest.raises(ValueError, match="'rack,-lamp': WordNet has no such direct hypernym"):
         taxonomy_of({"rack": "-lamp"})
     # WordNet has wheeled vehicles below the containers.
     assert "container" not in chains(load_taxonomy(), "forklift")[0]
@@ -105,9 +105,9 @@ def test_what_is_made_is_an_artifact_though_its_kind_is_a_unit_or_a_substance():
 
 
 def test_an_unknown_kind_is_an_error():
-    with pytest.raises(ValueError, match="'rack': 'qwrtz' is no noun"):
+    with pytest.raises(ValueError, match="'rack': 'qwrtz' is not a noun"):
         taxonomy_of({"rack": "qwrtz"})
-    with pytest.raises(ValueError, match="speaks of itself in the end"):
+    with pytest.raises(ValueError, match="refers to itself"):
         taxonomy_of({"arc lamp": "floor lamp", "floor lamp": "arc lamp"})
 
 

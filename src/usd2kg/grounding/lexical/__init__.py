@@ -1,1 +1,1 @@
-"""The default grounder: names read as noun phrases, a noun taxonomy, and the company an object keeps."""
+"""The default grounder: names read as noun phrases, a noun taxonomy, and the context of the object."""

@@ -1,1 +1,0 @@
-"""The demo office: an OpenUSD scene authored by script, with hand labels."""

@@ -1,1 +1,0 @@
-"""The demo warehouse, authored by script; see README.md."""

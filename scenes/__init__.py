@@ -1,0 +1,1 @@
+"""Scenes authored by script, for the demo and the benchmarks."""

@@ -1,0 +1,1 @@
+"""Shared writer of the scenes: shapes, assets, layouts, layers and tables."""

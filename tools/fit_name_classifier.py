@@ -1,0 +1,92 @@
+"""Fit the class of a name from its words, on the names of the home vocabulary.
+
+Usage: python -m tools.fit_name_classifier
+
+Writes `src/usd2kg/data/name_classifier.npz`, the weights of a multinomial logit as bytes, and prints the
+cross-validated accuracy. Takes five minutes.
+"""
+
+import io
+import warnings
+import zipfile
+from collections import Counter
+from typing import Any
+
+import numpy as np
+from sklearn.exceptions import ConvergenceWarning
+from sklearn.feature_extraction import DictVectorizer
+from sklearn.linear_model import LogisticRegression
+from sklearn.model_selection import cross_val_score
+from sklearn.pipeline import make_pipeline
+
+from tools.data_files import DATA
+from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.name_classifier import features_of
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+
+OUTPUT = DATA / "name_classifier.npz"
+
+MIN_COUNT = 2
+"""Features of fewer names are dropped: they do not generalise."""
+INVERSE_RIDGE = 3.0
+ROUNDS = 200
+FOLDS = 5
+BYTE = 127
+"""Largest weight after quantisation."""
+
+
+def main() -> None:
+    """Fit, cross-validate and write."""
+    warnings.simplefilter("ignore", ConvergenceWarning)
+    features, classes = read_vocabulary()
+    right = cross_val_score(make_pipeline(DictVectorizer(dtype=np.float32), make_model()), features, classes, cv=FOLDS)
+    print(f"{len(classes)} names; right when left out: {right.mean():.3f}")
+    vectorizer = DictVectorizer(dtype=np.float32)
+    fitted = make_model().fit(vectorizer.fit_transform(features), classes)
+    write_model(list(vectorizer.get_feature_names_out()), fitted)
+
+
+def read_vocabulary() -> tuple[list[dict[str, float]], list[str]]:
+    """Return the features and the class of each name."""
+    singular = load_taxonomy().singular
+    rows = [(name.lower().split(), iri) for iri, names in home_names().items() for name in names]
+    features = [features_of((*modifiers, singular(head))) for (*modifiers, head), _ in rows]
+    counts = Counter(name for found in features for name in found)
+    kept = [{k: v for k, v in found.items() if counts[k] >= MIN_COUNT} for found in features]
+    return kept, [iri for _, iri in rows]
+
+
+def make_model() -> LogisticRegression:
+    """Return an unfitted model."""
+    return LogisticRegression(C=INVERSE_RIDGE, max_iter=ROUNDS)
+
+
+def write_model(names: list[str], fitted: LogisticRegression) -> None:
+    """Write the quantised weights without features whose weights all round to 0."""
+    weights = fitted.coef_.T
+    unit = float(np.abs(weights).max() / BYTE)
+    rounded = np.round(weights / unit).astype(np.int8)
+    kept = np.flatnonzero(rounded.any(axis=1))
+    arrays = {
+        "features": encode_lines([names[row] for row in kept]),
+        "classes": encode_lines(list(fitted.classes_)),
+        "weights": rounded[kept],
+        "unit": np.float64(unit),
+        "intercepts": fitted.intercept_,
+    }
+    # numpy.savez stores the time, and equal fits must give equal bytes.
+    with zipfile.ZipFile(OUTPUT, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, array in arrays.items():
+            data = io.BytesIO()
+            np.lib.format.write_array(data, np.asanyarray(array))
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), data.getvalue(), zipfile.ZIP_DEFLATED)
+    print(f"{OUTPUT.name}: {len(kept)} features, {OUTPUT.stat().st_size / 1e6:.2f} MB")
+
+
+def encode_lines(lines: list[str]) -> Any:
+    """Return lines as an array of UTF-8 bytes."""
+    return np.frombuffer("\n".join(lines).encode("utf-8"), dtype=np.uint8)
+
+
+if __name__ == "__main__":
+    main()
