@@ -1,4 +1,4 @@
-"""Pairs of boxes that overlap seen from above: the same as comparing each with each."""
+"""Pairs of boxes that overlap seen from above: compared with brute force."""
 
 import time
 
@@ -9,9 +9,9 @@ from usd2kg.shapes import box_pairs, overlapping_pairs
 
 
 @pytest.fixture
-def sorted_into_cells(monkeypatch: pytest.MonkeyPatch):
-    """Leave out the shorter way for few boxes."""
-    monkeypatch.setattr(box_pairs, "_FEW", 0)
+def no_brute_force(monkeypatch: pytest.MonkeyPatch):
+    """Use the grid for few boxes, too."""
+    monkeypatch.setattr(box_pairs, "_BRUTE_FORCE_PAIRS", 0)
 
 
 def found(lower, upper, others=None) -> list[tuple[int, int]]:
@@ -25,7 +25,7 @@ def compared(lower, upper, others_lower, others_upper) -> set[tuple[int, int]]:
 
 
 def boxes(random: np.random.Generator, count: int, step: float):
-    """Return boxes from a millimetre to ten metres and some without extent, on round numbers, so that some touch."""
+    """Return boxes of 0 m and of 1 mm to 10 m; rounding to `step` makes some of them touch."""
     lower = (random.uniform(-3, 3, (count, 2)) / step).round() * step
     size = 10 ** random.uniform(-3, 1, (count, 2)) * (random.random((count, 1)) > 0.2)
     return lower, lower + (size / step).round() * step
@@ -33,8 +33,8 @@ def boxes(random: np.random.Generator, count: int, step: float):
 
 @pytest.mark.parametrize("seed", range(40))
 @pytest.mark.parametrize("step", [0.1, 0.25])
-@pytest.mark.usefixtures("sorted_into_cells")
-def test_each_pair_is_found_once(seed: int, step: float):
+@pytest.mark.usefixtures("no_brute_force")
+def test_finds_each_pair_once(seed: int, step: float):
     random = np.random.default_rng(seed)
     here, there = boxes(random, int(random.integers(0, 60)), step), boxes(random, int(random.integers(0, 60)), step)
     among = found(*here)
@@ -45,38 +45,38 @@ def test_each_pair_is_found_once(seed: int, step: float):
     assert set(across) == compared(*here, *there)
 
 
-def test_few_boxes_give_the_same():
+def test_brute_force_for_few_boxes_finds_the_same_pairs():
     random = np.random.default_rng(3)
     here, there = boxes(random, 30, 0.1), boxes(random, 20, 0.1)
     assert set(found(*here)) == {(i, j) for i, j in compared(*here, *here) if i < j}
     assert set(found(*here, others=there)) == compared(*here, *there)
 
 
-@pytest.mark.usefixtures("sorted_into_cells")
-def test_touching_counts_and_a_hair_apart_does_not():
+@pytest.mark.usefixtures("no_brute_force")
+def test_touching_boxes_overlap():
     assert found([[0, 0], [1, 0]], [[1, 1], [2, 1]]) == [(0, 1)]
     assert found([[0, 0], [1.001, 0]], [[1, 1], [2, 1]]) == []
 
 
-@pytest.mark.parametrize("few", [0, 1_000_000])
-def test_without_boxes_there_are_no_pairs(monkeypatch: pytest.MonkeyPatch, few: int):
-    monkeypatch.setattr(box_pairs, "_FEW", few)
+@pytest.mark.parametrize("max_pairs", [0, 1_000_000])
+def test_without_boxes_there_are_no_pairs(monkeypatch: pytest.MonkeyPatch, max_pairs: int):
+    monkeypatch.setattr(box_pairs, "_BRUTE_FORCE_PAIRS", max_pairs)
     nothing = np.zeros((0, 2))
     assert found(nothing, nothing) == []
     assert found(nothing, nothing, others=(np.zeros((3, 2)), np.ones((3, 2)))) == []
     assert found(np.zeros((3, 2)), np.ones((3, 2)), others=(nothing, nothing)) == []
 
 
-@pytest.mark.usefixtures("sorted_into_cells")
-def test_many_pairs_come_in_portions(monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.usefixtures("no_brute_force")
+def test_many_pairs_come_in_chunks(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(box_pairs, "_CHUNK", 64)
     random = np.random.default_rng(5)
     here = boxes(random, 80, 0.1)
     assert set(found(*here)) == {(i, j) for i, j in compared(*here, *here) if i < j}
 
 
-def test_a_hundred_thousand_boxes_under_one_roof_take_seconds():
-    # A grid of things 0.1 m wide, 0.3 m apart, and one box over all of them: each meets the roof and nothing else.
+def test_a_hundred_thousand_boxes_below_a_roof_take_seconds():
+    # Boxes of 0.1 m on a grid of 0.3 m below one large box: each overlaps only the large one.
     x, y = (axis.ravel() * 0.3 for axis in np.meshgrid(np.arange(320.0), np.arange(320.0)))
     lower = np.concatenate([[[0.0, 0.0]], np.stack([x, y], axis=1)])
     upper = np.concatenate([[[100.0, 100.0]], np.stack([x, y], axis=1) + 0.1])

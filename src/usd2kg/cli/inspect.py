@@ -91,13 +91,18 @@ def _explain(source: Path, path: str, options: "ReadOptions", *, is_json: bool) 
         else:
             emit(to_single_line(reason) + "\n")
         return
-    shapes = describe_shapes(source, scene, [path])
+    missing = []
+    try:
+        shapes = describe_shapes(source, scene, [path])
+    except SceneError as error:
+        # scipy is optional; everything else is known without it.
+        shapes, missing = None, [("form", str(error))]
     joints = [joint for joint in scene.joints if path in jointed_objects(joint, scene)]
     if is_json:
         properties = {**_object_json(obj, shapes), "joints": [asdict(joint) for joint in joints]}
         print_json({"path": path, "why": reason, "object": properties})
         return
-    rows = [*object_rows(obj), *joint_rows(joints, path, scene), *shape_rows(shapes.get(path))]
+    rows = [*object_rows(obj), *joint_rows(joints, path, scene), *(shape_rows(shapes.get(path)) if shapes else missing)]
     rows += [("note", f"{note.code}: {note.message}") for note in scene.diagnostics if note.prim_path == path]
     emit(to_single_line(reason) + "\n\n" + format_table(rows[0], rows[1:]))
 

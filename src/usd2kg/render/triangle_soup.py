@@ -9,12 +9,17 @@ from numpy.typing import NDArray
 
 from usd2kg.render.settings import PICTURE
 from usd2kg.scene.meshes import ObjectMesh
+from usd2kg.shapes.welding import weld_points
 
 __all__ = ["TriangleSoup", "corner_normals", "gather"]
 
 Array = NDArray[np.float64]
 
 _SMOOTH_COSINE = math.cos(math.radians(PICTURE.smooth_angle))
+_GRID_CELLS = 1 << 20
+"""Cells along the longest side of the grid on which points are merged."""
+_MIN_STEP = 1e-9
+"""Metres: smallest cell of that grid."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +78,8 @@ def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wa
     corners = points[triangles].astype(np.float64)
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     faces = areas / np.maximum(np.linalg.norm(areas, axis=1, keepdims=True), 1e-30)
-    place = _places(points)[triangles]
+    extent = float(np.ptp(points.astype(np.float64), axis=0).max())
+    place = weld_points(points, max(extent / _GRID_CELLS, _MIN_STEP)).group[triangles]
     around = np.argsort(place, axis=None, kind="stable")
     count = np.bincount(place.reshape(-1), minlength=1)
     start = np.cumsum(count) - count
@@ -93,13 +99,3 @@ def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wa
     flat = np.repeat(faces[wanted], 3, axis=0)
     units: Array = np.where(length > 1e-30, normals / np.maximum(length, 1e-30), flat)
     return units.reshape(-1, 3, 3)
-
-
-def _places(points: NDArray[np.float32]) -> NDArray[np.int64]:
-    """Return a number for each point; points with equal positions share one."""
-    low = points.min(axis=0).astype(np.float64)
-    step = max(float((points.max(axis=0) - low).max()) / (1 << 20), 1e-9)
-    cells = np.round((points - low) / step).astype(np.int64)
-    keys = (cells[:, 0] << 42) | (cells[:, 1] << 21) | cells[:, 2]
-    numbers: NDArray[np.int64] = np.unique(keys, return_inverse=True)[1].reshape(-1)
-    return numbers

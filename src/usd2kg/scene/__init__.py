@@ -1,6 +1,6 @@
 """USD stage → Scene: objects with boxes, poses, masses and evidence, in metres and z-up.
 
-Apart from `labels` and `render`, only this package knows OpenUSD.
+Only this package, `labels` and `render` import OpenUSD.
 """
 
 from importlib import import_module
@@ -26,16 +26,15 @@ from usd2kg.scene.selection import ASKED_FOR
 
 if TYPE_CHECKING:
     from usd2kg.scene.read import explain_choice, read_scene
-    from usd2kg.scene.shapes import ShapeDescriptors, describe_shapes
+    from usd2kg.scene.shape_descriptors import ShapeDescriptors, describe_shapes
 
 _READERS = {
-    "ShapeDescriptors": "shapes",
-    "describe_shapes": "shapes",
+    "ShapeDescriptors": "shape_descriptors",
+    "describe_shapes": "shape_descriptors",
     "explain_choice": "read",
     "read_scene": "read",
 }
-"""Public names that load OpenUSD, and their modules: a grounder, which is given records, does not wait for it."""
-
+"""Public name → module that imports OpenUSD; loaded on first use, so that code that only needs records starts fast."""
 
 __all__ = [
     "ASKED_FOR",

@@ -1,4 +1,4 @@
-"""Geometry without USD: hulls, vessels and pairs of overlapping boxes, on numpy arrays."""
+"""Geometry without USD: triangle meshes, convex hulls, vessels and overlapping boxes, as numpy arrays."""
 
 from usd2kg.shapes.box_pairs import overlapping_pairs
 

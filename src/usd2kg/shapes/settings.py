@@ -1,0 +1,46 @@
+"""Settings of shape descriptors, documented in `knowledge/settings/shapes.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["BOUNDING_BOX", "MESH", "VESSEL"]
+
+
+@dataclass(frozen=True)
+class MeshSettings:
+    """Tolerances of triangle meshes."""
+
+    weld_distance: float
+    same_shape: float
+    min_diagonal: float
+    noise_factor: float
+    max_gap_share: float
+    min_thickness: float
+
+
+@dataclass(frozen=True)
+class BoundingBoxSettings:
+    """Candidate orientations of the minimum bounding box."""
+
+    min_face_share: float
+    max_faces: int
+    normal_steps: int
+
+
+@dataclass(frozen=True)
+class VesselSettings:
+    """Resolution and limits of the capacity measurement."""
+
+    cells: int
+    coarse_factor: int
+    min_cells: int
+    min_depth: float
+    wall_cosine: float
+    max_samples: int
+    max_rows: int
+
+
+MESH = read_settings("shapes", "mesh", MeshSettings)
+BOUNDING_BOX = read_settings("shapes", "bounding_box", BoundingBoxSettings)
+VESSEL = read_settings("shapes", "vessel", VesselSettings)
