@@ -1,6 +1,7 @@
 """usd2kg inspect: shapes, counts, the properties of one object, and similar diagnostics."""
 
 import json
+import sys
 from itertools import takewhile
 
 import pytest
@@ -98,6 +99,10 @@ class TestShapes:
         shape = json.loads(run("inspect", scene, "--shapes", "--json").out)["objects"][0]["shape"]
         assert shape["capacity_m3"] == pytest.approx(0.8 * 0.8 * 0.9, rel=0.03)
         assert " litres of water as it stands, openness 0.5" in run("inspect", scene, "--why", "/Tub").out
+
+    def test_why_without_scipy_names_the_extra(self, run: Run, kitchen, monkeypatch):
+        monkeypatch.setitem(sys.modules, "scipy.spatial", None)
+        assert "pip install 'usd2kg[shapes]'" in run("inspect", kitchen, "--why", "/Room/Cupboard").out
 
     def test_does_not_repeat_diagnostics(self, run: Run, kitchen):
         notes = json.loads(run("inspect", kitchen, "--shapes", "--json").out)["diagnostics"]

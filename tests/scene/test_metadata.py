@@ -252,7 +252,7 @@ def materials(write_stage):
         opened = open_stage(write_stage(METRES + "\n".join(prims)), ReadOptions())
         with outline_stage(opened, EARLIEST) as outline:
             nodes = {node.path: node for node in outline.root.walk()}
-            return material_details(list(evidence.own_nodes(nodes[path], {path: "asked for"})))
+            return material_details(list(evidence.own_records(nodes[path], {path: "asked for"})))
 
     return run
 

@@ -10,7 +10,7 @@ from pxr import Sdf, Usd
 
 from tests.scene.usda import METRES, component, cube, prim, rigid, xform
 from usd2kg.scene import read_scene
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 
 
 def opened(*prims):
@@ -151,7 +151,7 @@ def test_no_outline_is_held_after_reading():
     try:
         # Without looking for garbage: what refers to itself in a circle would still be there.
         scene = read_scene(furniture(20))
-        assert not [thing for thing in gc.get_objects() if isinstance(thing, Node)]
+        assert not [thing for thing in gc.get_objects() if isinstance(thing, PrimRecord)]
     finally:
         gc.enable()
     assert len(scene.objects) == 100

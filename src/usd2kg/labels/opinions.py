@@ -9,8 +9,8 @@ from usd2kg.scene.label_encodings import (
     CLASS_TAXONOMIES,
     TAG_LABELS,
     TAG_SCHEMA,
-    USD,
-    Found,
+    USD_PREFIX,
+    LabelProperty,
     applied_schemas,
     class_words,
     clean_values,
@@ -61,18 +61,18 @@ def plan_opinions(prim: Any, label: ClassLabel, options: LabelOptions, time: Any
         return LabelOpinions("kept", f"has labels already: {_quote(labels)}")
     if options.mode == "overwrite":
         misspelt = _misspelt_class_properties(prim, names, time)
-        return _replace(prim, label, options, [entry for entry in found if entry.tells_class], misspelt)
-    classes = [entry for entry in labels if entry.tells_class]
+        return _replace(prim, label, options, [entry for entry in found if entry.states_class], misspelt)
+    classes = [entry for entry in labels if entry.states_class]
     if classes and not _name_class(classes, label):
         return LabelOpinions("kept", f"its labels name another class: {_quote(classes)}")
     return _complete(label, options, labels)
 
 
-def _quote(labels: Iterable[Found]) -> str:
+def _quote(labels: Iterable[LabelProperty]) -> str:
     return quote_labels([value for entry in labels for value in entry.values if value])
 
 
-def _name_class(classes: Iterable[Found], label: ClassLabel) -> bool:
+def _name_class(classes: Iterable[LabelProperty], label: ClassLabel) -> bool:
     """Return whether existing labels may name a class: by its IRI, or else a Wikidata item or a word of its names."""
     words = {word for name in (label.token, label.concept, *label.names) for word in class_words(name)}
     values = {value for entry in classes for value in entry.values if value}
@@ -82,7 +82,7 @@ def _name_class(classes: Iterable[Found], label: ClassLabel) -> bool:
     return any(value in label.qcodes or not class_words(value).isdisjoint(words) for value in values)
 
 
-def _complete(label: ClassLabel, options: LabelOptions, labels: list[Found]) -> LabelOpinions:
+def _complete(label: ClassLabel, options: LabelOptions, labels: list[LabelProperty]) -> LabelOpinions:
     """Return the opinions for the encodings and taxonomies in which a prim has no label."""
     present = {(entry.encoding, entry.taxonomy) for entry in labels}
     opinions = LabelOpinions("completed" if labels else "written")
@@ -107,13 +107,13 @@ def _misspelt_class_properties(prim: Any, names: Iterable[str], time: Any) -> se
         for name, wanted in intended.items()
         if wanted != name
         if wanted == TAG_LABELS
-        or wanted.removeprefix(USD).lower() in CLASS_TAXONOMIES
+        or wanted.removeprefix(USD_PREFIX).lower() in CLASS_TAXONOMIES
         or isaac_instance(wanted) in class_instances
     }
 
 
 def _replace(
-    prim: Any, label: ClassLabel, options: LabelOptions, classes: list[Found], misspelt: set[str]
+    prim: Any, label: ClassLabel, options: LabelOptions, classes: list[LabelProperty], misspelt: set[str]
 ) -> LabelOpinions:
     """Return the opinions that replace all class labels and keep the labels of other taxonomies."""
     opinions = LabelOpinions("replaced" if misspelt or any(any(entry.values) for entry in classes) else "written")
@@ -128,7 +128,7 @@ def _replace(
     return opinions
 
 
-def _properties_of(entry: Found) -> Iterator[str]:
+def _properties_of(entry: LabelProperty) -> Iterator[str]:
     instance = isaac_instance(entry.property_name)
     if instance is None:
         yield entry.property_name
@@ -155,7 +155,7 @@ def _add_label(
     if "UsdSemantics" in encodings:
         for taxonomy, values in _usd_labels(label).items():
             if ("UsdSemantics", taxonomy) not in present:
-                opinions.tokens[USD + taxonomy] = values
+                opinions.tokens[USD_PREFIX + taxonomy] = values
                 opinions.applied.append(usd_schema(taxonomy))
     if "Isaac" in encodings:
         for taxonomy, text in _isaac_labels(label).items():

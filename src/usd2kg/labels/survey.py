@@ -8,13 +8,13 @@ from typing import Any
 from pxr import Usd, UsdGeom
 
 from usd2kg.scene.bounds import BoxReader
-from usd2kg.scene.evidence import own_nodes
+from usd2kg.scene.evidence import own_records
 from usd2kg.scene.label_encodings import CLASS_TAXONOMIES
 from usd2kg.scene.label_lint import LabelProblem, find_problems, stage_prims
 from usd2kg.scene.label_reader import LabelReader, read_labels
 from usd2kg.scene.model import Label
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.selection import select_objects
 from usd2kg.scene.stage import UNREADABLE, captured_diagnostics, open_stage, translated_errors
 from usd2kg.scene.traversal import above_endless, outline_stage
@@ -64,7 +64,7 @@ def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = 
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
         boxes = BoxReader(opened.frame, time, above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below)
-        nodes = {node.path: node for node in outline.nodes}
+        nodes = {node.path: node for node in outline.records}
         prims = list(stage_prims(opened.stage))
         read = [(prim, labels) for prim in prims if (labels := _read_labels(prim, time))]
         known = {str(prim.GetPath()): labels for prim, labels in read}
@@ -72,7 +72,7 @@ def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = 
             source=opened.source,
             labelled=tuple(_labelled(prim, labels, nodes, selection.chosen, known.keys()) for prim, labels in read),
             problems=tuple(problem for prim in prims for problem in find_problems(prim, time)),
-            inheriting=_inheriting(outline.nodes, selection.chosen, LabelReader(time, known)) if read else {},
+            inheriting=_inheriting(outline.records, selection.chosen, LabelReader(time, known)) if read else {},
         )
 
 
@@ -85,7 +85,7 @@ def _read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
 
 
 def _labelled(
-    prim: Any, labels: tuple[Label, ...], nodes: Mapping[str, Node], chosen: Mapping[str, str], paths: Set[str]
+    prim: Any, labels: tuple[Label, ...], nodes: Mapping[str, PrimRecord], chosen: Mapping[str, str], paths: Set[str]
 ) -> LabelledPrim:
     path = str(prim.GetPath())
     node = nodes.get(path)
@@ -104,11 +104,11 @@ def _has_geometry(prim: Any) -> bool:
     return any(descendant.IsA(kind) for descendant in descendants for kind in kinds)
 
 
-def _gprims(node: Node) -> int:
+def _gprims(node: PrimRecord) -> int:
     return node.gprim_count + node.hidden_gprim_count
 
 
-def _find_same_geometry(node: Node, chosen: Mapping[str, str], paths: Set[str]) -> str | None:
+def _find_same_geometry(node: PrimRecord, chosen: Mapping[str, str], paths: Set[str]) -> str | None:
     """Return the nearest of `paths` above a node that has no other gprims, up to the object's own prim."""
     count = _gprims(node)
     above = node.parent
@@ -121,12 +121,12 @@ def _find_same_geometry(node: Node, chosen: Mapping[str, str], paths: Set[str]) 
     return None
 
 
-def _inheriting(nodes: list[Node], chosen: dict[str, str], reader: LabelReader) -> Mapping[str, tuple[str, ...]]:
+def _inheriting(nodes: list[PrimRecord], chosen: dict[str, str], reader: LabelReader) -> Mapping[str, tuple[str, ...]]:
     found: dict[str, list[str]] = {}
     for node in nodes:
         if node.path not in chosen:
             continue
-        labels = reader.read(list(own_nodes(node, chosen)))
+        labels = reader.read(list(own_records(node, chosen)))
         if any(_class_labels([*labels.own, *labels.of_parts])):
             continue
         inherited = next(_class_labels(labels.inherited), None)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.model import Box, Quaternion, StageFrame, Vector
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.solids import ROUND_SOLIDS, solid_surface
 from usd2kg.scene.stage import UNREADABLE, read_value
 
@@ -63,63 +63,63 @@ class BoxReader:
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
         self._xforms = UsdGeom.XformCache(time)
         self._shapes: dict[tuple[int, ...], _Shape | None] = {}
-        self._last_matrix: tuple[Node | None, _Matrix] = (None, np.eye(4))
+        self._last_matrix: tuple[PrimRecord | None, _Matrix] = (None, np.eye(4))
 
-    def read_parts(self, nodes: Sequence[Node]) -> list[Box]:
-        """Return the boxes of the visible geometry of an object whose own nodes are `nodes`, its prim first.
+    def read_parts(self, records: Sequence[PrimRecord]) -> list[Box]:
+        """Return the boxes of the visible geometry of an object whose own records are `records`, its prim first.
 
         Geometry that is empty or not finite has none.
         """
-        gprims = [node for node in nodes if is_measurable(node)]
-        shape = self._shared_shape(nodes[0], gprims)
-        boxes = [self._measure(node) for node in gprims] if shape is None else self._place(shape, nodes[0])
+        gprims = [record for record in records if is_measurable(record)]
+        shape = self._shared_shape(records[0], gprims)
+        boxes = [self._measure(record) for record in gprims] if shape is None else self._place(shape, records[0])
         return [box for box in boxes if box is not None]
 
-    def read_below(self, node: Node) -> Box | None:
-        """Return the box of all visible geometry at and below a node; None if there is none, or it cannot be read."""
+    def read_below(self, record: PrimRecord) -> Box | None:
+        """Return the box of all visible geometry at and below a record; None if there is none, or it cannot be read."""
         try:
-            return union(self.read_parts(list(node.walk())))
+            return union(self.read_parts(list(record.walk())))
         except UNREADABLE:
             return None
 
-    def read_hint(self, node: Node) -> Box | None:
-        """Return the box by the authored `extentsHint`, for a node whose geometry cannot be measured."""
-        return self._box(self._hints, node)
+    def read_hint(self, record: PrimRecord) -> Box | None:
+        """Return the box by the authored `extentsHint`, for a record whose geometry cannot be measured."""
+        return self._box(self._hints, record)
 
-    def _measure(self, node: Node) -> Box | None:
-        if not node.has_points:
-            return self._box(self._geometry, node)
-        matrix = self.read_matrix(node)
-        if not node.may_be_turned:
-            box = self._box_of_extent(node, matrix)
+    def _measure(self, record: PrimRecord) -> Box | None:
+        if not record.has_points:
+            return self._box(self._geometry, record)
+        matrix = self.read_matrix(record)
+        if not record.may_be_turned:
+            box = self._box_of_extent(record, matrix)
         elif _is_aligned(matrix):
-            box = self._box(self._geometry, node)
+            box = self._box(self._geometry, record)
         else:
-            return self._box_of_points(node.prim, matrix)
+            return self._box_of_points(record.prim, matrix)
         # An extent that is authored inside out reads as empty: the points know better.
-        return box or self._box_of_points(node.prim, matrix)
+        return box or self._box_of_points(record.prim, matrix)
 
-    def read_matrix(self, node: Node) -> _Matrix:
+    def read_matrix(self, record: PrimRecord) -> _Matrix:
         """Return the (4, 4) matrix to the stage's world; what is not moved shares it with what it is below."""
-        while node.parent is not None and not node.authored.moves:
-            node = node.parent
+        while record.parent is not None and not record.authored.moves:
+            record = record.parent
         last, matrix = self._last_matrix
-        if last is not node:
-            matrix = np.array(self._xforms.GetLocalToWorldTransform(node.prim))
-            self._last_matrix = (node, matrix)
+        if last is not record:
+            matrix = np.array(self._xforms.GetLocalToWorldTransform(record.prim))
+            self._last_matrix = (record, matrix)
         return matrix
 
-    def _box_of_extent(self, node: Node, matrix: _Matrix) -> Box | None:
-        """Return the box of a node that is moved and scaled, not turned: as OpenUSD's cache does, but sooner."""
+    def _box_of_extent(self, record: PrimRecord, matrix: _Matrix) -> Box | None:
+        """Return the box of a record that is moved and scaled, not turned: as OpenUSD's cache does, but sooner."""
         extent = None
-        if UsdGeom.Tokens.extent in node.authored.names:
-            extent = read_value(node.prim, UsdGeom.Tokens.extent, self.time, Vt.Vec3fArray)
+        if UsdGeom.Tokens.extent in record.authored.names:
+            extent = read_value(record.prim, UsdGeom.Tokens.extent, self.time, Vt.Vec3fArray)
         if extent is None or len(extent) != _RANGE:
-            return self._box(self._geometry, node)
+            return self._box(self._geometry, record)
         (x0, y0, z0), (x1, y1, z1) = np.asarray(extent).tolist()
         (sx, *_), (_, sy, *_), (_, _, sz, _), (x, y, z, _) = matrix.tolist()
         if not (_is_range((x0, y0, z0), (x1, y1, z1)) and sx > 0 and sy > 0 and sz > 0):
-            return self._box(self._geometry, node)
+            return self._box(self._geometry, record)
         return self._finite_box((x0 * sx + x, y0 * sy + y, z0 * sz + z), (x1 * sx + x, y1 * sy + y, z1 * sz + z))
 
     def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
@@ -132,17 +132,17 @@ class BoxReader:
             return None
         return _to_box(found.min(axis=0).tolist(), found.max(axis=0).tolist(), self._frame)
 
-    def _box(self, cache: Any, node: Node) -> Box | None:
-        if node.path in self._endless:
+    def _box(self, cache: Any, record: PrimRecord) -> Box | None:
+        if record.path in self._endless:
             return None
-        aligned = cache.ComputeWorldBound(node.prim).ComputeAlignedRange()
+        aligned = cache.ComputeWorldBound(record.prim).ComputeAlignedRange()
         # Vectors of Gf are many times faster to take apart as an array.
         return self._finite_box(np.array(aligned.GetMin()).tolist(), np.array(aligned.GetMax()).tolist())
 
     def _finite_box(self, lower: Sequence[float], upper: Sequence[float]) -> Box | None:
         return _to_box(lower, upper, self._frame) if _is_range(lower, upper) else None
 
-    def _shared_shape(self, root: Node, gprims: list[Node]) -> _Shape | None:
+    def _shared_shape(self, root: PrimRecord, gprims: list[PrimRecord]) -> _Shape | None:
         """Return the shape of an object in an instance that is not the first of its prototype; None for others."""
         if root.twin is None or not gprims or (root.is_instance and gprims[0] is root):
             return None
@@ -151,7 +151,7 @@ class BoxReader:
             self._shapes[key] = self._read_shape(root, gprims)
         return self._shapes[key]
 
-    def _read_shape(self, root: Node, gprims: list[Node]) -> _Shape | None:
+    def _read_shape(self, root: PrimRecord, gprims: list[PrimRecord]) -> _Shape | None:
         corners, extents, matrices = [], [], []
         for gprim in gprims:
             matrix, resets = self._relative(gprim, root)
@@ -166,13 +166,13 @@ class BoxReader:
         is_sound = all(len(local) and _is_near(local).all() for local in corners)
         return _Shape(corners, extents, matrices, gprims) if is_sound else None
 
-    def _relative(self, gprim: Node, root: Node) -> tuple[_Matrix, bool]:
+    def _relative(self, gprim: PrimRecord, root: PrimRecord) -> tuple[_Matrix, bool]:
         if gprim is root:
             return np.eye(4), False
         matrix, resets = self._xforms.ComputeRelativeTransform(gprim.prim, root.prim)
         return np.array(matrix), bool(resets)
 
-    def _place(self, shape: _Shape, root: Node) -> list[Box | None]:
+    def _place(self, shape: _Shape, root: PrimRecord) -> list[Box | None]:
         matrix = np.array(self._xforms.GetLocalToWorldTransform(root.prim))
         clouds = shape.corners
         if root.may_be_turned and not _is_aligned(matrix):
@@ -191,11 +191,11 @@ class BoxReader:
         upper = np.maximum.reduceat(world, starts).tolist()
         return [_to_box(low, high, self._frame) for low, high in zip(lower, upper, strict=True)]
 
-    def _shape_points(self, shape: _Shape, root: Node) -> list[_Matrix]:
+    def _shape_points(self, shape: _Shape, root: PrimRecord) -> list[_Matrix]:
         if shape.points is None:
             shape.points = []
             # Among twins of one prim any will do; the relative place is the same below each root.
-            above = next(node for node in _upwards(shape.gprims[0]) if node.twin is root.twin)
+            above = next(record for record in _upwards(shape.gprims[0]) if record.twin is root.twin)
             for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
                 local = _points_of(gprim.prim, self.time) if gprim.has_points else np.empty((0, 3))
@@ -222,15 +222,15 @@ class BoxReader:
             return None
         return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
 
-    def read_oriented_size(self, node: Node) -> Vector | None:
+    def read_oriented_size(self, record: PrimRecord) -> Vector | None:
         """Return the extent in metres along the prim's own axes, where they are turned against the world's."""
-        if not node.may_be_turned or node.path in self._endless:
+        if not record.may_be_turned or record.path in self._endless:
             return None
-        matrix = self._xforms.GetLocalToWorldTransform(node.prim)
+        matrix = self._xforms.GetLocalToWorldTransform(record.prim)
         if _is_aligned(np.array(matrix)):
             return None
         # OpenUSD's untransformed bound is loose where boxes within it are turned: the parts are asked one by one.
-        shape = self._read_shape(node, [below for below in node.walk() if is_measurable(below)])
+        shape = self._read_shape(record, [below for below in record.walk() if is_measurable(below)])
         if shape is None or not shape.corners:
             return None
         local = np.concatenate(shape.corners)
@@ -239,42 +239,42 @@ class BoxReader:
         width, depth, height = (size * scale for size, scale in zip(sizes, scales, strict=True))
         return (width, depth, height) if all(map(math.isfinite, (width, depth, height))) else None
 
-    def read_pose(self, node: Node) -> tuple[Vector | None, Quaternion | None]:
+    def read_pose(self, record: PrimRecord) -> tuple[Vector | None, Quaternion | None]:
         """Return world position (metres) and rotation (x, y, z, w) of a prim's own frame, z-up.
 
         Scale and mirroring are taken out of the rotation. Either is None where the matrix has no such part.
         """
-        matrix = self._local_to_world(node)
-        if not node.may_be_turned:
+        matrix = self._local_to_world(record)
+        if not record.may_be_turned:
             rows = np.array(matrix).tolist()
             if all(1e-9 < rows[axis][axis] < _EMPTY_EXTENT > abs(rows[3][axis]) for axis in range(3)):
                 return to_metres(rows[3][:3], self._frame), _UNTURNED[self._frame.up_axis]
         return pose_of(matrix, self._frame)
 
-    def read_point(self, node: Node, point: Any) -> Vector | None:
+    def read_point(self, record: PrimRecord, point: Any) -> Vector | None:
         """Return a point of a prim's own frame in the world, metres, z-up; None if it is nowhere."""
-        world = np.array(self._local_to_world(node).Transform(Gf.Vec3d(point)))
+        world = np.array(self._local_to_world(record).Transform(Gf.Vec3d(point)))
         return to_metres(world.tolist(), self._frame) if _is_near(world).all() else None
 
-    def _local_to_world(self, node: Node) -> Any:
-        if node.type_name or not node.authored.moves:
-            return self._xforms.GetLocalToWorldTransform(node.prim)
+    def _local_to_world(self, record: PrimRecord) -> Any:
+        if record.type_name or not record.authored.moves:
+            return self._xforms.GetLocalToWorldTransform(record.prim)
         # `def "Chair"` leaves its type to the asset it references; where that is missing, OpenUSD takes the prim for
         # one without a transform, though it has one.
-        local = UsdGeom.Xformable(node.prim).GetLocalTransformation(self._xforms.GetTime())
-        return local * self._xforms.GetLocalToWorldTransform(node.prim.GetParent())
+        local = UsdGeom.Xformable(record.prim).GetLocalTransformation(self._xforms.GetTime())
+        return local * self._xforms.GetLocalToWorldTransform(record.prim.GetParent())
 
 
-def _upwards(node: Node) -> Iterable[Node]:
-    above: Node | None = node
+def _upwards(record: PrimRecord) -> Iterable[PrimRecord]:
+    above: PrimRecord | None = record
     while above is not None:
         yield above
         above = above.parent
 
 
-def is_measurable(node: Node) -> bool:
-    """Return whether a node is itself something to be measured."""
-    return (node.is_gprim or node.is_instancer) and not node.is_hidden
+def is_measurable(record: PrimRecord) -> bool:
+    """Return whether a record is itself something to be measured."""
+    return (record.is_gprim or record.is_instancer) and not record.is_hidden
 
 
 def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:

@@ -11,19 +11,19 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, Vt
 from usd2kg.scene.bounds import BoxReader
 from usd2kg.scene.metadata import vector_of
 from usd2kg.scene.model import StageFrame, Vector
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_value
 
-__all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_nodes", "part_names", "read_mass"]
+__all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_records", "part_names", "read_mass"]
 
 _FILES = 10_000
 """How many files are kept in mind: objects come from the same ones again and again."""
 _COLORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 
 
-def own_nodes(node: Node, objects: frozenset[str] | dict[str, str]) -> Iterator[Node]:
-    """Yield `node` and what is below it, without the other objects nested below it."""
-    pending = [node]
+def own_records(record: PrimRecord, objects: frozenset[str] | dict[str, str]) -> Iterator[PrimRecord]:
+    """Yield `record` and what is below it, without the other objects nested below it."""
+    pending = [record]
     while pending:
         current = pending.pop()
         yield current
@@ -50,17 +50,17 @@ def _stem(asset_path: str) -> str:
     return PurePosixPath(asset_path.replace("\\", "/")).stem
 
 
-def geometry_file(nodes: list[Node]) -> str:
+def geometry_file(records: list[PrimRecord]) -> str:
     """Return the path of the file that an object's geometry comes from; empty if there is none, or several.
 
     That is the strongest reference or payload on the object's prim, else the only one right below it. It is relative
     to the folder of the stage's root layer where the file lies in it (in a package: `room.usdz[chair.usda]`), else as
     authored.
     """
-    if nodes[0].may_have_asset and (path := _strongest_file(nodes[0].prim)):
+    if records[0].may_have_asset and (path := _strongest_file(records[0].prim)):
         return path
-    below = [node for node in nodes[1:] if node.parent is nodes[0] and node.may_have_asset]
-    paths = {path for node in below if (path := _strongest_file(node.prim))}
+    below = [record for record in records[1:] if record.parent is records[0] and record.may_have_asset]
+    paths = {path for record in below if (path := _strongest_file(record.prim))}
     return paths.pop() if len(paths) == 1 else ""
 
 
@@ -87,9 +87,9 @@ def _path_beside(path: str, root: str) -> str | None:
     return anchored.relative_to(folder).as_posix() if is_inside else None
 
 
-def part_names(nodes: list[Node]) -> tuple[str, ...]:
+def part_names(records: list[PrimRecord]) -> tuple[str, ...]:
     """Return the distinct names of the prims below an object, in order, its own name left out."""
-    return tuple(dict.fromkeys(node.name for node in nodes[1:] if node.name != nodes[0].name))
+    return tuple(dict.fromkeys(record.name for record in records[1:] if record.name != records[0].name))
 
 
 class Mass(NamedTuple):
@@ -101,33 +101,33 @@ class Mass(NamedTuple):
     """Centre of mass in the world, metres, z-up; None unless it is authored for all that has a mass."""
 
 
-def read_mass(nodes: list[Node], boxes: BoxReader, frame: StageFrame) -> Mass:
+def read_mass(records: list[PrimRecord], boxes: BoxReader, frame: StageFrame) -> Mass:
     """Return the mass of the object's prim with its centre, or both for its parts together.
 
     UsdPhysics: a mass of 0 means "not authored, to be derived", so it is none; a centre that is not finite is none.
     """
-    own = _mass(nodes[0])
-    masses = [(nodes[0], own)] if own else [(node, mass) for node in nodes[1:] if (mass := _mass(node))]
+    own = _mass(records[0])
+    masses = [(records[0], own)] if own else [(record, mass) for record in records[1:] if (mass := _mass(record))]
     # Of huge and tiny masses and units the product may be none.
     total = sum(mass for _, mass in masses) * frame.kilograms_per_unit
-    centers = [(center, mass) for node, mass in masses or [(nodes[0], 1.0)] if (center := _center(node, boxes))]
+    centers = [(center, mass) for record, mass in masses or [(records[0], 1.0)] if (center := _center(record, boxes))]
     is_known = len(centers) == max(len(masses), 1)
     return Mass(total if 0 < total < math.inf else None, _weighted_mean(centers) if is_known else None)
 
 
-def _mass(node: Node) -> float | None:
-    if not node.has_mass:
+def _mass(record: PrimRecord) -> float | None:
+    if not record.has_mass:
         return None
-    mass = read_value(node.prim, UsdPhysics.Tokens.physicsMass, Usd.TimeCode.Default(), int, float)
+    mass = read_value(record.prim, UsdPhysics.Tokens.physicsMass, Usd.TimeCode.Default(), int, float)
     return float(f"{mass:.7g}") if mass and 0 < mass < math.inf else None
 
 
-def _center(node: Node, boxes: BoxReader) -> Vector | None:
-    if not node.has_mass:
+def _center(record: PrimRecord, boxes: BoxReader) -> Vector | None:
+    if not record.has_mass:
         return None
     time = Usd.TimeCode.Default()
-    center = read_value(node.prim, UsdPhysics.Tokens.physicsCenterOfMass, time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
-    return boxes.read_point(node, center) if center is not None else None
+    center = read_value(record.prim, UsdPhysics.Tokens.physicsCenterOfMass, time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
+    return boxes.read_point(record, center) if center is not None else None
 
 
 def _weighted_mean(points: list[tuple[Vector, float]]) -> Vector | None:
@@ -136,11 +136,11 @@ def _weighted_mean(points: list[tuple[Vector, float]]) -> Vector | None:
     return (x, y, z) if math.isfinite(x + y + z) else None
 
 
-def display_color(nodes: list[Node], time: Usd.TimeCode) -> Vector | None:
+def display_color(records: list[PrimRecord], time: Usd.TimeCode) -> Vector | None:
     """Return the first display colour authored on the object's geometry, linear RGB; None if none is."""
-    for node in nodes:
-        if node.is_gprim and UsdGeom.Tokens.primvarsDisplayColor in node.authored.names:
-            colors = read_value(node.prim, UsdGeom.Tokens.primvarsDisplayColor, time, *_COLORS)
+    for record in records:
+        if record.is_gprim and UsdGeom.Tokens.primvarsDisplayColor in record.authored.names:
+            colors = read_value(record.prim, UsdGeom.Tokens.primvarsDisplayColor, time, *_COLORS)
             color = vector_of(colors[0]) if colors else None
             if color:
                 return color

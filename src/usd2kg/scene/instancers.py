@@ -10,7 +10,7 @@ from pxr import Usd, UsdGeom, Vt
 from usd2kg.scene.bounds import BoxReader, pose_of
 from usd2kg.scene.evidence import asset_names
 from usd2kg.scene.model import Box, Diagnostic, Instances, SceneObject, StageFrame
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_targets, read_value
 
 __all__ = ["COPY", "count_copies", "is_endless", "read_copies"]
@@ -19,9 +19,9 @@ COPY = "copy of a point instancer"
 """`selected_by` of an object that is one copy."""
 
 
-def count_copies(nodes: list[Node], time: Usd.TimeCode) -> Instances | None:
+def count_copies(records: list[PrimRecord], time: Usd.TimeCode) -> Instances | None:
     """Return the copies of an object's own point instancers; None if it has none."""
-    instancers = [node.prim for node in nodes if node.is_instancer]
+    instancers = [record.prim for record in records if record.is_instancer]
     if not instancers:
         return None
     names = [target.name for prim in instancers for target in _prototypes(prim)]
@@ -81,7 +81,7 @@ def _drawn(instancer: Any, time: Usd.TimeCode) -> list[bool]:
 
 
 def read_copies(
-    node: Node,
+    record: PrimRecord,
     parent_path: str | None,
     frame: StageFrame,
     time: Usd.TimeCode,
@@ -92,43 +92,45 @@ def read_copies(
 
     Copies whose ids are not one different number for each are numbered by their place, which a note says.
     """
-    instancer = UsdGeom.PointInstancer(node.prim)
-    indices = _indices(node.prim, time)
-    ids = _read_ids(node, len(indices), time, notes)
-    drawn = _drawn(node.prim, time)
+    instancer = UsdGeom.PointInstancer(record.prim)
+    indices = _indices(record.prim, time)
+    ids = _read_ids(record, len(indices), time, notes)
+    drawn = _drawn(record.prim, time)
     matrices = instancer.ComputeInstanceTransformsAtTime(
         time, time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
     )
     if not len(indices) == len(matrices) == len(drawn):
         # OpenUSD has said what is wrong with the arrays; no copy can be placed.
         return []
-    to_world = UsdGeom.Xformable(node.prim).ComputeLocalToWorldTransform(time)
-    prototypes = [node.prim.GetStage().GetPrimAtPath(path) for path in _prototypes(node.prim)]
+    to_world = UsdGeom.Xformable(record.prim).ComputeLocalToWorldTransform(time)
+    prototypes = [record.prim.GetStage().GetPrimAtPath(path) for path in _prototypes(record.prim)]
     extents = [boxes.read_local_corners(prim) if prim else np.empty((0, 3)) for prim in prototypes]
     copies = []
     for place, index in enumerate(indices):
         if drawn[place] and 0 <= index < len(prototypes):
             matrix = matrices[place] * to_world
             box = boxes.box_of_corners(extents[index], matrix)
-            copies.append(_copy(node, parent_path, prototypes[index], ids[place], pose_of(matrix, frame), box))
+            copies.append(_copy(record, parent_path, prototypes[index], ids[place], pose_of(matrix, frame), box))
     return copies
 
 
-def _read_ids(node: Node, count: int, time: Usd.TimeCode, notes: list[Diagnostic]) -> Sequence[int]:
-    ids = read_value(node.prim, UsdGeom.Tokens.ids, time, object)
+def _read_ids(record: PrimRecord, count: int, time: Usd.TimeCode, notes: list[Diagnostic]) -> Sequence[int]:
+    ids = read_value(record.prim, UsdGeom.Tokens.ids, time, object)
     if ids is None or (isinstance(ids, Vt.Int64Array) and not ids):
         return range(count)
     if isinstance(ids, Vt.Int64Array) and len(ids) == len(set(ids)) == count:
         return list(ids)
     message = f"its ids are not one different number for each of its {count} copies; they are numbered by their place"
-    notes.append(Diagnostic("instancer", message, node.path))
+    notes.append(Diagnostic("instancer", message, record.path))
     return range(count)
 
 
-def _copy(node: Node, parent_path: str | None, prototype: Any, number: int, pose: Any, box: Box | None) -> SceneObject:
-    name = prototype.GetName() if prototype else node.name
+def _copy(
+    record: PrimRecord, parent_path: str | None, prototype: Any, number: int, pose: Any, box: Box | None
+) -> SceneObject:
+    name = prototype.GetName() if prototype else record.name
     return SceneObject(
-        prim_path=f"{node.path}[{number}]",
+        prim_path=f"{record.path}[{number}]",
         name=f"{name}_{number}",
         type_name=str(prototype.GetTypeName()) if prototype else "",
         kind="",

@@ -20,9 +20,9 @@ __all__ = [
     "TAGS",
     "TAG_LABELS",
     "TAG_SCHEMA",
-    "USD",
-    "USD_TYPE",
-    "Found",
+    "USD_LABEL_TYPE",
+    "USD_PREFIX",
+    "LabelProperty",
     "applied_schemas",
     "class_words",
     "clean_values",
@@ -39,8 +39,8 @@ __all__ = [
 
 LONGEST = 200
 """Letters that a label may have."""
-USD = "semantics:labels:"
-USD_TYPE = "token[]"
+USD_PREFIX = "semantics:labels:"
+USD_LABEL_TYPE = "token[]"
 """The one type that OpenUSD reads its labels from."""
 TAG_LABELS = "semanticTag:semanticLabels"
 TAG_SCHEMA = "SemanticTagAPI"
@@ -52,7 +52,7 @@ _ISAAC = re.compile(r"semantic:(.+):params:semantic(?:Type|Data)")
 _SCHEMAS = ("SemanticsLabelsAPI:", "SemanticsAPI:", TAG_SCHEMA)
 
 
-class Found(NamedTuple):
+class LabelProperty(NamedTuple):
     """What one property says, its texts cleaned up."""
 
     property_name: str
@@ -62,7 +62,7 @@ class Found(NamedTuple):
     strength: Strength = "label"
 
     @property
-    def tells_class(self) -> bool:
+    def states_class(self) -> bool:
         """Whether it says what kind of thing the prim is; candidates that a tool brought up do not."""
         return self.strength == "label" and (self.encoding == "Multiverse" or self.taxonomy in CLASS_TAXONOMIES)
 
@@ -90,8 +90,8 @@ def isaac_instance(property_name: str) -> str | None:
 
 def schema_of(property_name: str) -> str | None:
     """Return the schema that a property belongs to; None if it is no label."""
-    if property_name.startswith(USD):
-        return usd_schema(property_name.removeprefix(USD))
+    if property_name.startswith(USD_PREFIX):
+        return usd_schema(property_name.removeprefix(USD_PREFIX))
     instance = isaac_instance(property_name)
     return isaac_schema(instance) if instance else TAG_SCHEMA if property_name in TAGS else None
 
@@ -123,16 +123,18 @@ def property_type(prim: Any, name: str) -> str:
     return str(getattr(specs[0], "typeName", "")) if specs else ""
 
 
-def find_labels(prim: Any, names: list[str], time: Any) -> list[Found]:
+def find_labels(prim: Any, names: list[str], time: Any) -> list[LabelProperty]:
     """Return what the properties `names` of a prim say at `time`: OpenUSD's, then Isaac's, then Multiverse's."""
     found = []
     for name in names:
-        if name.startswith(USD):
-            found.append(Found(name, "UsdSemantics", name.removeprefix(USD), clean_values(prim, name, time)))
+        if name.startswith(USD_PREFIX):
+            found.append(
+                LabelProperty(name, "UsdSemantics", name.removeprefix(USD_PREFIX), clean_values(prim, name, time))
+            )
     for instance in dict.fromkeys(instance for name in names if (instance := isaac_instance(name))):
         taxonomy = next(iter(clean_values(prim, isaac_property(instance, "Type"), time)), "")
         data = isaac_property(instance, "Data")
-        found.append(Found(data, "Isaac", taxonomy, clean_values(prim, data, time)))
+        found.append(LabelProperty(data, "Isaac", taxonomy, clean_values(prim, data, time)))
     # Multiverse repeats its labels among the reports: the stronger ones come first.
     return found + [_tag(prim, name, target) for name in TAGS if name in names for target in tag_targets(prim, name)]
 
@@ -147,14 +149,14 @@ def tag_targets(prim: Any, name: str) -> list[Any]:
     return [target.GetPrimPath() for target in read_targets(prim, name)]
 
 
-def _tag(prim: Any, name: str, target: Any) -> Found:
+def _tag(prim: Any, name: str, target: Any) -> LabelProperty:
     tagged = prim.GetStage().GetPrimAtPath(target)
     concepts, namespaces = (
         clean_values(tagged, rdf, None) if tagged else () for rdf in ("rdf:conceptName", "rdf:namespace")
     )
     taxonomy = next(filter(None, namespaces), target.GetParentPath().name)
     value = next(filter(None, concepts), target.name.removeprefix("_class_"))
-    return Found(name, "Multiverse", taxonomy, (value,), TAGS[name])
+    return LabelProperty(name, "Multiverse", taxonomy, (value,), TAGS[name])
 
 
 def class_words(value: str) -> frozenset[str]:

@@ -15,9 +15,9 @@ from usd2kg.scene.label_encodings import (
     QCODE,
     TAG_LABELS,
     TAGS,
-    USD,
-    USD_TYPE,
-    Found,
+    USD_LABEL_TYPE,
+    USD_PREFIX,
+    LabelProperty,
     applied_schemas,
     class_words,
     clean_values,
@@ -151,12 +151,12 @@ def _lint_types(prim: Any, names: Sequence[str]) -> Iterator[_Problem]:
     """Yield labels of OpenUSD's encoding of which its own reader takes no value, because of their type."""
     for name in names:
         found = property_type(prim, name)
-        if name.startswith(USD) and found != USD_TYPE:
+        if name.startswith(USD_PREFIX) and found != USD_LABEL_TYPE:
             told = f"{name} is {f'of type {found}' if found else 'a relationship'}, in which OpenUSD finds no labels"
-            yield _Problem("label-type", name, told, USD_TYPE, "author it anew with that type")
+            yield _Problem("label-type", name, told, USD_LABEL_TYPE, "author it anew with that type")
 
 
-def _lint_values(entry: Found, taxonomies: set[str]) -> Iterator[_Problem]:
+def _lint_values(entry: LabelProperty, taxonomies: set[str]) -> Iterator[_Problem]:
     where, values = entry.property_name, entry.values
     if not any(values):
         if values or entry.encoding == "UsdSemantics":
@@ -182,7 +182,7 @@ def _lint_values(entry: Found, taxonomies: set[str]) -> Iterator[_Problem]:
             yield _Problem("label-repeated", where, told, "", "keep one")
 
 
-def _lint_pairs(entries: Sequence[Found], names: Sequence[str]) -> Iterator[_Problem]:
+def _lint_pairs(entries: Sequence[LabelProperty], names: Sequence[str]) -> Iterator[_Problem]:
     """Yield Isaac labels of which one half is missing, or stands under a name that is spelt otherwise."""
     halves: dict[str, list[tuple[str, str]]] = {"Type": [], "Data": []}
     for entry in entries:
@@ -242,12 +242,12 @@ def _lint_schemas(names: list[str], schemas: list[str]) -> Iterator[_Problem]:
         yield _Problem("label-without-schema", name, told, "", "apply it")
 
 
-def _lint_contradictions(found: list[Found]) -> Iterator[_Problem]:
+def _lint_contradictions(found: list[LabelProperty]) -> Iterator[_Problem]:
     usd, isaac = _by_taxonomy(found, "UsdSemantics"), _by_taxonomy(found, "Isaac")
     pairs = []
     for taxonomy, values in sorted(usd.items()):
         older = taxonomy if taxonomy in isaac else _OLDER_NAMES.get(taxonomy, "")
-        pairs.append((USD + taxonomy, values, f"the older {older} in semantic:*:params", isaac.get(older, [])))
+        pairs.append((USD_PREFIX + taxonomy, values, f"the older {older} in semantic:*:params", isaac.get(older, [])))
     tags = [value for entry in found if entry.property_name == TAG_LABELS for value in entry.values]
     for encoding, labels in (("UsdSemantics", usd), ("Isaac", isaac)):
         classes = [value for taxonomy in sorted(_WORD_TAXONOMIES & labels.keys()) for value in labels[taxonomy]]
@@ -258,7 +258,7 @@ def _lint_contradictions(found: list[Found]) -> Iterator[_Problem]:
             yield _Problem("encodings-contradict", name, told, "", "keep the right one and remove the other")
 
 
-def _by_taxonomy(found: list[Found], encoding: Encoding) -> dict[str, list[str]]:
+def _by_taxonomy(found: list[LabelProperty], encoding: Encoding) -> dict[str, list[str]]:
     grouped: dict[str, list[str]] = {}
     for entry in found:
         if entry.encoding == encoding and entry.taxonomy and any(entry.values):
@@ -281,7 +281,7 @@ def meant_property(name: str) -> str | None:
     if schema_of(name) is not None:
         return None
     if like := _LIKE_USD.fullmatch(name):
-        return USD + like[1]
+        return USD_PREFIX + like[1]
     if like := _LIKE_ISAAC.fullmatch(name):
         return isaac_property(like[1] or "Semantics", like[2].capitalize())
     return difflib.get_close_matches(name, TAGS, 1, 0)[0] if _LIKE_TAG.fullmatch(name) else None

@@ -8,7 +8,7 @@ from pxr import UsdGeom
 
 from usd2kg.scene.label_encodings import LONGEST, find_labels, semantic_names
 from usd2kg.scene.model import NO_LABELS, Label, ObjectLabels
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 
 __all__ = ["LabelReader", "read_labels"]
 
@@ -24,11 +24,11 @@ class LabelReader:
         self._known = known or {}
         self._above: dict[str, tuple[Label, ...]] = {}
 
-    def read(self, nodes: list[Node]) -> ObjectLabels:
-        """Return the labels of the object whose own nodes are `nodes`, its prim first."""
-        own = self._read(nodes[0].prim) if nodes[0].is_labelled else ()
-        inherited = _distinct([*own, *self._inherited(nodes[0].parent)])[len(own) :]
-        below = [label for prim in _parts(nodes) for label in self._read(prim)]
+    def read(self, records: list[PrimRecord]) -> ObjectLabels:
+        """Return the labels of the object whose own records are `records`, its prim first."""
+        own = self._read(records[0].prim) if records[0].is_labelled else ()
+        inherited = _distinct([*own, *self._inherited(records[0].parent)])[len(own) :]
+        below = [label for prim in _parts(records) for label in self._read(prim)]
         if not (own or inherited or below):
             return NO_LABELS
         return ObjectLabels(own, inherited, _distinct(below)[:_MOST_PARTS])
@@ -37,24 +37,24 @@ class LabelReader:
         known = self._known.get(str(prim.GetPath())) if self._known else None
         return read_labels(prim, self._time) if known is None else known
 
-    def _inherited(self, node: Node | None) -> list[Label]:
+    def _inherited(self, record: PrimRecord | None) -> list[Label]:
         found: list[Label] = []
-        while node is not None:
-            if node.is_labelled:
-                if node.path not in self._above:
-                    here = self._read(node.prim)
-                    self._above[node.path] = tuple(replace(label, is_inherited=True) for label in here)
-                found += self._above[node.path]
-            node = node.parent
+        while record is not None:
+            if record.is_labelled:
+                if record.path not in self._above:
+                    here = self._read(record.prim)
+                    self._above[record.path] = tuple(replace(label, is_inherited=True) for label in here)
+                found += self._above[record.path]
+            record = record.parent
         return found
 
 
-def _parts(nodes: list[Node]) -> Iterator[Any]:
-    for node in nodes:
-        if node.is_labelled and node is not nodes[0]:
-            yield node.prim
-        if node.has_subsets:
-            yield from (subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(node.prim)))
+def _parts(records: list[PrimRecord]) -> Iterator[Any]:
+    for record in records:
+        if record.is_labelled and record is not records[0]:
+            yield record.prim
+        if record.has_subsets:
+            yield from (subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(record.prim)))
 
 
 def _distinct(labels: Iterable[Label]) -> tuple[Label, ...]:

@@ -10,7 +10,7 @@ from pxr import UsdGeom
 from usd2kg.scene.bounds import BoxReader, is_measurable
 from usd2kg.scene.meshes import read_mesh
 from usd2kg.scene.model import Box, StageFrame
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 from usd2kg.shapes.box_pairs import overlapping_pairs
 
 __all__ = ["find_levels", "holds_others", "read_levels"]
@@ -59,28 +59,28 @@ def holds_others(boxes: Sequence[Box | None]) -> list[bool]:
     return [bool(value) for value in found]
 
 
-def read_levels(nodes: Sequence[Node], own_box: Box, boxes: BoxReader, frame: StageFrame) -> tuple[Box, ...]:
-    """Return the levels of an object whose own nodes are `nodes`, see `find_levels`; those of its meshes together.
+def read_levels(records: Sequence[PrimRecord], own_box: Box, boxes: BoxReader, frame: StageFrame) -> tuple[Box, ...]:
+    """Return the levels of an object whose own records are `records`, see `find_levels`; those of its meshes together.
 
     Args:
-        nodes: the object's prim and what is below it, without nested objects.
+        records: the object's prim and what is below it, without nested objects.
         own_box: the box around their geometry.
         boxes: reads where they stand.
         frame: the stage's measures.
     """
-    found = [level for node in nodes for level in _levels_of(node, own_box, boxes, frame)]
+    found = [level for record in records for level in _levels_of(record, own_box, boxes, frame)]
     largest = sorted(found, key=lambda level: (-level.size[0] * level.size[1], level.lower))[:_MOST_LEVELS]
     return tuple(sorted(largest, key=lambda level: (level.lower[2], level.lower)))
 
 
-def _levels_of(node: Node, own_box: Box, boxes: BoxReader, frame: StageFrame) -> Iterator[Box]:
-    if not is_measurable(node) or not node.prim.IsA(UsdGeom.Mesh):
+def _levels_of(record: PrimRecord, own_box: Box, boxes: BoxReader, frame: StageFrame) -> Iterator[Box]:
+    if not is_measurable(record) or not record.prim.IsA(UsdGeom.Mesh):
         return
-    mesh = read_mesh(node.prim, boxes.time)
+    mesh = read_mesh(record.prim, boxes.time)
     if mesh is None or len(mesh[0]) > _MOST_POINTS:
         return
     local, triangles = mesh
-    matrix = boxes.read_matrix(node)
+    matrix = boxes.read_matrix(record)
     points = (local @ matrix[:3, :3] + matrix[3, :3]) * frame.metres_per_unit
     if frame.up_axis != "Z":
         points = np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1)

@@ -10,7 +10,7 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 
 from usd2kg.scene.model import MaterialDetails, Vector
-from usd2kg.scene.outline import Node
+from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import UNREADABLE, read_targets, value_of
 from usd2kg.words import split_identifier, words_of
 
@@ -172,30 +172,32 @@ class MaterialReader:
         self._of_shared: dict[str, MaterialDetails] = {}
         self._of_instances: dict[tuple[int, ...], tuple[str, tuple[MaterialDetails, ...]]] = {}
         self._ahead: dict[int, tuple[Any, ...]] = {}
-        """id of a node → its material for each purpose, for the nodes that were looked at ahead."""
+        """id of a record → its material for each purpose, for the records that were looked at ahead."""
 
-    def look_ahead(self, nodes: Iterable[Node]) -> None:
-        """Find what is bound to the nodes that will be read next; OpenUSD does many at once in parallel."""
-        shown = [node for node in nodes if _shows_material(node) and not node.has_subsets and node.twin is None]
-        prims = [node.prim for node in shown]
+    def look_ahead(self, records: Iterable[PrimRecord]) -> None:
+        """Find what is bound to the records that will be read next; OpenUSD does many at once in parallel."""
+        shown = [
+            record for record in records if _shows_material(record) and not record.has_subsets and record.twin is None
+        ]
+        prims = [record.prim for record in shown]
         by_purpose = (_bound_materials(prims, purpose) for purpose in self._purposes)
         self._ahead = dict(zip(map(id, shown), zip(*by_purpose, strict=True), strict=True))
 
-    def read(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
-        """Return the materials that the geometry among `nodes` is shown with, in order of appearance.
+    def read(self, records: list[PrimRecord]) -> tuple[MaterialDetails, ...]:
+        """Return the materials that the geometry among `records` is shown with, in order of appearance.
 
         Bindings are resolved as UsdShade does (direct, inherited, by collection, by strength), for the purposes
         `full` and `preview`; geometry subsets are asked too. A binding to a material that does not exist gives its
         name.
         """
-        root, twin = nodes[0], nodes[0].twin
+        root, twin = records[0], records[0].twin
         if twin is None or root.is_bound or twin.is_bound:
-            return self._resolve(nodes)
+            return self._resolve(records)
         # What is bound within an instance is bound alike in all of them.
-        key = tuple(id(node.twin) for node in nodes)
+        key = tuple(id(record.twin) for record in records)
         instance = _instance_above(root)
         if key not in self._of_instances:
-            self._of_instances[key] = (instance, self._resolve(nodes))
+            self._of_instances[key] = (instance, self._resolve(records))
         first, materials = self._of_instances[key]
         return tuple(self._moved(material, first + "/", instance + "/") for material in materials)
 
@@ -204,9 +206,11 @@ class MaterialReader:
             return material
         return replace(material, prim_path=after + material.prim_path.removeprefix(before))
 
-    def _resolve(self, nodes: list[Node]) -> tuple[MaterialDetails, ...]:
+    def _resolve(self, records: list[PrimRecord]) -> tuple[MaterialDetails, ...]:
         found: dict[str, MaterialDetails] = {}
-        for prim, materials in (binding for node in nodes if _shows_material(node) for binding in self._bound(node)):
+        for prim, materials in (
+            binding for record in records if _shows_material(record) for binding in self._bound(record)
+        ):
             bound = [material for material in materials if material]
             for material in bound:
                 details = self._read(material)
@@ -216,12 +220,12 @@ class MaterialReader:
                 found.setdefault(str(target), MaterialDetails(target.name, str(target)))
         return tuple(found.values())
 
-    def _bound(self, node: Node) -> list[tuple[Any, tuple[Any, ...]]]:
-        """Return (prim, its material for each purpose) for a node and its geometry subsets."""
-        known = self._ahead.get(id(node))
+    def _bound(self, record: PrimRecord) -> list[tuple[Any, tuple[Any, ...]]]:
+        """Return (prim, its material for each purpose) for a record and its geometry subsets."""
+        known = self._ahead.get(id(record))
         if known is not None:
-            return [(node.prim, known)]
-        prims = _bindable(node.prim) if node.has_subsets else [node.prim]
+            return [(record.prim, known)]
+        prims = _bindable(record.prim) if record.has_subsets else [record.prim]
         by_purpose = (_bound_materials(prims, purpose) for purpose in self._purposes)
         return list(zip(prims, zip(*by_purpose, strict=True), strict=True))
 
@@ -238,13 +242,13 @@ class MaterialReader:
         return known
 
 
-def _shows_material(node: Node) -> bool:
-    return node.is_gprim and not node.is_hidden and (node.is_bound or node.has_subsets)
+def _shows_material(record: PrimRecord) -> bool:
+    return record.is_gprim and not record.is_hidden and (record.is_bound or record.has_subsets)
 
 
-def _instance_above(node: Node) -> str:
-    """Return the path of the instance that a node is, or is in."""
-    above = node
+def _instance_above(record: PrimRecord) -> str:
+    """Return the path of the instance that a record is, or is in."""
+    above = record
     while not above.is_instance and above.parent is not None:
         above = above.parent
     return above.path
@@ -260,9 +264,9 @@ def _authored_target(prim: Any) -> Any:
     return None
 
 
-def material_details(prim_nodes: list[Node], time: Any = None) -> tuple[MaterialDetails, ...]:
+def material_details(records: list[PrimRecord], time: Any = None) -> tuple[MaterialDetails, ...]:
     """Return the materials of one object as `MaterialReader` does; `time` None is the earliest."""
-    return MaterialReader(Usd.TimeCode.EarliestTime() if time is None else time).read(prim_nodes)
+    return MaterialReader(Usd.TimeCode.EarliestTime() if time is None else time).read(records)
 
 
 def _bindable(prim: Any) -> list[Any]:
@@ -320,7 +324,7 @@ def _value(attribute: Any, time: Any) -> Any:
         return value_of(attribute, time)
     shader = UsdShade.Shader(attribute.GetPrim())
     value = shader.GetInput("value") if shader else None
-    # MaterialX writes constants as nodes: ND_constant_color3, ND_constant_float.
+    # MaterialX writes constants as records: ND_constant_color3, ND_constant_float.
     if not value or value.HasConnectedSource() or not str(shader.GetShaderId()).startswith("ND_constant"):
         return None
     return value_of(value, time)

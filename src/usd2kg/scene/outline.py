@@ -1,4 +1,4 @@
-"""The stage as a plain tree of outline nodes: just what choosing the objects and reading them needs."""
+"""The stage as a plain tree of outline records: just what choosing the objects and reading them needs."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-__all__ = ["NOTHING_AUTHORED", "Authored", "JointLink", "Node", "Outline"]
+__all__ = ["NOTHING_AUTHORED", "Authored", "JointLink", "Outline", "PrimRecord"]
 
 
 class JointLink(NamedTuple):
@@ -42,7 +42,7 @@ NOTHING_AUTHORED = Authored(
 
 
 @dataclass(slots=True)
-class Node:
+class PrimRecord:
     """One prim that is, holds or groups geometry."""
 
     stage: Any
@@ -50,11 +50,11 @@ class Node:
     name: str
     type_name: str
     kind: str
-    parent: "Node | None"
+    parent: "PrimRecord | None"
     metadata: Mapping[str, Any] = field(default_factory=lambda: _NO_METADATA)
     """The authored metadata, composition arcs left out."""
     authored: Authored = NOTHING_AUTHORED
-    children: list["Node"] = field(default_factory=list)
+    children: list["PrimRecord"] = field(default_factory=list)
     is_gprim: bool = False
     has_points: bool = False
     """Whether it can be measured by points: its own, or those of a round solid's surface."""
@@ -78,7 +78,7 @@ class Node:
     has_subsets: bool = False
     left_out: list[tuple[str, str]] | None = None
     """(name, reason) of the prims right below that were not entered; None if there are none."""
-    twin: "Node | None" = None
+    twin: "PrimRecord | None" = None
     """The same prim in the first instance of the same prototype; None outside of instances and in the first one."""
     first_instance: str | None = None
     """Of an instance, the path of the first one of the same prototype."""
@@ -114,28 +114,28 @@ class Node:
         """Whether somebody may have written words on it, beyond the schemas."""
         return self.authored.has_texts or "customData" in self.metadata or "assetInfo" in self.metadata
 
-    def walk(self) -> Iterator["Node"]:
-        """Yield this node and all below it, parents first."""
+    def walk(self) -> Iterator["PrimRecord"]:
+        """Yield this record and all below it, parents first."""
         pending = [self]
         while pending:
-            node = pending.pop()
-            yield node
-            if node.children:
-                pending.extend(reversed(node.children))
+            record = pending.pop()
+            yield record
+            if record.children:
+                pending.extend(reversed(record.children))
 
 
 @dataclass(slots=True)
 class Outline:
-    """The node tree, and what was not entered into it.
+    """The record tree, and what was not entered into it.
 
-    As a context manager it lets go of the stage at the end, though its nodes refer to each other: a stage that is
+    As a context manager it lets go of the stage at the end, though its records refer to each other: a stage that is
     still held is not read again from a file that has changed.
     """
 
-    root: Node
+    root: PrimRecord
     """The pseudo-root."""
-    nodes: list[Node] = field(default_factory=list)
-    """All nodes below it, parents first."""
+    records: list[PrimRecord] = field(default_factory=list)
+    """All records below it, parents first."""
     left_out: Counter[str] = field(default_factory=Counter)
     """Reason → number of prims."""
     pruned: dict[str, str] = field(default_factory=dict)
@@ -154,5 +154,5 @@ class Outline:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for node in self.nodes:
-            node.parent = None
+        for record in self.records:
+            record.parent = None

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.scene.model import Box
-from usd2kg.scene.outline import Node, Outline
+from usd2kg.scene.outline import Outline, PrimRecord
 from usd2kg.words import words_of
 
 __all__ = ["UNNAMED_PIECES", "is_silent", "sort_pieces"]
@@ -16,7 +16,7 @@ UNNAMED_PIECES = "unnamed pieces that hang together"
 _SILENT_WORDS = frozenset(
     """
     poly part parts piece pieces component element item entity body solid surface face shape unnamed untitled
-    group groups grp empty node transform layer id material cube cylinder plane circle icosphere line rectangle
+    group groups grp empty record transform layer id material cube cylinder plane circle icosphere line rectangle
     sketch up skp mesh meshes geo
     """.split()
 )
@@ -28,8 +28,8 @@ _TOUCHING = 0.02
 _MOST_PIECES = 5_000
 
 _Points = NDArray[np.float64]
-Measure = Callable[[Node], Box | None]
-"""Gives the world box of all below a node, in metres; None where there is nothing to measure."""
+Measure = Callable[[PrimRecord], Box | None]
+"""Gives the world box of all below a record, in metres; None where there is nothing to measure."""
 
 
 def is_silent(name: str) -> bool:
@@ -43,9 +43,9 @@ def is_silent(name: str) -> bool:
 
 @dataclass(slots=True)
 class _Held:
-    """What is below a node."""
+    """What is below a record."""
 
-    pieces: list[Node] = field(default_factory=list)
+    pieces: list[PrimRecord] = field(default_factory=list)
     is_pure: bool = True
     """Whether the pieces are all there is, and none of them has a name."""
 
@@ -62,58 +62,60 @@ def sort_pieces(outline: Outline, candidates: dict[str, str], owners: dict[str, 
     boxes = _Boxes(measure)
     wholes = _wholes(outline, candidates, owners)
     merged: set[str] = set()
-    for node, pieces in wholes:
-        if merged.isdisjoint(_paths_above(node)) and boxes.is_one_thing(pieces):
-            merged.add(node.path)
+    for record, pieces in wholes:
+        if merged.isdisjoint(_paths_above(record)) and boxes.is_one_thing(pieces):
+            merged.add(record.path)
             for piece in pieces:
                 del owners[piece.path]
-            owners[node.path] = UNNAMED_PIECES
-    for node in [node for node in outline.nodes if node.path in owners and node.path not in merged]:
-        gprims = _loose_gprims(node)
+            owners[record.path] = UNNAMED_PIECES
+    for record in [record for record in outline.records if record.path in owners and record.path not in merged]:
+        gprims = _loose_gprims(record)
         if gprims and boxes.is_scattered(gprims):
-            reason = owners.pop(node.path)
+            reason = owners.pop(record.path)
             owners.update({gprim.path: reason for gprim in gprims})
 
 
-def _wholes(outline: Outline, candidates: dict[str, str], owners: dict[str, str]) -> list[tuple[Node, list[Node]]]:
+def _wholes(
+    outline: Outline, candidates: dict[str, str], owners: dict[str, str]
+) -> list[tuple[PrimRecord, list[PrimRecord]]]:
     """Return the unnamed groups of unnamed pieces, outer ones first, with the pieces."""
     held: dict[str, _Held] = {}
     found = []
-    for node in reversed(outline.nodes):
-        here = _held(node, candidates, owners, held)
-        held[node.path] = here
-        is_group = node.path not in owners and not (node.is_scope or node.is_gprim)
-        if is_group and here.is_pure and 1 < len(here.pieces) <= _MOST_PIECES and _may_be_whole(node, outline):
-            found.append((node, here.pieces))
+    for record in reversed(outline.records):
+        here = _held(record, candidates, owners, held)
+        held[record.path] = here
+        is_group = record.path not in owners and not (record.is_scope or record.is_gprim)
+        if is_group and here.is_pure and 1 < len(here.pieces) <= _MOST_PIECES and _may_be_whole(record, outline):
+            found.append((record, here.pieces))
     return found[::-1]
 
 
-def _held(node: Node, candidates: dict[str, str], owners: dict[str, str], held: dict[str, _Held]) -> _Held:
-    below = [held.pop(child.path) for child in node.children]
-    if node.path in owners:
-        return _Held([node], is_silent(node.name))
+def _held(record: PrimRecord, candidates: dict[str, str], owners: dict[str, str], held: dict[str, _Held]) -> _Held:
+    below = [held.pop(child.path) for child in record.children]
+    if record.path in owners:
+        return _Held([record], is_silent(record.name))
     full = [inner.pieces for inner in below if inner.pieces]
     pieces = full[0] if len(full) == 1 else [piece for inner in full for piece in inner]
-    return _Held(pieces, node.path not in candidates and all(inner.is_pure for inner in below))
+    return _Held(pieces, record.path not in candidates and all(inner.is_pure for inner in below))
 
 
-def _may_be_whole(node: Node, outline: Outline) -> bool:
-    is_all = node.gprim_count == outline.root.gprim_count
-    is_top = node.parent is outline.root
-    return is_silent(node.name) and node.kind not in {"assembly", "group"} and not (is_all and is_top)
+def _may_be_whole(record: PrimRecord, outline: Outline) -> bool:
+    is_all = record.gprim_count == outline.root.gprim_count
+    is_top = record.parent is outline.root
+    return is_silent(record.name) and record.kind not in {"assembly", "group"} and not (is_all and is_top)
 
 
-def _loose_gprims(node: Node) -> list[Node]:
-    """Return the unnamed meshes right below an unnamed node, where they are all it shows."""
-    if node.is_gprim or not is_silent(node.name):
+def _loose_gprims(record: PrimRecord) -> list[PrimRecord]:
+    """Return the unnamed meshes right below an unnamed record, where they are all it shows."""
+    if record.is_gprim or not is_silent(record.name):
         return []
-    gprims = [child for child in node.children if child.is_gprim and not child.is_hidden]
-    is_all = len(gprims) == node.gprim_count <= _MOST_PIECES
+    gprims = [child for child in record.children if child.is_gprim and not child.is_hidden]
+    is_all = len(gprims) == record.gprim_count <= _MOST_PIECES
     return gprims if is_all and all(is_silent(gprim.name) for gprim in gprims) else []
 
 
-def _paths_above(node: Node) -> Iterator[str]:
-    above = node.parent
+def _paths_above(record: PrimRecord) -> Iterator[str]:
+    above = record.parent
     while above is not None:
         yield above.path
         above = above.parent
@@ -128,24 +130,24 @@ class _Boxes:
         self._answers: dict[int, bool] = {}
         """id of a list of pieces → whether they are one thing; groups that hold one group each share their list."""
 
-    def is_one_thing(self, pieces: list[Node]) -> bool:
+    def is_one_thing(self, pieces: list[PrimRecord]) -> bool:
         """Return whether simple pieces hang together in something of a size that a person would name."""
         if id(pieces) not in self._answers:
             self._answers[id(pieces)] = self._is_one_thing(pieces)
         return self._answers[id(pieces)]
 
-    def _is_one_thing(self, pieces: list[Node]) -> bool:
+    def _is_one_thing(self, pieces: list[PrimRecord]) -> bool:
         if 2 * sum(1 for piece in pieces if piece.gprim_count == 1) < len(pieces):
             return False
         lower, upper = self._corners(pieces)
         return bool(len(lower)) and _extent(lower, upper) <= _LARGEST_WHOLE and _hang_together(lower, upper)
 
-    def is_scattered(self, pieces: list[Node]) -> bool:
+    def is_scattered(self, pieces: list[PrimRecord]) -> bool:
         """Return whether pieces are strewn over a place."""
         lower, upper = self._corners(pieces)
         return bool(len(lower)) and _extent(lower, upper) > _LARGEST_WHOLE and not _hang_together(lower, upper)
 
-    def _corners(self, pieces: list[Node]) -> tuple[_Points, _Points]:
+    def _corners(self, pieces: list[PrimRecord]) -> tuple[_Points, _Points]:
         for piece in pieces:
             if piece.path not in self._known:
                 self._known[piece.path] = self._measure(piece)

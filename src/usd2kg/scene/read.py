@@ -13,7 +13,7 @@ from pxr import Usd
 from usd2kg.errors import SceneError
 from usd2kg.garbage import paused_collection
 from usd2kg.scene.bounds import BoxReader, union
-from usd2kg.scene.evidence import asset_names, display_color, geometry_file, own_nodes, part_names, read_mass
+from usd2kg.scene.evidence import asset_names, display_color, geometry_file, own_records, part_names, read_mass
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
@@ -22,7 +22,7 @@ from usd2kg.scene.levels import holds_others, read_levels
 from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.outline import Node, Outline
+from usd2kg.scene.outline import Outline, PrimRecord
 from usd2kg.scene.plausibility import check_plausibility
 from usd2kg.scene.selection import ASKED_FOR, Selection, explain, select_objects
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, captured_diagnostics, error_text, open_stage, translated_errors
@@ -158,9 +158,9 @@ def _read_objects(
         if index % _READ_AHEAD == 0:
             reader.look_ahead(found[index : index + _READ_AHEAD])
         if entry.is_read:
-            path = entry.nodes[0].path
+            path = entry.records[0].path
             objects.append(reader.read(entry, boxes[path], levels.get(path, ())))
-        inside = entry.nodes[0].path if entry.is_read else entry.parent_path
+        inside = entry.records[0].path if entry.is_read else entry.parent_path
         for instancer in entry.expanded:
             objects.extend(reader.read_copies(instancer, inside))
     return objects
@@ -169,11 +169,11 @@ def _read_objects(
 class _Found(NamedTuple):
     """A chosen prim that is yet to be read."""
 
-    nodes: list[Node]
+    records: list[PrimRecord]
     """The prim and what is below it, without other objects."""
     parent_path: str | None
     """Path of the nearest object above."""
-    expanded: list[Node]
+    expanded: list[PrimRecord]
     """The point instancers whose copies are objects of their own."""
     is_read: bool
     """Whether it is an object beside its copies."""
@@ -201,18 +201,18 @@ def _largest(parts: list[Box]) -> tuple[Box, ...]:
 
 def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: bool) -> list[_Found]:
     found = []
-    # (node, path of the nearest object above)
-    pending: list[tuple[Node, str | None]] = [(outline.root, None)]
+    # (record, path of the nearest object above)
+    pending: list[tuple[PrimRecord, str | None]] = [(outline.root, None)]
     while pending:
-        node, parent_path = pending.pop()
-        if node.path in chosen:
-            nodes = list(own_nodes(node, chosen))
-            expanded = [own for own in nodes if own.is_instancer and not own.is_hidden] if expand_instancers else []
-            is_read = not expanded or node.gprim_count > len(expanded)
-            found.append(_Found(nodes, parent_path, expanded, is_read))
-            parent_path = node.path if is_read else parent_path
-        if node.children:
-            pending.extend((child, parent_path) for child in reversed(node.children))
+        record, parent_path = pending.pop()
+        if record.path in chosen:
+            records = list(own_records(record, chosen))
+            expanded = [own for own in records if own.is_instancer and not own.is_hidden] if expand_instancers else []
+            is_read = not expanded or record.gprim_count > len(expanded)
+            found.append(_Found(records, parent_path, expanded, is_read))
+            parent_path = record.path if is_read else parent_path
+        if record.children:
+            pending.extend((child, parent_path) for child in reversed(record.children))
     return found
 
 
@@ -235,93 +235,97 @@ class _ObjectReader:
         inside: dict[str, list[Box]] = {}
         # What is nested comes after what holds it: from the end, each box is computed once.
         for entry in reversed(found):
-            path = entry.nodes[0].path
-            measured = self._measure(entry.nodes, inside.pop(path, []))
+            path = entry.records[0].path
+            measured = self._measure(entry.records, inside.pop(path, []))
             boxes[path] = measured
             if measured.below is not None and entry.parent_path is not None:
                 inside.setdefault(entry.parent_path, []).append(measured.below)
         self.notes.reverse()
         return boxes
 
-    def _measure(self, nodes: list[Node], nested: list[Box]) -> _Boxes:
+    def _measure(self, records: list[PrimRecord], nested: list[Box]) -> _Boxes:
         try:
-            parts = self.boxes.read_parts(nodes)
+            parts = self.boxes.read_parts(records)
             own = union(parts)
             below = union([*nested, own]) if nested and own else own or union(nested)
-            below = below or self.boxes.read_hint(nodes[0])
+            below = below or self.boxes.read_hint(records[0])
         except UNREADABLE as error:
-            self._note("geometry", nodes[0], f"its box could not be computed ({_why(error)}); it has none in the graph")
+            self._note(
+                "geometry", records[0], f"its box could not be computed ({_why(error)}); it has none in the graph"
+            )
             return _Boxes(None, None, ())
         if below is None:
-            self._note("empty-box", nodes[0], "no geometry that can be measured; it has no size in the graph")
+            self._note("empty-box", records[0], "no geometry that can be measured; it has no size in the graph")
         return _Boxes(below, own if nested else below, _largest(parts) if len(parts) > 1 else ())
 
     def read_levels(self, found: list[_Found], boxes: dict[str, _Boxes]) -> dict[str, tuple[Box, ...]]:
         """Return the support levels of the objects within whose bounds others begin, by path."""
         levels: dict[str, tuple[Box, ...]] = {}
-        own = [boxes[entry.nodes[0].path].own for entry in found]
+        own = [boxes[entry.records[0].path].own for entry in found]
         for entry, box, is_looked_at in zip(found, own, holds_others(own), strict=True):
             if is_looked_at and box is not None:
                 try:
-                    levels[entry.nodes[0].path] = read_levels(entry.nodes, box, self.boxes, self.frame)
+                    levels[entry.records[0].path] = read_levels(entry.records, box, self.boxes, self.frame)
                 except UNREADABLE as error:
-                    self._note("geometry", entry.nodes[0], f"its faces cannot be read ({_why(error)}); no levels in it")
+                    self._note(
+                        "geometry", entry.records[0], f"its faces cannot be read ({_why(error)}); no levels in it"
+                    )
         return levels
 
     def look_ahead(self, found: list[_Found]) -> None:
         """Prepare for reading these objects next."""
-        self.materials.look_ahead(node for entry in found if entry.is_read for node in entry.nodes)
+        self.materials.look_ahead(record for entry in found if entry.is_read for record in entry.records)
 
     def read(self, entry: _Found, boxes: _Boxes, levels: tuple[Box, ...]) -> SceneObject:
         """Return the object with all that the stage says about it."""
-        node = entry.nodes[0]
-        position, orientation = self._pose(node)
+        record = entry.records[0]
+        position, orientation = self._pose(record)
         try:
-            evidence = self._evidence(entry.nodes, boxes)
+            evidence = self._evidence(entry.records, boxes)
         except UNREADABLE as error:
-            self._note("unreadable", node, f"not all of it can be read ({_why(error)}); it has but a name and a box")
+            self._note("unreadable", record, f"not all of it can be read ({_why(error)}); it has but a name and a box")
             evidence = _NO_EVIDENCE
         return SceneObject(
-            prim_path=node.path,
-            name=node.name,
-            type_name=node.type_name,
-            kind=node.kind,
-            selected_by=self.chosen[node.path],
+            prim_path=record.path,
+            name=record.name,
+            type_name=record.type_name,
+            kind=record.kind,
+            selected_by=self.chosen[record.path],
             parent_path=entry.parent_path,
             box=boxes.below,
             own_box=boxes.own,
             part_boxes=boxes.parts,
             position=position,
             orientation=orientation,
-            display_name=str(node.metadata.get("displayName", "")),
-            documentation=str(node.metadata.get("documentation", "")).strip(),
-            parts=part_names(entry.nodes),
-            instance_of=node.first_instance,
+            display_name=str(record.metadata.get("displayName", "")),
+            documentation=str(record.metadata.get("documentation", "")).strip(),
+            parts=part_names(entry.records),
+            instance_of=record.first_instance,
             support_levels=levels,
             **evidence,
         )
 
-    def _evidence(self, nodes: list[Node], boxes: _Boxes) -> dict[str, Any]:
+    def _evidence(self, records: list[PrimRecord], boxes: _Boxes) -> dict[str, Any]:
         """Return the fields of an object for which OpenUSD has to be asked."""
-        node, prim = nodes[0], nodes[0].prim
-        materials = self.materials.read(nodes)
-        mass = read_mass(nodes, self.boxes, self.frame)
+        record, prim = records[0], records[0].prim
+        materials = self.materials.read(records)
+        mass = read_mass(records, self.boxes, self.frame)
         return {
-            "oriented_size": self.boxes.read_oriented_size(node) if boxes.below else None,
+            "oriented_size": self.boxes.read_oriented_size(record) if boxes.below else None,
             "mass_kg": mass.kg,
             "center_of_mass": mass.center,
-            "asset": asset_names(prim) if node.may_have_asset else (),
-            "geometry_file": geometry_file(nodes),
+            "asset": asset_names(prim) if record.may_have_asset else (),
+            "geometry_file": geometry_file(records),
             "materials": tuple(dict.fromkeys(material.name for material in materials)),
             "material_details": materials,
-            "display_color": display_color(nodes, self.time),
-            "instances": count_copies(nodes, self.time),
-            "labels": self.labels.read(nodes) if self.has_labels else NO_LABELS,
+            "display_color": display_color(records, self.time),
+            "instances": count_copies(records, self.time),
+            "labels": self.labels.read(records) if self.has_labels else NO_LABELS,
             "variants": variant_selections(prim),
-            "texts": text_attributes(prim, self.time) if node.may_have_texts else (),
+            "texts": text_attributes(prim, self.time) if record.may_have_texts else (),
         }
 
-    def read_copies(self, instancer: Node, parent_path: str | None) -> list[SceneObject]:
+    def read_copies(self, instancer: PrimRecord, parent_path: str | None) -> list[SceneObject]:
         """Return the copies of a point instancer; none where OpenUSD cannot read it."""
         try:
             return read_copies(instancer, parent_path, self.frame, self.time, self.boxes, self.notes)
@@ -329,14 +333,14 @@ class _ObjectReader:
             self._note("geometry", instancer, f"its copies cannot be read ({_why(error)}); they are left out")
             return []
 
-    def _pose(self, node: Node) -> tuple[Any, Any]:
+    def _pose(self, record: PrimRecord) -> tuple[Any, Any]:
         try:
-            position, orientation = self.boxes.read_pose(node)
+            position, orientation = self.boxes.read_pose(record)
         except UNREADABLE:
             position, orientation = None, None
         if position is None or orientation is None:
-            self._note("transform", node, "its transform has no finite position or rotation; pose left out")
+            self._note("transform", record, "its transform has no finite position or rotation; pose left out")
         return position, orientation
 
-    def _note(self, code: str, node: Node, message: str) -> None:
-        self.notes.append(Diagnostic(code, message, node.path))
+    def _note(self, code: str, record: PrimRecord, message: str) -> None:
+        self.notes.append(Diagnostic(code, message, record.path))

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from usd2kg.scene.outline import JointLink, Node, Outline
+from usd2kg.scene.outline import JointLink, Outline, PrimRecord
 
 __all__ = ["merge_robots"]
 
@@ -24,20 +24,20 @@ def merge_robots(outline: Outline, candidates: dict[str, str]) -> None:
 
 def _merge_nested(outline: Outline, candidates: dict[str, str]) -> None:
     turning = {joint.body1 for joint in outline.joints if joint.type_name == _TURNING}
-    for node in outline.nodes:
-        if node.path in candidates and node.is_body and _nested_chain(node, turning) >= _ARM_JOINTS:
-            _merge(node, candidates)
+    for record in outline.records:
+        if record.path in candidates and record.is_body and _nested_chain(record, turning) >= _ARM_JOINTS:
+            _merge(record, candidates)
 
 
-def _merge(node: Node, candidates: dict[str, str]) -> None:
-    for below in node.walk():
+def _merge(record: PrimRecord, candidates: dict[str, str]) -> None:
+    for below in record.walk():
         candidates.pop(below.path, None)
-    candidates[node.path] = "robot: a chain of turning joints"
+    candidates[record.path] = "robot: a chain of turning joints"
 
 
-def _nested_chain(node: Node, turning: set[str]) -> int:
-    """Return the longest run of turning joints below `node`, if the chain never branches into objects."""
-    length, current = 0, node
+def _nested_chain(record: PrimRecord, turning: set[str]) -> int:
+    """Return the longest run of turning joints below `record`, if the chain never branches into objects."""
+    length, current = 0, record
     while True:
         links = [child for child in current.children if child.is_body]
         if len(links) != 1:
@@ -54,9 +54,9 @@ def _merge_side_by_side(outline: Outline, candidates: dict[str, str]) -> None:
     bases = {base for body in moved if body in candidates and (base := _arm_base(body, moved))}
     if not bases:
         return
-    nodes = {node.path: node for node in outline.nodes}
+    records = {record.path: record for record in outline.records}
     for base in sorted(bases):
-        bodies = [nodes[body] for body in sorted(_carried(base, moves)) if body in nodes]
+        bodies = [records[body] for body in sorted(_carried(base, moves)) if body in records]
         holder = _holder(bodies)
         # A prim that shows more than the robot is the room or the table that it stands on.
         if holder is not None and holder.gprim_count == _geometry_of(bodies):
@@ -89,24 +89,24 @@ def _carried(base: str, moves: Mapping[str, list[str]]) -> set[str]:
     return found
 
 
-def _geometry_of(bodies: Sequence[Node]) -> int:
+def _geometry_of(bodies: Sequence[PrimRecord]) -> int:
     """Return the number of visible geometry prims of the bodies, nested ones counted once."""
     paths = {body.path for body in bodies}
     outermost = [body for body in bodies if not any(above.path in paths for above in _above(body))]
     return sum(body.gprim_count for body in outermost)
 
 
-def _above(node: Node) -> Iterator[Node]:
-    above = node.parent
+def _above(record: PrimRecord) -> Iterator[PrimRecord]:
+    above = record.parent
     while above is not None:
         yield above
         above = above.parent
 
 
-def _holder(bodies: Sequence[Node]) -> Node | None:
+def _holder(bodies: Sequence[PrimRecord]) -> PrimRecord | None:
     """Return the nearest prim that all the bodies are below; None if that is the stage itself."""
-    shared: list[Node] | None = None
+    shared: list[PrimRecord] | None = None
     for body in bodies:
         above = list(_above(body))
-        shared = above if shared is None else [node for node in shared if node in above]
+        shared = above if shared is None else [record for record in shared if record in above]
     return shared[0] if shared and shared[0].parent is not None else None

@@ -2,7 +2,7 @@
 
 In order: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads,
 instances), and for geometry that none of these covers its nearest owner that is not a mere grouping.
-The rules see outline nodes only, and boxes where names say nothing.
+The rules see outline records only, and boxes where names say nothing.
 """
 
 import re
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from usd2kg.scene.fixtures import find_fixtures
 from usd2kg.scene.options import SelectionOverrides
-from usd2kg.scene.outline import Node, Outline
+from usd2kg.scene.outline import Outline, PrimRecord
 from usd2kg.scene.pieces import Measure, is_silent, sort_pieces
 from usd2kg.scene.robots import merge_robots
 from usd2kg.words import split_identifier
@@ -53,42 +53,42 @@ def select_objects(
     Those at the paths `wanted` are objects whatever the rules or the overrides say.
     """
     candidates = _overridden(outline, overrides, measure)
-    there = {node.path for node in outline.nodes}
+    there = {record.path for record in outline.records}
     for path in wanted:
         if path in there:
             candidates.setdefault(path, ASKED_FOR)
-    chosen = {node.path: candidates[node.path] for node in outline.nodes if node.path in candidates}
+    chosen = {record.path: candidates[record.path] for record in outline.records if record.path in candidates}
     missing = tuple(path for path in wanted if path not in there)
     return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
 def _overridden(outline: Outline, overrides: SelectionOverrides, measure: Measure) -> dict[str, str]:
-    nodes = outline.nodes
+    records = outline.records
     if overrides.only:
         only = frozenset(overrides.only)
-        return {node.path: "listed by the user" for node in nodes if node.path in only}
+        return {record.path: "listed by the user" for record in records if record.path in only}
     if overrides.is_every_prim:
-        candidates = {node.path: "every prim with geometry was asked for" for node in nodes if node.gprim_count}
+        candidates = {record.path: "every prim with geometry was asked for" for record in records if record.gprim_count}
     else:
         candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}), measure)
     included = [path_pattern(pattern) for pattern in overrides.include]
-    for node in nodes if included else ():
-        if any(pattern.fullmatch(node.path) for pattern in included):
-            candidates[node.path] = "included by a pattern of the user"
+    for record in records if included else ():
+        if any(pattern.fullmatch(record.path) for pattern in included):
+            candidates[record.path] = "included by a pattern of the user"
     if overrides.exclude:
         _exclude(outline, candidates, [path_pattern(pattern) for pattern in overrides.exclude])
     return candidates
 
 
 def _exclude(outline: Outline, candidates: dict[str, str], excluded: list[re.Pattern[str]]) -> None:
-    # (node, below an excluded one)
+    # (record, below an excluded one)
     pending = [(child, False) for child in outline.root.children]
     while pending:
-        node, is_excluded = pending.pop()
-        is_excluded = is_excluded or any(pattern.fullmatch(node.path) for pattern in excluded)
+        record, is_excluded = pending.pop()
+        is_excluded = is_excluded or any(pattern.fullmatch(record.path) for pattern in excluded)
         if is_excluded:
-            candidates.pop(node.path, None)
-        pending.extend((child, is_excluded) for child in node.children)
+            candidates.pop(record.path, None)
+        pending.extend((child, is_excluded) for child in record.children)
 
 
 def path_pattern(pattern: str) -> re.Pattern[str]:
@@ -113,64 +113,64 @@ def _by_rules(outline: Outline, kinds: frozenset[str], measure: Measure) -> dict
     owners = _geometry_owners(outline.root, candidates)
     sort_pieces(outline, candidates, owners, measure)
     candidates.update(owners)
-    for body in [node for node in outline.nodes if candidates.get(node.path) == _BODY]:
+    for body in [record for record in outline.records if candidates.get(record.path) == _BODY]:
         candidates.update(find_fixtures(body, candidates))
     return candidates
 
 
 def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
     found: dict[str, str] = {}
-    # (node, below a component or body, below an asset)
+    # (record, below a component or body, below an asset)
     pending = [(outline.root, False, False)]
     while pending:
-        node, in_model, in_asset = pending.pop()
-        is_there = node.gprim_count > 0 or _has_unresolved(node) or _has_missing_mesh(node)
-        if node.kind in kinds:
-            found[node.path] = f"authored kind: {node.kind}"
+        record, in_model, in_asset = pending.pop()
+        is_there = record.gprim_count > 0 or _has_unresolved(record) or _has_missing_mesh(record)
+        if record.kind in kinds:
+            found[record.path] = f"authored kind: {record.kind}"
             in_model = True
-        elif node.is_body and is_there and not node.kind:
-            found[node.path] = _BODY
+        elif record.is_body and is_there and not record.kind:
+            found[record.path] = _BODY
             in_model = True
-        elif node.is_instancer:
-            found[node.path] = "point instancer"
-        elif is_there and not (in_model or in_asset or node.is_gprim) and node.is_asset and _is_one_asset(node):
-            found[node.path] = _ASSET
+        elif record.is_instancer:
+            found[record.path] = "point instancer"
+        elif is_there and not (in_model or in_asset or record.is_gprim) and record.is_asset and _is_one_asset(record):
+            found[record.path] = _ASSET
             in_asset = True
-        pending.extend((child, in_model, in_asset) for child in node.children)
+        pending.extend((child, in_model, in_asset) for child in record.children)
     return found
 
 
-def _has_unresolved(node: Node) -> bool:
-    return node.gprim_count == 0 and any(below.is_unresolved for below in node.walk())
+def _has_unresolved(record: PrimRecord) -> bool:
+    return record.gprim_count == 0 and any(below.is_unresolved for below in record.walk())
 
 
-def _has_missing_mesh(node: Node) -> bool:
+def _has_missing_mesh(record: PrimRecord) -> bool:
     """Whether an importer left an empty frame where the visible mesh should be: a named thing all the same."""
-    return node.gprim_count == 0 and any(
-        child.type_name == "Xform" and not child.is_hidden and not child.children for child in node.children
+    return record.gprim_count == 0 and any(
+        child.type_name == "Xform" and not child.is_hidden and not child.children for child in record.children
     )
 
 
-def _is_one_asset(node: Node) -> bool:
+def _is_one_asset(record: PrimRecord) -> bool:
     """Whether the referenced prim is one thing, not a whole set that brings in assets of its own."""
-    if node.kind in _STRUCTURE_KINDS:
+    if record.kind in _STRUCTURE_KINDS:
         return False
-    nested = sum(1 for below in node.walk() if below is not node and not below.is_gprim and below.is_asset)
+    nested = sum(1 for below in record.walk() if below is not record and not below.is_gprim and below.is_asset)
     return nested < 2
 
 
-def _drop_whole_scene(root: Node, candidates: dict[str, str]) -> None:
+def _drop_whole_scene(root: PrimRecord, candidates: dict[str, str]) -> None:
     """A converter's root prim is a component too (the whole room as one model): it is no object then."""
-    for node in root.children:
-        is_all = node.gprim_count == root.gprim_count
-        if is_all and node.path in candidates and len(_nearest_below(node, candidates)) > 1:
-            del candidates[node.path]
+    for record in root.children:
+        is_all = record.gprim_count == root.gprim_count
+        if is_all and record.path in candidates and len(_nearest_below(record, candidates)) > 1:
+            del candidates[record.path]
 
 
-def _nearest_below(node: Node, candidates: dict[str, str]) -> list[Node]:
-    """Return the candidates below `node` with no other candidate between."""
-    found: list[Node] = []
-    pending = list(reversed(node.children))
+def _nearest_below(record: PrimRecord, candidates: dict[str, str]) -> list[PrimRecord]:
+    """Return the candidates below `record` with no other candidate between."""
+    found: list[PrimRecord] = []
+    pending = list(reversed(record.children))
     while pending:
         below = pending.pop()
         if below.path in candidates:
@@ -182,22 +182,22 @@ def _nearest_below(node: Node, candidates: dict[str, str]) -> list[Node]:
 
 def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
     """A body or asset without geometry of its own wraps one object, and then is it, or groups several."""
-    for node in reversed(outline.nodes):
-        if node.path not in candidates or node.is_instancer or node.is_gprim:
+    for record in reversed(outline.records):
+        if record.path not in candidates or record.is_instancer or record.is_gprim:
             continue
-        nested = _nearest_below(node, candidates)
-        own_gprims = node.gprim_count - sum(below.gprim_count for below in nested)
+        nested = _nearest_below(record, candidates)
+        own_gprims = record.gprim_count - sum(below.gprim_count for below in nested)
         if own_gprims or not nested:
             continue
         if len(nested) == 1:
             del candidates[nested[0].path]
-        elif not candidates[node.path].startswith("authored kind"):
-            del candidates[node.path]
+        elif not candidates[record.path].startswith("authored kind"):
+            del candidates[record.path]
 
 
 def _rise_to_names(outline: Outline, candidates: dict[str, str]) -> None:
     """Let the model above stand for an asset that comes in as its `visual`, where that is all it shows."""
-    assets = [node for node in outline.nodes if candidates.get(node.path) == _ASSET and is_silent(node.name)]
+    assets = [record for record in outline.records if candidates.get(record.path) == _ASSET and is_silent(record.name)]
     for asset in assets:
         top = asset
         while is_silent(top.name) and (above := top.parent) is not None and above.path not in candidates:
@@ -210,92 +210,94 @@ def _rise_to_names(outline: Outline, candidates: dict[str, str]) -> None:
 
 @dataclass(slots=True)
 class _Cover:
-    """What is known of a node from the nodes below it."""
+    """What is known of a record from the records below it."""
 
     uncovered: int = 0
     """Gprims at and below it that no candidate holds."""
     holds_objects: bool = False
     """Whether a candidate is below it."""
-    owners: list[Node] = field(default_factory=list)
+    owners: list[PrimRecord] = field(default_factory=list)
     """The owners of the uncovered gprims at and below it."""
 
 
-def _geometry_owners(root: Node, candidates: dict[str, str]) -> dict[str, str]:
+def _geometry_owners(root: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:
     covers: dict[str, _Cover] = {}
     # From the leaves up, without recursion: a stage may be nested deeper than Python's stack.
-    for node in reversed(list(_open_nodes(root, candidates))):
-        covers[node.path] = _cover(node, candidates, covers)
-    return {node.path: "geometry without a model above it" for node in covers[root.path].owners}
+    for record in reversed(list(_open_records(root, candidates))):
+        covers[record.path] = _cover(record, candidates, covers)
+    return {record.path: "geometry without a model above it" for record in covers[root.path].owners}
 
 
-def _open_nodes(root: Node, candidates: dict[str, str]) -> Iterator[Node]:
-    """Yield the nodes that no candidate is above, parents first."""
+def _open_records(root: PrimRecord, candidates: dict[str, str]) -> Iterator[PrimRecord]:
+    """Yield the records that no candidate is above, parents first."""
     pending = [root]
     while pending:
-        node = pending.pop()
-        yield node
-        if node.children and node.path not in candidates:
-            pending.extend(reversed(node.children))
+        record = pending.pop()
+        yield record
+        if record.children and record.path not in candidates:
+            pending.extend(reversed(record.children))
 
 
-def _cover(node: Node, candidates: dict[str, str], covers: dict[str, _Cover]) -> _Cover:
-    if node.path in candidates:
+def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Cover]) -> _Cover:
+    if record.path in candidates:
         return _Cover(holds_objects=True)
-    below = [covers.pop(child.path) for child in node.children]
+    below = [covers.pop(child.path) for child in record.children]
     cover = _Cover(holds_objects=any(c.holds_objects for c in below))
-    is_own = node.is_gprim and not node.is_hidden
+    is_own = record.is_gprim and not record.is_hidden
     cover.uncovered = is_own + sum(c.uncovered for c in below)
     if is_own:
-        cover.owners = [node]
+        cover.owners = [record]
     elif cover.uncovered:
-        cover.owners = _owners_at(node, cover, below)
+        cover.owners = _owners_at(record, cover, below)
     return cover
 
 
-def _owners_at(node: Node, cover: _Cover, below: list[_Cover]) -> list[Node]:
+def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[PrimRecord]:
     found = [owner for c in below for owner in c.owners]
-    has_gprims = any(child.is_gprim and c.uncovered for child, c in zip(node.children, below, strict=True))
-    is_grouping = _is_grouping(node, cover.holds_objects)
+    has_gprims = any(child.is_gprim and c.uncovered for child, c in zip(record.children, below, strict=True))
+    is_grouping = _is_grouping(record, cover.holds_objects)
     if has_gprims and not is_grouping:
-        return [node]
-    is_lone_root = _is_lone_root(node) and not cover.holds_objects
+        return [record]
+    is_lone_root = _is_lone_root(record) and not cover.holds_objects
     if len(found) == 1 and (is_lone_root or not is_grouping):
-        return [node]
+        return [record]
     # A named thing in pieces that nobody named: Chair/group_1/mesh_7.
-    if not is_grouping and not is_silent(node.name) and all(is_silent(owner.name) for owner in found):
-        return [node]
+    if not is_grouping and not is_silent(record.name) and all(is_silent(owner.name) for owner in found):
+        return [record]
     return found
 
 
-def _is_grouping(node: Node, holds_objects: bool) -> bool:
-    is_top = node.parent is None or node.parent.parent is None
-    last_words = [word.lower() for word in split_identifier(node.name) if word.isalpha()][-1:]
+def _is_grouping(record: PrimRecord, holds_objects: bool) -> bool:
+    is_top = record.parent is None or record.parent.parent is None
+    last_words = [word.lower() for word in split_identifier(record.name) if word.isalpha()][-1:]
     is_named_group = not _GROUPING_WORDS.isdisjoint(last_words)
-    return is_top or node.is_scope or node.kind in _STRUCTURE_KINDS or is_named_group or holds_objects
+    return is_top or record.is_scope or record.kind in _STRUCTURE_KINDS or is_named_group or holds_objects
 
 
-def _is_lone_root(node: Node) -> bool:
+def _is_lone_root(record: PrimRecord) -> bool:
     """Whether the file is one asset: a single root prim with nothing below it but what is asked about."""
-    above = node.parent
-    return above is not None and above.parent is None and not node.is_scope and node.gprim_count == above.gprim_count
+    above = record.parent
+    return (
+        above is not None and above.parent is None and not record.is_scope and record.gprim_count == above.gprim_count
+    )
 
 
 def _count_left_out(outline: Outline, chosen: dict[str, str]) -> Counter[str]:
     counts = Counter(outline.left_out)
-    # (node, below an object)
+    # (record, below an object)
     pending = [(child, False) for child in outline.root.children]
     while pending:
-        node, in_object = pending.pop()
-        is_object = node.path in chosen
+        record, in_object = pending.pop()
+        is_object = record.path in chosen
         if not is_object:
-            counts[_reason(node, in_object, chosen)] += 1
-        pending.extend((child, in_object or is_object) for child in node.children)
+            counts[_reason(record, in_object, chosen)] += 1
+        pending.extend((child, in_object or is_object) for child in record.children)
     return counts
 
 
-def _reason(node: Node, in_object: bool, chosen: dict[str, str]) -> str:
-    if node.gprim_count == 0:
-        return "guide or proxy geometry" if node.hidden_gprim_count else "no geometry"
+def _reason(record: PrimRecord, in_object: bool, chosen: dict[str, str]) -> str:
+    if record.gprim_count == 0:
+        return "guide or proxy geometry" if record.hidden_gprim_count else "no geometry"
     return "part of an object" if in_object else "grouping of objects"
 
 
@@ -307,14 +309,14 @@ def explain(path: str, outline: Outline, selection: Selection) -> str:
         if above in outline.pruned:
             what = "it is" if above == path else f"it is below {above}, which is"
             return f"{path} is no object: {what} left out ({outline.pruned[above]})"
-    node = next((node for node in (outline.root, *outline.nodes) if node.path == path), None)
-    if node is None:
+    record = next((record for record in (outline.root, *outline.records) if record.path == path), None)
+    if record is None:
         return f"{path} is no object: it belongs to the prototypes of a point instancer"
     holder = next((above for above in _paths_up(path) if above in selection.chosen), None)
-    reason = _reason(node, holder is not None, selection.chosen)
+    reason = _reason(record, holder is not None, selection.chosen)
     if holder is not None:
         return f"{path} is no object: {reason}, {holder} ({selection.chosen[holder]})"
-    below = [found.path for found in _nearest_below(node, selection.chosen)]
+    below = [found.path for found in _nearest_below(record, selection.chosen)]
     some = ", ".join(below[:3]) + (f" and {len(below) - 3} more" if len(below) > 3 else "")
     return f"{path} is no object: {reason}" + (f"; the objects are {some}" if below else "")
 

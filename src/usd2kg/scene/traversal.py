@@ -12,7 +12,7 @@ from pxr import Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 
 from usd2kg.scene.instancers import is_endless
 from usd2kg.scene.metadata import text_names
-from usd2kg.scene.outline import Authored, JointLink, Node, Outline
+from usd2kg.scene.outline import Authored, JointLink, Outline, PrimRecord
 from usd2kg.scene.solids import ROUND_SOLIDS
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, read_targets, read_value, value_of
 
@@ -28,7 +28,7 @@ _BINDING = "material:binding"
 _SUBSET = "geometry subset"
 _INVISIBLE = "invisible"
 _TOLD_APART = frozenset({"specifier", "typeName", "kind", "active", "instanceable", "apiSchemas"})
-"""Metadata that the other fields of a node tell."""
+"""Metadata that the other fields of a record tell."""
 
 _REASON_BY_SCHEMA = (
     ("UsdGeomCamera", "camera"),
@@ -74,11 +74,11 @@ class _Outliner:
         self.stage = opened.stage
         self.time = time
         self.unresolved = opened.unresolved
-        self.outline = Outline(Node(opened.stage, "/", "", "", "", None))
+        self.outline = Outline(PrimRecord(opened.stage, "/", "", "", "", None))
         self.schemas: dict[str, _Schema] = {}
         self.kinds: dict[str, str] = {"": ""}
         self.authored: dict[tuple[Any, ...], Authored] = {}
-        self.first_instances: dict[Any, Node] = {}
+        self.first_instances: dict[Any, PrimRecord] = {}
         """Path of the prototype → its first instance."""
         self.instancers: dict[Any, list[Any]] = {}
         """Path of a prim → the point instancers at and below it, for those that were looked through."""
@@ -95,22 +95,22 @@ class _Outliner:
             path = prim.GetPath().pathString
             above, _, name = path.rpartition("/")
             try:
-                node = self._enter(prim, path, name, entered[above or "/"])
+                record = self._enter(prim, path, name, entered[above or "/"])
             except UNREADABLE:
                 self._leave_out(path, name, entered[above or "/"], UNREADABLE_PRIM)
-                node = None
-            if node is None:
+                record = None
+            if record is None:
                 prims.PruneChildren()
                 continue
-            entered[path] = node
-            if node.is_instancer or (node.is_instance and self._take_over(node)):
+            entered[path] = record
+            if record.is_instancer or (record.is_instance and self._take_over(record)):
                 prims.PruneChildren()
-        self.outline.nodes = list(self.outline.root.walk())[1:]
-        _count_geometry(self.outline.nodes)
+        self.outline.records = list(self.outline.root.walk())[1:]
+        _count_geometry(self.outline.records)
         return self.outline
 
-    def _enter(self, prim: Any, path: str, name: str, parent: Node) -> Node | None:
-        """Return the node of a prim, hung into the tree; None if it is not to be entered."""
+    def _enter(self, prim: Any, path: str, name: str, parent: PrimRecord) -> PrimRecord | None:
+        """Return the record of a prim, hung into the tree; None if it is not to be entered."""
         self.outline.prim_count += 1
         metadata = prim.GetAllAuthoredMetadata()
         reason = _reason_of(metadata)
@@ -136,15 +136,15 @@ class _Outliner:
         if reason is not None:
             self._leave_out(path, name, parent, reason)
             return None
-        node = Node(self.stage, path, name, type_name, self._kind(metadata), parent, known_prim=prim)
-        self._fill(node, schema, authored, schemas)
+        record = PrimRecord(self.stage, path, name, type_name, self._kind(metadata), parent, known_prim=prim)
+        self._fill(record, schema, authored, schemas)
         if not _TOLD_APART.issuperset(metadata):
-            node.metadata = metadata
-        node.is_labelled = authored.is_semantic
-        node.is_instance = "instanceable" in metadata and prim.IsInstance()
+            record.metadata = metadata
+        record.is_labelled = authored.is_semantic
+        record.is_instance = "instanceable" in metadata and prim.IsInstance()
         # Last, so that what turns out to be unreadable is not in the tree.
-        parent.children.append(node)
-        return node
+        parent.children.append(record)
+        return record
 
     def _is_new(self, prim: Any) -> bool:
         """Return whether a prim is no other instance's: what instances share is told once."""
@@ -155,19 +155,19 @@ class _Outliner:
         self.labelled.add(shared)
         return is_new
 
-    def _fill(self, node: Node, schema: _Schema, authored: Authored, schemas: Sequence[str]) -> None:
-        node.authored = authored
-        node.is_gprim, node.has_points = schema.is_gprim, schema.has_points
-        node.is_scope, node.is_instancer = schema.is_scope, schema.is_instancer
-        node.is_unresolved = node.path in self.unresolved
-        _inherit(node)
+    def _fill(self, record: PrimRecord, schema: _Schema, authored: Authored, schemas: Sequence[str]) -> None:
+        record.authored = authored
+        record.is_gprim, record.has_points = schema.is_gprim, schema.has_points
+        record.is_scope, record.is_instancer = schema.is_scope, schema.is_instancer
+        record.is_unresolved = record.path in self.unresolved
+        _inherit(record)
         if UsdGeom.Tokens.purpose in authored.names:
-            purpose = node.prim.GetAttribute(UsdGeom.Tokens.purpose)
+            purpose = record.prim.GetAttribute(UsdGeom.Tokens.purpose)
             if purpose and purpose.HasAuthoredValue():
-                node.is_hidden = value_of(purpose, Usd.TimeCode.Default()) in _HIDDEN_PURPOSES
+                record.is_hidden = value_of(purpose, Usd.TimeCode.Default()) in _HIDDEN_PURPOSES
         if schemas:
-            node.has_mass = "PhysicsMassAPI" in schemas
-            node.is_body = "PhysicsRigidBodyAPI" in schemas or (node.has_mass and not node.is_gprim)
+            record.has_mass = "PhysicsMassAPI" in schemas
+            record.is_body = "PhysicsRigidBodyAPI" in schemas or (record.has_mass and not record.is_gprim)
 
     def _authored(self, prim: Any, type_name: str, schemas: tuple[str, ...]) -> Authored:
         names = tuple(prim.GetAuthoredPropertyNames())
@@ -183,7 +183,7 @@ class _Outliner:
             return False
         return bool(read_value(prim, UsdGeom.Tokens.visibility, self.time, str) == UsdGeom.Tokens.invisible)
 
-    def _leave_out(self, path: str, name: str, parent: Node, reason: str) -> None:
+    def _leave_out(self, path: str, name: str, parent: PrimRecord, reason: str) -> None:
         self.outline.left_out[reason] += 1
         self.outline.pruned[path] = reason
         if parent.left_out is None:
@@ -220,7 +220,7 @@ class _Outliner:
             self.kinds[kind] = _standard_kind(kind)
         return self.kinds[kind]
 
-    def _take_over(self, root: Node) -> bool:
+    def _take_over(self, root: PrimRecord) -> bool:
         """Copy what is below the first instance of the same prototype; return whether that could be done."""
         prototype = root.prim.GetPrototype().GetPath()
         first = self.first_instances.setdefault(prototype, root)
@@ -239,47 +239,47 @@ class _Outliner:
                 pending.append((child, _copy_below(child, copy)))
         return True
 
-    def _holds_joints(self, prototype: Any, first: Node) -> bool:
+    def _holds_joints(self, prototype: Any, first: PrimRecord) -> bool:
         if prototype not in self.with_joints:
-            reasons = {reason for node in first.walk() for _, reason in node.left_out or ()}
+            reasons = {reason for record in first.walk() for _, reason in record.left_out or ()}
             self.with_joints[prototype] = "physics" in reasons
         return self.with_joints[prototype]
 
 
-def _copy_below(source: Node, parent: Node) -> Node:
+def _copy_below(source: PrimRecord, parent: PrimRecord) -> PrimRecord:
     path = f"{parent.path}/{source.name}"
-    node = Node(source.stage, path, source.name, source.type_name, source.kind, parent)
-    node.metadata, node.authored = source.metadata, source.authored
-    parent.children.append(node)
-    node.is_gprim, node.has_points = source.is_gprim, source.has_points
-    node.is_scope, node.is_instancer, node.is_instance = source.is_scope, source.is_instancer, source.is_instance
-    node.is_body, node.has_mass = source.is_body, source.has_mass
-    node.is_labelled, node.is_unresolved = source.is_labelled, source.is_unresolved
-    node.twin = source.twin or source
-    node.first_instance = source.first_instance
-    _inherit(node)
-    node.is_hidden = source.is_hidden
-    return node
+    record = PrimRecord(source.stage, path, source.name, source.type_name, source.kind, parent)
+    record.metadata, record.authored = source.metadata, source.authored
+    parent.children.append(record)
+    record.is_gprim, record.has_points = source.is_gprim, source.has_points
+    record.is_scope, record.is_instancer, record.is_instance = source.is_scope, source.is_instancer, source.is_instance
+    record.is_body, record.has_mass = source.is_body, source.has_mass
+    record.is_labelled, record.is_unresolved = source.is_labelled, source.is_unresolved
+    record.twin = source.twin or source
+    record.first_instance = source.first_instance
+    _inherit(record)
+    record.is_hidden = source.is_hidden
+    return record
 
 
-def _inherit(node: Node) -> None:
-    parent = node.parent
+def _inherit(record: PrimRecord) -> None:
+    parent = record.parent
     assert parent is not None
-    node.is_hidden = parent.is_hidden
-    node.is_bound = parent.is_bound or node.authored.binds
-    node.may_be_turned = parent.may_be_turned or node.authored.turns
+    record.is_hidden = parent.is_hidden
+    record.is_bound = parent.is_bound or record.authored.binds
+    record.may_be_turned = parent.may_be_turned or record.authored.turns
 
 
-def _count_geometry(nodes: list[Node]) -> None:
-    for node in reversed(nodes):
-        if node.is_gprim or node.is_instancer:
-            if node.is_hidden:
-                node.hidden_gprim_count += 1
+def _count_geometry(records: list[PrimRecord]) -> None:
+    for record in reversed(records):
+        if record.is_gprim or record.is_instancer:
+            if record.is_hidden:
+                record.hidden_gprim_count += 1
             else:
-                node.gprim_count += 1
-        if node.parent is not None:
-            node.parent.gprim_count += node.gprim_count
-            node.parent.hidden_gprim_count += node.hidden_gprim_count
+                record.gprim_count += 1
+        if record.parent is not None:
+            record.parent.gprim_count += record.gprim_count
+            record.parent.hidden_gprim_count += record.hidden_gprim_count
 
 
 def _first_target(prim: Any, name: str) -> str | None:

@@ -1,0 +1,133 @@
+"""Settings of reading a stage, documented in `knowledge/settings/scene.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = [
+    "JOINTS",
+    "LABELS",
+    "LEVELS",
+    "LIMITS",
+    "MAX_COORDINATE",
+    "MESHES",
+    "PLAUSIBILITY",
+    "ROBOTS",
+    "SOLIDS",
+    "TEXTS",
+    "UNNAMED",
+]
+
+MAX_COORDINATE = 1e30
+"""OpenUSD marks empty ranges, infinite planes and unlimited joints with numbers from here on."""
+
+
+@dataclass(frozen=True)
+class LimitSettings:
+    """Numbers and lengths that are kept."""
+
+    max_part_boxes: int
+    max_part_labels: int
+    max_texts: int
+    max_text_length: int
+    max_message_length: int
+    max_openusd_message: int
+    max_openusd_text: int
+    same_message_length: int
+    min_unit: float
+    max_unit: float
+
+
+@dataclass(frozen=True)
+class SolidSettings:
+    """Tessellation of round solids."""
+
+    segments: int
+    box_segments: int
+
+
+@dataclass(frozen=True)
+class MeshSettings:
+    """Limits on what is drawn."""
+
+    max_display_colors: int
+    max_copies: int
+    max_copied_triangles: int
+    max_instancer_depth: int
+
+
+@dataclass(frozen=True)
+class LevelSettings:
+    """Level faces within meshes."""
+
+    margin: float
+    min_overlap_ratio: float
+    min_normal_z: float
+    max_step: float
+    max_bulge: float
+    min_footprint_share: float
+    min_filled_share: float
+    max_points: int
+    max_levels: int
+
+
+@dataclass(frozen=True)
+class UnnamedSettings:
+    """Pieces without meaningful names."""
+
+    max_extent: float
+    max_gap: float
+    max_pieces: int
+
+
+@dataclass(frozen=True)
+class RobotSettings:
+    """Recognition of robot arms."""
+
+    min_turning_joints: int
+
+
+@dataclass(frozen=True)
+class JointSettings:
+    """Directions of joint axes."""
+
+    max_axis_angle: float
+
+
+@dataclass(frozen=True)
+class LabelSettings:
+    """Checks of labels."""
+
+    min_similarity: float
+
+
+@dataclass(frozen=True)
+class TextSettings:
+    """Free text in attributes and metadata."""
+
+    min_word_share: float
+
+
+@dataclass(frozen=True)
+class PlausibilitySettings:
+    """Checks of the extent and the names of a scene."""
+
+    min_objects: int
+    min_extent: float
+    max_extent: float
+    far_factor: float
+    min_far_distance: float
+    min_unnamed: int
+    min_unnamed_share: float
+
+
+LIMITS = read_settings("scene", "limits", LimitSettings)
+SOLIDS = read_settings("scene", "solids", SolidSettings)
+MESHES = read_settings("scene", "meshes", MeshSettings)
+LEVELS = read_settings("scene", "levels", LevelSettings)
+UNNAMED = read_settings("scene", "unnamed", UnnamedSettings)
+ROBOTS = read_settings("scene", "robots", RobotSettings)
+JOINTS = read_settings("scene", "joints", JointSettings)
+LABELS = read_settings("scene", "labels", LabelSettings)
+TEXTS = read_settings("scene", "texts", TextSettings)
+PLAUSIBILITY = read_settings("scene", "plausibility", PlausibilitySettings)
