@@ -188,12 +188,12 @@ class TestWhy:
         done = run("inspect", kitchen, "--why", "/Room/Cupboard/board")
         assert done.code == 0
         assert done.out.count("\n") == 1
-        assert done.out.startswith("/Room/Cupboard/board is no object: ")
+        assert done.out.startswith("/Room/Cupboard/board is not an object: ")
 
     def test_explains_a_prim_on_a_stage_without_objects(self, run: Run, write_stage):
         done = run("inspect", write_stage('def Camera "view" {}\n'), "--why", "/view")
         assert (done.code, done.err) == (0, "")
-        assert done.out.startswith("/view is no object: ")
+        assert done.out.startswith("/view is not an object: ")
 
     @pytest.mark.parametrize("path", ["/Nowhere", "/Room/Cupboard[0]"])
     def test_rejects_an_unknown_prim(self, run: Run, kitchen, path):

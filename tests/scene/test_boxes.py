@@ -196,7 +196,7 @@ def test_what_cannot_be_measured_has_no_box_and_is_told(read, points):
     assert (odd.box, odd.own_box, odd.position) == (None, None, (0, 0, 0))
     (note,) = scene.diagnostics
     assert (note.code, note.prim_path) == ("empty-box", "/World/Odd")
-    assert note.message == "no geometry that can be measured; it has no size in the graph"
+    assert note.message == "it has no measurable geometry; it has no size in the graph"
 
 
 def test_a_flat_mesh_has_a_flat_box(read):

@@ -88,7 +88,9 @@ def test_a_joint_with_attributes_for_bodies_joins_nothing(read):
     (joint,) = scene.joints
     assert (joint.body0, joint.body1) == (None, None)
     assert joint.upper == pytest.approx(math.pi / 2)
-    assert messages(scene, "joint") == ["it joins no body that is on the stage; expected physics:body0 and body1"]
+    assert messages(scene, "joint") == [
+        "it connects no body on the stage; expected targets of physics:body0 and physics:body1"
+    ]
 
 
 def test_a_binding_that_is_an_attribute_costs_its_prim_alone_the_material(read):
@@ -134,10 +136,7 @@ def test_copies_without_ids_of_their_own_are_numbered_by_place(read, ids):
     assert [obj.prim_path for obj in scene.objects] == ["/World/Trees[0]", "/World/Trees[1]", "/World/Sound"]
     (note,) = (note for note in scene.diagnostics if note.code == "instancer")
     assert note.prim_path == "/World/Trees"
-    assert (
-        note.message
-        == "its ids are not one different number for each of its 2 copies; they are numbered by their place"
-    )
+    assert note.message == "its ids are not 2 different numbers, one for each copy; the copies are numbered by position"
 
 
 def test_ids_of_their_own_are_kept(read):
@@ -158,7 +157,7 @@ def test_instancers_that_are_their_own_prototypes_are_left_out(read, targets, op
     scene = read(xform("World", turned, hint, trees, others, lamp, SOUND, kind="component"), options=option)
     assert scene.left_out["point instancer among its own prototypes"] == 3
     found = {note.prim_path: note.message for note in scene.diagnostics if note.code == "geometry"}
-    assert found["/World/Trees"] == "a point instancer is among its own prototypes, without end; it is left out"
+    assert found["/World/Trees"] == "a point instancer contains itself through its prototypes; it is left out"
     assert only(scene, "/World").box is not None
 
 
@@ -177,7 +176,7 @@ def test_units_that_none_can_be_are_not_used(read, unit):
     scene = read(odd(), layer=header(metersPerUnit=unit, upAxis="Z"))
     assert scene.frame.metres_per_unit == 0.01
     assert messages(scene, "units") == [
-        f"metersPerUnit is {unit!r}, expected a positive number that a unit can be; 0.01 is used"
+        f"metersPerUnit is {unit!r}, expected a number from 1e-15 to 1e+20; 0.01 is used"
     ]
 
 
@@ -263,9 +262,9 @@ def test_a_prim_that_cannot_be_read_is_left_out(tmp_path):
     (note,) = (note for note in scene.diagnostics if note.code == "geometry")
     assert (note.prim_path, note.message) == (
         "/World/Odd",
-        "OpenUSD cannot read it; it is left out with all below it",
+        "OpenUSD cannot read it; it is left out with all prims below it",
     )
-    assert explain_choice(path, "/World/Odd") == "/World/Odd is no object: it is left out (unreadable)"
+    assert explain_choice(path, "/World/Odd") == "/World/Odd is not an object: it is left out (unreadable)"
 
 
 def test_of_an_object_with_evidence_that_cannot_be_read_name_and_box_are_told(tmp_path):
@@ -276,7 +275,7 @@ def test_of_an_object_with_evidence_that_cannot_be_read_name_and_box_are_told(tm
     assert only(scene).box.size == (1, 1, 1)
     assert only(scene).variants == ()
     (message,) = messages(scene, "unreadable")
-    assert message.startswith("not all of it can be read (it holds text that is not UTF-8)")
+    assert message.startswith("its evidence cannot be read (it holds text that is not UTF-8)")
 
 
 def test_what_openusd_cannot_read_is_told_as_an_error_of_ours_with_its_cause():

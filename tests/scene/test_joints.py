@@ -352,7 +352,7 @@ def test_several_targets(read):
 def test_no_bodies_at_all(read):
     found, messages = trouble(read(revolute(axis("Y"), body0=None, body1=None)))
     assert (found.body0, found.body1, found.axis_vector) == (None, None, (0, 1, 0))
-    assert messages == ["it joins no body that is on the stage; expected physics:body0 and body1"]
+    assert messages == ["it connects no body on the stage; expected targets of physics:body0 and physics:body1"]
 
 
 def test_both_bodies_missing(read):

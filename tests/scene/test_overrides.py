@@ -8,7 +8,7 @@ from pxr import Usd, UsdGeom
 from tests.scene.usda import component, cube, header, move, ops, prim, xform
 from usd2kg.errors import SceneError
 from usd2kg.scene import ReadOptions, SelectionOverrides, explain_choice, read_scene
-from usd2kg.scene.selection import path_pattern
+from usd2kg.scene.object_selection import path_pattern
 
 ROOM = (
     component("Chair_1", cube("seat"), cube("leg", at=(0, 0, 1)))
@@ -139,12 +139,14 @@ def test_why(write_stage):
         for path in ("Chair_1", "Chair_1/seat", "view", "Hidden", "Locator")
     }
     assert why["Chair_1"] == "/World/Chair_1 is an object: authored kind: component"
-    assert why["Chair_1/seat"].endswith("is no object: part of an object, /World/Chair_1 (authored kind: component)")
-    assert why["view"].endswith("is no object: it is left out (camera)")
-    assert why["Hidden"].endswith("is no object: it is left out (inactive)")
-    assert why["Locator"].endswith("is no object: no geometry")
+    assert why["Chair_1/seat"].endswith(
+        "is not an object: part of an object, /World/Chair_1 (authored kind: component)"
+    )
+    assert why["view"].endswith("is not an object: it is left out (camera)")
+    assert why["Hidden"].endswith("is not an object: it is left out (inactive)")
+    assert why["Locator"].endswith("is not an object: no geometry")
     assert explain_choice(source, "/World").startswith(
-        "/World is no object: grouping of objects; the objects are /World/Chair_1, /World/Chair_2, /World/Wall"
+        "/World is not an object: grouping of objects; the objects are /World/Chair_1, /World/Chair_2, /World/Wall"
     )
     with pytest.raises(SceneError, match="there is no prim /World/Nope"):
         explain_choice(source, "/World/Nope")
@@ -277,7 +279,7 @@ def test_a_room_36_centimetres_wide_is_told(read):
     scene = read(xform("World", *_row(36)), layer=header(upAxis="Z"))
     notes = [note.message for note in scene.diagnostics if note.code == "units"]
     assert any(
-        note.startswith("the whole scene is 0.36 m large with a stage unit of 0.01 m (OpenUSD's fallback")
+        note.startswith("the extent of the scene is 0.36 m with a stage unit of 0.01 m (OpenUSD's fallback")
         for note in notes
     )
     assert any("--metres-per-unit" in note for note in notes)
@@ -291,7 +293,7 @@ def test_a_book_343_km_away_is_kept_and_told(read):
     scene = read(xform("World", *_row(8), cube("book", at=(0, 0, 343_000))))
     (note,) = [note for note in scene.diagnostics if note.code == "outlier"]
     assert note.prim_path == "/World/book"
-    assert note.message.startswith("it lies 343,000 m from the middle of the scene")
+    assert note.message.startswith("its distance from the centre of the scene is 343,000 m")
     assert "/World/book" in scene.by_path
     assert scene.extent_without({"/World/book"}).size == pytest.approx((8, 1, 1))
 

@@ -243,7 +243,7 @@ def test_impossible_metres_per_unit_fall_back_and_are_told(read, value):
     assert not scene.frame.is_authored
     (note,) = scene.diagnostics
     assert note.code == "units"
-    assert note.message.startswith(f"metersPerUnit is {float(value)!r}, expected a positive number")
+    assert note.message.startswith(f"metersPerUnit is {float(value)!r}, expected a number from")
 
 
 def test_metres_per_unit_authored_as_float_means_the_number_typed(tmp_path):
@@ -435,3 +435,8 @@ def test_names_and_texts_of_prims_with_and_without_a_type(read, type_name):
     assert scene.by_path["/World/P1"].display_name == "Blue chair"
     assert scene.by_path["/World/P2"].documentation == "A chair"
     assert scene.by_path["/World/P3"].texts == (("customData:note", "oak chair"),)
+
+
+def test_importing_scene_does_not_import_openusd():
+    code = "import sys, usd2kg.scene; sys.exit('pxr' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -13,11 +13,11 @@ from usd2kg.scene.label_encodings import CLASS_TAXONOMIES
 from usd2kg.scene.label_lint import LabelProblem, find_problems, stage_prims
 from usd2kg.scene.label_reader import LabelReader, read_labels
 from usd2kg.scene.model import Label
+from usd2kg.scene.object_selection import select_objects
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import PrimRecord
-from usd2kg.scene.selection import select_objects
 from usd2kg.scene.stage import UNREADABLE, captured_diagnostics, open_stage, translated_errors
-from usd2kg.scene.traversal import above_endless, outline_stage
+from usd2kg.scene.traversal import outline_stage, paths_above_endless
 
 __all__ = ["LabelSurvey", "LabelledPrim", "survey_labels"]
 
@@ -62,7 +62,7 @@ def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = 
     opened = open_stage(source, options)
     time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
-        boxes = BoxReader(opened.frame, time, above_endless(outline))
+        boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below)
         nodes = {node.path: node for node in outline.records}
         prims = list(stage_prims(opened.stage))

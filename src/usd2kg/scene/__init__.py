@@ -6,8 +6,6 @@ Only this package, `labels` and `render` import OpenUSD.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from usd2kg.scene.label_encodings import class_words
-from usd2kg.scene.label_lint import LabelProblem
 from usd2kg.scene.model import (
     Box,
     Diagnostic,
@@ -21,15 +19,19 @@ from usd2kg.scene.model import (
     SceneObject,
     StageFrame,
 )
+from usd2kg.scene.object_selection import ASKED_FOR
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
-from usd2kg.scene.selection import ASKED_FOR
 
 if TYPE_CHECKING:
+    from usd2kg.scene.label_encodings import class_words
+    from usd2kg.scene.label_lint import LabelProblem
     from usd2kg.scene.read import explain_choice, read_scene
     from usd2kg.scene.shape_descriptors import ShapeDescriptors, describe_shapes
 
-_READERS = {
+_LAZY = {
+    "LabelProblem": "label_lint",
     "ShapeDescriptors": "shape_descriptors",
+    "class_words": "label_encodings",
     "describe_shapes": "shape_descriptors",
     "explain_choice": "read",
     "read_scene": "read",
@@ -61,6 +63,6 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _READERS:
+    if name not in _LAZY:
         raise AttributeError(f"module 'usd2kg.scene' has no attribute {name!r}")
-    return getattr(import_module(f"usd2kg.scene.{_READERS[name]}"), name)
+    return getattr(import_module(f"usd2kg.scene.{_LAZY[name]}"), name)

@@ -1,4 +1,4 @@
-"""World boxes, positions and rotations, converted to metres and z-up."""
+"""World boxes and poses of prims, converted to metres and z-up."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -11,79 +11,81 @@ from pxr import Gf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.model import Box, Quaternion, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
+from usd2kg.scene.settings import MAX_COORDINATE, SOLIDS
 from usd2kg.scene.solids import ROUND_SOLIDS, solid_surface
 from usd2kg.scene.stage import UNREADABLE, read_value
 
 __all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
 
 _PURPOSES = (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
-_EMPTY_EXTENT = 1e30
-"""OpenUSD's empty ranges and infinite planes lie beyond any length a scene can have."""
-_ALIGNED = 1e-6
-_FEWEST_POINTS = 3
-_SEGMENTS = 128
-"""Around a round solid: its box is right to 0.03 % of the radius."""
-_RANGE = 2
-"""An extent has a lower and an upper corner."""
-_UNTURNED: dict[str, Quaternion] = {"Z": (0.0, 0.0, 0.0, 1.0), "Y": (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))}
+_MAX_SINE = 1e-6
+"""Smaller off-axis components of a matrix are rounding errors."""
+_MIN_SCALE = 1e-9
+"""Smaller scales, relative volumes and quaternion lengths have no usable rotation."""
+_ROUNDING = 1e-12
+"""Smaller lengths and relative quaternion parts are rounding errors."""
+_MIN_POINTS = 3
+"""Finite points that a mesh must have to be measured."""
+_UP_ROTATIONS: dict[str, Quaternion] = {"Z": (0.0, 0.0, 0.0, 1.0), "Y": (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))}
+"""Up axis → rotation (x, y, z, w) of the stage's frame in the z-up world."""
 
 _Matrix = NDArray[np.float64]
 
 
 @dataclass(slots=True)
-class _Shape:
-    """The geometry that instances share, in the frame of the object's prim: what bounds each gprim."""
+class _SharedGeometry:
+    """Bounds of the gprims that instances of one prototype share, in the frame of the object's prim."""
 
     corners: list[_Matrix]
-    """(n, 3) for each: the corners of its extent where that is tight, else its points."""
+    """(n, 3) per gprim: the corners of its extent if that is tight, else its points."""
     extents: list[_Matrix]
-    """(8, 3) for each, or (0, 3): the corners of its extent, tight or not."""
+    """(8, 3) per gprim, or (0, 3): the corners of its extent, tight or not."""
     matrices: list[_Matrix]
-    """(4, 4) for each: from its frame to that of the object's prim."""
-    gprims: list[Any]
+    """(4, 4) per gprim: from its frame to that of the object's prim."""
+    gprims: list[PrimRecord]
     """The gprims of the instance that the corners were read from."""
     points: list[_Matrix] | None = None
-    """(n, 3) for each: its points, or its corners if it has none; read when first needed."""
+    """(n, 3) per gprim: its points, or its corners if it has none; read when first needed."""
 
 
 class BoxReader:
-    """Reads world boxes from one shared cache, of default and render purpose.
+    """Reads world AABBs of geometry with default or render purpose.
 
-    A mesh that is turned against the world's axes is measured by its points: OpenUSD would box it first and turn
-    the box, which makes a round table that is turned by 45° 1.4 times as wide as it is. What instances share is read
-    once.
+    Meshes that are rotated against the world axes are measured by their points: OpenUSD's bounding box cache rotates
+    the local box, which makes a round table rotated by 45° 1.4 times too wide. Shared geometry is read once.
     """
 
     def __init__(self, frame: StageFrame, time: Usd.TimeCode, endless: frozenset[str] = frozenset()) -> None:
-        """Make a reader; of the prims at the paths `endless` OpenUSD must not be asked for a box."""
+        """Create a reader; OpenUSD is never asked for the bounds of the prims at the paths `endless`."""
         self._frame = frame
         self._endless = endless
         self.time = time
         self._geometry = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=False)
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
         self._xforms = UsdGeom.XformCache(time)
-        self._shapes: dict[tuple[int, ...], _Shape | None] = {}
+        self._shared: dict[tuple[int, ...], _SharedGeometry | None] = {}
         self._last_matrix: tuple[PrimRecord | None, _Matrix] = (None, np.eye(4))
 
     def read_parts(self, records: Sequence[PrimRecord]) -> list[Box]:
-        """Return the boxes of the visible geometry of an object whose own records are `records`, its prim first.
+        """Return the boxes of an object's visible gprims; empty or non-finite gprims have none.
 
-        Geometry that is empty or not finite has none.
+        Args:
+            records: the object's prim, then the prims below it without nested objects.
         """
         gprims = [record for record in records if is_measurable(record)]
-        shape = self._shared_shape(records[0], gprims)
-        boxes = [self._measure(record) for record in gprims] if shape is None else self._place(shape, records[0])
+        shared = self._shared_geometry(records[0], gprims)
+        boxes = [self._measure(record) for record in gprims] if shared is None else self._place(shared, records[0])
         return [box for box in boxes if box is not None]
 
     def read_below(self, record: PrimRecord) -> Box | None:
-        """Return the box of all visible geometry at and below a record; None if there is none, or it cannot be read."""
+        """Return the box of all visible geometry at and below a prim; None if there is none, or it is unreadable."""
         try:
             return union(self.read_parts(list(record.walk())))
         except UNREADABLE:
             return None
 
     def read_hint(self, record: PrimRecord) -> Box | None:
-        """Return the box by the authored `extentsHint`, for a record whose geometry cannot be measured."""
+        """Return the box of the authored `extentsHint`, for a prim whose geometry cannot be measured."""
         return self._box(self._hints, record)
 
     def _measure(self, record: PrimRecord) -> Box | None:
@@ -96,11 +98,11 @@ class BoxReader:
             box = self._box(self._geometry, record)
         else:
             return self._box_of_points(record.prim, matrix)
-        # An extent that is authored inside out reads as empty: the points know better.
+        # An inverted authored extent reads as empty; fall back to the points.
         return box or self._box_of_points(record.prim, matrix)
 
     def read_matrix(self, record: PrimRecord) -> _Matrix:
-        """Return the (4, 4) matrix to the stage's world; what is not moved shares it with what it is below."""
+        """Return the (4, 4) local-to-world matrix in stage units."""
         while record.parent is not None and not record.authored.moves:
             record = record.parent
         last, matrix = self._last_matrix
@@ -110,11 +112,11 @@ class BoxReader:
         return matrix
 
     def _box_of_extent(self, record: PrimRecord, matrix: _Matrix) -> Box | None:
-        """Return the box of a record that is moved and scaled, not turned: as OpenUSD's cache does, but sooner."""
+        """Return the box of a gprim without rotation, from its authored extent: what OpenUSD returns, but faster."""
         extent = None
         if UsdGeom.Tokens.extent in record.authored.names:
             extent = read_value(record.prim, UsdGeom.Tokens.extent, self.time, Vt.Vec3fArray)
-        if extent is None or len(extent) != _RANGE:
+        if extent is None or len(extent) != 2:
             return self._box(self._geometry, record)
         (x0, y0, z0), (x1, y1, z1) = np.asarray(extent).tolist()
         (sx, *_), (_, sy, *_), (_, _, sz, _), (x, y, z, _) = matrix.tolist()
@@ -127,8 +129,7 @@ class BoxReader:
 
     def _box_around(self, world: _Matrix) -> Box | None:
         found = world[_is_near(world).all(axis=1)]
-        if len(found) < min(len(world), _FEWEST_POINTS) or not len(found):
-            # What is left of it says nothing of its size.
+        if len(found) < min(len(world), _MIN_POINTS) or not len(found):
             return None
         return _to_box(found.min(axis=0).tolist(), found.max(axis=0).tolist(), self._frame)
 
@@ -136,22 +137,22 @@ class BoxReader:
         if record.path in self._endless:
             return None
         aligned = cache.ComputeWorldBound(record.prim).ComputeAlignedRange()
-        # Vectors of Gf are many times faster to take apart as an array.
+        # Converting a Gf vector by way of numpy is many times faster than indexing it.
         return self._finite_box(np.array(aligned.GetMin()).tolist(), np.array(aligned.GetMax()).tolist())
 
     def _finite_box(self, lower: Sequence[float], upper: Sequence[float]) -> Box | None:
         return _to_box(lower, upper, self._frame) if _is_range(lower, upper) else None
 
-    def _shared_shape(self, root: PrimRecord, gprims: list[PrimRecord]) -> _Shape | None:
-        """Return the shape of an object in an instance that is not the first of its prototype; None for others."""
+    def _shared_geometry(self, root: PrimRecord, gprims: list[PrimRecord]) -> _SharedGeometry | None:
+        """Return the geometry of an object in any but the first instance of a prototype; None for other objects."""
         if root.twin is None or not gprims or (root.is_instance and gprims[0] is root):
             return None
         key = (id(root.twin), *(id(gprim.twin) for gprim in gprims))
-        if key not in self._shapes:
-            self._shapes[key] = self._read_shape(root, gprims)
-        return self._shapes[key]
+        if key not in self._shared:
+            self._shared[key] = self._read_geometry(root, gprims)
+        return self._shared[key]
 
-    def _read_shape(self, root: PrimRecord, gprims: list[PrimRecord]) -> _Shape | None:
+    def _read_geometry(self, root: PrimRecord, gprims: list[PrimRecord]) -> _SharedGeometry | None:
         corners, extents, matrices = [], [], []
         for gprim in gprims:
             matrix, resets = self._relative(gprim, root)
@@ -163,8 +164,8 @@ class BoxReader:
             corners.append(local @ matrix[:3, :3] + matrix[3, :3])
             extents.append(found @ matrix[:3, :3] + matrix[3, :3])
             matrices.append(matrix)
-        is_sound = all(len(local) and _is_near(local).all() for local in corners)
-        return _Shape(corners, extents, matrices, gprims) if is_sound else None
+        is_finite = all(len(local) and _is_near(local).all() for local in corners)
+        return _SharedGeometry(corners, extents, matrices, gprims) if is_finite else None
 
     def _relative(self, gprim: PrimRecord, root: PrimRecord) -> tuple[_Matrix, bool]:
         if gprim is root:
@@ -172,15 +173,16 @@ class BoxReader:
         matrix, resets = self._xforms.ComputeRelativeTransform(gprim.prim, root.prim)
         return np.array(matrix), bool(resets)
 
-    def _place(self, shape: _Shape, root: PrimRecord) -> list[Box | None]:
+    def _place(self, shared: _SharedGeometry, root: PrimRecord) -> list[Box | None]:
+        """Return the world box of each gprim of an instance."""
         matrix = np.array(self._xforms.GetLocalToWorldTransform(root.prim))
-        clouds = shape.corners
+        clouds = shared.corners
         if root.may_be_turned and not _is_aligned(matrix):
-            # What the instance turns back is as tight in its extent as a copy of it.
+            # The extent is tight if the rotations of the gprim and the instance cancel.
             clouds = [
                 extent if len(extent) and _is_aligned(inner @ matrix) else points
                 for extent, inner, points in zip(
-                    shape.extents, shape.matrices, self._shape_points(shape, root), strict=True
+                    shared.extents, shared.matrices, self._shared_points(shared, root), strict=True
                 )
             ]
         world = np.concatenate(clouds) @ matrix[:3, :3] + matrix[3, :3]
@@ -191,21 +193,21 @@ class BoxReader:
         upper = np.maximum.reduceat(world, starts).tolist()
         return [_to_box(low, high, self._frame) for low, high in zip(lower, upper, strict=True)]
 
-    def _shape_points(self, shape: _Shape, root: PrimRecord) -> list[_Matrix]:
-        if shape.points is None:
-            shape.points = []
-            # Among twins of one prim any will do; the relative place is the same below each root.
-            above = next(record for record in _upwards(shape.gprims[0]) if record.twin is root.twin)
-            for gprim, corners in zip(shape.gprims, shape.corners, strict=True):
+    def _shared_points(self, shared: _SharedGeometry, root: PrimRecord) -> list[_Matrix]:
+        if shared.points is None:
+            shared.points = []
+            # All twins of the root have the same relative transforms.
+            above = next(record for record in _upwards(shared.gprims[0]) if record.twin is root.twin)
+            for gprim, corners in zip(shared.gprims, shared.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
                 local = _points_of(gprim.prim, self.time) if gprim.has_points else np.empty((0, 3))
                 near = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
-                is_enough = len(near) and len(near) >= min(len(local), _FEWEST_POINTS)
-                shape.points.append(near if is_enough else corners)
-        return shape.points
+                is_enough = len(near) and len(near) >= min(len(local), _MIN_POINTS)
+                shared.points.append(near if is_enough else corners)
+        return shared.points
 
     def read_local_corners(self, prim: Any) -> _Matrix:
-        """Return the corners, (8, 3) or (0, 3), of the box of all below a prim, in its frame without its transform."""
+        """Return the corners, (8, 3) or (0, 3), of the bounds at and below a prim, without the prim's transform."""
         if self._endless and prim.GetPath().pathString in self._endless:
             return np.empty((0, 3))
         local = self._geometry.ComputeUntransformedBound(prim).ComputeAlignedRange()
@@ -213,7 +215,7 @@ class BoxReader:
         return np.array(found, dtype=float).reshape(-1, 3)
 
     def box_of_corners(self, corners: _Matrix, matrix: Any) -> Box | None:
-        """Return the world box around corners that `matrix` takes to the stage's world; None if there are none."""
+        """Return the world box of corners (n, 3), transformed to the stage by `matrix`; None without corners."""
         if not len(corners):
             return None
         rows = np.array(matrix)
@@ -223,17 +225,17 @@ class BoxReader:
         return _to_box(world.min(axis=0).tolist(), world.max(axis=0).tolist(), self._frame)
 
     def read_oriented_size(self, record: PrimRecord) -> Vector | None:
-        """Return the extent in metres along the prim's own axes, where they are turned against the world's."""
+        """Return the extent in metres along the prim's own axes; None if they are parallel to the world axes."""
         if not record.may_be_turned or record.path in self._endless:
             return None
         matrix = self._xforms.GetLocalToWorldTransform(record.prim)
         if _is_aligned(np.array(matrix)):
             return None
-        # OpenUSD's untransformed bound is loose where boxes within it are turned: the parts are asked one by one.
-        shape = self._read_shape(record, [below for below in record.walk() if is_measurable(below)])
-        if shape is None or not shape.corners:
+        # Not OpenUSD's untransformed bound, which is loose if gprims are rotated within it.
+        geometry = self._read_geometry(record, [below for below in record.walk() if is_measurable(below)])
+        if geometry is None or not geometry.corners:
             return None
-        local = np.concatenate(shape.corners)
+        local = np.concatenate(geometry.corners)
         sizes: list[float] = (local.max(axis=0) - local.min(axis=0)).tolist()
         scales = [matrix.GetRow3(axis).GetLength() * self._frame.metres_per_unit for axis in range(3)]
         width, depth, height = (size * scale for size, scale in zip(sizes, scales, strict=True))
@@ -242,25 +244,25 @@ class BoxReader:
     def read_pose(self, record: PrimRecord) -> tuple[Vector | None, Quaternion | None]:
         """Return world position (metres) and rotation (x, y, z, w) of a prim's own frame, z-up.
 
-        Scale and mirroring are taken out of the rotation. Either is None where the matrix has no such part.
+        The rotation excludes scale and mirroring. A part that is not finite or not defined is None.
         """
         matrix = self._local_to_world(record)
         if not record.may_be_turned:
             rows = np.array(matrix).tolist()
-            if all(1e-9 < rows[axis][axis] < _EMPTY_EXTENT > abs(rows[3][axis]) for axis in range(3)):
-                return to_metres(rows[3][:3], self._frame), _UNTURNED[self._frame.up_axis]
+            if all(_MIN_SCALE < rows[axis][axis] < MAX_COORDINATE > abs(rows[3][axis]) for axis in range(3)):
+                return to_metres(rows[3][:3], self._frame), _UP_ROTATIONS[self._frame.up_axis]
         return pose_of(matrix, self._frame)
 
     def read_point(self, record: PrimRecord, point: Any) -> Vector | None:
-        """Return a point of a prim's own frame in the world, metres, z-up; None if it is nowhere."""
+        """Return a point of a prim's own frame in the world, metres, z-up; None if it is not finite."""
         world = np.array(self._local_to_world(record).Transform(Gf.Vec3d(point)))
         return to_metres(world.tolist(), self._frame) if _is_near(world).all() else None
 
     def _local_to_world(self, record: PrimRecord) -> Any:
         if record.type_name or not record.authored.moves:
             return self._xforms.GetLocalToWorldTransform(record.prim)
-        # `def "Chair"` leaves its type to the asset it references; where that is missing, OpenUSD takes the prim for
-        # one without a transform, though it has one.
+        # `def "Chair"` gets its type from the referenced asset. If that is missing, XformCache ignores the authored
+        # transform of the untyped prim.
         local = UsdGeom.Xformable(record.prim).GetLocalTransformation(self._xforms.GetTime())
         return local * self._xforms.GetLocalToWorldTransform(record.prim.GetParent())
 
@@ -273,39 +275,33 @@ def _upwards(record: PrimRecord) -> Iterable[PrimRecord]:
 
 
 def is_measurable(record: PrimRecord) -> bool:
-    """Return whether a record is itself something to be measured."""
+    """Return whether a prim is visible geometry itself."""
     return (record.is_gprim or record.is_instancer) and not record.is_hidden
 
 
 def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
-    """Return the points, (n, 3), in the prim's frame, of a solid those of its surface.
-
-    There are none where they are authored as something else.
-    """
+    """Return the points (n, 3) of a mesh or of the surface of a solid, in the prim's frame; none if mistyped."""
     if prim.GetTypeName() in ROUND_SOLIDS:
-        surface = solid_surface(prim, time, _SEGMENTS)
+        surface = solid_surface(prim, time, SOLIDS.box_segments)
         return surface[0] if surface else np.empty((0, 3))
     points = read_value(prim, UsdGeom.Tokens.points, time, Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
     return np.array(() if points is None else points, dtype=float).reshape(-1, 3)
 
 
 def _is_aligned(matrix: _Matrix) -> bool:
-    """Return whether a matrix takes each axis to an axis, so that a turned box is as tight as what it holds."""
+    """Return whether a matrix maps each axis to an axis, so that the transformed box stays tight."""
     sizes = np.abs(matrix[:3, :3])
-    return bool(((sizes > _ALIGNED * sizes.max(axis=1, keepdims=True)).sum(axis=1) <= 1).all())
+    return bool(((sizes > _MAX_SINE * sizes.max(axis=1, keepdims=True)).sum(axis=1) <= 1).all())
 
 
 def _is_near(numbers: _Matrix) -> NDArray[np.bool_]:
-    """Return for each number whether a scene can have such a length: neither NaN nor beyond `_EMPTY_EXTENT`."""
-    return np.abs(numbers) < _EMPTY_EXTENT
+    """Return for each number whether it is a possible coordinate, neither NaN nor `MAX_COORDINATE` or larger."""
+    return np.abs(numbers) < MAX_COORDINATE
 
 
 def _is_range(lower: Sequence[float], upper: Sequence[float]) -> bool:
-    """Return whether a range is neither empty nor beyond what a scene can have."""
-    x0, y0, z0 = lower
-    x1, y1, z1 = upper
-    is_lower_near = -_EMPTY_EXTENT < x0 <= x1 and -_EMPTY_EXTENT < y0 <= y1 and -_EMPTY_EXTENT < z0 <= z1
-    return is_lower_near and x1 < _EMPTY_EXTENT and y1 < _EMPTY_EXTENT and z1 < _EMPTY_EXTENT
+    """Return whether a range is not empty and has possible coordinates."""
+    return all(-MAX_COORDINATE < low <= high < MAX_COORDINATE for low, high in zip(lower, upper, strict=True))
 
 
 def _to_box(lower: Sequence[float], upper: Sequence[float], frame: StageFrame) -> Box:
@@ -325,7 +321,7 @@ def to_metres(point: Any, frame: StageFrame) -> Vector:
 
 
 def union(boxes: Iterable[Box]) -> Box | None:
-    """Return the smallest box around all of `boxes`; None if there are none."""
+    """Return the smallest box around `boxes`; None if there are none."""
     known = list(boxes)
     if len(known) < 2:
         return known[0] if known else None
@@ -340,7 +336,7 @@ def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion |
     if not (np.isfinite(rows).all() and _is_near(rows[3]).all()):
         return None, None
     position = to_metres(rows[3, :3].tolist(), frame)
-    if _is_flat(matrix):
+    if _is_singular(matrix):
         return position, None
     rotation = matrix.RemoveScaleShear()
     if not np.isfinite(np.asarray(rotation)).all():
@@ -352,21 +348,22 @@ def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion |
     return position, _canonical(quaternion)
 
 
-def _is_flat(matrix: Any) -> bool:
-    """Return whether the matrix squeezes space to a plane, a line or a point, so that no rotation is left."""
+def _is_singular(matrix: Any) -> bool:
+    """Return whether the linear part of a matrix has no rotation, because it maps space to a plane or less."""
     rows = [matrix.GetRow3(i) for i in range(3)]
     lengths = [row.GetLength() for row in rows]
     volume = abs(Gf.Dot(Gf.Cross(rows[0], rows[1]), rows[2]))
-    return bool(min(lengths) < 1e-12 or volume < 1e-9 * math.prod(lengths))
+    return bool(min(lengths) < _ROUNDING or volume < _MIN_SCALE * math.prod(lengths))
 
 
 def _canonical(quaternion: Any) -> Quaternion | None:
+    """Return the unit quaternion whose first non-zero part, beginning with w, is positive."""
     length = quaternion.GetLength()
-    if not math.isfinite(length) or length < 1e-9:
+    if not math.isfinite(length) or length < _MIN_SCALE:
         return None
     parts = (quaternion.GetReal(), *quaternion.GetImaginary())
-    # Noise around zero must not decide the sign of a half turn.
-    w, x, y, z = (0.0 if abs(value) < 1e-12 * length else value / length for value in parts)
-    # q and -q are the same rotation; one of them is written, always the same.
+    # A rounding error must not decide the sign of a half turn, where w is 0.
+    w, x, y, z = (0.0 if abs(value) < _ROUNDING * length else value / length for value in parts)
+    # q and -q are the same rotation.
     sign = -1.0 if (w, x, y, z) < (0.0, 0.0, 0.0, 0.0) else 1.0
     return (sign * x + 0.0, sign * y + 0.0, sign * z + 0.0, sign * w + 0.0)

@@ -1,4 +1,4 @@
-"""What else the stage says about an object: asset, parts, mass, colour."""
+"""Evidence on objects: asset names, geometry file, part names, mass, display colour."""
 
 import math
 from collections.abc import Iterator
@@ -16,13 +16,18 @@ from usd2kg.scene.stage import read_value
 
 __all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_records", "part_names", "read_mass"]
 
-_FILES = 10_000
-"""How many files are kept in mind: objects come from the same ones again and again."""
+_CACHE_SIZE = 10_000
+"""Paths of asset files kept; many objects reference the same few files."""
 _COLORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 
 
 def own_records(record: PrimRecord, objects: frozenset[str] | dict[str, str]) -> Iterator[PrimRecord]:
-    """Yield `record` and what is below it, without the other objects nested below it."""
+    """Yield a prim and the prims below it, without nested objects.
+
+    Args:
+        record: the prim of an object.
+        objects: the paths of all objects.
+    """
     pending = [record]
     while pending:
         current = pending.pop()
@@ -32,7 +37,7 @@ def own_records(record: PrimRecord, objects: frozenset[str] | dict[str, str]) ->
 
 
 def asset_names(prim: Any) -> tuple[str, ...]:
-    """Return the names of the asset a prim comes from: assetInfo name and identifier, then file stems."""
+    """Return the names of a prim's asset: name and identifier of assetInfo, then the stems of referenced files."""
     names = []
     if prim.HasAuthoredAssetInfo():
         info = prim.GetAssetInfo()
@@ -45,17 +50,16 @@ def asset_names(prim: Any) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for name in names if name))
 
 
-@lru_cache(maxsize=_FILES)
+@lru_cache(maxsize=_CACHE_SIZE)
 def _stem(asset_path: str) -> str:
     return PurePosixPath(asset_path.replace("\\", "/")).stem
 
 
 def geometry_file(records: list[PrimRecord]) -> str:
-    """Return the path of the file that an object's geometry comes from; empty if there is none, or several.
+    """Return the file of an object's geometry; empty if there is none, or more than one.
 
-    That is the strongest reference or payload on the object's prim, else the only one right below it. It is relative
-    to the folder of the stage's root layer where the file lies in it (in a package: `room.usdz[chair.usda]`), else as
-    authored.
+    The strongest reference or payload on the object's prim, else the only one on its children. The path is relative to
+    the folder of the root layer if the file is in it (in a package: `room.usdz[chair.usda]`), else as authored.
     """
     if records[0].may_have_asset and (path := _strongest_file(records[0].prim)):
         return path
@@ -69,26 +73,22 @@ def _strongest_file(prim: Any) -> str:
         for arcs in (spec.referenceList, spec.payloadList):
             for arc in arcs.GetAddedOrExplicitItems():
                 if arc.assetPath:
-                    return _beside_stage(arc.assetPath, spec.layer, prim.GetStage().GetRootLayer())
+                    path = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, arc.assetPath)
+                    relative = _relative_path(path, prim.GetStage().GetRootLayer().realPath)
+                    return str(arc.assetPath) if relative is None else relative
     return ""
 
 
-def _beside_stage(asset_path: str, layer: Any, root: Any) -> str:
-    """Return a path as seen from the root layer's folder, where the file lies in it."""
-    beside = _path_beside(Sdf.ComputeAssetPathRelativeToLayer(layer, asset_path), root.realPath)
-    return asset_path if beside is None else beside
-
-
-@lru_cache(maxsize=_FILES)
-def _path_beside(path: str, root: str) -> str | None:
-    """Return a path as seen from the folder of the file `root`; None where it does not lie in it."""
+@lru_cache(maxsize=_CACHE_SIZE)
+def _relative_path(path: str, root: str) -> str | None:
+    """Return a path relative to the folder of the file `root`; None if it is not in that folder."""
     anchored, folder = Path(path), Path(root).parent
     is_inside = bool(root) and anchored.is_absolute() and anchored.is_relative_to(folder)
     return anchored.relative_to(folder).as_posix() if is_inside else None
 
 
 def part_names(records: list[PrimRecord]) -> tuple[str, ...]:
-    """Return the distinct names of the prims below an object, in order, its own name left out."""
+    """Return the distinct names of the prims below an object, in traversal order, without its own name."""
     return tuple(dict.fromkeys(record.name for record in records[1:] if record.name != records[0].name))
 
 
@@ -96,19 +96,19 @@ class Mass(NamedTuple):
     """The authored mass of an object."""
 
     kg: float | None
-    """Of the object's prim, or the sum over its parts; None if none is authored."""
+    """Mass of the object's prim, or the sum over its parts; None if not authored."""
     center: Vector | None
-    """Centre of mass in the world, metres, z-up; None unless it is authored for all that has a mass."""
+    """Centre of mass in the world, metres, z-up; None unless authored on every prim with a mass."""
 
 
 def read_mass(records: list[PrimRecord], boxes: BoxReader, frame: StageFrame) -> Mass:
-    """Return the mass of the object's prim with its centre, or both for its parts together.
+    """Return mass and centre of mass of the object's prim or, if it has none, of its parts together.
 
-    UsdPhysics: a mass of 0 means "not authored, to be derived", so it is none; a centre that is not finite is none.
+    UsdPhysics: a mass of 0 or a centre that is not finite means "not authored".
     """
     own = _mass(records[0])
     masses = [(records[0], own)] if own else [(record, mass) for record in records[1:] if (mass := _mass(record))]
-    # Of huge and tiny masses and units the product may be none.
+    # The product may overflow or underflow.
     total = sum(mass for _, mass in masses) * frame.kilograms_per_unit
     centers = [(center, mass) for record, mass in masses or [(records[0], 1.0)] if (center := _center(record, boxes))]
     is_known = len(centers) == max(len(masses), 1)
@@ -137,7 +137,7 @@ def _weighted_mean(points: list[tuple[Vector, float]]) -> Vector | None:
 
 
 def display_color(records: list[PrimRecord], time: Usd.TimeCode) -> Vector | None:
-    """Return the first display colour authored on the object's geometry, linear RGB; None if none is."""
+    """Return the first display colour authored on an object's geometry, linear RGB; None if there is none."""
     for record in records:
         if record.is_gprim and UsdGeom.Tokens.primvarsDisplayColor in record.authored.names:
             colors = read_value(record.prim, UsdGeom.Tokens.primvarsDisplayColor, time, *_COLORS)

@@ -1,20 +1,16 @@
-"""Fixtures: what is built into a body and yet has a name of its own, a tap in a sink's cabinet."""
+"""Fixtures: objects that are built into a rigid body, like the tap of a sink's cabinet."""
 
+from usd2kg.knowledge import word_set
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.words import words_of
 
 __all__ = ["find_fixtures"]
 
-_FIXTURE_WORDS = frozenset(
-    """
-    basin burner cooktop countertop counter faucet hob hotplate sink stovetop tap washbasin worktop
-    """.split()
-)
-"""Distinct fixtures, which people name apart from the body that they are built into."""
+_FIXTURES = word_set("scene", "fixtures")
 
 
 def find_fixtures(body: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:
-    """Return path → reason of a body's fixtures, which may be frames whose mesh is part of the body's."""
+    """Return path → reason of the fixtures of a rigid body, including empty frames whose mesh is part of the body's."""
     found: dict[str, str] = {}
     pending = list(body.children)
     while pending:
@@ -30,7 +26,7 @@ def find_fixtures(body: PrimRecord, candidates: dict[str, str]) -> dict[str, str
 
 def _is_fixture(record: PrimRecord) -> bool:
     is_whole = record.is_gprim or record.gprim_count > 0 or (record.type_name == "Xform" and not record.children)
-    return is_whole and _last_word(record.name) in _FIXTURE_WORDS
+    return is_whole and _last_word(record.name) in _FIXTURES
 
 
 def _last_word(name: str) -> str:

@@ -1,4 +1,4 @@
-"""The copies of point instancers: counted as one object, or each an object of its own."""
+"""Copies of point instancers: counted in one object, or one object per copy."""
 
 from collections.abc import Sequence
 from graphlib import CycleError, TopologicalSorter
@@ -16,11 +16,11 @@ from usd2kg.scene.stage import read_targets, read_value
 __all__ = ["COPY", "count_copies", "is_endless", "read_copies"]
 
 COPY = "copy of a point instancer"
-"""`selected_by` of an object that is one copy."""
+"""`SceneObject.selected_by` of a copy."""
 
 
 def count_copies(records: list[PrimRecord], time: Usd.TimeCode) -> Instances | None:
-    """Return the copies of an object's own point instancers; None if it has none."""
+    """Return the number of copies of an object's point instancers; None if it has none."""
     instancers = [record.prim for record in records if record.is_instancer]
     if not instancers:
         return None
@@ -29,14 +29,13 @@ def count_copies(records: list[PrimRecord], time: Usd.TimeCode) -> Instances | N
 
 
 def is_endless(prim: Any, known: dict[Any, list[Any]]) -> bool:
-    """Return whether a point instancer at or below `prim` is, at some depth, one of its own prototypes.
+    """Return whether a point instancer at or below a prim contains itself through its prototypes.
 
-    OpenUSD dies of endless recursion when it is asked for the box of such a prim.
+    OpenUSD crashes with infinite recursion when asked for the bounds of such a prim.
 
     Args:
-        prim: what is to be looked through.
-        known: the point instancers at and below prims, by path; filled here, so that prototypes that several use are
-            looked through once.
+        prim: where to search.
+        known: cache, path → point instancers at and below that prim; shared prototypes are traversed once.
     """
     graph: dict[Any, list[Any]] = {}
     pending = list(_instancers_in(prim, known))
@@ -68,15 +67,15 @@ def _prototypes(instancer: Any) -> list[Any]:
 
 
 def _indices(instancer: Any, time: Usd.TimeCode) -> Sequence[int]:
-    """Return the number of its prototype for each copy."""
+    """Return the index of the prototype of each copy."""
     return read_value(instancer, UsdGeom.Tokens.protoIndices, time, Vt.IntArray) or ()
 
 
 def _drawn(instancer: Any, time: Usd.TimeCode) -> list[bool]:
-    """Return for each copy whether it is drawn: neither inactive nor invisible."""
+    """Return for each copy whether it is active and visible."""
     count = len(_indices(instancer, time))
     mask = list(UsdGeom.PointInstancer(instancer).ComputeMaskAtTime(time))
-    # The mask is empty where all are drawn; where ids are too few or too many, it tells of other copies.
+    # An empty mask means that all are drawn. A mask of another length comes from malformed ids.
     return mask if len(mask) == count else [True] * count
 
 
@@ -88,9 +87,10 @@ def read_copies(
     boxes: BoxReader,
     notes: list[Diagnostic],
 ) -> list[SceneObject]:
-    """Return an object for each copy that is drawn; its path is the instancer's with the copy's id in brackets.
+    """Return an object for each visible copy; the path is the instancer's with the copy's id in brackets.
 
-    Copies whose ids are not one different number for each are numbered by their place, which a note says.
+    If the authored ids are not unique or do not match the number of copies, copies are numbered by position and a
+    diagnostic is added to `notes`.
     """
     instancer = UsdGeom.PointInstancer(record.prim)
     indices = _indices(record.prim, time)
@@ -100,17 +100,17 @@ def read_copies(
         time, time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
     )
     if not len(indices) == len(matrices) == len(drawn):
-        # OpenUSD has said what is wrong with the arrays; no copy can be placed.
+        # The arrays do not match; OpenUSD has reported it.
         return []
     to_world = UsdGeom.Xformable(record.prim).ComputeLocalToWorldTransform(time)
     prototypes = [record.prim.GetStage().GetPrimAtPath(path) for path in _prototypes(record.prim)]
     extents = [boxes.read_local_corners(prim) if prim else np.empty((0, 3)) for prim in prototypes]
     copies = []
-    for place, index in enumerate(indices):
-        if drawn[place] and 0 <= index < len(prototypes):
-            matrix = matrices[place] * to_world
+    for position, index in enumerate(indices):
+        if drawn[position] and 0 <= index < len(prototypes):
+            matrix = matrices[position] * to_world
             box = boxes.box_of_corners(extents[index], matrix)
-            copies.append(_copy(record, parent_path, prototypes[index], ids[place], pose_of(matrix, frame), box))
+            copies.append(_copy(record, parent_path, prototypes[index], ids[position], pose_of(matrix, frame), box))
     return copies
 
 
@@ -120,7 +120,7 @@ def _read_ids(record: PrimRecord, count: int, time: Usd.TimeCode, notes: list[Di
         return range(count)
     if isinstance(ids, Vt.Int64Array) and len(ids) == len(set(ids)) == count:
         return list(ids)
-    message = f"its ids are not one different number for each of its {count} copies; they are numbered by their place"
+    message = f"its ids are not {count} different numbers, one for each copy; the copies are numbered by position"
     notes.append(Diagnostic("instancer", message, record.path))
     return range(count)
 

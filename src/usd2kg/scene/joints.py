@@ -1,4 +1,4 @@
-"""How things move: the physics joints of a stage, in radians, metres and the z-up world frame."""
+"""Physics joints of a stage, in radians, metres and the z-up world frame."""
 
 import math
 from collections.abc import Iterator
@@ -9,6 +9,7 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics
 from usd2kg.scene.bounds import to_metres
 from usd2kg.scene.metadata import texts_of
 from usd2kg.scene.model import Diagnostic, Direction, Joint, JointType, StageFrame, Vector
+from usd2kg.scene.settings import JOINTS, MAX_COORDINATE
 from usd2kg.scene.stage import UNREADABLE, error_text, read_targets, read_value
 
 __all__ = ["JointReading", "read_joints"]
@@ -28,13 +29,15 @@ _LIMITS: dict[str, tuple[str, str]] = {
 _STATES = {"revolute": "state:angular:physics:position", "prismatic": "state:linear:physics:position"}
 _AXES = {"X": Gf.Vec3d(1, 0, 0), "Y": Gf.Vec3d(0, 1, 0), "Z": Gf.Vec3d(0, 0, 1)}
 _WITH_AXIS = frozenset({"revolute", "prismatic", "spherical"})
-_UNLIMITED = 1e30
-"""Exporters write infinity, or the largest 32-bit number, where there is no limit."""
-_NEARLY = math.cos(math.radians(10))
+_MIN_LENGTH = 1e-9
+"""Shorter directions and rotations are undefined."""
+_FLOAT32_NOISE = 1e-6
+"""Smaller components of a unit vector are rounding errors of 32-bit rotations."""
+_MIN_COSINE = math.cos(math.radians(JOINTS.max_axis_angle))
 
 
 class JointReading(NamedTuple):
-    """The joints in traversal order, and what was odd about them."""
+    """The joints in traversal order, with diagnostics."""
 
     joints: tuple[Joint, ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -42,13 +45,14 @@ class JointReading(NamedTuple):
 
 
 def read_joints(source: Any, frame: StageFrame, time: Any) -> JointReading:
-    """Return the joints of a stage, those within instances too.
+    """Return the joints of a stage, including those in instances.
 
-    Units and axes are UsdPhysics': limits and states in degrees or stage units, frames by localRot0 in body0.
+    Authored limits and states are in degrees or stage units, and joint frames are relative to the bodies, as UsdPhysics
+    specifies.
 
     Args:
         source: a stage, or joint prims.
-        frame: the stage's measures.
+        frame: units and up axis of the stage.
         time: time code at which bodies and values are read.
     """
     prims = _joint_prims(source) if hasattr(source, "GetPseudoRoot") else source
@@ -62,7 +66,7 @@ def _joint_prims(stage: Any) -> Iterator[Any]:
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
         type_name = str(prim.GetTypeName())
         if type_name not in is_joint:
-            # Vendors' joints (PhysxPhysicsGearJoint) are unknown to plain OpenUSD; their names tell.
+            # Plain OpenUSD has no schemas of vendors' joints, such as PhysxPhysicsGearJoint.
             is_joint[type_name] = prim.IsA(UsdPhysics.Joint) or type_name.endswith("Joint")
         if is_joint[type_name] and (prim.IsA(UsdPhysics.Joint) or prim.HasRelationship("physics:body1")):
             yield prim
@@ -76,7 +80,7 @@ class _JointReader:
         self.notes: list[Diagnostic] = []
 
     def read(self, prim: Any) -> Joint | None:
-        """Return a joint; None where OpenUSD cannot read it."""
+        """Return a joint; None if OpenUSD cannot read it."""
         try:
             return self._read(prim)
         except UNREADABLE as error:
@@ -87,7 +91,7 @@ class _JointReader:
         kind = _TYPES.get(str(prim.GetTypeName()), "other")
         bodies = [self._body(prim, side) for side in (0, 1)]
         if not any(path for path, _ in bodies):
-            self._note(prim, "it joins no body that is on the stage; expected physics:body0 and body1")
+            self._note(prim, "it connects no body on the stage; expected targets of physics:body0 and physics:body1")
         side = _framed_side([body for _, body in bodies])
         axis = self._axis(prim) if kind in _WITH_AXIS else None
         vector = self._axis_vector(prim, axis, side, bodies[side][1]) if axis and side is not None else None
@@ -109,7 +113,7 @@ class _JointReader:
         )
 
     def _body(self, prim: Any, side: int) -> tuple[str | None, Any]:
-        """Return the path of a body, and its prim: None for the world, an invalid prim if the target is broken."""
+        """Return the path and the prim of a body; the prim is None for the world, and invalid for a broken target."""
         targets = read_targets(prim, f"physics:body{side}")
         if not targets:
             return None, None
@@ -126,7 +130,7 @@ class _JointReader:
         return above, Usd.Prim()
 
     def _axis(self, prim: Any) -> str | None:
-        # UsdPhysics: the axis is X where none is authored.
+        # UsdPhysics: the default axis is X.
         axis = next(iter(texts_of(prim, "physics:axis", self.time)), "X")
         if axis not in _AXES:
             self._note(prim, f"physics:axis is {axis!r}, expected X, Y or Z; it has no axis")
@@ -136,12 +140,12 @@ class _JointReader:
     def _axis_vector(self, prim: Any, axis: str, side: int, body: Any) -> Vector | None:
         direction = _AXES[axis]
         local = read_value(prim, f"physics:localRot{side}", self.time, Gf.Quatf, Gf.Quatd, Gf.Quath)
-        # An all-zero rotation is an unset one.
-        if local is not None and not local.GetLength() < 1e-9:
+        # Exporters write an all-zero quaternion for "not set".
+        if local is not None and not local.GetLength() < _MIN_LENGTH:
             direction = Gf.Rotation(Gf.Quatd(local).GetNormalized()).TransformDir(direction)
         if body:
             try:
-                # Bodies are rigid: their scale does not tilt the axis.
+                # A non-uniform scale of the body must not tilt the axis.
                 pose = self.xforms.GetLocalToWorldTransform(body).RemoveScaleShear()
             except UNREADABLE:
                 return None
@@ -149,7 +153,7 @@ class _JointReader:
         return _unit(direction, self.frame)
 
     def _origin(self, prim: Any, side: int, body: Any) -> Vector | None:
-        # UsdPhysics: the frame lies in the body's own, so that the body's scale moves it.
+        # UsdPhysics: the joint frame is relative to the body's frame, including its scale.
         local = read_value(prim, f"physics:localPos{side}", self.time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
         point = Gf.Vec3d(local or (0, 0, 0))
         if body:
@@ -158,14 +162,14 @@ class _JointReader:
             except UNREADABLE:
                 return None
         origin = to_metres(point, self.frame)
-        return origin if all(abs(value) < _UNLIMITED for value in origin) else None
+        return origin if all(abs(value) < MAX_COORDINATE for value in origin) else None
 
     def _limits(self, prim: Any, kind: JointType) -> tuple[float | None, float | None]:
         if kind not in _LIMITS:
             return None, None
         lower, upper = (self._number(prim, name) for name in _LIMITS[kind])
         if kind == "distance":
-            # UsdPhysics: a negative distance means that there is no limit.
+            # UsdPhysics: a negative distance means "unlimited".
             lower, upper = (None if value is None or value < 0 else value for value in (lower, upper))
         if lower is not None and upper is not None and lower > upper:
             self._note(prim, f"its lower limit {lower:g} is above its upper limit {upper:g}; both are kept as authored")
@@ -180,15 +184,15 @@ class _JointReader:
         return math.radians(value) if kind == "revolute" else value * self.frame.metres_per_unit
 
     def _number(self, prim: Any, name: str) -> float | None:
-        """Return an authored number in the stage's units; None if there is none, or it stands for infinity."""
+        """Return an authored number in stage units; None if there is none, or it means "unlimited"."""
         value = read_value(prim, name, self.time, object)
         if value is None:
             return None
         if not isinstance(value, int | float) or math.isnan(value):
             self._note(prim, f"{name} is {value!r}, expected a number; it is left out")
             return None
-        # A 32-bit 0.4 (0.4000000059604645) means the number that was typed.
-        return float(f"{value:.7g}") if abs(value) < _UNLIMITED else None
+        # Restore the decimal number of a 32-bit float, such as 0.4 for 0.4000000059604645.
+        return float(f"{value:.7g}") if abs(value) < MAX_COORDINATE else None
 
     def _flag(self, prim: Any, name: str, *, default: bool) -> bool:
         value = read_value(prim, name, self.time, bool)
@@ -199,10 +203,9 @@ class _JointReader:
 
 
 def _framed_side(bodies: list[Any]) -> int | None:
-    """Return the side whose frame tells where the joint is; None if no side can.
+    """Return the side whose joint frame is used; None if neither can be.
 
-    Both sides describe the same line. Side 0 stands still; the world (None) has only an axis to offer where no side
-    names a body.
+    Both sides describe the same line. An existing body is preferred to the world (None), side 0 to side 1.
     """
     sides = [side for side in (0, 1) if bodies[side]] or [side for side in (0, 1) if bodies[side] is None]
     return sides[0] if sides else None
@@ -217,19 +220,18 @@ def _nearest_above(stage: Any, path: Any) -> str | None:
 
 
 def _unit(direction: Any, frame: StageFrame) -> Vector | None:
-    """Return a direction of the stage as unit vector, z-up; None if it has no finite length."""
+    """Return a direction of the stage as a unit vector, z-up; None if its length is 0 or not finite."""
     x, y, z = (direction[0], direction[1], direction[2])
     if frame.up_axis == "Y":
         y, z = -z, y
     length = math.hypot(x, y, z)
-    if not math.isfinite(length) or length < 1e-9:
+    if not math.isfinite(length) or length < _MIN_LENGTH:
         return None
-    # Noise of 32-bit rotations: 6e-8 where 0 is meant.
-    unit = [0.0 if abs(value) < 1e-6 * length else value / length for value in (x, y, z)]
+    unit = [0.0 if abs(value) < _FLOAT32_NOISE * length else value / length for value in (x, y, z)]
     return (unit[0], unit[1], unit[2])
 
 
 def _direction(vector: Vector) -> Direction:
-    if abs(vector[2]) >= _NEARLY:
+    if abs(vector[2]) >= _MIN_COSINE:
         return "vertical"
-    return "horizontal" if math.hypot(vector[0], vector[1]) >= _NEARLY else "oblique"
+    return "horizontal" if math.hypot(vector[0], vector[1]) >= _MIN_COSINE else "oblique"

@@ -1,6 +1,6 @@
-"""What is wrong with the labels of single prims, by what stands on each prim alone.
+"""Problems of the labels on single prims.
 
-Labels are evidence, not truth: shipped assets carry placeholders and leftovers.
+Labels are evidence, not truth: published assets carry placeholders and leftovers.
 """
 
 import difflib
@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 from pxr import Usd
 
+from usd2kg.knowledge import word_set
 from usd2kg.scene.label_encodings import (
-    LONGEST,
     QCODE,
     TAG_LABELS,
     TAGS,
@@ -31,51 +31,46 @@ from usd2kg.scene.label_encodings import (
     tag_targets,
 )
 from usd2kg.scene.model import Diagnostic, Encoding
+from usd2kg.scene.settings import LABELS, LIMITS
 from usd2kg.scene.stage import UNREADABLE, error_text
 from usd2kg.words import split_identifier
 
 __all__ = ["LabelProblem", "find_problems", "lint_labels", "meant_property", "quote_labels", "stage_prims"]
 
-_PLACEHOLDERS = frozenset(
-    """
-    class wikidata_class qcode wikidata_qcode hierarchy iri semanticType semanticData semantics labels
-    SemanticsAPI SemanticsLabelsAPI SemanticTagAPI
-    """.split()
-)
-"""Names of taxonomies and schemas that turn up where a label should stand."""
+_PLACEHOLDERS = word_set("scene", "label_placeholders")
 _WORD_TAXONOMIES = frozenset({"class", "wikidata_class", "iri"})
 _OLDER_NAMES = {"wikidata_qcode": "qcode"}
 _LIKE_USD = re.compile(r"semantics?[:_]?labels?:(.+)", re.IGNORECASE)
 _LIKE_ISAAC = re.compile(r"semantics?:(?:(.+?):)?(?:params?:)?semantics?_?(type|data)", re.IGNORECASE)
 _LIKE_TAG = re.compile(r"semantics?_?tags?:.*", re.IGNORECASE)
-_ALIKE = 0.7
-"""Likeness from which two names are taken for one and its misspelling."""
+_MAX_QUOTED = 4
+_MAX_QUOTED_LENGTH = 60
+"""Values and characters of each that a message quotes."""
 
 
 class LabelProblem(NamedTuple):
-    """Something that is wrong with the labels of one prim."""
+    """A problem of the labels of one prim."""
 
     rule: str
     prim_path: str
     layer: str | None
-    """The layer whose opinion it is."""
+    """The layer with the strongest opinion."""
     found: str
     expected: str
-    """Empty where `found` says it."""
+    """Empty if `found` implies it."""
     advice: str
-    """What to do about it."""
 
     @property
     def message(self) -> str:
-        """All of it on one line."""
+        """What was found, what was expected and what to do, on one line."""
         return f"{self.found}{f', expected {self.expected}' if self.expected else ''}; {self.advice}"
 
 
 def lint_labels(source: Any, time: Any = None) -> list[Diagnostic]:
-    """Return what is wrong or stale about existing labels, prim by prim in traversal order; code `label`.
+    """Return diagnostics with code `label` for wrong or stale labels, in traversal order.
 
     Args:
-        source: a stage, or prims. Of a stage, what instances share is reported once.
+        source: a stage, or prims. On a stage, problems that instances share are reported once.
         time: time code; None for the earliest.
     """
     at = Usd.TimeCode.EarliestTime() if time is None else time
@@ -85,7 +80,7 @@ def lint_labels(source: Any, time: Any = None) -> list[Diagnostic]:
 
 
 def stage_prims(stage: Any) -> Iterator[Any]:
-    """Yield the prims of a stage in traversal order; what instances share once."""
+    """Yield the prims of a stage in traversal order, prims shared by instances only once."""
     seen = set()
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
         if prim.IsInstanceProxy():
@@ -97,7 +92,7 @@ def stage_prims(stage: Any) -> Iterator[Any]:
 
 
 def find_problems(prim: Any, time: Any) -> list[LabelProblem]:
-    """Return what is wrong with the labels of one prim at `time`."""
+    """Return the problems of the labels of one prim at `time`."""
     try:
         return list(_lint_prim(prim, time))
     except UNREADABLE as error:
@@ -107,8 +102,8 @@ def find_problems(prim: Any, time: Any) -> list[LabelProblem]:
 
 class _Problem(NamedTuple):
     rule: str
-    about: str
-    """The property, or the schema."""
+    subject: str
+    """The property or schema."""
     found: str
     expected: str
     advice: str
@@ -121,7 +116,7 @@ def _lint_prim(prim: Any, time: Any) -> Iterator[LabelProblem]:
         return
     found = find_labels(prim, names, time)
     taxonomies = {entry.taxonomy for entry in found}
-    mistyped = {problem.about: problem for problem in _lint_types(prim, names)}
+    mistyped = {problem.subject: problem for problem in _lint_types(prim, names)}
     readable = [entry for entry in found if any(entry.values) or entry.property_name not in mistyped]
     problems = [
         *mistyped.values(),
@@ -132,28 +127,32 @@ def _lint_prim(prim: Any, time: Any) -> Iterator[LabelProblem]:
         *_lint_contradictions(found),
         *(problem for name in names for problem in _lint_name(name)),
     ]
-    for rule, about, told, expected, advice in problems:
-        yield LabelProblem(rule, str(prim.GetPath()), _layer_of(prim, about, time), told, expected, advice)
+    for rule, subject, statement, expected, advice in problems:
+        yield LabelProblem(rule, str(prim.GetPath()), _layer_of(prim, subject, time), statement, expected, advice)
 
 
-def _layer_of(prim: Any, about: str, time: Any) -> str | None:
-    """Return the layer with the strongest opinion on a property, or that applies a schema."""
-    prop = prim.GetProperty(about)
-    specs = prop.GetPropertyStack(time) if prop else [spec for spec in prim.GetPrimStack() if about in _applies(spec)]
+def _layer_of(prim: Any, subject: str, time: Any) -> str | None:
+    """Return the layer with the strongest opinion on a property, or the layer that applies a schema."""
+    prop = prim.GetProperty(subject)
+    specs = (
+        prop.GetPropertyStack(time) if prop else [spec for spec in prim.GetPrimStack() if subject in _api_schemas(spec)]
+    )
     return str(specs[0].layer.identifier) if specs else None
 
 
-def _applies(spec: Any) -> list[str]:
+def _api_schemas(spec: Any) -> list[str]:
     return list(spec.GetInfo("apiSchemas").GetAddedOrExplicitItems()) if spec.HasInfo("apiSchemas") else []
 
 
 def _lint_types(prim: Any, names: Sequence[str]) -> Iterator[_Problem]:
-    """Yield labels of OpenUSD's encoding of which its own reader takes no value, because of their type."""
+    """Yield labels of OpenUSD's encoding that OpenUSD itself ignores because of their type."""
     for name in names:
         found = property_type(prim, name)
         if name.startswith(USD_PREFIX) and found != USD_LABEL_TYPE:
-            told = f"{name} is {f'of type {found}' if found else 'a relationship'}, in which OpenUSD finds no labels"
-            yield _Problem("label-type", name, told, USD_LABEL_TYPE, "author it anew with that type")
+            statement = (
+                f"{name} is {f'of type {found}' if found else 'a relationship'}, in which OpenUSD finds no labels"
+            )
+            yield _Problem("label-type", name, statement, USD_LABEL_TYPE, "author it anew with that type")
 
 
 def _lint_values(entry: LabelProperty, taxonomies: set[str]) -> Iterator[_Problem]:
@@ -168,22 +167,22 @@ def _lint_values(entry: LabelProperty, taxonomies: set[str]) -> Iterator[_Proble
         is_one = f"{where} is {quote_labels([value])}"
         if not value:
             yield _Problem("label-empty", where, f"{where} has a blank value among {len(values)}", "", "remove it")
-        elif len(value) > LONGEST:
+        elif len(value) > LIMITS.max_text_length:
             long = f"{where} has a value of {len(value)} characters"
-            yield _Problem("label-long", where, long, f"at most {LONGEST}", "shorten it")
+            yield _Problem("label-long", where, long, f"at most {LIMITS.max_text_length}", "shorten it")
         elif entry.encoding != "Multiverse" and (value in _PLACEHOLDERS or value in taxonomies):
-            told = f"{is_one}, a name of a taxonomy or schema and no label"
-            yield _Problem("label-placeholder", where, told, "", "author the label")
+            statement = f"{is_one}, a name of a taxonomy or schema and no label"
+            yield _Problem("label-placeholder", where, statement, "", "author the label")
         elif is_qcode and not QCODE.fullmatch(value):
             item = "a Wikidata item such as Q11422"
             yield _Problem("qcode-malformed", where, is_one, item, "correct it or remove it")
         if value and values.count(value) > 1:
-            told = f"{where} lists {quote_labels([value])} {values.count(value)} times"
-            yield _Problem("label-repeated", where, told, "", "keep one")
+            statement = f"{where} lists {quote_labels([value])} {values.count(value)} times"
+            yield _Problem("label-repeated", where, statement, "", "keep one")
 
 
 def _lint_pairs(entries: Sequence[LabelProperty], names: Sequence[str]) -> Iterator[_Problem]:
-    """Yield Isaac labels of which one half is missing, or stands under a name that is spelt otherwise."""
+    """Yield Isaac labels with one half missing, or with halves whose instance names differ in spelling."""
     halves: dict[str, list[tuple[str, str]]] = {"Type": [], "Data": []}
     for entry in entries:
         instance = isaac_instance(entry.property_name) or ""
@@ -191,55 +190,57 @@ def _lint_pairs(entries: Sequence[LabelProperty], names: Sequence[str]) -> Itera
             halves["Type"].append((instance, isaac_property(instance, "Data")))
         if not entry.values:
             halves["Data"].append((instance, isaac_property(instance, "Type")))
-    lonely_types = [instance for instance, name in halves["Data"] if name in names]
+    unpaired_types = [instance for instance, name in halves["Data"] if name in names]
     for missing, found in halves.items():
         for instance, name in found:
-            other = _alike(instance, lonely_types) if missing == "Type" and name in names else None
+            other = _similar(instance, unpaired_types) if missing == "Type" and name in names else None
             if other:
-                lonely_types.remove(other)
+                unpaired_types.remove(other)
                 halves["Data"] = [half for half in halves["Data"] if half[0] != other]
-                told = f"{name} stands alone, and so does {isaac_property(other, 'Type')}"
-                yield _Problem("isaac-instance", name, told, "one instance name for both", "rename one of them")
+                statement = f"{name} stands alone, and so does {isaac_property(other, 'Type')}"
+                yield _Problem("isaac-instance", name, statement, "one instance name for both", "rename one of them")
             else:
-                told = f"{name} has no semantic{missing} with text beside it"
-                yield _Problem("isaac-half", name, told, "", "author both or remove both")
+                statement = f"{name} has no semantic{missing} with text beside it"
+                yield _Problem("isaac-half", name, statement, "", "author both or remove both")
 
 
-def _alike(name: str, others: Sequence[str]) -> str | None:
+def _similar(name: str, others: Sequence[str]) -> str | None:
+    """Return the name that `name` is probably a misspelling of; None if there is none."""
     known = {other.lower(): other for other in others}
-    return next((known[match] for match in difflib.get_close_matches(name.lower(), known, 1, _ALIKE)), None)
+    matches = difflib.get_close_matches(name.lower(), known, 1, LABELS.min_similarity)
+    return known[matches[0]] if matches else None
 
 
 def _lint_targets(prim: Any, name: str) -> Iterator[_Problem]:
     for target in tag_targets(prim, name):
         tagged = prim.GetStage().GetPrimAtPath(target)
         if not tagged:
-            told = f"{name} points to <{target}>, which is not on the stage"
-            yield _Problem("tag-target-missing", name, told, "", "add the ontology's layer")
+            statement = f"{name} points to <{target}>, which is not on the stage"
+            yield _Problem("tag-target-missing", name, statement, "", "add the ontology's layer")
         elif not any(clean_values(tagged, "rdf:conceptName", None)):
-            told = f"{name} points to <{target}>, which has no rdf:conceptName"
-            yield _Problem("tag-target-no-class", name, told, "", "point it to a class prim")
+            statement = f"{name} points to <{target}>, which has no rdf:conceptName"
+            yield _Problem("tag-target-no-class", name, statement, "", "point it to a class prim")
 
 
 def _lint_schemas(names: list[str], schemas: list[str]) -> Iterator[_Problem]:
-    """Yield schemas without their properties, and properties without their schema, which tools then do not see."""
+    """Yield schemas without their properties, and properties without their schema, which tools ignore."""
     expected = {schema: name for name in reversed(names) if (schema := schema_of(name))}
     unused = [schema for schema in schemas if schema not in expected]
     bare = {schema: name for schema, name in sorted(expected.items()) if schema not in schemas}
     for schema, name in list(bare.items()):
         instances = [other for other in unused if other.startswith(isaac_schema(""))]
-        other = _alike(schema, instances) if schema.startswith(isaac_schema("")) else None
+        other = _similar(schema, instances) if schema.startswith(isaac_schema("")) else None
         if other:
             unused.remove(other)
             del bare[schema]
-            told = f"{name} is authored, but {other} is applied"
-            yield _Problem("isaac-instance", name, told, schema, "correct the name of one of them")
+            statement = f"{name} is authored, but {other} is applied"
+            yield _Problem("isaac-instance", name, statement, schema, "correct the name of one of them")
     for schema in unused:
-        told = f"{schema} is applied, but no label of it is authored"
-        yield _Problem("schema-without-label", schema, told, "", "author the label or remove the schema")
+        statement = f"{schema} is applied, but no label of it is authored"
+        yield _Problem("schema-without-label", schema, statement, "", "author the label or remove the schema")
     for schema, name in bare.items():
-        told = f"{name} is authored, but {schema} is not applied, so that tools may not see it"
-        yield _Problem("label-without-schema", name, told, "", "apply it")
+        statement = f"{name} is authored, but {schema} is not applied, so that tools may not see it"
+        yield _Problem("label-without-schema", name, statement, "", "apply it")
 
 
 def _lint_contradictions(found: list[LabelProperty]) -> Iterator[_Problem]:
@@ -254,8 +255,8 @@ def _lint_contradictions(found: list[LabelProperty]) -> Iterator[_Problem]:
         pairs.append((TAG_LABELS, tags, f"the {encoding} class", [c for c in classes if not QCODE.fullmatch(c)]))
     for name, values, other, other_values in pairs:
         if values and other_values and _words(values).isdisjoint(_words(other_values)):
-            told = f"{name} says {quote_labels(values)}, but {other} says {quote_labels(other_values)}"
-            yield _Problem("encodings-contradict", name, told, "", "keep the right one and remove the other")
+            statement = f"{name} says {quote_labels(values)}, but {other} says {quote_labels(other_values)}"
+            yield _Problem("encodings-contradict", name, statement, "", "keep the right one and remove the other")
 
 
 def _by_taxonomy(found: list[LabelProperty], encoding: Encoding) -> dict[str, list[str]]:
@@ -271,13 +272,13 @@ def _words(values: list[str]) -> set[str]:
 
 
 def _lint_name(name: str) -> Iterator[_Problem]:
-    """Yield a property that is no label but looks as if it was meant to be one."""
+    """Yield a property whose name is a misspelling of a label property."""
     if meant := meant_property(name):
         yield _Problem("property-misspelt", name, f"{name} is no label that any tool reads", meant, "rename it")
 
 
 def meant_property(name: str) -> str | None:
-    """Return the property of a label that a misspelt one was meant to be; None for labels, and for what is unlike."""
+    """Return the label property that a name is a misspelling of; None for label properties and unrelated names."""
     if schema_of(name) is not None:
         return None
     if like := _LIKE_USD.fullmatch(name):
@@ -288,6 +289,7 @@ def meant_property(name: str) -> str | None:
 
 
 def quote_labels(values: Sequence[str]) -> str:
-    """Return up to four of the values in quotes, long ones shortened."""
-    shown = (value if len(value) <= 60 else value[:59] + "…" for value in dict.fromkeys(values))
-    return ", ".join(map(repr, list(shown)[:4]))
+    """Return up to four distinct values in quotes, long ones shortened."""
+    longest = _MAX_QUOTED_LENGTH
+    shown = (value if len(value) <= longest else value[: longest - 1] + "…" for value in dict.fromkeys(values))
+    return ", ".join(map(repr, list(shown)[:_MAX_QUOTED]))

@@ -1,4 +1,4 @@
-"""The labels that prims and objects carry, in whatever encoding."""
+"""Labels of prims and objects, in all encodings."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -6,32 +6,31 @@ from typing import Any
 
 from pxr import UsdGeom
 
-from usd2kg.scene.label_encodings import LONGEST, find_labels, semantic_names
+from usd2kg.scene.label_encodings import find_labels, semantic_names
 from usd2kg.scene.model import NO_LABELS, Label, ObjectLabels
 from usd2kg.scene.outline import PrimRecord
+from usd2kg.scene.settings import LIMITS
 
 __all__ = ["LabelReader", "read_labels"]
 
-_MOST_PARTS = 64
-
 
 class LabelReader:
-    """Reads the labels of objects at one time; what stands above several objects is read once."""
+    """Reads the labels of objects at one time; labels of shared ancestors are read once."""
 
     def __init__(self, time: Any, known: Mapping[str, tuple[Label, ...]] | None = None) -> None:
-        """Read at `time`; `known` gives the labels of the prims that were read already, by path."""
+        """Read at `time`; `known` maps the paths of prims that were read before to their labels."""
         self._time = time
         self._known = known or {}
         self._above: dict[str, tuple[Label, ...]] = {}
 
     def read(self, records: list[PrimRecord]) -> ObjectLabels:
-        """Return the labels of the object whose own records are `records`, its prim first."""
+        """Return the labels of an object, given its prim and the prims below it without nested objects."""
         own = self._read(records[0].prim) if records[0].is_labelled else ()
         inherited = _distinct([*own, *self._inherited(records[0].parent)])[len(own) :]
-        below = [label for prim in _parts(records) for label in self._read(prim)]
+        below = [label for prim in _labelled_parts(records) for label in self._read(prim)]
         if not (own or inherited or below):
             return NO_LABELS
-        return ObjectLabels(own, inherited, _distinct(below)[:_MOST_PARTS])
+        return ObjectLabels(own, inherited, _distinct(below)[: LIMITS.max_part_labels])
 
     def _read(self, prim: Any) -> tuple[Label, ...]:
         known = self._known.get(str(prim.GetPath())) if self._known else None
@@ -49,7 +48,7 @@ class LabelReader:
         return found
 
 
-def _parts(records: list[PrimRecord]) -> Iterator[Any]:
+def _labelled_parts(records: list[PrimRecord]) -> Iterator[Any]:
     for record in records:
         if record.is_labelled and record is not records[0]:
             yield record.prim
@@ -65,10 +64,10 @@ def _distinct(labels: Iterable[Label]) -> tuple[Label, ...]:
 
 
 def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
-    """Return the labels that stand on `prim` itself at `time`, in all encodings, applied schema or not.
+    """Return the labels authored on `prim` itself at `time`, in all encodings, whether or not a schema is applied.
 
-    Blank values and values beyond 200 characters are left out; `lint_labels` reports them. A Multiverse class prim
-    that does not exist still gives the name in its path. What a layer above blocks is none.
+    Blank values, values longer than 200 characters and labels that a stronger layer blocks are left out;
+    `lint_labels` reports the first two. A missing Multiverse class prim is read from its path.
     """
     names = semantic_names(prim)
     if not names:
@@ -78,5 +77,5 @@ def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
         Label(path, entry.encoding, entry.taxonomy, value, strength=entry.strength)
         for entry in find_labels(prim, names, time)
         for value in entry.values
-        if value and len(value) <= LONGEST and (entry.taxonomy or entry.encoding != "Isaac")
+        if value and len(value) <= LIMITS.max_text_length and (entry.taxonomy or entry.encoding != "Isaac")
     )

@@ -1,4 +1,4 @@
-"""The broad faces within an object that other things may stand on: the boards of a shelf that is one mesh."""
+"""Support levels: broad horizontal faces within a mesh, such as the boards of a shelf."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -8,37 +8,21 @@ from numpy.typing import NDArray
 from pxr import UsdGeom
 
 from usd2kg.scene.bounds import BoxReader, is_measurable
-from usd2kg.scene.meshes import read_mesh
+from usd2kg.scene.meshes import points_to_metres, read_mesh
 from usd2kg.scene.model import Box, StageFrame
 from usd2kg.scene.outline import PrimRecord
+from usd2kg.scene.settings import LEVELS
 from usd2kg.shapes.box_pairs import overlapping_pairs
 
 __all__ = ["find_levels", "holds_others", "read_levels"]
 
 Array = NDArray[np.float64]
 
-_MARGIN = 0.02
-"""Metres: what begins so little above the bottom of another's box, or below its top, is told by the boxes."""
-_OVER = 0.3
-"""Share of a thing's footprint that is over another, for it to be looked for in there."""
-_LEVEL = 0.98
-"""The least a unit normal rises on a level face: within 11 degrees."""
-_STEP = 0.005
-"""Metres: faces whose heights differ by less are of one level."""
-_BULGE = 0.02
-"""Metres: what rises more than this without a step is round."""
-_SHARE = 0.05
-"""The least share of the object's footprint that a level has."""
-_FILLED = 0.3
-"""The least share of its own extent that a level fills: a rim is none."""
-_MOST_POINTS = 300_000
-_MOST_LEVELS = 32
-
 
 def holds_others(boxes: Sequence[Box | None]) -> list[bool]:
-    """Return for each box whether another one begins well within its height and over its footprint.
+    """Return for each box whether another box has its bottom within its height and over its footprint.
 
-    Only what is within such objects' bounds may stand on a level inside them, and few objects are such.
+    Only these few objects can have others on an inner level; reading the levels of all would be slow.
 
     Args:
         boxes: metres, z-up; None for objects without one.
@@ -51,25 +35,25 @@ def holds_others(boxes: Sequence[Box | None]) -> list[bool]:
     for i, j in overlapping_pairs(lower[:, :2], upper[:, :2]):
         for one, other in ((i, j), (j, i)):
             bottom = lower[one, 2]
-            is_within = (bottom > lower[other, 2] + _MARGIN) & (bottom < upper[other, 2] - _MARGIN)
-            thing, around = one[is_within], other[is_within]
-            sides = np.minimum(upper[thing], upper[around])[:, :2] - np.maximum(lower[thing], lower[around])[:, :2]
-            is_over = sides[:, 0] * sides[:, 1] >= _OVER * area[thing]
-            found[np.array(known, np.int64)[around[is_over]]] = True
+            is_within = (bottom > lower[other, 2] + LEVELS.margin) & (bottom < upper[other, 2] - LEVELS.margin)
+            inner, outer = one[is_within], other[is_within]
+            sides = np.minimum(upper[inner], upper[outer])[:, :2] - np.maximum(lower[inner], lower[outer])[:, :2]
+            is_over = sides[:, 0] * sides[:, 1] >= LEVELS.min_overlap_ratio * area[inner]
+            found[np.array(known, np.int64)[outer[is_over]]] = True
     return [bool(value) for value in found]
 
 
 def read_levels(records: Sequence[PrimRecord], own_box: Box, boxes: BoxReader, frame: StageFrame) -> tuple[Box, ...]:
-    """Return the levels of an object whose own records are `records`, see `find_levels`; those of its meshes together.
+    """Return the levels of all meshes of an object from the bottom up; see `find_levels`.
 
     Args:
-        records: the object's prim and what is below it, without nested objects.
-        own_box: the box around their geometry.
-        boxes: reads where they stand.
-        frame: the stage's measures.
+        records: the object's prim and the prims below it without nested objects.
+        own_box: the box of their geometry.
+        boxes: reads their transforms.
+        frame: units and up axis of the stage.
     """
     found = [level for record in records for level in _levels_of(record, own_box, boxes, frame)]
-    largest = sorted(found, key=lambda level: (-level.size[0] * level.size[1], level.lower))[:_MOST_LEVELS]
+    largest = sorted(found, key=lambda level: (-level.size[0] * level.size[1], level.lower))[: LEVELS.max_levels]
     return tuple(sorted(largest, key=lambda level: (level.lower[2], level.lower)))
 
 
@@ -77,29 +61,27 @@ def _levels_of(record: PrimRecord, own_box: Box, boxes: BoxReader, frame: StageF
     if not is_measurable(record) or not record.prim.IsA(UsdGeom.Mesh):
         return
     mesh = read_mesh(record.prim, boxes.time)
-    if mesh is None or len(mesh[0]) > _MOST_POINTS:
+    if mesh is None or len(mesh[0]) > LEVELS.max_points:
         return
     local, triangles = mesh
     matrix = boxes.read_matrix(record)
-    points = (local @ matrix[:3, :3] + matrix[3, :3]) * frame.metres_per_unit
-    if frame.up_axis != "Z":
-        points = np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1)
-    # A mirrored frame turns the faces inside out.
+    points = points_to_metres(local @ matrix[:3, :3] + matrix[3, :3], frame)
+    # Mirroring inverts the winding.
     triangles = triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else triangles
     width, depth, _ = own_box.size
     yield from find_levels(points, triangles, width * depth)
 
 
 def find_levels(points: Array, triangles: NDArray[Any], footprint: float) -> list[Box]:
-    """Return the broad level faces of a mesh that look up, as flat boxes: their height and their extent.
+    """Return the broad horizontal faces of a mesh that face up, as flat boxes with their height and extent.
 
-    A level is at least 5 % of the footprint and fills at least 30 % of its own extent; a closed mesh whose faces all
-    look inwards is read the other way round.
+    A level covers at least 5 % of the footprint and at least 30 % of its own bounding rectangle. Inverted winding of a
+    closed mesh is detected.
 
     Args:
         points: (n, 3), metres, z-up world frame.
         triangles: (m, 3), indices into `points`, counter-clockwise seen from outside.
-        footprint: square metres that the object's box covers.
+        footprint: area of the object's box seen from above, in square metres.
     """
     corners = points[triangles]
     centred = corners - points.mean(axis=0)
@@ -107,16 +89,17 @@ def find_levels(points: Array, triangles: NDArray[Any], footprint: float) -> lis
     volume = np.einsum("ij,ij->", centred[:, 0], np.cross(centred[:, 1], centred[:, 2]))
     up = normals[:, 2] if volume >= 0 else -normals[:, 2]
     length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
-    flat = np.flatnonzero(up > _LEVEL * length)
+    flat = np.flatnonzero(up > LEVELS.min_normal_z * length)
     area, height = length[flat] / 2, corners[flat, :, 2].mean(axis=1)
     order = np.argsort(height, kind="stable")
-    steps = np.flatnonzero(np.diff(height[order]) > _STEP) + 1
+    steps = np.flatnonzero(np.diff(height[order]) > LEVELS.max_step) + 1
     found = []
     for group in np.split(order, steps):
-        if len(group) and area[group].sum() >= _SHARE * footprint and np.ptp(height[group]) <= _BULGE:
+        is_broad = len(group) and area[group].sum() >= LEVELS.min_footprint_share * footprint
+        if is_broad and np.ptp(height[group]) <= LEVELS.max_bulge:
             level = _flat_box(corners[flat[group]], float(np.average(height[group], weights=area[group])))
             width, depth, _ = level.size
-            if area[group].sum() >= _FILLED * width * depth:
+            if area[group].sum() >= LEVELS.min_filled_share * width * depth:
                 found.append(level)
     return found
 

@@ -1,4 +1,4 @@
-"""The triangles of a stage, in metres and z-up: for pictures and for the page that shows objects in 3D."""
+"""Visible triangles of a stage with their colours, in metres and z-up."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -9,35 +9,29 @@ from numpy.typing import NDArray
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdShade
 
 from usd2kg.errors import SceneError
+from usd2kg.scene.metadata import BASE_COLOR_INPUTS
 from usd2kg.scene.model import Diagnostic, StageFrame, Vector
+from usd2kg.scene.settings import MAX_COORDINATE, MESHES
 from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.stage import OpenedStage
 
-__all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes", "read_mesh"]
+__all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes", "points_to_metres", "read_mesh"]
 
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
 
 NEUTRAL_GREY: Vector = (0.5, 0.5, 0.5)
-"""Linear colour of geometry that says nothing about its colour."""
+"""Linear RGB of geometry without an authored colour."""
 
 _PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
-_COLOR_INPUTS = ("diffuseColor", "diffuse_color_constant", "base_color", "baseColor", "diffuse_reflection_color")
-_MOST_LOOKS = 16
-"""A mesh coloured face by face is split by colour up to this many; past it the mean stands for all."""
-_MOST_COPIES = 4000
-_MOST_COPIED_TRIANGLES = 3_000_000
-_DEEPEST = 4
-"""Point instancers may scatter point instancers, but not without end."""
-_FARTHEST = 1e30
 
 
 @dataclass(frozen=True, slots=True)
 class ObjectMesh:
-    """The triangles of one geometry prim, or those of its faces that share a material."""
+    """The triangles of one gprim, or of its faces with one material."""
 
     prim_path: str
-    """The geometry prim; for the copies of a point instancer, the instancer."""
+    """The gprim; for copies of a point instancer, the instancer."""
     points: NDArray[np.float32]
     """(n, 3), metres, z-up world frame."""
     triangles: Triangles
@@ -53,11 +47,13 @@ class _Look(NamedTuple):
     opacity: float
 
 
-class _Shape(NamedTuple):
+class _LocalMesh(NamedTuple):
+    """The triangles of a gprim in its own frame and stage units."""
+
     points: Points
     triangles: Triangles
     face_of: NDArray[np.int64]
-    """The mesh face that each triangle is cut from."""
+    """Index of the mesh face of each triangle."""
 
 
 class _Piece(NamedTuple):
@@ -74,16 +70,16 @@ def iterate_meshes(
     *,
     diagnostics: list[Diagnostic] | None = None,
 ) -> Iterator[ObjectMesh]:
-    """Yield what is drawn at and below `root_paths`, in traversal order: visible, of default or render purpose.
+    """Yield the visible gprims with default or render purpose at and below `root_paths`, in traversal order.
 
-    Polygons are cut into fans, subdivision and holes are ignored, instances are entered. A point instancer's copies
-    come as one mesh for each geometry prim of a prototype; where there are too many, an even selection is drawn.
+    Polygons are triangulated as fans; subdivision and holes are ignored; instances are traversed. The copies of a point
+    instancer are one mesh per gprim of the prototype; beyond a limit, an even selection of copies is returned.
 
     Args:
         opened: the stage.
-        root_paths: where to begin; a path below another is not drawn twice.
-        time: what to read; default: the earliest time.
-        diagnostics: gets a note for each geometry prim that is left out because its data are broken.
+        root_paths: where to start; overlapping subtrees are traversed once.
+        time: time code; default: the earliest.
+        diagnostics: receives a note for each gprim that is left out because its data are broken.
 
     Raises:
         SceneError: a path is not on the stage.
@@ -91,13 +87,13 @@ def iterate_meshes(
     reader = _MeshReader(opened.stage, time or Usd.TimeCode.EarliestTime(), diagnostics)
     for root, copy in _roots(opened.stage, root_paths):
         for piece in reader.below(root, copy=copy):
-            points = _to_metres(piece.points, opened.frame)
+            points = np.ascontiguousarray(points_to_metres(piece.points, opened.frame), dtype=np.float32)
             color = piece.look.color or NEUTRAL_GREY
             yield ObjectMesh(piece.path, points, piece.triangles, color, piece.look.opacity)
 
 
 def _roots(stage: Any, root_paths: Iterable[str]) -> list[tuple[Any, int | None]]:
-    """Return prims, each with the number of the copy that is meant where a path ends in `[number]`."""
+    """Return the prims at the paths, each with the number of one copy if the path ends in `[number]`."""
     paths: list[Any] = []
     copies: list[tuple[Any, int | None]] = []
     for text in root_paths:
@@ -112,28 +108,26 @@ def _roots(stage: Any, root_paths: Iterable[str]) -> list[tuple[Any, int | None]
     return [*((stage.GetPrimAtPath(path), None) for path in Sdf.Path.RemoveDescendentPaths(paths)), *copies]
 
 
-def _to_metres(points: Points, frame: StageFrame) -> NDArray[np.float32]:
-    """Return points of the stage in metres, z-up: (x, y, z) of a y-up stage becomes (x, -z, y)."""
+def points_to_metres(points: Points, frame: StageFrame) -> Points:
+    """Return points (n, 3) of the stage in metres, z-up: (x, y, z) of a y-up stage becomes (x, -z, y)."""
     world = points * frame.metres_per_unit
-    if frame.up_axis != "Z":
-        world = np.stack([world[:, 0], -world[:, 2], world[:, 1]], axis=1)
-    return np.ascontiguousarray(world, dtype=np.float32)
+    return world if frame.up_axis == "Z" else np.stack([world[:, 0], -world[:, 2], world[:, 1]], axis=1)
 
 
 class _MeshReader:
-    """Reads one geometry prim at a time, sharing OpenUSD's caches and the shapes of instances."""
+    """Reads gprims one by one, with caches for transforms, shared meshes and materials."""
 
     def __init__(self, stage: Any, time: Usd.TimeCode, notes: list[Diagnostic] | None) -> None:
         self.stage = stage
         self.time = time
         self.notes = notes
         self.xforms = UsdGeom.XformCache(time)
-        self.shapes: dict[Any, _Shape | None] = {}
+        self.shared: dict[Any, _LocalMesh | None] = {}
         self.looks: dict[Any, _Look] = {}
-        self.copied_triangles_left = _MOST_COPIED_TRIANGLES
+        self.copied_triangles_left = MESHES.max_copied_triangles
 
     def below(self, root: Any, space: Any = None, depth: int = 0, copy: int | None = None) -> Iterator[_Piece]:
-        """Yield the pieces at and below `root`: points in the frame of the prim `space`, of the world if None."""
+        """Yield the gprims at and below `root`, with points in the frame of the prim `space`, or of the world."""
         above = root.GetParent()
         while space is None and above:
             if self._is_invisible(above):
@@ -161,17 +155,17 @@ class _MeshReader:
         return not self._is_invisible(prim) and UsdGeom.Imageable(prim).ComputePurpose() in _PURPOSES
 
     def _pieces(self, prim: Any, space: Any) -> Iterator[_Piece]:
-        shape = self._shape(prim)
+        mesh = self._local_mesh(prim)
         matrix = self._matrix(prim, space)
-        if shape is None or not len(shape.triangles):
+        if mesh is None or not len(mesh.triangles):
             return
         if not np.isfinite(matrix).all():
             self._note(prim, "its transform is not finite", "transform")
             return
-        points = shape.points @ matrix[:3, :3] + matrix[3, :3]
-        # A mirrored frame turns the faces inside out.
-        triangles = shape.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else shape.triangles
-        for look, chosen in self._looks_of(prim, shape):
+        points = mesh.points @ matrix[:3, :3] + matrix[3, :3]
+        # Mirroring inverts the winding.
+        triangles = mesh.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else mesh.triangles
+        for look, chosen in self._looks_of(prim, mesh):
             yield _Piece(str(prim.GetPath()), points, triangles if chosen is None else triangles[chosen], look)
 
     def _matrix(self, prim: Any, space: Any) -> Points:
@@ -180,8 +174,8 @@ class _MeshReader:
         return np.eye(4) if prim == space else np.array(self.xforms.ComputeRelativeTransform(prim, space)[0])
 
     def _copies(self, prim: Any, space: Any, depth: int, copy: int | None) -> Iterator[_Piece]:
-        if depth >= _DEEPEST:
-            self._note(prim, f"more than {_DEEPEST} point instancers inside each other")
+        if depth >= MESHES.max_instancer_depth:
+            self._note(prim, f"point instancers are nested more than {MESHES.max_instancer_depth} deep")
             return
         instancer = UsdGeom.PointInstancer(prim)
         prototype_of = _array(instancer.GetProtoIndicesAttr().Get(self.time), np.int64)
@@ -208,62 +202,62 @@ class _MeshReader:
                     yield _scatter(str(prim.GetPath()), piece, drawn)
 
     def _even_selection(self, prim: Any, matrices: Points, triangle_count: int) -> Points:
-        most = min(_MOST_COPIES, max(1, self.copied_triangles_left // max(1, triangle_count)))
-        if len(matrices) > most:
-            self._note(prim, f"{len(matrices)} copies, of which {most} are drawn; the others are", "copies")
-            matrices = matrices[np.linspace(0, len(matrices) - 1, most).astype(np.int64)]
+        limit = min(MESHES.max_copies, max(1, self.copied_triangles_left // max(1, triangle_count)))
+        if len(matrices) > limit:
+            self._note(prim, f"{limit} of {len(matrices)} copies are drawn; the others are", "copies")
+            matrices = matrices[np.linspace(0, len(matrices) - 1, limit).astype(np.int64)]
         self.copied_triangles_left -= len(matrices) * triangle_count
         return matrices
 
-    def _shape(self, prim: Any) -> _Shape | None:
+    def _local_mesh(self, prim: Any) -> _LocalMesh | None:
         if not prim.IsInstanceProxy():
-            return self._read_shape(prim)
+            return self._read_local_mesh(prim)
         shared = prim.GetPrimInPrototype().GetPath()
-        if shared not in self.shapes:
-            self.shapes[shared] = self._read_shape(prim)
-        return self.shapes[shared]
+        if shared not in self.shared:
+            self.shared[shared] = self._read_local_mesh(prim)
+        return self.shared[shared]
 
-    def _read_shape(self, prim: Any) -> _Shape | None:
+    def _read_local_mesh(self, prim: Any) -> _LocalMesh | None:
         if prim.IsA(UsdGeom.Mesh):
-            shape, trouble = _read_mesh(UsdGeom.Mesh(prim), self.time)
+            mesh, problem = _triangulate(UsdGeom.Mesh(prim), self.time)
         else:
-            shape, trouble = _read_solid(prim, self.time)
-        if shape is not None and not (np.abs(shape.points) < _FARTHEST).all():
-            shape, trouble = None, "its points are not all finite"
-        if trouble:
-            self._note(prim, trouble)
-        return shape
+            mesh, problem = _tessellate(prim, self.time)
+        if mesh is not None and not (np.abs(mesh.points) < MAX_COORDINATE).all():
+            mesh, problem = None, "its points are not all finite"
+        if problem:
+            self._note(prim, problem)
+        return mesh
 
-    def _looks_of(self, prim: Any, shape: _Shape) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
-        """Yield the looks of a prim, each with the triangles that have it; None for all of them.
+    def _looks_of(self, prim: Any, mesh: _LocalMesh) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
+        """Yield the looks of a prim, each with a mask of its triangles, or None for all of them.
 
-        A material's own colour wins, as in a renderer: exporters write a grey display colour beside it.
+        A material colour overrides the display colour, as in a renderer; many exporters write both.
         """
-        rest = np.ones(len(shape.triangles), np.bool_)
+        rest = np.ones(len(mesh.triangles), np.bool_)
         for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)):
             look = self._material_look(subset.GetPrim())
-            chosen = rest & np.isin(shape.face_of, _array(subset.GetIndicesAttr().Get(self.time), np.int64))
+            chosen = rest & np.isin(mesh.face_of, _array(subset.GetIndicesAttr().Get(self.time), np.int64))
             if look.color is not None and subset.GetElementTypeAttr().Get() == "face" and chosen.any():
                 yield look, chosen
                 rest &= ~chosen
         whole = self._material_look(prim)
         if whole.color is None:
-            for color, faces in self._display_colors(prim, int(shape.face_of[-1]) + 1):
-                chosen = rest if faces is None else rest & faces[shape.face_of]
+            for color, faces in self._display_colors(prim, int(mesh.face_of[-1]) + 1):
+                chosen = rest if faces is None else rest & faces[mesh.face_of]
                 if chosen.any():
                     yield _Look(color, whole.opacity), None if chosen.all() else chosen
         elif rest.any():
             yield whole, None if rest.all() else rest
 
     def _display_colors(self, prim: Any, face_count: int) -> list[tuple[Vector | None, NDArray[np.bool_] | None]]:
-        """Return colours, each with the faces that have it; None for all of them."""
+        """Return the display colours, each with a mask of its faces, or None for all of them."""
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(UsdGeom.Tokens.primvarsDisplayColor)
         colors = _array(primvar.ComputeFlattened(self.time), np.float64) if primvar and primvar.HasValue() else None
         if colors is None or not len(colors) or colors.shape[1:] != (3,) or not np.isfinite(colors).all():
             return [(None, None)]
         if primvar.GetInterpolation() == UsdGeom.Tokens.uniform and len(colors) >= face_count:
             distinct, which = np.unique(colors, axis=0, return_inverse=True)
-            if len(distinct) <= _MOST_LOOKS:
+            if len(distinct) <= MESHES.max_display_colors:
                 return [(_rgb(color), which.reshape(-1) == i) for i, color in enumerate(distinct)]
         return [(_rgb(colors.mean(axis=0)), None)]
 
@@ -280,14 +274,14 @@ class _MeshReader:
         shader = material.ComputeSurfaceSource()[0] or material.ComputeSurfaceSource("mdl")[0]
         if not shader:
             return _Look(None, 1.0)
-        colors = (self._constant(shader, name) for name in _COLOR_INPUTS)
+        colors = (self._constant(shader, name) for name in BASE_COLOR_INPUTS)
         color = next((value for value in colors if value is not None and hasattr(value, "__len__")), None)
         opacity = self._constant(shader, "opacity")
         is_number = isinstance(opacity, int | float) and 0 <= opacity <= 1
         return _Look(_rgb(color) if color is not None else None, float(opacity) if is_number else 1.0)
 
     def _constant(self, shader: Any, name: str) -> Any:
-        """Return the value of a shader input; None if it has none or a texture gives it."""
+        """Return the value of a shader input; None without a value or if it is connected to a texture."""
         source = shader.GetInput(name)
         if not source:
             return None
@@ -298,9 +292,9 @@ class _MeshReader:
         ]
         return inputs[0].Get(self.time) if inputs else None
 
-    def _note(self, prim: Any, trouble: str, code: str = "mesh") -> None:
+    def _note(self, prim: Any, problem: str, code: str = "mesh") -> None:
         if self.notes is not None:
-            self.notes.append(Diagnostic(code, f"{trouble}; not in pictures", str(prim.GetPath())))
+            self.notes.append(Diagnostic(code, f"{problem}; not in pictures", str(prim.GetPath())))
 
 
 def _scatter(path: str, piece: _Piece, matrices: Points) -> _Piece:
@@ -313,7 +307,7 @@ def _scatter(path: str, piece: _Piece, matrices: Points) -> _Piece:
 
 
 def _array(values: Any, dtype: Any) -> NDArray[Any]:
-    """Return values as an array; an empty one where there are none, or no numbers at all (a mistyped attribute)."""
+    """Return values as an array; an empty array for None or for values that are not numbers (mistyped attributes)."""
     try:
         array = np.asarray(values if values is not None else (), dtype=dtype)
     except (TypeError, ValueError):
@@ -327,35 +321,36 @@ def _rgb(color: Any) -> Vector:
 
 
 def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
-    """Return points (n, 3) of a mesh in its own frame and stage units, and its triangles (m, 3); None if it is broken.
+    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if it is broken.
 
-    Triangles are indices of points, counter-clockwise seen from outside; polygons are cut into fans.
+    Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
     """
-    shape, _ = _read_mesh(UsdGeom.Mesh(prim), time)
-    return (shape.points, shape.triangles) if shape is not None and np.isfinite(shape.points).all() else None
+    mesh, _ = _triangulate(UsdGeom.Mesh(prim), time)
+    return (mesh.points, mesh.triangles) if mesh is not None and np.isfinite(mesh.points).all() else None
 
 
-def _read_solid(prim: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
+def _tessellate(prim: Any, time: Usd.TimeCode) -> tuple[_LocalMesh | None, str]:
+    """Return the triangles of a solid, or None and the problem."""
     surface = solid_surface(prim, time)
     if surface is None:
         return None, f"a {prim.GetTypeName() or 'prim without type'} has no triangles"
     points, triangles = surface
-    return _Shape(points, triangles, np.zeros(len(triangles), np.int64)), ""
+    return _LocalMesh(points, triangles, np.zeros(len(triangles), np.int64)), ""
 
 
-def _read_mesh(mesh: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
-    """Return the mesh cut into triangles, or None and what is wrong with it."""
+def _triangulate(mesh: Any, time: Usd.TimeCode) -> tuple[_LocalMesh | None, str]:
+    """Return the triangles of a mesh, or None and the problem."""
     points = _array(mesh.GetPointsAttr().Get(time), np.float64)
     counts = _array(mesh.GetFaceVertexCountsAttr().Get(time), np.int64)
     indices = _array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64)
     if not len(points) or not len(counts):
         return None, ""
     if points.shape[1:] != (3,) or counts.ndim != 1 or indices.ndim != 1:
-        return None, "its points or faces are authored with another type than OpenUSD's own"
+        return None, "its points or faces are not of the type that OpenUSD specifies"
     if counts.min() < 0 or counts.sum() != len(indices):
-        return None, f"its faces count {int(counts.sum())} corners, but {len(indices)} are listed"
+        return None, f"faceVertexCounts add up to {int(counts.sum())}, but faceVertexIndices has {len(indices)} values"
     if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):
-        return None, f"its faces name points that do not exist ({len(points)} do)"
+        return None, f"faceVertexIndices has values outside 0 … {len(points) - 1}"
     fan = np.maximum(counts - 2, 0)
     face_of = np.repeat(np.arange(len(counts)), fan)
     first = np.repeat(np.cumsum(counts) - counts, fan)
@@ -363,4 +358,4 @@ def _read_mesh(mesh: Any, time: Usd.TimeCode) -> tuple[_Shape | None, str]:
     corners = np.stack([first, first + nth + 1, first + nth + 2], axis=1)
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         corners = corners[:, ::-1]
-    return _Shape(points, indices[corners].astype(np.int32), face_of), ""
+    return _LocalMesh(points, indices[corners].astype(np.int32), face_of), ""

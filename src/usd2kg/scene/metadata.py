@@ -1,4 +1,4 @@
-"""What people wrote and chose on a prim: variants, custom texts that carry words, materials in detail."""
+"""Authored metadata of prims: variant selections, free text and materials."""
 
 import math
 import re
@@ -9,12 +9,15 @@ from typing import Any, TypeVar
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 
+from usd2kg.knowledge import word_set
 from usd2kg.scene.model import MaterialDetails, Vector
 from usd2kg.scene.outline import PrimRecord
+from usd2kg.scene.settings import LIMITS, TEXTS
 from usd2kg.scene.stage import UNREADABLE, read_targets, value_of
 from usd2kg.words import split_identifier, words_of
 
 __all__ = [
+    "BASE_COLOR_INPUTS",
     "MaterialReader",
     "clean_text",
     "material_details",
@@ -27,37 +30,31 @@ __all__ = [
 
 _T = TypeVar("_T")
 
-_MOST_TEXTS = 20
-_LONGEST_TEXT = 200
 _TEXT_TYPES = frozenset({"string", "token", "string[]", "token[]"})
-_TECHNICAL_NAMESPACES = frozenset(
-    """
-    arnold collection info inputs karma material mjc newton omni outputs physics primvars rdf ri rtx semantic
-    semanticTag semantics skel state ui urdf xformOp
-    """.split()
-)
-"""First parts of property names that steer a tool; labels have a reader of their own."""
-_TECHNICAL_KEYS = frozenset("name identifier version payloadAssetDependencies userDocBrief schemaUserDocBrief".split())
-"""Keys of assetInfo that are told already or say nothing; the schemas' own documentation."""
-_SWITCHES = frozenset("true false yes no on off none null default auto unknown undefined nan inf".split())
-
+_TECHNICAL_NAMESPACES = word_set("scene", "technical_namespaces")
+_TECHNICAL_KEYS = word_set("scene", "technical_keys")
+_SWITCHES = word_set("scene", "switches")
+_MIN_TEXT_LENGTH = 2
+_MIN_WORD_LENGTH = 4
+"""Letters of a part of a text that counts as a word when base64 is detected."""
 _HEX = re.compile(r"(?:[a-z0-9]+:)?(?:0x)?(?=[a-f-]*[0-9])[0-9a-f-]{8,}|[0-9a-f]{16,}", re.IGNORECASE)
 """Hashes, UUIDs, colours and addresses, with or without a prefix such as `sha256:`."""
 _BASE64 = re.compile(r"[A-Za-z0-9+/]{15,}={0,2}")
 _PATH = re.compile(r"(?:[~.]{0,2}[/\\]|[A-Za-z]:[\\/]|@).*|\S*\\\S*|\S+/\S+/\S*|\S+\.[A-Za-z][A-Za-z0-9]{1,4}")
 _URL = re.compile(r"(?:[a-z][a-z0-9+.-]*:/|www\.|mailto:|urn:|data:)\S*", re.IGNORECASE)
 
-_BASE_COLOR = ("diffuseColor", "base_color", "baseColor", "diffuse_color_constant", "diffuse_reflection_color")
+BASE_COLOR_INPUTS = ("diffuseColor", "base_color", "baseColor", "diffuse_color_constant", "diffuse_reflection_color")
 _ROUGHNESS = ("roughness", "specular_roughness", "reflection_roughness_constant", "specular_reflection_roughness")
 _METALLIC = ("metallic", "metalness", "base_metalness", "metallic_constant")
 _OPACITY = ("opacity", "geometry_opacity", "alpha", "opacity_constant")
-"""Inputs of UsdPreviewSurface; standard_surface, open_pbr_surface, gltf_pbr (MaterialX); OmniPBR, OmniSurface (MDL)."""
+"""Shader inputs of UsdPreviewSurface; standard_surface, open_pbr_surface, gltf_pbr (MaterialX); OmniPBR, OmniSurface
+(MDL)."""
 _RENDER_CONTEXTS = ("", "mtlx", "mdl")
 _VECTORS = (Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
 
 
 def variant_selections(prim: Any) -> tuple[tuple[str, str], ...]:
-    """Return (variant set, selected variant) of a prim, by name of the set; sets without a selection are left out."""
+    """Return (variant set, selected variant) of a prim, sorted by set; sets without a selection are left out."""
     if not prim.HasVariantSets():
         return ()
     sets = prim.GetVariantSets()
@@ -66,28 +63,28 @@ def variant_selections(prim: Any) -> tuple[tuple[str, str], ...]:
 
 
 def text_attributes(prim: Any, time: Any = None) -> tuple[tuple[str, str], ...]:
-    """Return (name, text) of what somebody wrote on a prim beyond the schemas: at most 20, each text once.
+    """Return (name, text) of the free text on a prim outside of schemas: at most 20, each text once.
 
-    Attributes of type string or token (lists are joined) by name, then `customData:<key>`, then `assetInfo:<key>`.
-    Kept are texts of 2 to 200 characters with words; paths, URLs, numbers, switches, hashes and encoded data are not.
+    String and token attributes by name (lists are joined), then `customData:<key>`, then `assetInfo:<key>`. Texts have
+    2 to 200 characters with words; paths, URLs, numbers, switches, hashes and encoded data are left out.
 
     Args:
-        prim: the prim, an instance proxy too.
+        prim: the prim, possibly an instance proxy.
         time: time code; None for the earliest.
     """
     texts: dict[str, str] = {}
     for name, text in _texts(prim, Usd.TimeCode.EarliestTime() if time is None else time):
         cleaned = clean_text(text)
-        if _carries_words(cleaned):
+        if _is_free_text(cleaned):
             texts.setdefault(cleaned, name)
-    return tuple((name, text) for text, name in list(texts.items())[:_MOST_TEXTS])
+    return tuple((name, text) for text, name in list(texts.items())[: LIMITS.max_texts])
 
 
 def _texts(prim: Any, time: Any) -> Iterator[tuple[str, str]]:
     for name in text_names(prim, prim.GetAuthoredPropertyNames()):
         yield name, ", ".join(texts_of(prim, name, time))
     if prim.HasAuthoredCustomData():
-        # Every typed prim has its schema's documentation in customData; that is not authored.
+        # GetCustomData includes the documentation of the schema.
         data = {key: value for key, value in prim.GetCustomData().items() if prim.HasAuthoredCustomDataKey(key)}
         yield from _flatten("customData", data)
     if prim.HasAuthoredAssetInfo():
@@ -95,9 +92,9 @@ def _texts(prim: Any, time: Any) -> Iterator[tuple[str, str]]:
 
 
 def text_names(prim: Any, names: Iterable[str]) -> list[str]:
-    """Return those of a prim's properties that may be free text, by their names."""
+    """Return the names of a prim's properties that may hold free text."""
     definition = prim.GetPrimDefinition()
-    # Of the schemas' own attributes none is free text: purpose, visibility, orientation…
+    # No attribute of a schema is free text: purpose, visibility, orientation, and so on.
     return [name for name in names if not _is_technical(name) and not definition.GetPropertyDefinition(name)]
 
 
@@ -116,10 +113,10 @@ def _flatten(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, str]
 
 
 def texts_of(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
-    """Return the texts of a string or token attribute, one or a list, as authored.
+    """Return the texts of a string or token attribute or array, as authored.
 
-    Empty where there is no such attribute, no value, another type, or text that is not UTF-8. `time` None is the
-    default time.
+    Empty if there is no such attribute, no value, another type, or text that is not UTF-8. Without `time`, the default
+    time is read.
     """
     attribute = prim.GetAttribute(attribute_name)
     if not attribute or str(attribute.GetTypeName()) not in _TEXT_TYPES:
@@ -127,7 +124,7 @@ def texts_of(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
     try:
         return _as_texts(value_of(attribute, Usd.TimeCode.Default() if time is None else time))
     except UnicodeDecodeError:
-        # The texts of a list are decoded as they are taken out of it.
+        # An array decodes its texts when they are accessed.
         return ()
 
 
@@ -139,14 +136,15 @@ def _as_texts(value: Any) -> tuple[str, ...]:
 
 
 def clean_text(text: str) -> str:
-    """Return the text on one line, without characters that do not print (controls, changes of direction)."""
+    """Return the text on one line, without unprintable characters such as control and bidirectional marks."""
     if text.isprintable():
         return " ".join(text.split())
     return " ".join("".join(c for c in text if c.isprintable() or c.isspace()).split())
 
 
-def _carries_words(text: str) -> bool:
-    if not 2 <= len(text) <= _LONGEST_TEXT or text[0] in "{[<" or text.lower() in _SWITCHES:
+def _is_free_text(text: str) -> bool:
+    is_short_enough = _MIN_TEXT_LENGTH <= len(text) <= LIMITS.max_text_length
+    if not is_short_enough or text[0] in "{[<" or text.lower() in _SWITCHES:
         return False
     if any(pattern.fullmatch(text) for pattern in (_HEX, _PATH, _URL)) or _is_base64(text):
         return False
@@ -156,26 +154,26 @@ def _carries_words(text: str) -> bool:
 def _is_base64(text: str) -> bool:
     if not _BASE64.fullmatch(text):
         return False
-    # Names split into words, encoded bytes into crumbs: of 2,000 random ones 95 in 100 stay below 0.4.
-    parts = [part for part in split_identifier(text) if len(part) > 3 and part.isalpha()]
-    return text.endswith("=") or sum(map(len, parts)) < 0.4 * len(text)
+    # Identifiers consist of words, encoded bytes of short fragments.
+    parts = [part for part in split_identifier(text) if len(part) >= _MIN_WORD_LENGTH and part.isalpha()]
+    return text.endswith("=") or sum(map(len, parts)) < TEXTS.min_word_share * len(text)
 
 
 class MaterialReader:
-    """Reads the materials of objects at one time; each material is looked into once, what instances share too."""
+    """Reads the materials of objects at one time; each material is read once, also if instances share it."""
 
     def __init__(self, time: Any, *, has_purpose_bindings: bool = True) -> None:
         self._time = time
-        # Without bindings for one purpose only, each purpose shows the same.
+        # Without bindings for a single purpose, all purposes have the same materials.
         self._purposes = ("full", "preview") if has_purpose_bindings else ("full",)
         self._details: dict[str, MaterialDetails] = {}
         self._of_shared: dict[str, MaterialDetails] = {}
         self._of_instances: dict[tuple[int, ...], tuple[str, tuple[MaterialDetails, ...]]] = {}
         self._ahead: dict[int, tuple[Any, ...]] = {}
-        """id of a record → its material for each purpose, for the records that were looked at ahead."""
+        """id of a record → its material for each purpose, for prefetched records."""
 
-    def look_ahead(self, records: Iterable[PrimRecord]) -> None:
-        """Find what is bound to the records that will be read next; OpenUSD does many at once in parallel."""
+    def prefetch(self, records: Iterable[PrimRecord]) -> None:
+        """Compute the bindings of the prims that will be read next; OpenUSD computes many in parallel."""
         shown = [
             record for record in records if _shows_material(record) and not record.has_subsets and record.twin is None
         ]
@@ -184,16 +182,15 @@ class MaterialReader:
         self._ahead = dict(zip(map(id, shown), zip(*by_purpose, strict=True), strict=True))
 
     def read(self, records: list[PrimRecord]) -> tuple[MaterialDetails, ...]:
-        """Return the materials that the geometry among `records` is shown with, in order of appearance.
+        """Return the materials of the visible geometry among `records`, in order of appearance.
 
-        Bindings are resolved as UsdShade does (direct, inherited, by collection, by strength), for the purposes
-        `full` and `preview`; geometry subsets are asked too. A binding to a material that does not exist gives its
-        name.
+        Bindings are resolved by UsdShade (direct, inherited, collection-based, by strength) for the purposes `full` and
+        `preview`, including geometry subsets. A binding to a missing material gives its name.
         """
         root, twin = records[0], records[0].twin
         if twin is None or root.is_bound or twin.is_bound:
             return self._resolve(records)
-        # What is bound within an instance is bound alike in all of them.
+        # Bindings within a prototype are the same in all instances.
         key = tuple(id(record.twin) for record in records)
         instance = _instance_above(root)
         if key not in self._of_instances:
@@ -221,7 +218,7 @@ class MaterialReader:
         return tuple(found.values())
 
     def _bound(self, record: PrimRecord) -> list[tuple[Any, tuple[Any, ...]]]:
-        """Return (prim, its material for each purpose) for a record and its geometry subsets."""
+        """Return (prim, material for each purpose) for a prim and its geometry subsets."""
         known = self._ahead.get(id(record))
         if known is not None:
             return [(record.prim, known)]
@@ -234,7 +231,6 @@ class MaterialReader:
         known = self._details.get(path)
         if known is None:
             prim = material.GetPrim()
-            # The copies of an instance share their materials.
             shared = prim.GetPrimInPrototype().GetPath().pathString if prim.IsInstanceProxy() else path
             if shared not in self._of_shared:
                 self._of_shared[shared] = _read_details(material, path, self._time)
@@ -247,7 +243,7 @@ def _shows_material(record: PrimRecord) -> bool:
 
 
 def _instance_above(record: PrimRecord) -> str:
-    """Return the path of the instance that a record is, or is in."""
+    """Return the path of the instance at or above a prim."""
     above = record
     while not above.is_instance and above.parent is not None:
         above = above.parent
@@ -255,7 +251,7 @@ def _instance_above(record: PrimRecord) -> str:
 
 
 def _authored_target(prim: Any) -> Any:
-    """Return the path that the nearest binding at or above `prim` names; None if there is none."""
+    """Return the target of the nearest binding at or above `prim`; None if there is none."""
     while not prim.IsPseudoRoot():
         targets = read_targets(prim, "material:binding")
         if targets:
@@ -265,32 +261,32 @@ def _authored_target(prim: Any) -> Any:
 
 
 def material_details(records: list[PrimRecord], time: Any = None) -> tuple[MaterialDetails, ...]:
-    """Return the materials of one object as `MaterialReader` does; `time` None is the earliest."""
+    """Return the materials of one object; see `MaterialReader.read`. Without `time`, the earliest is read."""
     return MaterialReader(Usd.TimeCode.EarliestTime() if time is None else time).read(records)
 
 
 def _bindable(prim: Any) -> list[Any]:
     imageable = UsdGeom.Imageable(prim)
     subsets = [subset.GetPrim() for subset in UsdGeom.Subset.GetAllGeomSubsets(imageable)]
-    # Subsets that partition the mesh leave nothing of its own material to be seen.
+    # The material of a mesh is invisible if its subsets are a partition.
     family = UsdShade.Tokens.materialBind
     is_covered = subsets and UsdGeom.Subset.GetFamilyType(imageable, family) == UsdGeom.Tokens.partition
     return subsets if is_covered else [prim, *subsets]
 
 
 def _bound_materials(prims: list[Any], purpose: str) -> list[Any]:
-    """Return the material of each prim, an invalid one or None where it has none."""
+    """Return the material of each prim; invalid or None if it has none."""
     try:
         return list(UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose)[0]) if prims else []
     except UNREADABLE:
-        # One at a time, so that only the prim at fault goes without.
+        # Retry one by one to lose only the corrupt prim.
         return [found for prim in prims for found in _bound_materials([prim], purpose)] if len(prims) > 1 else [None]
 
 
 def _read_details(material: Any, path: str, time: Any) -> MaterialDetails:
     sources = [material.ComputeSurfaceSource(context)[0] for context in _RENDER_CONTEXTS]
     shaders = list({source.GetPath(): source for source in sources if source}.values())
-    colors = [vector_of(_constant(shader, _BASE_COLOR, time)) for shader in shaders if not _is_mapped(shader)]
+    colors = [vector_of(_constant(shader, BASE_COLOR_INPUTS, time)) for shader in shaders if not _is_mapped(shader)]
     roughness, metallic, opacity = (
         _first([_number(_constant(shader, names, time)) for shader in shaders])
         for names in (_ROUGHNESS, _METALLIC, _OPACITY)
@@ -303,14 +299,14 @@ def _first(values: list[_T | None]) -> _T | None:
 
 
 def _is_mapped(shader: Any) -> bool:
-    """Return whether an MDL texture stands before the constant: OmniPBR takes the texture where there is one."""
+    """Return whether an MDL texture overrides the constant colour, as in OmniPBR."""
     texture = shader.GetInput("diffuse_texture")
     value = value_of(texture, Usd.TimeCode.Default()) if texture else None
     return isinstance(value, Sdf.AssetPath) and bool(value.path)
 
 
 def _constant(shader: Any, names: tuple[str, ...], time: Any) -> Any:
-    """Return the value of the first authored input among `names`; None if it is computed, from a texture say."""
+    """Return the value of the first authored input among `names`; None if it is computed, for example by a texture."""
     for name in names:
         source = shader.GetInput(name)
         attributes = UsdShade.Utils.GetValueProducingAttributes(source) if source else []
@@ -324,23 +320,23 @@ def _value(attribute: Any, time: Any) -> Any:
         return value_of(attribute, time)
     shader = UsdShade.Shader(attribute.GetPrim())
     value = shader.GetInput("value") if shader else None
-    # MaterialX writes constants as records: ND_constant_color3, ND_constant_float.
+    # MaterialX has constants as nodes: ND_constant_color3, ND_constant_float.
     if not value or value.HasConnectedSource() or not str(shader.GetShaderId()).startswith("ND_constant"):
         return None
     return value_of(value, time)
 
 
 def vector_of(value: Any) -> Vector | None:
-    """Return a colour to six figures, as 32-bit ones were typed; None for anything but three finite numbers."""
+    """Return a colour with six significant digits; None unless the value is a vector of three finite numbers."""
     if not isinstance(value, _VECTORS):
         return None
-    # Vectors of Gf are many times faster to take apart as an array.
+    # Converting a Gf vector by way of numpy is many times faster than indexing it.
     x, y, z = (float(f"{part:.6g}") for part in np.array(value).tolist())
     return (x, y, z) if math.isfinite(x + y + z) else None
 
 
 def _number(value: Any) -> float | None:
-    # MaterialX has opacity as a colour; a grey one is a number.
+    # MaterialX has opacity as a colour; grey is a number.
     parts = [value] if isinstance(value, int | float) else list(vector_of(value) or ())
     is_one = len(set(parts)) == 1 and math.isfinite(parts[0])
     return float(f"{parts[0]:.6g}") if is_one else None

@@ -1,4 +1,4 @@
-"""What a user can say about how a stage is to be read."""
+"""Options of reading a stage."""
 
 from dataclasses import dataclass, field
 
@@ -9,32 +9,32 @@ __all__ = ["ReadOptions", "SelectionOverrides"]
 
 @dataclass(frozen=True, slots=True)
 class SelectionOverrides:
-    """Changes to which prims are objects; what is left empty changes nothing."""
+    """Overrides of the rules by which prims are objects."""
 
     include: tuple[str, ...] = ()
-    """Path patterns (`*` within a name, `**` across names): these prims are objects whatever the rules say."""
+    """Path patterns (`*` within a name, `**` across names) of prims that are objects regardless of the rules."""
     exclude: tuple[str, ...] = ()
-    """Path patterns: these prims, and all below them, are no objects."""
+    """Path patterns of prims that, with all prims below them, are not objects."""
     kinds: tuple[str, ...] = ()
-    """Model kinds whose prims are objects, instead of `component`."""
+    """Model kinds of objects, instead of `component`."""
     only: tuple[str, ...] = ()
-    """Paths: just these prims are objects."""
+    """Paths of the only objects."""
     is_every_prim: bool = False
-    """Every prim that is or holds visible geometry is an object."""
+    """Whether every prim that is or contains visible geometry is an object."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReadOptions:
-    """How a stage is read; the defaults are what the stage itself says."""
+    """How a stage is read; by default as authored."""
 
     metres_per_unit: float | None = None
-    """Length of a stage unit in metres, instead of the authored one."""
+    """Length of a stage unit in metres; overrides the authored one."""
     up_axis: str | None = None
-    """`Y` or `Z`, instead of the authored one."""
+    """`Y` or `Z`; overrides the authored one."""
     time: float | None = None
     """Time code to read; by default the earliest sample of each attribute."""
     expand_instancers: bool = False
-    """Make an object of each copy of a point instancer, instead of one for all."""
+    """Whether each copy of a point instancer is an object, instead of one object for all copies."""
     selection: SelectionOverrides = field(default_factory=SelectionOverrides)
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""The stage as a plain tree of outline records: just what choosing the objects and reading them needs."""
+"""Outline: the prims of a stage as a tree of records, with what object selection and reading need."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -10,7 +10,7 @@ __all__ = ["NOTHING_AUTHORED", "Authored", "JointLink", "Outline", "PrimRecord"]
 
 
 class JointLink(NamedTuple):
-    """Which body a joint moves against which."""
+    """The bodies of a joint."""
 
     body0: str | None
     """None for the world."""
@@ -19,20 +19,21 @@ class JointLink(NamedTuple):
 
 
 class Authored(NamedTuple):
-    """What the names of a prim's authored properties say; prims with the same schemas and names share one."""
+    """Facts derived from the names of a prim's authored properties; shared by prims with the same schemas and names."""
 
     names: tuple[str, ...]
     moves: bool
     """Whether a transform is authored."""
     turns: bool
-    """Whether a transform may turn the prim against its parent."""
+    """Whether a transform may rotate the prim relative to its parent."""
     binds: bool
     """Whether a material is bound."""
     has_purpose_binding: bool
-    """Whether one is bound for one purpose only, or to a collection."""
+    """Whether a material is bound for a single purpose, or to a collection."""
     is_semantic: bool
+    """Whether a semantic property or schema is authored."""
     has_texts: bool
-    """Whether there are some beyond the schemas', which may carry words."""
+    """Whether properties outside of schemas may hold free text."""
 
 
 _NO_METADATA: Mapping[str, Any] = MappingProxyType({})
@@ -43,7 +44,7 @@ NOTHING_AUTHORED = Authored(
 
 @dataclass(slots=True)
 class PrimRecord:
-    """One prim that is, holds or groups geometry."""
+    """One prim that is or contains geometry."""
 
     stage: Any
     path: str
@@ -52,53 +53,53 @@ class PrimRecord:
     kind: str
     parent: "PrimRecord | None"
     metadata: Mapping[str, Any] = field(default_factory=lambda: _NO_METADATA)
-    """The authored metadata, composition arcs left out."""
+    """The authored metadata, without composition arcs."""
     authored: Authored = NOTHING_AUTHORED
     children: list["PrimRecord"] = field(default_factory=list)
     is_gprim: bool = False
     has_points: bool = False
-    """Whether it can be measured by points: its own, or those of a round solid's surface."""
+    """Whether it has points, or is a round solid whose surface has points."""
     is_scope: bool = False
     is_body: bool = False
-    """Carries UsdPhysics' RigidBodyAPI, or a mass of its own without being geometry."""
+    """Whether it has UsdPhysics' RigidBodyAPI, or MassAPI without being a gprim."""
     has_mass: bool = False
-    """Carries UsdPhysics' MassAPI."""
+    """Whether it has UsdPhysics' MassAPI."""
     is_instance: bool = False
     is_instancer: bool = False
     is_hidden: bool = False
-    """Of guide or proxy purpose, by itself or from above."""
+    """Whether its own or inherited purpose is guide or proxy."""
     is_unresolved: bool = False
-    """A reference or payload at or below it could not be opened."""
+    """Whether a reference or payload at or below it could not be opened."""
     is_labelled: bool = False
-    """Something semantic is authored on it."""
+    """Whether a semantic property or schema is authored on it."""
     may_be_turned: bool = False
-    """Whether a transform at or above it may turn it against the world's axes."""
+    """Whether a transform at or above it may rotate it against the world axes."""
     is_bound: bool = False
     """Whether a material is bound at or above it."""
     has_subsets: bool = False
     left_out: list[tuple[str, str]] | None = None
-    """(name, reason) of the prims right below that were not entered; None if there are none."""
+    """(name, reason) of the child prims that were pruned; None if there are none."""
     twin: "PrimRecord | None" = None
-    """The same prim in the first instance of the same prototype; None outside of instances and in the first one."""
+    """The same prim in the first instance of the prototype; None outside of instances and in the first instance."""
     first_instance: str | None = None
-    """Of an instance, the path of the first one of the same prototype."""
+    """For an instance, the path of the first instance of the prototype."""
     gprim_count: int = 0
-    """Visible geometry prims at and below it, in default or render purpose."""
+    """Visible gprims at and below it with default or render purpose."""
     hidden_gprim_count: int = 0
-    """The same for guide and proxy purpose."""
+    """Gprims at and below it with guide or proxy purpose."""
     known_prim: Any = None
     known_as_asset: bool | None = None
 
     @property
     def prim(self) -> Any:
-        """The prim, looked up when it is first asked for."""
+        """The prim, looked up on first use."""
         if self.known_prim is None:
             self.known_prim = self.stage.GetPrimAtPath(self.path)
         return self.known_prim
 
     @property
     def is_asset(self) -> bool:
-        """Whether it brings in a reference or payload, or is an instance; looked up when it is first asked for."""
+        """Whether it has a reference or payload, or is an instance; looked up on first use."""
         if self.known_as_asset is None:
             prim = (self.twin or self).prim
             self.known_as_asset = self.is_instance or prim.HasAuthoredReferences() or prim.HasAuthoredPayloads()
@@ -106,16 +107,16 @@ class PrimRecord:
 
     @property
     def may_have_asset(self) -> bool:
-        """Whether the stage may name an asset that it comes from."""
+        """Whether it may have an asset name or an asset file."""
         return "assetInfo" in self.metadata or self.is_asset
 
     @property
     def may_have_texts(self) -> bool:
-        """Whether somebody may have written words on it, beyond the schemas."""
+        """Whether it may have free text outside of schemas."""
         return self.authored.has_texts or "customData" in self.metadata or "assetInfo" in self.metadata
 
     def walk(self) -> Iterator["PrimRecord"]:
-        """Yield this record and all below it, parents first."""
+        """Yield this prim and all prims below it, parents first."""
         pending = [self]
         while pending:
             record = pending.pop()
@@ -126,29 +127,29 @@ class PrimRecord:
 
 @dataclass(slots=True)
 class Outline:
-    """The record tree, and what was not entered into it.
+    """The tree of records, with counts and reasons of pruned prims.
 
-    As a context manager it lets go of the stage at the end, though its records refer to each other: a stage that is
-    still held is not read again from a file that has changed.
+    As a context manager, it breaks the reference cycles between records at the end, which releases the stage: OpenUSD
+    would return the cached layers of a stage still in use although the file has changed.
     """
 
     root: PrimRecord
     """The pseudo-root."""
     records: list[PrimRecord] = field(default_factory=list)
-    """All records below it, parents first."""
+    """All records below the root, parents first."""
     left_out: Counter[str] = field(default_factory=Counter)
     """Reason → number of prims."""
     pruned: dict[str, str] = field(default_factory=dict)
-    """Path of a prim that was not entered → the reason."""
+    """Path of a pruned prim → reason."""
     prim_count: int = 0
     joints: list[JointLink] = field(default_factory=list)
-    """What the joints connect, in traversal order."""
+    """The bodies of the joints, in traversal order."""
     joint_prims: list[Any] = field(default_factory=list)
-    """The joints, in traversal order."""
+    """The joint prims, in traversal order."""
     labelled_prims: list[Any] = field(default_factory=list)
-    """Prims on which something semantic is authored, in traversal order; what instances share is there once."""
+    """Prims with semantic properties or schemas, in traversal order; prims shared by instances only once."""
     has_purpose_bindings: bool = False
-    """Whether a material is bound for one purpose only, or to a collection, anywhere."""
+    """Whether any material is bound for a single purpose, or to a collection."""
 
     def __enter__(self) -> "Outline":
         return self

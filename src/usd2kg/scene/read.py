@@ -1,4 +1,4 @@
-"""read_scene: from a USD file to a Scene."""
+"""read_scene: USD stage → Scene."""
 
 import logging
 import math
@@ -21,39 +21,38 @@ from usd2kg.scene.label_reader import LabelReader
 from usd2kg.scene.levels import holds_others, read_levels
 from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
+from usd2kg.scene.object_selection import ASKED_FOR, Selection, explain, select_objects
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Outline, PrimRecord
-from usd2kg.scene.plausibility import check_plausibility
-from usd2kg.scene.selection import ASKED_FOR, Selection, explain, select_objects
+from usd2kg.scene.sanity_checks import check_sanity
+from usd2kg.scene.settings import LIMITS
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, captured_diagnostics, error_text, open_stage, translated_errors
-from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, above_endless, outline_stage
+from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage, paths_above_endless
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
 logger = logging.getLogger(__name__)
 
-_MOST_PARTS = 64
-_READ_AHEAD = 1000
-"""How many objects are looked at together where that is faster."""
-_LONGEST_MESSAGE = 500
+_BATCH = 1000
+"""Objects whose materials are computed together; affects speed only."""
 _NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
-"""Of an object that OpenUSD cannot read: the fields that have no defaults."""
+"""Fields without defaults, for an object that OpenUSD cannot read."""
 
 
 def read_scene(
     source: Path | str | Usd.Stage, *, paths: Iterable[str] | None = None, options: ReadOptions | None = None
 ) -> Scene:
-    """Return the objects of a USD stage with everything the stage says about them.
+    """Return the objects of a USD stage with everything the stage states about them.
 
     Args:
-        source: the stage's root layer (.usd, .usda, .usdc, .usdz), or a stage that is open already, with its session
-            layer and variants as they stand.
-        paths: prim paths that are objects whatever the rules say, beside those the rules choose.
-            Paths that do not exist are listed in `Scene.missing_paths`.
-        options: what is to be read differently from what the stage says.
+        source: the root layer (.usd, .usda, .usdc, .usdz), or an open stage, which is read with its session layer and
+            current variants.
+        paths: prim paths that are objects in addition to those that the rules select. Paths that are not on the stage
+            are listed in `Scene.missing_paths`.
+        options: overrides of what is authored.
 
     Raises:
-        SceneError: the file cannot be read, or no object is on the stage.
+        SceneError: the file cannot be read, or the stage has no objects.
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
@@ -62,11 +61,11 @@ def read_scene(
         translated_errors(opened.source),
         captured_diagnostics() as openusd_notes,
         paused_collection(),
-        # What is not finite is looked for in the results.
+        # Results are checked for non-finite values.
         np.errstate(invalid="ignore", over="ignore"),
         outline_stage(opened, time) as outline,
     ):
-        boxes = BoxReader(opened.frame, time, above_endless(outline))
+        boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below, tuple(dict.fromkeys(paths or ())))
         reader = _ObjectReader(opened, outline, selection.chosen, boxes)
         objects = _read_objects(reader, outline, selection, options.expand_instancers)
@@ -87,14 +86,14 @@ def read_scene(
         missing_paths=selection.missing,
         joints=joints.joints,
     )
-    found = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_plausibility(scene))
+    found = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))
     return replace(scene, diagnostics=tuple(map(_on_one_line, (*opened.diagnostics, *openusd_notes, *found))))
 
 
 def _left_out_notes(outline: Outline) -> Iterator[Diagnostic]:
     consequence = {
-        UNREADABLE_PRIM: "OpenUSD cannot read it; it is left out with all below it",
-        ENDLESS: "a point instancer is among its own prototypes, without end; it is left out",
+        UNREADABLE_PRIM: "OpenUSD cannot read it; it is left out with all prims below it",
+        ENDLESS: "a point instancer contains itself through its prototypes; it is left out",
     }
     if any(outline.left_out[reason] for reason in consequence):
         for path, reason in outline.pruned.items():
@@ -103,16 +102,16 @@ def _left_out_notes(outline: Outline) -> Iterator[Diagnostic]:
 
 
 def _on_one_line(note: Diagnostic) -> Diagnostic:
-    """Return a note whose message is one short line that prints, whatever names and values it quotes."""
-    message = note.message
-    if message.isprintable() and len(message) <= _LONGEST_MESSAGE:
+    """Return a note with its message cut to one printable line, whatever names and values it quotes."""
+    message, limit = note.message, LIMITS.max_message_length
+    if message.isprintable() and len(message) <= limit:
         return note
     cleaned = clean_text(message)
-    return replace(note, message=cleaned if len(cleaned) <= _LONGEST_MESSAGE else cleaned[: _LONGEST_MESSAGE - 1] + "…")
+    return replace(note, message=cleaned if len(cleaned) <= limit else cleaned[: limit - 1] + "…")
 
 
 def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptions | None = None) -> str:
-    """Return why a prim is an object or is none, in words.
+    """Return a sentence on why a prim is or is not an object.
 
     Raises:
         SceneError: the stage cannot be read, or has no such prim.
@@ -121,15 +120,17 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     opened = open_stage(source, options)
     time = _time_code(options)
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
-        boxes = BoxReader(opened.frame, time, above_endless(outline))
+        boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below)
         if not opened.stage.GetPrimAtPath(path):
-            raise SceneError(f"{opened.source}: there is no prim {path}; expected an absolute path, see usd2kg inspect")
+            raise SceneError(
+                f"{opened.source}: there is no prim {path}; expected an absolute path, `usd2kg inspect` lists them"
+            )
         return explain(path, outline, selection)
 
 
 def _time_code(options: ReadOptions) -> Usd.TimeCode:
-    # Where an attribute has no samples, its default value is what stands at the earliest time.
+    # An attribute without time samples has its default value at the earliest time, too.
     return Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
 
 
@@ -143,8 +144,8 @@ def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
 def _no_object_message(source: str, outline: Outline, selection: Selection, opened: OpenedStage) -> str:
     counts = ", ".join(f"{count} {reason}" for reason, count in selection.left_out.most_common(4))
     found = f"{outline.prim_count} prims ({counts})" if counts else f"{outline.prim_count} prims"
-    trouble = f"; {opened.diagnostics[0].message}" if opened.diagnostics else ""
-    return f"{source}: no object among {found}, expected prims with geometry; check what the file refers to{trouble}"
+    problem = f"; {opened.diagnostics[0].message}" if opened.diagnostics else ""
+    return f"{source}: no object among {found}, expected prims with geometry; check the referenced files{problem}"
 
 
 def _read_objects(
@@ -155,8 +156,8 @@ def _read_objects(
     levels = reader.read_levels([entry for entry in found if entry.is_read], boxes)
     objects: list[SceneObject] = []
     for index, entry in enumerate(found):
-        if index % _READ_AHEAD == 0:
-            reader.look_ahead(found[index : index + _READ_AHEAD])
+        if index % _BATCH == 0:
+            reader.prefetch(found[index : index + _BATCH])
         if entry.is_read:
             path = entry.records[0].path
             objects.append(reader.read(entry, boxes[path], levels.get(path, ())))
@@ -166,40 +167,41 @@ def _read_objects(
     return objects
 
 
-class _Found(NamedTuple):
-    """A chosen prim that is yet to be read."""
+class _SelectedPrim(NamedTuple):
+    """A selected prim that is still to be read."""
 
     records: list[PrimRecord]
-    """The prim and what is below it, without other objects."""
+    """The prim and the prims below it without nested objects."""
     parent_path: str | None
     """Path of the nearest object above."""
     expanded: list[PrimRecord]
-    """The point instancers whose copies are objects of their own."""
+    """The point instancers whose copies are objects."""
     is_read: bool
-    """Whether it is an object beside its copies."""
+    """Whether the prim is an object in addition to its copies."""
 
 
 def _why(error: Exception) -> str:
-    return error_text(error) or "OpenUSD does not say why"
+    return error_text(error) or "OpenUSD gives no reason"
 
 
-class _Boxes(NamedTuple):
+class _ObjectBoxes(NamedTuple):
     below: Box | None
-    """Of all below the prim."""
+    """With nested objects."""
     own: Box | None
     """Without nested objects."""
     parts: tuple[Box, ...]
 
 
 def _largest(parts: list[Box]) -> tuple[Box, ...]:
-    """Return the largest of the parts, as many as are kept, in their order."""
-    if len(parts) <= _MOST_PARTS:
+    """Return the largest boxes, up to a limit, in the given order."""
+    limit = LIMITS.max_part_boxes
+    if len(parts) <= limit:
         return tuple(parts)
-    largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:_MOST_PARTS]
+    largest = sorted(range(len(parts)), key=lambda i: -parts[i].volume)[:limit]
     return tuple(parts[i] for i in sorted(largest))
 
 
-def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: bool) -> list[_Found]:
+def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: bool) -> list[_SelectedPrim]:
     found = []
     # (record, path of the nearest object above)
     pending: list[tuple[PrimRecord, str | None]] = [(outline.root, None)]
@@ -209,7 +211,7 @@ def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: b
             records = list(own_records(record, chosen))
             expanded = [own for own in records if own.is_instancer and not own.is_hidden] if expand_instancers else []
             is_read = not expanded or record.gprim_count > len(expanded)
-            found.append(_Found(records, parent_path, expanded, is_read))
+            found.append(_SelectedPrim(records, parent_path, expanded, is_read))
             parent_path = record.path if is_read else parent_path
         if record.children:
             pending.extend((child, parent_path) for child in reversed(record.children))
@@ -217,7 +219,7 @@ def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: b
 
 
 class _ObjectReader:
-    """Reads one object at a time, sharing OpenUSD's caches."""
+    """Reads objects one by one with shared caches."""
 
     def __init__(self, opened: OpenedStage, outline: Outline, chosen: dict[str, str], boxes: BoxReader) -> None:
         self.frame = opened.frame
@@ -229,11 +231,11 @@ class _ObjectReader:
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
 
-    def measure(self, found: list[_Found]) -> dict[str, _Boxes]:
+    def measure(self, found: list[_SelectedPrim]) -> dict[str, _ObjectBoxes]:
         """Return the boxes of the objects by path."""
-        boxes: dict[str, _Boxes] = {}
+        boxes: dict[str, _ObjectBoxes] = {}
         inside: dict[str, list[Box]] = {}
-        # What is nested comes after what holds it: from the end, each box is computed once.
+        # In reverse order, nested objects come first and each box is computed once.
         for entry in reversed(found):
             path = entry.records[0].path
             measured = self._measure(entry.records, inside.pop(path, []))
@@ -243,47 +245,45 @@ class _ObjectReader:
         self.notes.reverse()
         return boxes
 
-    def _measure(self, records: list[PrimRecord], nested: list[Box]) -> _Boxes:
+    def _measure(self, records: list[PrimRecord], nested: list[Box]) -> _ObjectBoxes:
         try:
             parts = self.boxes.read_parts(records)
             own = union(parts)
             below = union([*nested, own]) if nested and own else own or union(nested)
             below = below or self.boxes.read_hint(records[0])
         except UNREADABLE as error:
-            self._note(
-                "geometry", records[0], f"its box could not be computed ({_why(error)}); it has none in the graph"
-            )
-            return _Boxes(None, None, ())
+            self._note("geometry", records[0], f"its box cannot be computed ({_why(error)}); it has none in the graph")
+            return _ObjectBoxes(None, None, ())
         if below is None:
-            self._note("empty-box", records[0], "no geometry that can be measured; it has no size in the graph")
-        return _Boxes(below, own if nested else below, _largest(parts) if len(parts) > 1 else ())
+            self._note("empty-box", records[0], "it has no measurable geometry; it has no size in the graph")
+        return _ObjectBoxes(below, own if nested else below, _largest(parts) if len(parts) > 1 else ())
 
-    def read_levels(self, found: list[_Found], boxes: dict[str, _Boxes]) -> dict[str, tuple[Box, ...]]:
-        """Return the support levels of the objects within whose bounds others begin, by path."""
+    def read_levels(self, found: list[_SelectedPrim], boxes: dict[str, _ObjectBoxes]) -> dict[str, tuple[Box, ...]]:
+        """Return path → support levels, for the objects that may have others on an inner level."""
         levels: dict[str, tuple[Box, ...]] = {}
         own = [boxes[entry.records[0].path].own for entry in found]
-        for entry, box, is_looked_at in zip(found, own, holds_others(own), strict=True):
-            if is_looked_at and box is not None:
+        for entry, box, is_holder in zip(found, own, holds_others(own), strict=True):
+            if is_holder and box is not None:
                 try:
                     levels[entry.records[0].path] = read_levels(entry.records, box, self.boxes, self.frame)
                 except UNREADABLE as error:
                     self._note(
-                        "geometry", entry.records[0], f"its faces cannot be read ({_why(error)}); no levels in it"
+                        "geometry", entry.records[0], f"its faces cannot be read ({_why(error)}); it has no levels"
                     )
         return levels
 
-    def look_ahead(self, found: list[_Found]) -> None:
-        """Prepare for reading these objects next."""
-        self.materials.look_ahead(record for entry in found if entry.is_read for record in entry.records)
+    def prefetch(self, found: list[_SelectedPrim]) -> None:
+        """Compute the materials of the objects that are read next."""
+        self.materials.prefetch(record for entry in found if entry.is_read for record in entry.records)
 
-    def read(self, entry: _Found, boxes: _Boxes, levels: tuple[Box, ...]) -> SceneObject:
-        """Return the object with all that the stage says about it."""
+    def read(self, entry: _SelectedPrim, boxes: _ObjectBoxes, levels: tuple[Box, ...]) -> SceneObject:
+        """Return the object with everything the stage states about it."""
         record = entry.records[0]
         position, orientation = self._pose(record)
         try:
             evidence = self._evidence(entry.records, boxes)
         except UNREADABLE as error:
-            self._note("unreadable", record, f"not all of it can be read ({_why(error)}); it has but a name and a box")
+            self._note("unreadable", record, f"its evidence cannot be read ({_why(error)}); only its name and box are")
             evidence = _NO_EVIDENCE
         return SceneObject(
             prim_path=record.path,
@@ -305,8 +305,8 @@ class _ObjectReader:
             **evidence,
         )
 
-    def _evidence(self, records: list[PrimRecord], boxes: _Boxes) -> dict[str, Any]:
-        """Return the fields of an object for which OpenUSD has to be asked."""
+    def _evidence(self, records: list[PrimRecord], boxes: _ObjectBoxes) -> dict[str, Any]:
+        """Return the fields of an object that are read from OpenUSD."""
         record, prim = records[0], records[0].prim
         materials = self.materials.read(records)
         mass = read_mass(records, self.boxes, self.frame)
@@ -326,7 +326,7 @@ class _ObjectReader:
         }
 
     def read_copies(self, instancer: PrimRecord, parent_path: str | None) -> list[SceneObject]:
-        """Return the copies of a point instancer; none where OpenUSD cannot read it."""
+        """Return the copies of a point instancer; none if OpenUSD cannot read it."""
         try:
             return read_copies(instancer, parent_path, self.frame, self.time, self.boxes, self.notes)
         except UNREADABLE as error:
@@ -339,7 +339,7 @@ class _ObjectReader:
         except UNREADABLE:
             position, orientation = None, None
         if position is None or orientation is None:
-            self._note("transform", record, "its transform has no finite position or rotation; pose left out")
+            self._note("transform", record, "its transform has no finite position or rotation; its pose is left out")
         return position, orientation
 
     def _note(self, code: str, record: PrimRecord, message: str) -> None:

@@ -1,42 +1,41 @@
-"""Robots: many bodies on a chain of turning joints are one thing to a person."""
+"""Robots: the rigid bodies of an arm, a chain of revolute joints, are one object."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
 from usd2kg.scene.outline import JointLink, Outline, PrimRecord
+from usd2kg.scene.settings import ROBOTS
 
 __all__ = ["merge_robots"]
 
-_ARM_JOINTS = 4
-"""A chain of this many turning joints, each moving the next, is a robot arm and not furniture."""
-_TURNING = "PhysicsRevoluteJoint"
+_REVOLUTE = "PhysicsRevoluteJoint"
 
 
 def merge_robots(outline: Outline, candidates: dict[str, str]) -> None:
-    """Make the bodies of each robot arm one candidate: the topmost body, or the prim that holds just the robot.
+    """Merge the bodies of each robot arm into one candidate: the topmost body, or the prim that contains only the arm.
 
-    Links may be nested in each other (as URDF converters write them) or lie side by side (as Isaac Sim does).
+    Links may be nested (as URDF converters write them) or siblings (as Isaac Sim writes them).
     """
-    if sum(joint.type_name == _TURNING for joint in outline.joints) < _ARM_JOINTS:
+    if sum(joint.type_name == _REVOLUTE for joint in outline.joints) < ROBOTS.min_turning_joints:
         return
     _merge_nested(outline, candidates)
-    _merge_side_by_side(outline, candidates)
+    _merge_siblings(outline, candidates)
 
 
 def _merge_nested(outline: Outline, candidates: dict[str, str]) -> None:
-    turning = {joint.body1 for joint in outline.joints if joint.type_name == _TURNING}
+    turning = {joint.body1 for joint in outline.joints if joint.type_name == _REVOLUTE}
     for record in outline.records:
-        if record.path in candidates and record.is_body and _nested_chain(record, turning) >= _ARM_JOINTS:
+        if record.path in candidates and record.is_body and _nested_chain(record, turning) >= ROBOTS.min_turning_joints:
             _merge(record, candidates)
 
 
 def _merge(record: PrimRecord, candidates: dict[str, str]) -> None:
     for below in record.walk():
         candidates.pop(below.path, None)
-    candidates[record.path] = "robot: a chain of turning joints"
+    candidates[record.path] = "robot: a chain of revolute joints"
 
 
 def _nested_chain(record: PrimRecord, turning: set[str]) -> int:
-    """Return the longest run of turning joints below `record`, if the chain never branches into objects."""
+    """Return the number of revolute joints in the chain of bodies below `record`, up to its first branching."""
     length, current = 0, record
     while True:
         links = [child for child in current.children if child.is_body]
@@ -46,7 +45,7 @@ def _nested_chain(record: PrimRecord, turning: set[str]) -> int:
         length += current.path in turning
 
 
-def _merge_side_by_side(outline: Outline, candidates: dict[str, str]) -> None:
+def _merge_siblings(outline: Outline, candidates: dict[str, str]) -> None:
     moved = {joint.body1: joint for joint in outline.joints if joint.body0}
     moves: dict[str, list[str]] = {}
     for joint in moved.values():
@@ -56,15 +55,15 @@ def _merge_side_by_side(outline: Outline, candidates: dict[str, str]) -> None:
         return
     records = {record.path: record for record in outline.records}
     for base in sorted(bases):
-        bodies = [records[body] for body in sorted(_carried(base, moves)) if body in records]
-        holder = _holder(bodies)
-        # A prim that shows more than the robot is the room or the table that it stands on.
-        if holder is not None and holder.gprim_count == _geometry_of(bodies):
-            _merge(holder, candidates)
+        bodies = [records[body] for body in sorted(_moved_with(base, moves)) if body in records]
+        common = _common_ancestor(bodies)
+        # A prim with more geometry than the robot is its room or table.
+        if common is not None and common.gprim_count == _count_gprims(bodies):
+            _merge(common, candidates)
 
 
 def _arm_base(body: str, moved: Mapping[str, JointLink]) -> str | None:
-    """Return the body that a chain of turning joints to `body` stands on; None if they are too few for an arm."""
+    """Return the base of the chain of revolute joints that ends in `body`; None if it is too short for an arm."""
     turns, base, seen = 0, None, {body}
     while body in moved:
         joint = moved[body]
@@ -72,14 +71,14 @@ def _arm_base(body: str, moved: Mapping[str, JointLink]) -> str | None:
         if body in seen:
             return None
         seen.add(body)
-        if joint.type_name == _TURNING:
-            # What the base itself is fixed to is no part of the robot.
+        if joint.type_name == _REVOLUTE:
+            # The body that the base is fixed to does not belong to the robot.
             turns, base = turns + 1, body
-    return base if turns >= _ARM_JOINTS else None
+    return base if turns >= ROBOTS.min_turning_joints else None
 
 
-def _carried(base: str, moves: Mapping[str, list[str]]) -> set[str]:
-    """Return a body with all that joints hang on it."""
+def _moved_with(base: str, moves: Mapping[str, list[str]]) -> set[str]:
+    """Return a body and all bodies that joints connect below it."""
     found, pending = {base}, [base]
     while pending:
         for body in moves.get(pending.pop(), ()):
@@ -89,24 +88,24 @@ def _carried(base: str, moves: Mapping[str, list[str]]) -> set[str]:
     return found
 
 
-def _geometry_of(bodies: Sequence[PrimRecord]) -> int:
-    """Return the number of visible geometry prims of the bodies, nested ones counted once."""
+def _count_gprims(bodies: Sequence[PrimRecord]) -> int:
+    """Return the number of visible gprims of the bodies; those of nested bodies count once."""
     paths = {body.path for body in bodies}
-    outermost = [body for body in bodies if not any(above.path in paths for above in _above(body))]
+    outermost = [body for body in bodies if not any(above.path in paths for above in _ancestors(body))]
     return sum(body.gprim_count for body in outermost)
 
 
-def _above(record: PrimRecord) -> Iterator[PrimRecord]:
+def _ancestors(record: PrimRecord) -> Iterator[PrimRecord]:
     above = record.parent
     while above is not None:
         yield above
         above = above.parent
 
 
-def _holder(bodies: Sequence[PrimRecord]) -> PrimRecord | None:
-    """Return the nearest prim that all the bodies are below; None if that is the stage itself."""
+def _common_ancestor(bodies: Sequence[PrimRecord]) -> PrimRecord | None:
+    """Return the nearest common ancestor of the bodies; None if it is the pseudo-root."""
     shared: list[PrimRecord] | None = None
     for body in bodies:
-        above = list(_above(body))
+        above = list(_ancestors(body))
         shared = above if shared is None else [record for record in shared if record in above]
     return shared[0] if shared and shared[0].parent is not None else None

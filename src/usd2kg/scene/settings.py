@@ -11,8 +11,8 @@ __all__ = [
     "LIMITS",
     "MAX_COORDINATE",
     "MESHES",
-    "PLAUSIBILITY",
     "ROBOTS",
+    "SANITY",
     "SOLIDS",
     "TEXTS",
     "UNNAMED",
@@ -109,7 +109,7 @@ class TextSettings:
 
 
 @dataclass(frozen=True)
-class PlausibilitySettings:
+class SanitySettings:
     """Checks of the extent and the names of a scene."""
 
     min_objects: int
@@ -130,4 +130,4 @@ ROBOTS = read_settings("scene", "robots", RobotSettings)
 JOINTS = read_settings("scene", "joints", JointSettings)
 LABELS = read_settings("scene", "labels", LabelSettings)
 TEXTS = read_settings("scene", "texts", TextSettings)
-PLAUSIBILITY = read_settings("scene", "plausibility", PlausibilitySettings)
+SANITY = read_settings("scene", "sanity", SanitySettings)

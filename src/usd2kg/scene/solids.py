@@ -1,4 +1,4 @@
-"""The solids of UsdGeom, which have no points of their own: spheres, cylinders, cones, capsules, cubes, planes."""
+"""Surfaces of UsdGeom's solids: spheres, cylinders, cones, capsules, cubes, planes."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
+from usd2kg.scene.settings import SOLIDS
 from usd2kg.scene.stage import read_value
 
 __all__ = ["ROUND_SOLIDS", "solid_surface"]
@@ -16,11 +17,12 @@ __all__ = ["ROUND_SOLIDS", "solid_surface"]
 Points = NDArray[np.float64]
 """(n, 3)"""
 Triangles = NDArray[np.int32]
-"""(m, 3) indices of points, counter-clockwise seen from outside"""
+"""(m, 3) indices into points, counter-clockwise seen from outside"""
 
 ROUND_SOLIDS = frozenset({"Sphere", "Cylinder", "Cylinder_1", "Cone", "Capsule", "Capsule_1"})
-"""Types whose box turns badly: it is larger than what it holds in each direction but a few."""
-_SEGMENTS = 32
+"""Solids whose rotated local box is larger than their world box."""
+_ARC_STEP = 10
+"""Degrees between the rings of a sphere."""
 _SQUARE_CORNERS = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
 _SQUARE_TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
 _CUBE_CORNERS = np.array([[x, y, z] for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)])
@@ -28,11 +30,11 @@ _CUBE_QUADS = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], 
 _CUBE_TRIANGLES = np.concatenate([_CUBE_QUADS[:, [0, 1, 2]], _CUBE_QUADS[:, [0, 2, 3]]])
 
 
-def solid_surface(prim: Any, time: Usd.TimeCode, segments: int = _SEGMENTS) -> tuple[Points, Triangles] | None:
-    """Return points and triangles of a solid in its own frame and stage units; None if the type has no such shape.
+def solid_surface(prim: Any, time: Usd.TimeCode, segments: int = SOLIDS.segments) -> tuple[Points, Triangles] | None:
+    """Return points and triangles of a solid in its own frame and stage units; None for other types.
 
-    Round ones are turned from `segments` points a ring: their boxes fall short of the true ones by up to
-    1 - cos(π / segments) of the radius, 0.5 % with 32. A size that is not authored as a number makes the points NaN.
+    Round solids have `segments` points per ring; their boxes are too small by up to 1 - cos(π / segments) of the
+    radius, 0.5 % with 32. A size that is not a number makes the points NaN.
     """
 
     def number(name: str) -> float:
@@ -43,15 +45,15 @@ def solid_surface(prim: Any, time: Usd.TimeCode, segments: int = _SEGMENTS) -> t
     if solid is None:
         return None
     points, triangles = solid
-    # Axes change places in a ring, so that nothing is mirrored.
+    # A cyclic permutation of the axes keeps the orientation.
     order = {"X": [2, 0, 1], "Y": [1, 2, 0]}.get(read_value(prim, "axis", time, str) or "Z", [0, 1, 2])
     return points[:, order], triangles
 
 
 def _solid(type_name: str, number: Callable[[str], float], segments: int) -> tuple[Points, Triangles] | None:
-    """Return a UsdGeom solid about the z axis; None if the type has no such shape."""
+    """Return a UsdGeom solid about the z axis; None for other types."""
     half, radius = number("height") / 2, number("radius")
-    # Cylinder_1 and Capsule_1 have a radius at either end.
+    # Cylinder_1 and Capsule_1 have a radius at each end.
     low, high = (radius, radius) if math.isfinite(radius) else (number("radiusBottom"), number("radiusTop"))
     match type_name.removesuffix("_1"):
         case "Cube":
@@ -68,18 +70,18 @@ def _solid(type_name: str, number: Callable[[str], float], segments: int) -> tup
             profile = [*_arc(low, -half, -90, 0), *_arc(high, half, 0, 90)]
         case _:
             return None
-    return _turn(profile, segments)
+    return _revolve(profile, segments)
 
 
 def _arc(radius: float, middle: float, start: int, end: int) -> Iterator[tuple[float, float]]:
-    for degrees in np.linspace(start, end, 1 + (end - start) // 10):
-        # Exactly 0 at the poles, so that they are recognised as such.
+    for degrees in np.linspace(start, end, 1 + (end - start) // _ARC_STEP):
+        # Exactly 0 at the poles, where _revolve makes no triangles.
         distance = 0.0 if abs(degrees) == 90 else radius * math.cos(math.radians(degrees))
         yield distance, middle + radius * math.sin(math.radians(degrees))
 
 
-def _turn(profile: list[tuple[float, float]], segments: int) -> tuple[Points, Triangles]:
-    """Return the solid that a profile of (distance from the axis, height), from the bottom up, makes about z."""
+def _revolve(profile: list[tuple[float, float]], segments: int) -> tuple[Points, Triangles]:
+    """Return the solid of revolution about z of a profile of (distance from the axis, height) from the bottom up."""
     angles = np.arange(segments) * (2 * math.pi / segments)
     circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     rings = [np.column_stack([circle * distance, np.full(segments, height)]) for distance, height in profile]

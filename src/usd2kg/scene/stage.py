@@ -1,6 +1,6 @@
-"""Opening a stage and asking it for values, with everything OpenUSD has to say turned into diagnostics.
+"""Open stages and read values; errors and warnings of OpenUSD become diagnostics.
 
-A value that is not of the type it should be, or that OpenUSD cannot unpack, counts as none.
+A value of another type than expected, or one that OpenUSD cannot unpack, is read as None.
 """
 
 import hashlib
@@ -17,6 +17,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 from usd2kg.errors import SceneError
 from usd2kg.scene.model import Diagnostic, StageFrame
 from usd2kg.scene.options import ReadOptions
+from usd2kg.scene.settings import LIMITS
 
 __all__ = [
     "UNREADABLE",
@@ -31,36 +32,32 @@ __all__ = [
 ]
 
 UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
-"""What any question to OpenUSD may raise where a file is corrupt."""
+"""Exceptions that any call of OpenUSD may raise if a file is corrupt."""
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _USD_FALLBACK_METRES = 0.01
-_UNITS = (1e-15, 1e20)
-"""Metres or kilograms that a unit may have: from a proton's size to a galaxy's. With coordinates of up to 1e30 no
-length or volume overflows."""
-_MOST_READ = 4_000
 _NOT_UTF8 = "it holds text that is not UTF-8"
 
 
 @dataclass(frozen=True)
 class OpenedStage:
-    """A composed stage and what opening it brought up."""
+    """A composed stage with its diagnostics."""
 
     stage: Any
     source: str
-    """The file as the user named it; for a stage that was open already, its root layer."""
+    """The file as the user named it; for an already open stage, the identifier of its root layer."""
     frame: StageFrame
     content_hash: str
     diagnostics: tuple[Diagnostic, ...]
     unresolved: frozenset[str]
-    """Paths of prims below which a reference or payload could not be found."""
+    """Paths of prims with a missing reference or payload at or below them."""
 
 
 def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedStage:
-    """Open `source` with all payloads loaded; a stage that is open already is taken as it stands.
+    """Open `source` with all payloads loaded; an already open stage is used as it is.
 
     Raises:
-        SceneError: the file is missing, is no USD file or is corrupt.
+        SceneError: the file is missing, corrupt, or not a USD file.
     """
     if isinstance(source, Usd.Stage):
         identifier = source.GetRootLayer().identifier
@@ -91,8 +88,8 @@ def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptio
 
 @contextmanager
 def captured_diagnostics() -> Iterator[list[Diagnostic]]:
-    """Keep OpenUSD from writing to the terminal; the list holds what it had to say once the block is left."""
-    # The delegate is process-wide: its notes are taken at once, before anybody else's arrive.
+    """Redirect OpenUSD's messages from the terminal to the returned list, which is filled at the end of the block."""
+    # The delegate is process-wide; take its messages before other code adds more.
     delegate = UsdUtils.CoalescingDiagnosticDelegate()
     found: list[Diagnostic] = []
     try:
@@ -102,18 +99,18 @@ def captured_diagnostics() -> Iterator[list[Diagnostic]]:
         found.extend(Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in dict.fromkeys(commentaries))
 
 
-def _decoded(ask: Callable[[Any], str], thing: Any) -> str:
-    """Return the beginning of what a note or an error of OpenUSD says; it may quote bytes that could not be read."""
+def _decoded(get_text: Callable[[Any], str], message: Any) -> str:
+    """Return the beginning of a message of OpenUSD, which may quote bytes that are not UTF-8."""
     try:
-        # Of corrupt files OpenUSD says the same for each of their parts: millions of lines.
-        return ask(thing)[:_MOST_READ]
+        # OpenUSD repeats a message for each part of a corrupt file, up to millions of lines.
+        return get_text(message)[: LIMITS.max_openusd_text]
     except UnicodeDecodeError:
         return _NOT_UTF8
 
 
 @contextmanager
 def translated_errors(source: str) -> Iterator[None]:
-    """Raise a SceneError about the stage named `source` where OpenUSD cannot read what it is asked for."""
+    """Translate exceptions of OpenUSD to SceneError about the stage named `source`."""
     try:
         yield
     except UNREADABLE as error:
@@ -121,19 +118,19 @@ def translated_errors(source: str) -> Iterator[None]:
 
 
 def error_text(error: Exception) -> str:
-    """Return the first thing an error of OpenUSD says, on one line; empty if it says nothing."""
+    """Return the first message of an exception of OpenUSD on one line; may be empty."""
     return _NOT_UTF8 if isinstance(error, UnicodeDecodeError) else _shorten(_decoded(str, error))
 
 
 def read_value(prim: Any, name: str, time: Usd.TimeCode, *types: type) -> Any:
-    """Return an attribute's value at `time`; None if there is none, of none of the types, or it cannot be read."""
+    """Return an attribute's value at `time`; None if it is missing, unreadable, or of none of the types."""
     attribute = prim.GetAttribute(name)
     value = value_of(attribute, time) if attribute else None
     return value if isinstance(value, types) else None
 
 
 def value_of(attribute: Any, time: Usd.TimeCode) -> Any:
-    """Return the value of an attribute or a shader's input, of whatever type; None if it cannot be read."""
+    """Return the value of an attribute or shader input of any type; None if it cannot be read."""
     try:
         return attribute.Get(time)
     except UNREADABLE:
@@ -141,7 +138,7 @@ def value_of(attribute: Any, time: Usd.TimeCode) -> Any:
 
 
 def read_targets(prim: Any, name: str) -> list[Any]:
-    """Return the paths that a relationship names; none where it is authored as an attribute, or cannot be read."""
+    """Return the targets of a relationship; none if it is missing, unreadable, or authored as an attribute."""
     relationship = prim.GetRelationship(name)
     try:
         return list(relationship.GetTargets()) if relationship else []
@@ -167,26 +164,27 @@ def _cannot_open(source: str, reason: str) -> str:
     return f"{source}: OpenUSD cannot read this layer{f' ({reason})' if reason else ''}; export it again"
 
 
-def _shorten(message: str, limit: int = 240) -> str:
-    """Return the first thing the message says, on one line, without the places in OpenUSD's own code."""
+def _shorten(message: str) -> str:
+    """Return the first message on one line, without locations in OpenUSD's source code."""
     texts = re.split(r"'?\s*Error in '[^']*' at line \d+ in file \S+ : '?", message.strip())
     first = next((text for text in texts if text.strip(" '")), "")
     line = " ".join(first.split()).removeprefix("Encountered: ").rstrip("'")
+    limit = LIMITS.max_openusd_message
     return line if len(line) <= limit else line[: limit - 1] + "…"
 
 
 def _composition_diagnostic(error: Any, stage: Any) -> Diagnostic:
     text = _decoded(str, error)
-    # The error's own fields name the root layer only; its text names the layer that holds the broken arc.
+    # Only the text names the layer of the broken arc; the fields name the root layer.
     introduced_by = re.search(r"introduced by @([^@]+)@", text)
     layer = introduced_by.group(1) if introduced_by else stage.GetRootLayer().identifier
     return Diagnostic("composition", _shorten(text), str(error.rootSite.path), layer)
 
 
 def _other_notes(notes: Iterable[Diagnostic], composition: Iterable[Diagnostic]) -> list[Diagnostic]:
-    # The stage repeats its composition errors as warnings; those are told already, with their prims.
-    told = [diagnostic.message.rstrip("…") for diagnostic in composition]
-    return [note for note in notes if not any(message[:160] in note.message for message in told)]
+    # OpenUSD repeats composition errors as warnings.
+    known = [diagnostic.message.rstrip("…")[: LIMITS.same_message_length] for diagnostic in composition]
+    return [note for note in notes if not any(message in note.message for message in known)]
 
 
 def _prim_in(note: str) -> str | None:
@@ -222,25 +220,26 @@ def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diag
 
 
 def _metadata(stage: Any, key: str) -> Any:
-    # Not UsdGeom.GetStageMetersPerUnit: it raises where the value is authored with another type than double.
+    # Not UsdGeom.GetStageMetersPerUnit, which raises if the authored type is not double.
     try:
         return stage.GetMetadata(key) if stage.HasAuthoredMetadata(key) else None
     except UNREADABLE as error:
-        # Told as what was found where a number was expected.
+        # Reported as the value found in place of a number.
         return error_text(error)
 
 
 def _odd_unit(key: str, value: Any, used: float, layer: str) -> Diagnostic:
-    message = f"{key} is {value!r}, expected a positive number that a unit can be; {used:g} is used"
+    expected = f"a number from {LIMITS.min_unit:g} to {LIMITS.max_unit:g}"
+    message = f"{key} is {value!r}, expected {expected}; {used:g} is used"
     return Diagnostic("units", message, None, layer)
 
 
 def _is_unit(value: Any) -> bool:
-    return isinstance(value, int | float) and _UNITS[0] <= value <= _UNITS[1]
+    return isinstance(value, int | float) and LIMITS.min_unit <= value <= LIMITS.max_unit
 
 
 def _as_double(value: float) -> float:
-    # A value authored as a 32-bit float (0.01 reads 0.00999999977…) means the number that was typed.
+    # Restore the decimal number of a 32-bit float, such as 0.01 for 0.00999999977.
     return float(f"{value:.7g}")
 
 
@@ -251,6 +250,6 @@ def _hash_layers(stage: Any) -> str:
         if path is not None and path.is_file() and not layer.dirty:
             digests.append(hashlib.sha256(path.read_bytes()).hexdigest())
         elif not layer.empty:
-            # What was changed in memory is in no file.
+            # Layers edited in memory differ from their files.
             digests.append(hashlib.sha256(layer.ExportToString().encode()).hexdigest())
     return "sha256:" + hashlib.sha256("".join(sorted(digests)).encode()).hexdigest()

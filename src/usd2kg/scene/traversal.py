@@ -1,8 +1,8 @@
-"""Traversing a stage, once, into its outline.
+"""Traverse a stage once and return its outline.
 
-A prim is asked as few questions as will do: its authored metadata and the names of its authored properties say what
-else is worth asking. Prims that can never be objects (cameras, materials, inactive or invisible branches…) are counted
-by reason and not entered. What instances share is traversed for the first one only.
+For speed, few values are read per prim: authored metadata and the names of authored properties decide what else is
+read. Prims that are never objects (cameras, materials, inactive or invisible subtrees, and so on) are counted by reason
+and pruned. A prototype is traversed for its first instance only.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,19 +16,19 @@ from usd2kg.scene.outline import Authored, JointLink, Outline, PrimRecord
 from usd2kg.scene.solids import ROUND_SOLIDS
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, read_targets, read_value, value_of
 
-__all__ = ["ENDLESS", "UNREADABLE_PRIM", "above_endless", "outline_stage"]
+__all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_stage", "paths_above_endless"]
 
 ENDLESS = "point instancer among its own prototypes"
 UNREADABLE_PRIM = "unreadable"
-"""Reasons for which a prim is not entered that a user should know."""
+"""Reasons of pruned prims that are reported as diagnostics."""
 
 _HIDDEN_PURPOSES = frozenset({UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy})
 _TURNING_OPS = ("xformOp:rotate", "xformOp:orient", "xformOp:transform", "xformOp:shear")
 _BINDING = "material:binding"
 _SUBSET = "geometry subset"
 _INVISIBLE = "invisible"
-_TOLD_APART = frozenset({"specifier", "typeName", "kind", "active", "instanceable", "apiSchemas"})
-"""Metadata that the other fields of a record tell."""
+_RECORDED_METADATA = frozenset({"specifier", "typeName", "kind", "active", "instanceable", "apiSchemas"})
+"""Metadata that other fields of a record hold."""
 
 _REASON_BY_SCHEMA = (
     ("UsdGeomCamera", "camera"),
@@ -49,14 +49,14 @@ _REASON_BY_SCHEMA = (
 )
 
 
-class _Schema(NamedTuple):
-    """What follows from a prim's type alone."""
+class _TypeTraits(NamedTuple):
+    """Facts derived from the type of a prim."""
 
     reason: str | None
-    """Why prims of the type are left out; None if they are not."""
+    """Why prims of the type are pruned; None if they are not."""
     is_joint: bool
     may_be_joint: bool
-    """Whether it is called a joint: vendors' types (PhysxPhysicsGearJoint) are unknown to plain OpenUSD."""
+    """Whether the type's name ends in Joint: plain OpenUSD has no schemas of vendors' types (PhysxPhysicsGearJoint)."""
     is_imageable: bool
     is_gprim: bool
     has_points: bool
@@ -65,7 +65,7 @@ class _Schema(NamedTuple):
 
 
 def outline_stage(opened: OpenedStage, time: Usd.TimeCode) -> Outline:
-    """Return the outline of a stage, instance proxies included, read at `time`."""
+    """Return the outline of a stage at `time`, including instance proxies."""
     return _Outliner(opened, time).run()
 
 
@@ -75,17 +75,17 @@ class _Outliner:
         self.time = time
         self.unresolved = opened.unresolved
         self.outline = Outline(PrimRecord(opened.stage, "/", "", "", "", None))
-        self.schemas: dict[str, _Schema] = {}
+        self.traits: dict[str, _TypeTraits] = {}
         self.kinds: dict[str, str] = {"": ""}
         self.authored: dict[tuple[Any, ...], Authored] = {}
         self.first_instances: dict[Any, PrimRecord] = {}
         """Path of the prototype → its first instance."""
         self.instancers: dict[Any, list[Any]] = {}
-        """Path of a prim → the point instancers at and below it, for those that were looked through."""
+        """Path of a prim → the point instancers at and below it; a cache."""
         self.labelled: set[Any] = set()
-        """Paths in prototypes of prims with something semantic on them."""
+        """Paths of labelled prims in prototypes."""
         self.with_joints: dict[Any, bool] = {}
-        """Path of the prototype → whether joints are in it, which are told for each instance."""
+        """Path of the prototype → whether it contains joints, which are read for each instance."""
 
     def run(self) -> Outline:
         entered = {"/": self.outline.root}
@@ -103,14 +103,14 @@ class _Outliner:
                 prims.PruneChildren()
                 continue
             entered[path] = record
-            if record.is_instancer or (record.is_instance and self._take_over(record)):
+            if record.is_instancer or (record.is_instance and self._copy_first_instance(record)):
                 prims.PruneChildren()
         self.outline.records = list(self.outline.root.walk())[1:]
         _count_geometry(self.outline.records)
         return self.outline
 
     def _enter(self, prim: Any, path: str, name: str, parent: PrimRecord) -> PrimRecord | None:
-        """Return the record of a prim, hung into the tree; None if it is not to be entered."""
+        """Add the record of a prim to the tree and return it; None if the prim is pruned."""
         self.outline.prim_count += 1
         metadata = prim.GetAllAuthoredMetadata()
         reason = _reason_of(metadata)
@@ -120,16 +120,16 @@ class _Outliner:
         type_name = metadata.get("typeName", "")
         if type_name.__class__ is not str:
             type_name = ""
-        schema = self._schema(prim, type_name)
+        traits = self._type_traits(prim, type_name)
         schemas = tuple(prim.GetPrimTypeInfo().GetAppliedAPISchemas()) if "apiSchemas" in metadata else ()
         authored = self._authored(prim, type_name, schemas)
-        if schema.is_joint or (schema.may_be_joint and "physics:body1" in authored.names):
+        if traits.is_joint or (traits.may_be_joint and "physics:body1" in authored.names):
             self._add_joint(prim, type_name)
             reason = "physics"
-        elif schema.reason is not None or self._is_invisible(prim, schema, authored):
-            reason = schema.reason or _INVISIBLE
-        # What is invisible OpenUSD does not ask for its box; cameras and lights it does.
-        if (schema.is_instancer or reason) and schema.is_imageable and reason != _INVISIBLE:
+        elif traits.reason is not None or self._is_invisible(prim, traits, authored):
+            reason = traits.reason or _INVISIBLE
+        # OpenUSD computes bounds of cameras and lights, but not of invisible prims.
+        if (traits.is_instancer or reason) and traits.is_imageable and reason != _INVISIBLE:
             reason = ENDLESS if is_endless(prim, self.instancers) else reason
         if authored.is_semantic and self._is_new(prim):
             self.outline.labelled_prims.append(prim)
@@ -137,17 +137,17 @@ class _Outliner:
             self._leave_out(path, name, parent, reason)
             return None
         record = PrimRecord(self.stage, path, name, type_name, self._kind(metadata), parent, known_prim=prim)
-        self._fill(record, schema, authored, schemas)
-        if not _TOLD_APART.issuperset(metadata):
+        self._fill(record, traits, authored, schemas)
+        if not _RECORDED_METADATA.issuperset(metadata):
             record.metadata = metadata
         record.is_labelled = authored.is_semantic
         record.is_instance = "instanceable" in metadata and prim.IsInstance()
-        # Last, so that what turns out to be unreadable is not in the tree.
+        # Last, so that an exception leaves no incomplete record in the tree.
         parent.children.append(record)
         return record
 
     def _is_new(self, prim: Any) -> bool:
-        """Return whether a prim is no other instance's: what instances share is told once."""
+        """Return whether no other instance of the prim was met before."""
         if not prim.IsInstanceProxy():
             return True
         shared = prim.GetPrimInPrototype().GetPath()
@@ -155,10 +155,10 @@ class _Outliner:
         self.labelled.add(shared)
         return is_new
 
-    def _fill(self, record: PrimRecord, schema: _Schema, authored: Authored, schemas: Sequence[str]) -> None:
+    def _fill(self, record: PrimRecord, traits: _TypeTraits, authored: Authored, schemas: Sequence[str]) -> None:
         record.authored = authored
-        record.is_gprim, record.has_points = schema.is_gprim, schema.has_points
-        record.is_scope, record.is_instancer = schema.is_scope, schema.is_instancer
+        record.is_gprim, record.has_points = traits.is_gprim, traits.has_points
+        record.is_scope, record.is_instancer = traits.is_scope, traits.is_instancer
         record.is_unresolved = record.path in self.unresolved
         _inherit(record)
         if UsdGeom.Tokens.purpose in authored.names:
@@ -178,8 +178,8 @@ class _Outliner:
             self.outline.has_purpose_bindings |= known.has_purpose_binding
         return known
 
-    def _is_invisible(self, prim: Any, schema: _Schema, authored: Authored) -> bool:
-        if not schema.is_imageable or UsdGeom.Tokens.visibility not in authored.names:
+    def _is_invisible(self, prim: Any, traits: _TypeTraits, authored: Authored) -> bool:
+        if not traits.is_imageable or UsdGeom.Tokens.visibility not in authored.names:
             return False
         return bool(read_value(prim, UsdGeom.Tokens.visibility, self.time, str) == UsdGeom.Tokens.invisible)
 
@@ -197,10 +197,10 @@ class _Outliner:
         if moved is not None:
             self.outline.joints.append(JointLink(fixed, moved, type_name))
 
-    def _schema(self, prim: Any, type_name: str) -> _Schema:
-        known = self.schemas.get(type_name)
+    def _type_traits(self, prim: Any, type_name: str) -> _TypeTraits:
+        known = self.traits.get(type_name)
         if known is None:
-            known = self.schemas[type_name] = _Schema(
+            known = self.traits[type_name] = _TypeTraits(
                 reason=next((why for schema, why in _REASON_BY_SCHEMA if _is_a(prim, schema)), None),
                 is_joint=prim.IsA(UsdPhysics.Joint),
                 may_be_joint=type_name.endswith("Joint"),
@@ -220,8 +220,8 @@ class _Outliner:
             self.kinds[kind] = _standard_kind(kind)
         return self.kinds[kind]
 
-    def _take_over(self, root: PrimRecord) -> bool:
-        """Copy what is below the first instance of the same prototype; return whether that could be done."""
+    def _copy_first_instance(self, root: PrimRecord) -> bool:
+        """Copy the records below the first instance of the same prototype; return whether this was possible."""
         prototype = root.prim.GetPrototype().GetPath()
         first = self.first_instances.setdefault(prototype, root)
         root.first_instance = first.path
@@ -311,7 +311,7 @@ def _reason_of(metadata: Mapping[str, Any]) -> str | None:
 
 def _standard_kind(kind: str) -> str:
     for base in (Kind.Tokens.component, Kind.Tokens.subcomponent, Kind.Tokens.assembly, Kind.Tokens.group):
-        # Studios derive kinds of their own ("prop" from "component"); the registry knows the base.
+        # Studios derive custom kinds, such as "prop" from "component".
         if Kind.Registry.IsA(kind, base):
             return str(base)
     return kind
@@ -322,8 +322,8 @@ def _is_a(prim: Any, schema: str) -> bool:
     return bool(schema_type) and prim.IsA(schema_type)
 
 
-def above_endless(outline: Outline) -> frozenset[str]:
-    """Return the paths of prims somewhere below which a point instancer is its own prototype."""
+def paths_above_endless(outline: Outline) -> frozenset[str]:
+    """Return the paths of prims with a point instancer below them that contains itself."""
     if not outline.left_out[ENDLESS]:
         return frozenset()
     endless = (Sdf.Path(path) for path, reason in outline.pruned.items() if reason == ENDLESS)

@@ -4,7 +4,7 @@ import pytest
 
 from tests.scene.usda import component, cube, move, rigid, xform
 
-PIECES = "unnamed pieces that hang together"
+PIECES = "connected unnamed pieces"
 OWNER = "geometry without a model above it"
 
 
@@ -118,7 +118,7 @@ def test_a_stage_without_names_says_so(read):
     pieces = [cube(f"Mesh_{i}", size=0.1, at=(0.5 * i, 0, 0)) for i in range(30)]
     scene = read(xform("World", *pieces))
     [note] = [note for note in scene.diagnostics if note.code == "unnamed"]
-    assert note.message.startswith("30 of 30 objects have names that say nothing (Mesh_0, Mesh_1, Mesh_2, …)")
+    assert note.message.startswith("30 of 30 objects have no descriptive name (Mesh_0, Mesh_1, Mesh_2, …)")
 
 
 def test_few_unnamed_objects_are_not_worth_a_note(read):

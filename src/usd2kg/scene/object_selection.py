@@ -1,8 +1,8 @@
-"""Which prims are objects: things a person would point at and name.
+"""Select the prims that are objects: what a person would point at and name.
 
-In order: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads,
-instances), and for geometry that none of these covers its nearest owner that is not a mere grouping.
-The rules see outline records only, and boxes where names say nothing.
+In order: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads, instances), and for all
+other geometry its nearest ancestor that is not a mere grouping. The rules only see the outline, and boxes of unnamed
+geometry.
 """
 
 import re
@@ -10,39 +10,39 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from usd2kg.knowledge import word_set
 from usd2kg.scene.fixtures import find_fixtures
 from usd2kg.scene.options import SelectionOverrides
 from usd2kg.scene.outline import Outline, PrimRecord
-from usd2kg.scene.pieces import Measure, is_silent, sort_pieces
 from usd2kg.scene.robots import merge_robots
+from usd2kg.scene.unnamed_pieces import Measure, is_unnamed, merge_unnamed_pieces
 from usd2kg.words import split_identifier
 
 __all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"]
 
 ASKED_FOR = "asked for by path"
-"""The reason of an object that the rules did not choose."""
+"""The reason of an object that was requested by path, and not selected by the rules."""
 _ASSET = "asset boundary (reference, payload or instance)"
 _BODY = "rigid body"
 _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
-_GROUPING_WORDS = frozenset(
-    """
-    group groups grp all misc various stuff items furniture furnitures assets geo geometry meshes set sets
-    layout environment env world root scene visuals models parts structure decoration decorations
-    """.split()
-)
+_GROUPING_WORDS = word_set("scene", "grouping_words")
+_MIN_NESTED_ASSETS = 2
+"""Nested assets from which a referenced prim is a set of objects."""
+_MAX_LISTED = 3
+"""Objects that an explanation lists."""
 
 
 @dataclass(frozen=True)
 class Selection:
-    """The chosen prims, in traversal order, and why the others were left out."""
+    """The prims that are objects, and the reasons of the others."""
 
     chosen: dict[str, str]
-    """Prim path → why it is an object, in words."""
+    """Prim path → reason, in traversal order."""
     left_out: Counter[str]
-    """Reason → number of prims."""
+    """Reason → number of prims that are not objects."""
     missing: tuple[str, ...]
-    """Paths that were asked for and are not in the outline."""
+    """Requested paths that are not in the outline."""
 
 
 def select_objects(
@@ -50,19 +50,23 @@ def select_objects(
 ) -> Selection:
     """Return the prims of `outline` that are objects, each with the reason.
 
-    Those at the paths `wanted` are objects whatever the rules or the overrides say.
+    Args:
+        outline: the prims of the stage.
+        overrides: changes to the rules.
+        measure: returns the box of a prim.
+        wanted: paths of prims that are objects regardless of rules and overrides.
     """
-    candidates = _overridden(outline, overrides, measure)
-    there = {record.path for record in outline.records}
+    candidates = _apply_overrides(outline, overrides, measure)
+    known = {record.path for record in outline.records}
     for path in wanted:
-        if path in there:
+        if path in known:
             candidates.setdefault(path, ASKED_FOR)
     chosen = {record.path: candidates[record.path] for record in outline.records if record.path in candidates}
-    missing = tuple(path for path in wanted if path not in there)
+    missing = tuple(path for path in wanted if path not in known)
     return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
-def _overridden(outline: Outline, overrides: SelectionOverrides, measure: Measure) -> dict[str, str]:
+def _apply_overrides(outline: Outline, overrides: SelectionOverrides, measure: Measure) -> dict[str, str]:
     records = outline.records
     if overrides.only:
         only = frozenset(overrides.only)
@@ -92,7 +96,7 @@ def _exclude(outline: Outline, candidates: dict[str, str], excluded: list[re.Pat
 
 
 def path_pattern(pattern: str) -> re.Pattern[str]:
-    """Return the expression for a path pattern: `*` and `?` stay within a name, `**` crosses names.
+    """Return the regular expression of a path pattern: `*` and `?` match within a name, `**` across names.
 
     >>> bool(path_pattern("/World/**/Cup_*").fullmatch("/World/Table/Cup_1"))
     True
@@ -109,9 +113,9 @@ def _by_rules(outline: Outline, kinds: frozenset[str], measure: Measure) -> dict
     _drop_whole_scene(outline.root, candidates)
     merge_robots(outline, candidates)
     _merge_wrappers(outline, candidates)
-    _rise_to_names(outline, candidates)
+    _raise_to_named_ancestors(outline, candidates)
     owners = _geometry_owners(outline.root, candidates)
-    sort_pieces(outline, candidates, owners, measure)
+    merge_unnamed_pieces(outline, candidates, owners, measure)
     candidates.update(owners)
     for body in [record for record in outline.records if candidates.get(record.path) == _BODY]:
         candidates.update(find_fixtures(body, candidates))
@@ -124,16 +128,18 @@ def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]
     pending = [(outline.root, False, False)]
     while pending:
         record, in_model, in_asset = pending.pop()
-        is_there = record.gprim_count > 0 or _has_unresolved(record) or _has_missing_mesh(record)
+        has_geometry = record.gprim_count > 0 or _has_unresolved(record) or _has_missing_mesh(record)
         if record.kind in kinds:
             found[record.path] = f"authored kind: {record.kind}"
             in_model = True
-        elif record.is_body and is_there and not record.kind:
+        elif record.is_body and has_geometry and not record.kind:
             found[record.path] = _BODY
             in_model = True
         elif record.is_instancer:
             found[record.path] = "point instancer"
-        elif is_there and not (in_model or in_asset or record.is_gprim) and record.is_asset and _is_one_asset(record):
+        elif (
+            has_geometry and not (in_model or in_asset or record.is_gprim) and record.is_asset and _is_one_asset(record)
+        ):
             found[record.path] = _ASSET
             in_asset = True
         pending.extend((child, in_model, in_asset) for child in record.children)
@@ -145,22 +151,22 @@ def _has_unresolved(record: PrimRecord) -> bool:
 
 
 def _has_missing_mesh(record: PrimRecord) -> bool:
-    """Whether an importer left an empty frame where the visible mesh should be: a named thing all the same."""
+    """Return whether an importer left an empty Xform in place of the visible mesh."""
     return record.gprim_count == 0 and any(
         child.type_name == "Xform" and not child.is_hidden and not child.children for child in record.children
     )
 
 
 def _is_one_asset(record: PrimRecord) -> bool:
-    """Whether the referenced prim is one thing, not a whole set that brings in assets of its own."""
+    """Return whether a referenced prim is one object, and not a set of several assets."""
     if record.kind in _STRUCTURE_KINDS:
         return False
     nested = sum(1 for below in record.walk() if below is not record and not below.is_gprim and below.is_asset)
-    return nested < 2
+    return nested < _MIN_NESTED_ASSETS
 
 
 def _drop_whole_scene(root: PrimRecord, candidates: dict[str, str]) -> None:
-    """A converter's root prim is a component too (the whole room as one model): it is no object then."""
+    """Remove a root prim that contains all geometry and several objects: some converters make it a component."""
     for record in root.children:
         is_all = record.gprim_count == root.gprim_count
         if is_all and record.path in candidates and len(_nearest_below(record, candidates)) > 1:
@@ -168,7 +174,7 @@ def _drop_whole_scene(root: PrimRecord, candidates: dict[str, str]) -> None:
 
 
 def _nearest_below(record: PrimRecord, candidates: dict[str, str]) -> list[PrimRecord]:
-    """Return the candidates below `record` with no other candidate between."""
+    """Return the outermost candidates below a prim."""
     found: list[PrimRecord] = []
     pending = list(reversed(record.children))
     while pending:
@@ -181,7 +187,7 @@ def _nearest_below(record: PrimRecord, candidates: dict[str, str]) -> list[PrimR
 
 
 def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
-    """A body or asset without geometry of its own wraps one object, and then is it, or groups several."""
+    """Resolve candidates without own geometry: one replaces a single nested candidate, and gives way to several."""
     for record in reversed(outline.records):
         if record.path not in candidates or record.is_instancer or record.is_gprim:
             continue
@@ -195,12 +201,12 @@ def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
             del candidates[record.path]
 
 
-def _rise_to_names(outline: Outline, candidates: dict[str, str]) -> None:
-    """Let the model above stand for an asset that comes in as its `visual`, where that is all it shows."""
-    assets = [record for record in outline.records if candidates.get(record.path) == _ASSET and is_silent(record.name)]
+def _raise_to_named_ancestors(outline: Outline, candidates: dict[str, str]) -> None:
+    """Replace an unnamed asset, such as `visual`, by the nearest named ancestor with the same geometry."""
+    assets = [record for record in outline.records if candidates.get(record.path) == _ASSET and is_unnamed(record.name)]
     for asset in assets:
         top = asset
-        while is_silent(top.name) and (above := top.parent) is not None and above.path not in candidates:
+        while is_unnamed(top.name) and (above := top.parent) is not None and above.path not in candidates:
             if above.gprim_count > asset.gprim_count or _is_grouping(above, holds_objects=False):
                 break
             top = above
@@ -210,26 +216,26 @@ def _rise_to_names(outline: Outline, candidates: dict[str, str]) -> None:
 
 @dataclass(slots=True)
 class _Cover:
-    """What is known of a record from the records below it."""
+    """The gprims at and below a prim that no candidate contains."""
 
     uncovered: int = 0
-    """Gprims at and below it that no candidate holds."""
+    """Their number."""
     holds_objects: bool = False
-    """Whether a candidate is below it."""
+    """Whether there are candidates at or below the prim."""
     owners: list[PrimRecord] = field(default_factory=list)
-    """The owners of the uncovered gprims at and below it."""
+    """The prims that own them."""
 
 
 def _geometry_owners(root: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:
     covers: dict[str, _Cover] = {}
-    # From the leaves up, without recursion: a stage may be nested deeper than Python's stack.
+    # Bottom-up without recursion: a stage may be nested deeper than Python's stack.
     for record in reversed(list(_open_records(root, candidates))):
         covers[record.path] = _cover(record, candidates, covers)
     return {record.path: "geometry without a model above it" for record in covers[root.path].owners}
 
 
 def _open_records(root: PrimRecord, candidates: dict[str, str]) -> Iterator[PrimRecord]:
-    """Yield the records that no candidate is above, parents first."""
+    """Yield the prims without a candidate above them, parents first."""
     pending = [root]
     while pending:
         record = pending.pop()
@@ -261,8 +267,8 @@ def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[P
     is_lone_root = _is_lone_root(record) and not cover.holds_objects
     if len(found) == 1 and (is_lone_root or not is_grouping):
         return [record]
-    # A named thing in pieces that nobody named: Chair/group_1/mesh_7.
-    if not is_grouping and not is_silent(record.name) and all(is_silent(owner.name) for owner in found):
+    # A named prim with unnamed pieces: Chair/group_1/mesh_7.
+    if not is_grouping and not is_unnamed(record.name) and all(is_unnamed(owner.name) for owner in found):
         return [record]
     return found
 
@@ -275,7 +281,7 @@ def _is_grouping(record: PrimRecord, holds_objects: bool) -> bool:
 
 
 def _is_lone_root(record: PrimRecord) -> bool:
-    """Whether the file is one asset: a single root prim with nothing below it but what is asked about."""
+    """Return whether a prim is the only root prim with geometry, so that the file is one asset."""
     above = record.parent
     return (
         above is not None and above.parent is None and not record.is_scope and record.gprim_count == above.gprim_count
@@ -302,26 +308,29 @@ def _reason(record: PrimRecord, in_object: bool, chosen: dict[str, str]) -> str:
 
 
 def explain(path: str, outline: Outline, selection: Selection) -> str:
-    """Return why the prim at `path` is an object or is none, in words."""
+    """Return a sentence on why the prim at `path` is or is not an object."""
     if path in selection.chosen:
         return f"{path} is an object: {selection.chosen[path]}"
     for above in _paths_up(path):
         if above in outline.pruned:
-            what = "it is" if above == path else f"it is below {above}, which is"
-            return f"{path} is no object: {what} left out ({outline.pruned[above]})"
+            subject = "it is" if above == path else f"it is below {above}, which is"
+            return f"{path} is not an object: {subject} left out ({outline.pruned[above]})"
     record = next((record for record in (outline.root, *outline.records) if record.path == path), None)
     if record is None:
-        return f"{path} is no object: it belongs to the prototypes of a point instancer"
-    holder = next((above for above in _paths_up(path) if above in selection.chosen), None)
-    reason = _reason(record, holder is not None, selection.chosen)
-    if holder is not None:
-        return f"{path} is no object: {reason}, {holder} ({selection.chosen[holder]})"
+        return f"{path} is not an object: it belongs to the prototypes of a point instancer"
+    owner = next((above for above in _paths_up(path) if above in selection.chosen), None)
+    reason = _reason(record, owner is not None, selection.chosen)
+    if owner is not None:
+        return f"{path} is not an object: {reason}, {owner} ({selection.chosen[owner]})"
     below = [found.path for found in _nearest_below(record, selection.chosen)]
-    some = ", ".join(below[:3]) + (f" and {len(below) - 3} more" if len(below) > 3 else "")
-    return f"{path} is no object: {reason}" + (f"; the objects are {some}" if below else "")
+    listed = ", ".join(below[:_MAX_LISTED])
+    if len(below) > _MAX_LISTED:
+        listed += f" and {len(below) - _MAX_LISTED} more"
+    return f"{path} is not an object: {reason}" + (f"; the objects are {listed}" if below else "")
 
 
 def _paths_up(path: str) -> Iterator[str]:
+    """Yield a prim path and those of its ancestors, nearest first."""
     while path and path != "/":
         yield path
         path = path.rpartition("/")[0]

@@ -13,7 +13,7 @@ KIND = "authored kind: component"
 BODY = "rigid body"
 ASSET = "asset boundary (reference, payload or instance)"
 OWNER = "geometry without a model above it"
-ROBOT = "robot: a chain of turning joints"
+ROBOT = "robot: a chain of revolute joints"
 
 
 def chosen(scene):
