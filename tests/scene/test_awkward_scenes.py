@@ -1,4 +1,4 @@
-"""Awkward files of others: each is read or refused in one line, and nothing reaches the terminal."""
+"""Awkward third-party files are read, or refused in one line; nothing is printed to the terminal."""
 
 import pytest
 
@@ -26,7 +26,7 @@ def test_awkward_file_is_read_or_refused_in_one_line(name, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-def test_every_kind_of_awkwardness_is_there():
+def test_every_category_of_awkward_files_is_present():
     shared_file("scenes/awkward")
     assert len(FILES) > 100
 
@@ -44,7 +44,7 @@ def test_float_metres_per_unit_is_read_as_typed():
     assert read("float_metres_per_unit/suzanne.usdc").frame.is_authored
 
 
-def test_a_scene_of_70_000_copies_is_one_object():
+def test_a_point_instancer_with_70_000_copies_is_one_object():
     (grid,) = read("point_instancers/PointInstancer_Grid_70k.usda").objects
     # Every 1.5 units from 0 to 208.5 and from 0 to 748.5: 140 by 500. One prototype a colour of the rainbow.
     assert (grid.instances.count, len(grid.instances.prototypes)) == (70_000, 7)

@@ -36,7 +36,7 @@ def test_y_up_centimetres_and_z_up_metres_give_the_same_box(read):
     assert corners(y_up) == pytest.approx(corners(z_up))
 
 
-def test_y_up_depth_and_height_change_places(read):
+def test_y_up_depth_and_height_are_swapped(read):
     mesh = prim("Mesh", "Board", "point3f[] points = [(0, 0, 0), (1, 2, 3)]")
     box = read(mesh, layer=header(metersPerUnit=1, upAxis="Y")).objects[0].box
     # z from 0 to 3 points to the viewer, so y runs from -3 to 0.
@@ -56,7 +56,7 @@ def test_scaled_and_turned_cube(read):
     assert read(cube("Box", turned)).objects[0].box.size == pytest.approx((3, 2, 4))
 
 
-def test_transforms_above_count(read):
+def test_box_includes_transforms_of_ancestors(read):
     chair = xform("Chair", ops(("double3", "translate", (1, 1, 0)), ("double3", "scale", (0.01, 0.01, 0.01))),
                   cube("a", size=100, at=(50, 0, 0)), cube("b", size=100, at=(-50, 0, 0)))  # fmt: skip
     box = read(xform("World", move(0, 0, 10), chair, cube("other"))).by_path["/World/Chair"].box
@@ -113,14 +113,14 @@ def test_own_box_leaves_out_nested_objects(read):
     assert drawer.own_box == drawer.box
 
 
-def test_own_box_takes_all_own_parts(read):
+def test_own_box_includes_all_own_parts(read):
     drawer = rigid("Drawer", move(9, 0, 0), cube("front"))
     cabinet = rigid("Cabinet", cube("a"), xform("sides", cube("b", at=(2, 0, 0))), drawer)
     scene = read(xform("World", cabinet, cube("other")))
     assert scene.by_path["/World/Cabinet"].own_box.size == pytest.approx((3, 1, 1))
 
 
-def test_own_box_does_not_mistake_guides_for_geometry(read):
+def test_own_box_excludes_guides(read):
     # One visible and one guide part: as many own gprims as there are visible ones below the cabinet.
     drawer = rigid("Drawer", move(3, 0, 0), cube("front"))
     cabinet = rigid("Cabinet", cube("carcass"), cube("collider", purpose="guide"), drawer)
@@ -128,7 +128,7 @@ def test_own_box_does_not_mistake_guides_for_geometry(read):
     assert scene.by_path["/World/Cabinet"].own_box.size == pytest.approx((1, 1, 1))
 
 
-def test_without_nested_objects_both_boxes_are_the_same(read):
+def test_own_box_equals_box_without_nested_objects(read):
     chair = read(xform("World", component("Chair", cube("a"), cube("b", at=(2, 0, 0))), cube("c"))).objects[0]
     assert chair.own_box == chair.box
 
@@ -140,30 +140,30 @@ def shelf(read, *parts):
     return read(xform("World", component("Shelf", *parts), cube("other"))).by_path["/World/Shelf"]
 
 
-def test_boxes_of_the_parts_in_order(read):
+def test_part_boxes_are_in_traversal_order(read):
     guide = cube("hull", size=9, purpose="guide")
     boards = shelf(read, cube("low"), guide, xform("upper", cube("high", size=2, at=(0, 0, 5)))).part_boxes
     assert [board.center[2] for board in boards] == [0, 5]
     assert [board.size[0] for board in boards] == [1, 2]
 
 
-def test_one_part_is_the_object_itself(read):
+def test_a_single_part_has_no_part_boxes(read):
     assert shelf(read, cube("low"), cube("hull", purpose="guide")).part_boxes == ()
 
 
-def test_boxes_of_nested_objects_are_theirs(read):
+def test_part_boxes_exclude_nested_objects(read):
     obj = shelf(read, cube("low"), cube("high", at=(0, 0, 5)), rigid("Box", cube("a"), cube("b", at=(9, 0, 0))))
     assert len(obj.part_boxes) == 2
 
 
-def test_of_many_parts_the_64_largest_are_kept_in_order(read):
+def test_keeps_the_64_largest_part_boxes_in_order(read):
     # Sizes 1.01 to 1.70: the six smallest, up to 1.06, go.
     parts = [cube(f"p{index}", size=round(1 + index / 100, 2), at=(index, 0, 0)) for index in range(1, 71)]
     widths = [round(box.size[0], 6) for box in shelf(read, *parts).part_boxes]
     assert widths == [round(1 + index / 100, 2) for index in range(7, 71)]
 
 
-def test_equal_parts_count_one_each(read):
+def test_equal_parts_are_not_merged(read):
     assert len(shelf(read, *(cube(f"p{index}") for index in range(70))).part_boxes) == 64
 
 
@@ -176,13 +176,13 @@ def hinted(*body, meta=()):
     return xform("World", component("Chair", HINT, *body, meta=meta), component("Table", cube("top")), kind="group")
 
 
-def test_extents_hint_stands_in_for_missing_geometry(read):
+def test_extents_hint_replaces_missing_geometry(read):
     scene = read(hinted(meta=["payload = @missing.usd@"]))
     assert corners(scene.by_path["/World/Chair"].box) == close_to((0, 0, 0), (1, 2, 3))
     assert "empty-box" not in {note.code for note in scene.diagnostics}
 
 
-def test_geometry_beats_the_extents_hint(read):
+def test_geometry_overrides_the_extents_hint(read):
     assert read(hinted(cube("seat"))).by_path["/World/Chair"].box.size == pytest.approx((1, 1, 1))
 
 
@@ -190,7 +190,7 @@ def test_geometry_beats_the_extents_hint(read):
     "points",
     ["[]", "[(0, 0, 0), (inf, 1, 1)]", "[(0, 0, 0), (1, -inf, 1)]", "[(-1e38, 0, 0), (1e38, 1, 1)]"],
 )
-def test_what_cannot_be_measured_has_no_box_and_is_told(read, points):
+def test_unmeasurable_geometry_has_no_box_and_a_diagnostic(read, points):
     scene = read(xform("World", prim("Mesh", "Odd", f"point3f[] points = {points}"), cube("box")))
     odd = scene.by_path["/World/Odd"]
     assert (odd.box, odd.own_box, odd.position) == (None, None, (0, 0, 0))
@@ -205,7 +205,7 @@ def test_a_flat_mesh_has_a_flat_box(read):
     assert (box.size, box.volume) == ((2, 3, 0), 0)
 
 
-def test_authored_extent_is_believed(read):
+def test_authored_extent_overrides_the_points(read):
     # OpenUSD takes the extent where there is one; the points are not read again.
     lines = ["point3f[] points = [(0, 0, 0), (1, 1, 1)]", "float3[] extent = [(0, 0, 0), (2, 2, 2)]"]
     assert read(prim("Mesh", "Box", *lines)).objects[0].box.size == (2, 2, 2)
@@ -291,17 +291,17 @@ COS, SIN = math.cos(math.radians(30)), math.sin(math.radians(30))
         ),
     ],
 )
-def test_round_solids_that_are_turned_have_tight_boxes(read, text, size):
+def test_rotated_round_solids_have_tight_boxes(read, text, size):
     assert read(text).objects[0].box.size == pytest.approx(size, rel=1e-3)
 
 
-def test_a_pot_turned_about_its_own_axis_is_no_wider(read):
+def test_rotation_about_the_axis_keeps_the_width_of_a_pot(read):
     pot = prim("Cylinder", "pot", "double radius = 0.1", "double height = 0.2", 'uniform token axis = "Z"')
     scene = read(xform("World", component("Pot", pot, ops(("double", "rotateZ", 45)))))
     assert scene.objects[0].box.size == pytest.approx((0.2, 0.2, 0.2), rel=1e-3)
 
 
-def test_a_solid_whose_size_is_no_number_has_no_box(read):
+def test_a_solid_with_a_mistyped_size_has_no_box(read):
     solid_of_text = prim("Sphere", "ball", 'string radius = "large"', ops(("double", "rotateX", 30)))
     [thing] = [obj for obj in read(xform("World", solid_of_text, cube("box"))).objects if obj.name == "ball"]
     assert thing.box is None

@@ -1,4 +1,4 @@
-"""Object selection on real scenes, against the lists of a person who counted them.
+"""Object selection on real scenes, compared with lists made by a person.
 
 `counted/*.csv` name, for each scene, the prims a person would call objects, and why. Where the rules do not
 find them all, the known misses stand here by name: a change that adds one fails, and so does one that mends one.
@@ -51,7 +51,7 @@ def test_selection_agrees_with_a_person(name, capfd):
 
 
 @pytest.mark.parametrize("name", sorted(SCENES))
-def test_lists_are_whole(name):
+def test_counted_lists_are_complete(name):
     paths = counted(name)
     assert len(paths) == len(set(paths)) > 20
     assert all(path.startswith("/") for path in paths)
@@ -67,7 +67,7 @@ def test_floors_over_all_scenes():
     assert (total - missed) / (total - missed + extra) > 0.99
 
 
-def test_every_object_of_the_apartment_stands_in_a_home():
+def test_every_object_of_the_apartment_is_listed():
     scene = read_scene(shared_file(SCENES["apartment"]))
     for obj in scene.objects:
         if obj.box is not None:

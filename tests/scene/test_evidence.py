@@ -1,4 +1,4 @@
-"""What the stage says about an object beside its geometry."""
+"""Mass, asset, materials, parts and names of objects."""
 
 import pytest
 
@@ -30,28 +30,28 @@ def test_mass_authored_as_float_is_the_number_typed(read):
     assert thing(read, "float physics:mass = 0.1", cube("a"), meta=[MASS]).mass_kg == 0.1
 
 
-def test_mass_of_the_parts_is_added_up(read):
+def test_mass_is_the_sum_over_the_parts(read):
     assert thing(read, heavy("a", 0.5), heavy("b", 0.25), cube("c")).mass_kg == 0.75
 
 
-def test_mass_of_the_prim_beats_its_parts(read):
+def test_mass_of_the_prim_overrides_its_parts(read):
     assert thing(read, "float physics:mass = 3", heavy("a", 0.5), meta=[MASS]).mass_kg == 3
 
 
-def test_mass_of_nested_objects_is_theirs(read):
+def test_mass_excludes_nested_objects(read):
     drawer = rigid("Drawer", heavy("front", 2))
     scene = read(xform("World", rigid("Cabinet", heavy("carcass", 10), drawer), cube("other")))
     assert [obj.mass_kg for obj in scene.objects] == [10, 2, None]
 
 
 @pytest.mark.parametrize("mass", [0, -1, "inf"])
-def test_no_mass_is_none_and_not_zero(read, mass):
+def test_missing_mass_is_none(read, mass):
     # UsdPhysics: 0 means "derive it"; the parts are asked then.
     assert thing(read, f"float physics:mass = {mass}", cube("a"), meta=[MASS]).mass_kg is None
     assert thing(read, f"float physics:mass = {mass}", heavy("a", 0.5), meta=[MASS]).mass_kg == 0.5
 
 
-def test_mass_without_its_schema_is_no_mass(read):
+def test_ignores_a_mass_without_its_schema(read):
     assert thing(read, "float physics:mass = 2", cube("a")).mass_kg is None
 
 
@@ -82,18 +82,18 @@ def test_center_of_mass_on_a_y_up_stage_in_centimetres(read):
     assert obj.center_of_mass == pytest.approx((0.1, -0.3, 0.2))
 
 
-def test_center_of_mass_of_the_parts_is_weighted(read):
+def test_center_of_mass_is_weighted_by_mass(read):
     # (3 × (1, 0, 0) + 1 × (0, 0, 2)) / 4
     obj = thing(read, heavy("a", 3, center(1, 0, 0)), heavy("b", 1, center(0, 0, 2)), cube("c"))
     assert obj.center_of_mass == pytest.approx((0.75, 0, 0.5))
 
 
-def test_center_of_mass_is_unknown_where_one_part_does_not_say(read):
+def test_center_of_mass_is_none_if_one_part_has_none(read):
     assert thing(read, heavy("a", 3, center(1, 0, 0)), heavy("b", 1)).center_of_mass is None
     assert thing(read, heavy("a", 3)).center_of_mass is None
 
 
-def test_center_of_mass_without_a_mass_is_the_prims_own(read):
+def test_center_of_mass_without_a_mass_is_read_from_the_prim(read):
     assert thing(read, center(1, 2, 3), cube("a"), meta=[MASS]).center_of_mass == pytest.approx((1, 2, 3))
 
 
@@ -108,7 +108,7 @@ def test_center_of_mass_that_is_not_finite_is_none(read, value):
 
 
 @pytest.mark.parametrize("arc", ["references", "payload", "prepend references", "add payload"])
-def test_asset_is_named_by_the_file_it_comes_from(read, write_stage, arc):
+def test_asset_has_the_name_of_its_file(read, write_stage, arc):
     write_stage('(\n    defaultPrim = "A"\n)\n' + xform("A", cube("mesh")), "props/ikea_chair.v2.usda")
     tree = xform("World", prim("", "Thing", meta=[f"{arc} = @props/ikea_chair.v2.usda@"]), cube("other"))
     assert read(tree).by_path["/World/Thing"].asset == ("ikea_chair.v2",)
@@ -121,7 +121,7 @@ def test_asset_info_comes_first_and_names_are_not_repeated(read, write_stage):
     assert read(tree).by_path["/World/Thing"].asset == ("Stefan", "chair")
 
 
-def test_asset_of_an_asset_is_named_after_it(read, write_stage):
+def test_nested_assets_are_named(read, write_stage):
     write_stage('(\n    defaultPrim = "G"\n)\n' + xform("G", cube("mesh")), "chair_geo.usda")
     outer = '(\n    defaultPrim = "A"\n)\n' + xform("A", meta=["payload = @chair_geo.usda@"])
     write_stage(outer, "chair.usda")
@@ -129,7 +129,7 @@ def test_asset_of_an_asset_is_named_after_it(read, write_stage):
     assert read(tree).by_path["/World/Thing"].asset == ("chair", "chair_geo")
 
 
-def test_missing_and_foreign_asset_paths_are_names_too(read):
+def test_missing_and_foreign_asset_paths_give_names(read):
     meta = ["references = @D:\\props\\Kettle.usd@"]
     assert read(xform("World", prim("", "Thing", meta=meta), cube("o"))).by_path["/World/Thing"].asset == ("Kettle",)
 
@@ -154,7 +154,7 @@ def test_geometry_file_is_relative_to_the_stage(read, write_stage, arc):
     assert read(tree).by_path["/World/Thing"].geometry_file == "props/chair.usda"
 
 
-def test_geometry_file_that_a_sublayer_names_is_relative_to_the_stage_too(read, write_stage):
+def test_geometry_file_of_a_sublayer_is_relative_to_the_stage(read, write_stage):
     asset_file(write_stage, "rooms/props/chair.usda")
     room = xform("World", prim("", "Thing", meta=["references = @props/chair.usda@"]), cube("other"))
     write_stage(room, "rooms/room.usda")
@@ -167,7 +167,7 @@ def test_geometry_file_elsewhere_is_as_authored(read):
     assert read(tree).by_path["/World/Thing"].geometry_file == "https://assets.example/chair.usd"
 
 
-def test_geometry_file_of_a_body_is_that_of_the_only_asset_below_it(read, write_stage):
+def test_geometry_file_of_a_body_is_that_of_its_only_asset(read, write_stage):
     asset_file(write_stage, "chair.usda")
     asset_file(write_stage, "table.usda")
     visual = prim("", "visual", meta=["references = @chair.usda@"])
@@ -200,16 +200,16 @@ def test_materials_are_named_in_order_of_appearance(read):
     assert obj.materials == ("Oak", "Steel")
 
 
-def test_material_bound_on_the_object_holds_for_the_parts_that_bind_none(read):
+def test_parts_without_a_binding_inherit_the_material(read):
     assert thing(read, bind("Paint"), cube("plain"), bound("a", "Steel")).materials == ("Paint", "Steel")
 
 
-def test_material_that_every_part_overrides_is_on_nothing(read):
+def test_leaves_out_a_material_that_all_parts_override(read):
     # UsdShade: the binding nearest to the geometry wins.
     assert thing(read, bind("Paint"), bound("a", "Steel")).materials == ("Steel",)
 
 
-def test_material_is_inherited_where_the_object_has_none(read):
+def test_material_is_inherited_from_ancestors(read):
     chairs = xform("Chairs", bind("Oak"), component("A", cube("a")), component("B", bound("b", "Steel")))
     scene = read(xform("World", chairs, cube("other")))
     assert [obj.materials for obj in scene.objects] == [("Oak",), ("Steel",), ()]
@@ -222,7 +222,7 @@ def test_materials_of_geometry_subsets_count(read):
     assert thing(read, mesh).materials == ("Frame", "Glass")
 
 
-def test_materials_of_nested_objects_are_theirs(read):
+def test_materials_exclude_nested_objects(read):
     cabinet = rigid("Cabinet", bound("carcass", "Oak"), rigid("Handle", bound("bar", "Steel")))
     scene = read(xform("World", cabinet, cube("other")))
     assert [obj.materials for obj in scene.objects] == [("Oak",), ("Steel",), ()]

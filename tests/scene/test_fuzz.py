@@ -1,4 +1,4 @@
-"""Mangled stages: a sane Scene or a SceneError of one line, in time, and nothing on the terminal."""
+"""Mutated stages give a valid Scene or a SceneError of one line, in time and without output to the terminal."""
 
 import itertools
 import os
@@ -33,12 +33,12 @@ def check(tally: Tally, capsys):
 def test_mangled_stages(capsys):
     tally = fuzz(itertools.islice(make_cases(CORPUS, seed=1), 500))
     assert sum(tally.outcomes.values()) == 500
-    # Mangled so gently that the reader gets to see something.
+    # Most mutations are small enough to leave a readable stage.
     assert tally.outcomes[Outcome.READ] > 150
     check(tally, capsys)
 
 
-def test_mangled_stages_of_others(capsys):
+def test_mangled_stages_of_third_parties(capsys):
     shared_file("scenes/awkward")
     check(fuzz(itertools.islice(make_cases(shared_corpus(), seed=1), 150)), capsys)
 
@@ -83,7 +83,7 @@ def test_the_same_seed_gives_the_same_cases():
 
 
 @pytest.mark.parametrize("mutate", MUTATORS, ids=lambda mutate: mutate.__name__)
-def test_every_mutator_changes_something_and_bears_anything(mutate):
+def test_every_mutator_changes_text_and_accepts_any_text(mutate):
     rng = random.Random(0)
     text = CORPUS["materials"]["scene.usda"].decode()
     assert any(mutate(text, rng, []) != text for _ in range(5))
@@ -92,7 +92,7 @@ def test_every_mutator_changes_something_and_bears_anything(mutate):
             assert isinstance(mutate(odd, rng, ["", odd]), str)
 
 
-def test_bytes_are_changed_whatever_they_are():
+def test_any_bytes_are_changed():
     rng = random.Random(0)
     data = bytes(range(256))
     assert sum(mangle_bytes(data, rng) != data for _ in range(100)) > 90
@@ -147,14 +147,14 @@ def raise_other(path):
 
 
 def obey(path):
-    """Do what the file's name says."""
+    """Do what the name of the file says."""
     match Path(path).name:
         case "die":
             os.kill(os.getpid(), signal.SIGSEGV)
         case "sleep":
             time.sleep(60)
         case "talk":
-            os.write(2, b"Warning: this is said\n")
+            os.write(2, b"Warning: message\n")
         case "leave":
             os._exit(3)
     return Verdict(Outcome.READ)
@@ -167,9 +167,9 @@ def worker(tmp_path_factory):
     worker.close()
 
 
-def test_what_is_written_to_the_terminal_is_noticed_once(worker):
+def test_output_to_the_terminal_is_reported_once(worker):
     verdict = worker.ask(Path("talk"))
-    assert (verdict.outcome, verdict.place) == (Outcome.TALKED, "Warning: this is said")
+    assert (verdict.outcome, verdict.place) == (Outcome.TALKED, "Warning: message")
     starts = worker.starts
     assert worker.ask(Path("quiet")) == Verdict(Outcome.READ)
     assert worker.starts == starts
@@ -189,7 +189,7 @@ def test_a_worker_that_takes_too_long_is_replaced(worker):
     assert worker.ask(Path("quiet")) == Verdict(Outcome.READ)
 
 
-def test_exceptions_of_other_kinds_are_told_with_their_place(tmp_path):
+def test_unexpected_exceptions_are_reported_with_their_place(tmp_path):
     worker = Worker(f"{HERE}:raise_other", tmp_path)
     verdict = worker.ask(Path("any"))
     worker.close()
@@ -197,14 +197,14 @@ def test_exceptions_of_other_kinds_are_told_with_their_place(tmp_path):
     assert verdict.place.startswith("TypeError in scene/stage.py:")
 
 
-def test_what_is_no_stage_is_refused(judge):
+def test_a_file_that_is_no_stage_is_refused(judge):
     assert judge.judge({"scene.usda": b"no stage"}).outcome == Outcome.REFUSED
 
 
 # --- the tally ----------------------------------------------------------------------------------------
 
 
-def test_equal_faults_are_told_once_and_those_of_openusd_are_no_failures(tmp_path):
+def test_equal_faults_are_merged_and_faults_of_openusd_are_no_failures(tmp_path):
     tally = Tally()
     cases = [Case(f"1 {number} kinds", {"scene.usda": b"text"}) for number in range(9)]
     for case in cases[:5]:
@@ -218,7 +218,9 @@ def test_equal_faults_are_told_once_and_those_of_openusd_are_no_failures(tmp_pat
     tally.keep(tmp_path)
     # The first three of each fault.
     assert len(list(tmp_path.glob("insane_scene*/scene.usda"))) == 3
-    assert (tmp_path / "OpenUSD_died_SIGSEGV_in_OpenUSD_1_5_kinds" / "what.txt").read_text().startswith("OpenUSD died")
+    assert (
+        (tmp_path / "OpenUSD_died_SIGSEGV_in_OpenUSD_1_5_kinds" / "verdict.txt").read_text().startswith("OpenUSD died")
+    )
 
 
 def test_files_are_written_as_they_are(tmp_path):

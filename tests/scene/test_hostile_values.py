@@ -1,4 +1,4 @@
-"""Values that no exporter should write: each is left out or told, and the rest of the stage is read."""
+"""Invalid values are ignored or reported, and the rest of the stage is read."""
 
 import math
 
@@ -43,7 +43,7 @@ def odd(*lines, meta=()):
         "rel primvars:displayColor = </World>",
     ],
 )
-def test_what_is_no_colour_is_left_out(read, line):
+def test_ignores_values_that_are_no_colour(read, line):
     scene = read(odd(line))
     assert only(scene).display_color is None
     assert only(scene).box.size == (1, 1, 1)
@@ -73,7 +73,7 @@ def test_the_next_sound_colour_is_taken(read):
         ("float physics:mass = 2.5", 1e300, 2.5),
     ],
 )
-def test_what_is_no_mass_is_left_out(read, line, unit, mass):
+def test_ignores_values_that_are_no_mass(read, line, unit, mass):
     layer = header(metersPerUnit=1, upAxis="Z", kilogramsPerUnit=unit)
     scene = read(odd(line, meta=['prepend apiSchemas = ["PhysicsMassAPI"]']), layer=layer)
     assert only(scene).mass_kg == mass
@@ -82,7 +82,7 @@ def test_what_is_no_mass_is_left_out(read, line, unit, mass):
 # --- attributes where relationships belong --------------------------------------------------------------
 
 
-def test_a_joint_with_attributes_for_bodies_joins_nothing(read):
+def test_a_joint_with_attributes_for_bodies_has_no_bodies(read):
     lines = ["int physics:body0 = 1", 'string physics:body1 = "Lid"', "float physics:upperLimit = 90"]
     scene = read(prim("PhysicsRevoluteJoint", "Hinge", *lines), rigid("Lid", cube("g")))
     (joint,) = scene.joints
@@ -161,7 +161,7 @@ def test_instancers_that_are_their_own_prototypes_are_left_out(read, targets, op
     assert only(scene, "/World").box is not None
 
 
-def test_instancers_within_prototypes_of_others_are_no_ring(read):
+def test_instancers_within_prototypes_are_not_endless(read):
     inner = instancer(name="Inner", prototypes="rel prototypes = </World/Trees/Inner/Oak>")
     scene = read(xform("World", instancer(inner, prototypes="rel prototypes = </World/Trees/Inner>"), SOUND))
     # Two copies 5 m apart, of two cubes 5 m apart.
@@ -187,21 +187,21 @@ def test_nanometres_and_light_years_are_units(read, unit):
 
 
 @pytest.mark.parametrize("place", ["(1e308, 0, 0)", "(0, nan, 0)", "(0, 0, -inf)"])
-def test_what_is_nowhere_has_neither_place_nor_box(read, place):
+def test_a_non_finite_transform_has_neither_position_nor_box(read, place):
     move = f'double3 xformOp:translate = {place}\nuniform token[] xformOpOrder = ["xformOp:translate"]'
     for layer in (METRES, header(metersPerUnit=1e20, upAxis="Y")):
         thing = only(read(odd(move), layer=layer))
         assert (thing.position, thing.box) == (None, None)
 
 
-def test_copies_that_are_nowhere_have_no_place(read):
+def test_copies_with_non_finite_positions_have_no_position(read):
     far = instancer().replace("(5, 0, 0)", "(3e38, 0, 0)")
     scene = read(xform("World", far, SOUND), options=COPIES)
     assert only(scene, "/World/Trees[0]").position == (0, 0, 0)
     assert only(scene, "/World/Trees[1]").position is None
 
 
-def test_points_that_are_not_finite_raise_no_warnings_where_the_mesh_is_turned(read):
+def test_non_finite_points_of_a_rotated_mesh_raise_no_warnings(read):
     points = "point3f[] points = [(inf, 0, 0), (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1)]"
     turned = 'float xformOp:rotateX = 30\nuniform token[] xformOpOrder = ["xformOp:rotateX"]'
     assert only(read(prim("Mesh", "Odd", points, turned), SOUND), "/Odd").box.size[0] == pytest.approx(1)
@@ -215,7 +215,7 @@ def test_limits_stay_finite(read):
 
 
 @pytest.mark.parametrize("start", ["inf", "nan"])
-def test_a_start_time_that_is_no_number_is_none(read, start):
+def test_a_mistyped_start_time_is_none(read, start):
     assert read(SOUND, layer=header(metersPerUnit=1, startTimeCode=start, endTimeCode=9).replace('"', "")).time is None
 
 
@@ -235,8 +235,8 @@ def test_diagnostics_are_short_lines_that_print(read):
     assert any(message.endswith("…") for message in messages(scene, "label"))
 
 
-def test_of_endless_complaints_the_first_is_told():
-    # OpenUSD says the same for each of a million parts of a corrupt file.
+def test_only_the_first_of_many_messages_is_quoted():
+    # OpenUSD repeats its message for each of a million parts of a corrupt file.
     complaint = "\n\tError in 'f' at line 7 in file crate.cpp : 'a spec is bad'"
     assert error_text(RuntimeError(complaint * 100_000)) == "a spec is bad"
 
@@ -267,7 +267,7 @@ def test_a_prim_that_cannot_be_read_is_left_out(tmp_path):
     assert explain_choice(path, "/World/Odd") == "/World/Odd is not an object: it is left out (unreadable)"
 
 
-def test_of_an_object_with_evidence_that_cannot_be_read_name_and_box_are_told(tmp_path):
+def test_an_object_with_unreadable_evidence_keeps_name_and_box(tmp_path):
     variants = 'variantSet "shape" = {\n"xyzzyplugh" {\n}\n}'
     meta = ['variants = { string shape = "xyzzyplugh" }', 'prepend variantSets = "shape"']
     text = xform("World", component("Odd", cube("g"), variants, meta=meta), SOUND)
@@ -278,7 +278,7 @@ def test_of_an_object_with_evidence_that_cannot_be_read_name_and_box_are_told(tm
     assert message.startswith("its evidence cannot be read (it holds text that is not UTF-8)")
 
 
-def test_what_openusd_cannot_read_is_told_as_an_error_of_ours_with_its_cause():
+def test_errors_of_openusd_are_translated_with_their_cause():
     with pytest.raises(SceneError) as refused, translated_errors("a.usdc"):
         b"\xff".decode()
     assert str(refused.value) == (

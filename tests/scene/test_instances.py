@@ -1,4 +1,4 @@
-"""Instances: they are read like copies that share nothing, and like the file as it is now."""
+"""Instances are read like independent copies, and a changed file is read again."""
 
 import itertools
 from dataclasses import fields, is_dataclass, replace
@@ -54,7 +54,7 @@ def looks(*names):
 
 
 def alike(one, other):
-    """Return one of two told values with its numbers replaced by the other's where those agree to 1e-9."""
+    """Return the first value with its numbers replaced by those of the second if they agree to 1e-9."""
     if isinstance(one, float) and isinstance(other, float):
         return other if one == pytest.approx(other, rel=1e-9, abs=1e-9) else one
     if is_dataclass(one) and type(one) is type(other):
@@ -143,7 +143,7 @@ class Maker:
         return lines, apis
 
     def binding(self, path):
-        # A target outside of what is referenced would be lost.
+        # A target outside of the referenced prim would be lost.
         return bind(f"/{path.split('/')[1]}/Looks/{self.pick('Red', 'Blue')}")
 
     def meta(self, apis, *more):
@@ -279,14 +279,14 @@ def reset(lines):
     return lines.replace("Order = [", 'Order = ["!resetXformStack!", ')
 
 
-def test_boxes_of_instances_that_stand_apart_from_what_is_above():
+def test_boxes_of_instances_that_reset_the_transform_stack():
     frame = xform("Frame", move(5, 0, 0), instance("I2", reset(move(1, 2, 3)), meta=['kind = "component"']))
     of_instances, of_copies = world(shared(cube("a"), cube("b")), instance("I1"), frame)
     assert_alike(of_instances, of_copies)
     assert of_instances.by_path["/World/Frame/I2"].box.center == (1, 2, 3)
 
 
-def test_boxes_of_parts_that_stand_apart_from_their_instance():
+def test_boxes_of_parts_that_reset_the_transform_stack():
     # Where a prototype's prims are read through OpenUSD alone, it is not to matter in which instance.
     still = cube("b", reset(move(1, 2, 3)))
     of_instances, of_copies = world(shared(cube("a"), still), *three())
@@ -305,7 +305,7 @@ def test_oriented_sizes_of_components():
 
 
 @pytest.mark.parametrize("is_shared", [True, False])
-def test_oriented_sizes_of_what_is_no_component(is_shared):
+def test_oriented_sizes_outside_of_components(is_shared):
     scene, _ = world(shared(*ROW), *(instance(name, TURNED, is_shared=is_shared) for name in ("I1", "I2")))
     assert scene.by_path["/World/I2"].oriented_size == pytest.approx((4, 1, 1))
 
@@ -470,7 +470,7 @@ JOINTED = shared(
 )
 
 
-def test_joints_are_told_for_each_instance():
+def test_joints_are_read_for_each_instance():
     scene, copies = world(JOINTED, *three())
     assert_alike(scene, copies)
     assert [(joint.prim_path, joint.body0, joint.body1) for joint in scene.joints] == [
@@ -488,7 +488,7 @@ LABEL = 'token[] semantics:labels:class = ["{}"]'
 LABELLED = 'prepend apiSchemas = ["SemanticsLabelsAPI:class"]'
 
 
-def test_labels_within_prototypes_are_told_for_each_instance():
+def test_labels_within_prototypes_are_read_for_each_instance():
     seat = cube("seat", LABEL.format("seat"), meta=[LABELLED])
     own = instance("I2", LABEL.format("armchair"), meta=[LABELLED])
     above = xform("Corner", LABEL.format("furniture"), instance("I1"), own, apis=["SemanticsLabelsAPI:class"])

@@ -1,4 +1,4 @@
-"""Joints: what moves against what, which way and how far, checked against values worked by hand."""
+"""Joints: bodies, axes and limits, compared with values calculated by hand."""
 
 import math
 from collections import Counter
@@ -19,7 +19,7 @@ HALF = math.sqrt(0.5)
 
 @pytest.fixture
 def read(write_stage):
-    """A function that writes a cabinet, its door and a joint, and returns what was read of all joints."""
+    """A function that writes a cabinet, its door and a joint, and returns all joints."""
 
     def run(*prims, layer=METRES, frame=Z_UP, time=None):
         stage = Usd.Stage.Open(str(write_stage(layer + "\n".join(prims))))
@@ -105,7 +105,7 @@ def test_types(read, type_name, expected):
     assert only(read(*world(joint(type_name)))).type == expected
 
 
-def test_what_only_sounds_like_a_joint_is_none(read):
+def test_a_type_named_like_a_joint_without_bodies_is_none(read):
     butt_joint = prim("Xform", "ButtJoint")
     unknown = prim("WoodJoint", "tenon", "double width = 2")
     assert read(butt_joint, unknown).joints == ()
@@ -137,7 +137,7 @@ def test_axis_in_the_world(read, token, z_up, y_up):
     assert only(read(*stage, layer=CENTIMETRES_Y_UP, frame=Y_UP)).axis_vector == y_up
 
 
-def test_axis_is_x_where_none_is_authored(read):
+def test_axis_defaults_to_x(read):
     # UsdPhysics: the fallback of physics:axis.
     assert only(read(*world(revolute()))).axis == "X"
 
@@ -168,12 +168,12 @@ def test_rotation_that_is_not_normalized(read):
     assert found.axis_vector == pytest.approx((0, -1, 0), abs=1e-6)
 
 
-def test_all_zero_rotation_is_none(read):
+def test_an_all_zero_rotation_is_ignored(read):
     found = only(read(*world(revolute(axis("Z"), "quatf physics:localRot0 = (0, 0, 0, 0)"))))
     assert found.axis_vector == (0, 0, 1)
 
 
-def test_axis_of_a_joint_to_the_world_is_told_by_the_moved_body(read):
+def test_axis_of_a_joint_to_the_world_is_read_from_the_moved_body(read):
     turned = ops(("float", "rotateX", 90))
     found = only(read(*world(revolute(axis("Z"), body0=None), door=[turned])))
     assert found.body0 is None
@@ -187,7 +187,7 @@ def test_origin_is_that_of_the_joint_frame_in_the_still_body(read):
     assert only(read(*world(hinge, cabinet=[placed]))).origin == pytest.approx((1, 3, 2))
 
 
-def test_origin_of_a_joint_to_the_world_is_told_by_the_moved_body(read):
+def test_origin_of_a_joint_to_the_world_is_read_from_the_moved_body(read):
     hinge = revolute("point3f physics:localPos1 = (0, 0, 1)", body0=None)
     assert only(read(*world(hinge, door=[move(0, 4, 0)]))).origin == pytest.approx((0, 4, 1))
 
@@ -221,7 +221,7 @@ def test_joints_without_axis(read, kind):
     assert (found.axis, found.axis_vector, found.direction) == (None, None, None)
 
 
-def test_body_squeezed_flat_or_not_finite_has_no_crash(read):
+def test_singular_and_non_finite_bodies_do_not_crash(read):
     for scale in ("(0, 0, 0)", "(nan, 1, 1)"):
         flat = f'float3 xformOp:scale = {scale}\nuniform token[] xformOpOrder = ["xformOp:scale"]'
         (found,) = read(*world(revolute(axis("Z")), cabinet=[flat])).joints
@@ -246,7 +246,7 @@ def test_limits_of_a_hinge(read, lower, upper, expected):
     assert (found.lower, found.upper) == pytest.approx(expected)
 
 
-def test_limits_that_nobody_authored_are_none(read):
+def test_limits_that_are_not_authored_are_none(read):
     found = only(read(*world(prismatic())))
     assert (found.lower, found.upper, found.value) == (None, None, None)
 
@@ -318,7 +318,7 @@ def test_missing_body_gives_the_nearest_above(read):
     assert messages == ["physics:body1 is </Door/Panel/Inner>, which is not on the stage; </Door> is used"]
 
 
-def test_missing_body_without_anything_above(read):
+def test_missing_body_without_existing_ancestors(read):
     found, messages = trouble(read(*world(revolute(body0="/Gone"))))
     assert found.body0 is None
     assert messages == ["physics:body0 is </Gone>, which is not on the stage; it is left out"]
@@ -361,7 +361,7 @@ def test_both_bodies_missing(read):
     assert len(messages) == 3
 
 
-def test_axis_that_is_none(read):
+def test_invalid_axis(read):
     found, messages = trouble(read(*world(revolute(axis("x; drop table")))))
     assert (found.axis, found.axis_vector, found.direction) == (None, None, None)
     assert messages == ["physics:axis is 'x; drop table', expected X, Y or Z; it has no axis"]
@@ -373,13 +373,13 @@ def test_limits_the_wrong_way_round_are_kept(read):
     assert messages == ["its lower limit 1 is above its upper limit -1; both are kept as authored"]
 
 
-def test_limit_that_is_no_number(read):
+def test_mistyped_limit(read):
     found, messages = trouble(read(*world(prismatic(limits("nan", 1)))))
     assert (found.lower, found.upper) == (None, 1)
     assert messages == ["physics:lowerLimit is nan, expected a number; it is left out"]
 
 
-def test_values_of_other_types_do_no_harm(read):
+def test_ignores_values_of_other_types(read):
     odd = ('string state:angular:physics:position = "wide open"', 'string physics:jointEnabled = "no"')
     found, messages = trouble(read(*world(revolute(*odd))))
     assert (found.value, found.is_enabled) == (None, True)

@@ -1,4 +1,4 @@
-"""Every prim is an object or is counted once, with the reason."""
+"""Every prim is an object, or is counted once with the reason."""
 
 import pytest
 from hypothesis import given, settings
@@ -14,7 +14,7 @@ TWO = cube("a") + cube("b")
 
 
 def left_out(read, *body):
-    """Return what is left out beside the grouping /World, and check the sum."""
+    """Return the counts without the grouping /World, and check the sum."""
     scene = read(xform("World", *body, TWO))
     assert [obj.name for obj in scene.objects] == ["a", "b"]
     assert scene.prim_count == len(scene.objects) + sum(scene.left_out.values())
@@ -44,7 +44,7 @@ def left_out(read, *body):
         ("", "no geometry"),
     ],
 )
-def test_prims_that_are_no_things_are_counted_by_what_they_are(read, type_name, reason):
+def test_counts_pruned_prims_by_reason(read, type_name, reason):
     assert left_out(read, prim(type_name, "Odd")) == {reason: 1}
 
 
@@ -83,7 +83,7 @@ def test_overs_alone_define_nothing(read):
 
 
 @pytest.mark.parametrize("purpose", ["guide", "proxy"])
-def test_guides_and_proxies_are_counted_with_what_holds_nothing_else(read, purpose):
+def test_counts_prims_that_contain_only_guides_and_proxies(read, purpose):
     assert left_out(read, xform("Colliders", cube("hull", purpose=purpose))) == {"guide or proxy geometry": 2}
 
 
@@ -92,7 +92,7 @@ def test_purpose_is_inherited_from_above(read):
     assert left_out(read, colliders) == {"guide or proxy geometry": 3}
 
 
-def test_parts_and_groupings_are_told_apart(read):
+def test_distinguishes_parts_and_groupings(read):
     chair = component("Chair", xform("frame", cube("leg")), cube("hull", purpose="guide"), xform("empty"))
     scene = read(xform("World", prim("Scope", "Row", chair), TWO))
     assert scene.left_out == {
@@ -179,7 +179,7 @@ def test_every_prim_is_an_object_or_counted_once(tmp_path_factory, tree):
 
 @settings(max_examples=40, deadline=None)
 @given(trees(), st.lists(st.sampled_from(["/World", "/World/Chair", "/World/Lamp/Door", "/Nowhere"]), max_size=2))
-def test_so_it_is_where_paths_are_asked_for(tmp_path_factory, tree, asked):
+def test_counts_are_complete_with_requested_paths(tmp_path_factory, tree, asked):
     scene = check(tmp_path_factory.getbasetemp() / "asked_tree.usda", tree, asked)
     for path in asked if scene else ():
         assert (path in scene.missing_paths) != (path in scene.by_path)

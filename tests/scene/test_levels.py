@@ -1,4 +1,4 @@
-"""Broad level faces within meshes: the boards of a shelf, a worktop below its upstand."""
+"""Support levels within meshes, such as the boards of a shelf or a worktop below its upstand."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def joined(*blocks):
 
 
 SHELF = joined(*(board((0, 0, z - 0.02), (1, 0.3, z)) for z in (0.1, 0.6, 1.2)), board((0, 0.28, 0), (1, 0.3, 1.2)))
-"""Three boards, their tops at 0.1 m, 0.6 m and 1.2 m, before a back that is as high as the last."""
+"""Three boards with tops at 0.1 m, 0.6 m and 1.2 m in front of a back panel of 1.2 m."""
 
 
 def heights(points, triangles, footprint=0.3) -> list[float]:
@@ -42,7 +42,7 @@ class TestFindLevels:
         points, triangles = SHELF
         assert heights(points, triangles[:, ::-1]) == [0.1, 0.6, 1.2]
 
-    def test_a_rim_is_no_level_and_its_floor_is(self):
+    def test_a_rim_is_not_a_level_but_its_floor_is(self):
         # A tray 1 m × 1 m: four walls 0.02 m thick around a floor.
         walls = [
             board((0, 0, 0), (1, 0.02, 0.1)),
@@ -52,10 +52,10 @@ class TestFindLevels:
         ]
         assert heights(*joined(board((0, 0, 0), (1, 1, 0.01)), *walls), footprint=1.0) == [0.01]
 
-    def test_small_steps_are_none(self):
+    def test_small_steps_are_not_levels(self):
         assert heights(*joined(board((0, 0, 0), (1, 1, 0.5)), board((0.4, 0.4, 0.5), (0.6, 0.6, 0.7))), 1.0) == [0.5]
 
-    def test_slopes_and_domes_are_none(self):
+    def test_slopes_and_domes_are_not_levels(self):
         lifted = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0.3), (0, 1, 0.3)], float)
         assert heights(lifted, np.array([(0, 1, 2), (0, 2, 3)]), 1.0) == []
         # A cap of a ball, 0.03 m high: level enough everywhere, but never flat.
@@ -68,7 +68,7 @@ class TestFindLevels:
         triangles = np.concatenate([first, second], axis=1).T
         assert heights(cap, triangles, 1.0) == []
 
-    def test_triangles_without_area_do_no_harm(self):
+    def test_ignores_triangles_without_area(self):
         points, triangles = SHELF
         assert heights(points, np.concatenate([triangles, [[0, 0, 1], [2, 2, 2]]])) == [0.1, 0.6, 1.2]
 
@@ -112,7 +112,7 @@ class TestReading:
     def levels(self, scene, path="/World/Shelf"):
         return [round(level.lower[2], 4) for level in scene.by_path[path].support_levels]
 
-    def test_of_a_shelf_with_a_thing_in_it(self, read):
+    def test_levels_of_a_shelf_that_contains_an_object(self, read):
         scene = read(
             xform("World", component("Shelf", mesh("m", SHELF)), component("Box", cube("m", at=(0.5, 0.15, 0.8))))
         )
@@ -138,7 +138,7 @@ class TestReading:
         assert low.lower == pytest.approx((0, 0, 0.1))
         assert low.upper == pytest.approx((1, 0.3, 0.1))
 
-    def test_where_it_is_moved_and_mirrored(self, read):
+    def test_levels_of_a_moved_and_mirrored_shelf(self, read):
         mirrored = (
             "double3 xformOp:translate = (2, 3, 1)\nfloat3 xformOp:scale = (-1, 1, 1)\n"
             'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]'
@@ -163,7 +163,7 @@ class TestReading:
             assert self.levels(scene, f"/World/Shelf_{x}") == [0.1, 0.6, 1.2]
             assert scene.by_path[f"/World/Shelf_{x}"].support_levels[0].lower[0] == pytest.approx(3 * x)
 
-    def test_a_broken_mesh_has_none_and_says_nothing_of_it(self, read):
+    def test_a_broken_mesh_has_no_levels_and_no_diagnostic(self, read):
         points, triangles = SHELF
         broken = mesh("m", (points, triangles + 1000), "float3[] extent = [(0, 0, 0), (1, 0.3, 1.2)]")
         scene = read(xform("World", component("Shelf", broken), component("Box", cube("m", at=(0.5, 0.15, 0.8)))))

@@ -1,4 +1,4 @@
-"""Triangles of a stage: what is drawn, where, in which colour, and what is left out with a note."""
+"""Visible triangles of a stage: position, colour, and diagnostics of what is left out."""
 
 import numpy as np
 import pytest
@@ -162,22 +162,25 @@ def test_a_path_that_is_not_there(meshes, path):
 
 
 @pytest.mark.parametrize(
-    ("lines", "told"),
+    ("lines", "message"),
     [
-        ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2, 4]"), "do not exist"),
-        ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2, -1]"), "do not exist"),
-        ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2]"), "4 corners, but 3"),
-        ((SQUARE[0], "int[] faceVertexCounts = [-4, 8]", "int[] faceVertexIndices = [0, 1, 2, 3]"), "corners"),
-        (("float[] points = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]", *SQUARE[1:]), "another type"),
+        ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2, 4]"), "outside 0 … 3"),
+        ((SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2, -1]"), "outside 0 … 3"),
+        (
+            (SQUARE[0], "int[] faceVertexCounts = [4]", "int[] faceVertexIndices = [0, 1, 2]"),
+            "add up to 4, but faceVertexIndices has 3",
+        ),
+        ((SQUARE[0], "int[] faceVertexCounts = [-4, 8]", "int[] faceVertexIndices = [0, 1, 2, 3]"), "add up to 4, but"),
+        (("float[] points = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]", *SQUARE[1:]), "not of the type"),
         (("point3f[] points = [(nan, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]", *SQUARE[1:]), "not all finite"),
         (("point3f[] points = [(inf, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]", *SQUARE[1:]), "not all finite"),
     ],
 )
-def test_broken_meshes_are_skipped_with_a_note(meshes, lines, told):
+def test_broken_meshes_are_skipped_with_a_note(meshes, lines, message):
     found, notes = meshes(prim("Mesh", "Bad", *lines), cube("Good"))
     assert [mesh.prim_path for mesh in found] == ["/Good"]
     assert [(note.code, note.prim_path) for note in notes] == [("mesh", "/Bad")]
-    assert told in notes[0].message
+    assert message in notes[0].message
     assert "not in pictures" in notes[0].message
 
 
@@ -295,7 +298,7 @@ def test_colors_by_face_and_by_point(meshes):
     assert third.color == (0.5, 0, 0)
 
 
-def test_instances_are_drawn_where_they_stand(meshes):
+def test_instances_are_drawn_at_their_positions(meshes):
     asset = prim("Xform", "Asset", cube("Body", color(1, 0, 0)), specifier="class")
     found, _ = meshes(
         asset,

@@ -1,4 +1,4 @@
-"""Variants, texts that people wrote, and materials in detail."""
+"""Variants, free text and materials."""
 
 import base64
 import hashlib
@@ -95,8 +95,8 @@ def test_texts_that_somebody_wrote(texts):
     )
 
 
-def test_a_plain_prim_has_none(texts):
-    # Its schema's documentation is in customData, and its own attributes have tokens; nobody wrote those.
+def test_a_plain_prim_has_no_texts(texts):
+    # The documentation of the schema in customData and tokens of schema attributes are not free text.
     assert texts('uniform token purpose = "render"', 'token visibility = "inherited"') == ()
 
 
@@ -225,7 +225,7 @@ def test_hostile_text_stays_one_printable_line(texts):
     assert clean_text(" a\u00a0b\u2028c\x00d\t") == "a b cd"
 
 
-def test_bytes_that_are_no_text_do_no_harm(stage, tmp_path):
+def test_ignores_bytes_that_are_not_utf8(stage, tmp_path):
     meta = ['customData = {\nstring why = "plughxyzzy"\nstring where = "by the window"\n}']
     text = stage(cube("Thing", 'custom string note = "frobozzmagic"', 'custom token by = "Thonet"', meta=meta))
     path = tmp_path / "scene.usdc"
@@ -303,13 +303,13 @@ def test_constants_of_a_preview_surface(materials):
     assert found == MaterialDetails("Glass", "/Looks/Glass", (0.1, 0.2, 0.3), 0.05, 0.0, 0.2)
 
 
-def test_what_is_not_authored_is_none(materials):
+def test_unauthored_parameters_are_none(materials):
     # UsdPreviewSurface falls back to grey 0.18 and roughness 0.5; the stage says neither.
     found = one(materials(looks(surface("Plain")), thing(bound("Plain"))))
     assert found == MaterialDetails("Plain", "/Looks/Plain")
 
 
-def test_texture_is_no_constant(materials):
+def test_a_texture_gives_no_constant(materials):
     texture = prim(
         "Shader", "Tex", 'uniform token info:id = "UsdUVTexture"', "float3 outputs:rgb", "asset inputs:file = @a.png@"
     )
@@ -398,7 +398,7 @@ def test_colour_that_is_not_finite(materials, value):
     "line",
     ['string inputs:diffuseColor = "red"', 'token[] inputs:diffuseColor = ["a", "b", "c"]', "float2 inputs:x = (1, 2)"],
 )
-def test_inputs_of_other_types_do_no_harm(materials, line):
+def test_ignores_inputs_of_other_types(materials, line):
     odd = surface("Odd", line, 'token inputs:roughness = "rough"')
     assert one(materials(looks(odd), thing(bound("Odd")))) == MaterialDetails("Odd", "/Looks/Odd")
 
@@ -480,7 +480,7 @@ def test_materials_of_hidden_geometry_are_not_seen(materials):
     assert [m.name for m in materials(looks(OAK, surface("Steel")), tree)] == ["Oak"]
 
 
-def test_materials_are_told_once(materials):
+def test_materials_are_listed_once(materials):
     tree = xform("Thing", *(cube(f"c{i}", bound("Oak"), meta=[BINDING]) for i in range(5)))
     assert one(materials(looks(OAK), tree)).base_color == (0.5, 0.25, 0.1)
 

@@ -1,4 +1,4 @@
-"""Which prims are objects, one small stage a rule."""
+"""Object selection: one small stage per rule."""
 
 import json
 import os
@@ -82,7 +82,7 @@ def test_subcomponents_that_are_bodies_are_parts_all_the_same(read):
 
 
 def test_kinds_derived_from_component_are_components(tmp_path, write_stage):
-    # Kinds are registered when the process starts, so this needs one of its own.
+    # Kinds are registered at the start of a process, so this test starts one.
     kinds = {"prop": {"baseKind": "component"}, "setpiece": {"baseKind": "group"}}
     plugin = {"Name": "kinds", "Type": "resource", "Root": ".", "ResourcePath": ".", "Info": {"Kinds": kinds}}
     (tmp_path / "plugInfo.json").write_text(json.dumps({"Plugins": [plugin]}))
@@ -106,7 +106,7 @@ def test_unknown_kind_counts_as_none(read):
     assert chosen(scene) == {"/World/Cup": OWNER, "/World/b": OWNER}
 
 
-def test_component_that_is_the_whole_scene_is_no_object(read):
+def test_component_around_the_whole_scene_is_not_an_object(read):
     scene = read(component("Room", rigid("Chair", cube("a")), rigid("Table", cube("b"))))
     assert chosen(scene) == {"/Room/Chair": BODY, "/Room/Table": BODY}
 
@@ -115,7 +115,7 @@ def test_component_that_is_the_whole_file_is_the_object(read):
     assert chosen(read(component("Chair", cube("leg"), cube("seat")))) == {"/Chair": KIND}
 
 
-def test_cabinet_at_the_root_with_drawers_of_its_own_stays_an_object(read):
+def test_root_cabinet_with_drawers_stays_an_object(read):
     # It owns its carcass, and another thing stands beside it: it is no room.
     cabinet = component("Cabinet", cube("carcass"), rigid("Upper", cube("a")), rigid("Lower", cube("b")))
     scene = read(cabinet + component("Table", cube("top")))
@@ -158,7 +158,7 @@ def test_component_that_wraps_several_bodies_stays(read):
     assert parents(scene) == {"Cabinet": None, "Left": "Cabinet", "Right": "Cabinet", "box": None}
 
 
-def test_body_with_a_little_geometry_of_its_own_is_no_wrapper(read):
+def test_body_with_some_own_geometry_is_not_a_wrapper(read):
     scene = read(xform("World", rigid("Door_out", cube("hinge"), rigid("Door", cube("panel"))), cube("box")))
     assert parents(scene) == {"Door_out": None, "Door": "Door_out", "box": None}
 
@@ -235,7 +235,7 @@ def test_referenced_group_is_structure(read, write_asset):
     assert list(chosen(read(xform("World", reference("R", room))))) == ["/World/R/floor", "/World/R/wall"]
 
 
-def test_referenced_mesh_is_no_boundary_of_its_own(read, write_stage):
+def test_referenced_mesh_is_not_an_asset_boundary(read, write_stage):
     write_stage('(\n    defaultPrim = "Leg"\n)\n' + cube("Leg"), "leg.usda")
     legs = [prim("Cube", name, meta=["references = @leg.usda@"]) for name in ("leg1", "leg2")]
     assert chosen(read(xform("World", xform("Stool", *legs), cube("box")))) == {
@@ -244,7 +244,7 @@ def test_referenced_mesh_is_no_boundary_of_its_own(read, write_stage):
     }
 
 
-def test_reference_to_something_without_geometry_is_no_object(read, write_stage):
+def test_reference_without_geometry_is_not_an_object(read, write_stage):
     write_stage('(\n    defaultPrim = "Rig"\n)\n' + xform("Rig", prim("SphereLight", "key")), "rig.usda")
     assert list(chosen(read(xform("World", reference("Lights", "rig.usda"), cube("a"), cube("b"))))) == [
         "/World/a",
@@ -305,7 +305,7 @@ def test_mesh_as_root_prim_is_an_object(read):
     assert list(chosen(read(cube("Teapot"), cube("Cup")))) == ["/Teapot", "/Cup"]
 
 
-def test_deep_nesting_does_no_harm(read):
+def test_deep_nesting_is_read(read):
     # Deeper than Python's default limit of 1000 calls.
     tree = cube("mesh")
     for index in range(1100):
@@ -360,7 +360,7 @@ def test_component_that_wraps_an_instancer_keeps_the_count(read):
 # --- what a user asks for ----------------------------------------------------------------------------
 
 
-def test_asked_for_paths_are_added_in_traversal_order(read):
+def test_requested_paths_are_added_in_traversal_order(read):
     chair = component("Chair", cube("leg"), cube("seat"))
     scene = read(xform("World", chair, cube("box")), paths=["/World/Chair/seat", "/World", "/World/box"])
     assert chosen(scene) == {
@@ -373,20 +373,20 @@ def test_asked_for_paths_are_added_in_traversal_order(read):
     assert scene.missing_paths == ()
 
 
-def test_paths_that_do_not_exist_are_listed_in_the_order_asked(read):
+def test_missing_paths_are_listed_in_the_requested_order(read):
     scene = read(xform("World", cube("box")), paths=["/World/Z", "/World/box", "no path", "/", "/World/A"])
     assert scene.missing_paths == ("/World/Z", "no path", "/", "/World/A")
     assert "/World/box" in scene.by_path
 
 
-def test_asked_for_paths_are_no_longer_counted_as_left_out(read):
+def test_requested_paths_are_not_counted_as_left_out(read):
     tree = xform("World", component("Chair", cube("leg"), cube("seat")), cube("box"))
     without, asked = read(tree), read(tree, paths=["/World/Chair/seat"])
     assert without.left_out["part of an object"] == 2
     assert asked.left_out["part of an object"] == 1
 
 
-def test_a_stage_without_geometry_can_still_be_asked_for_a_prim(read):
+def test_requests_a_prim_on_a_stage_without_geometry(read):
     scene = read(xform("World", xform("Anchor")), paths=["/World/Anchor"])
     assert [obj.name for obj in scene.objects] == ["Anchor"]
 
@@ -431,7 +431,7 @@ def test_fixtures_may_be_frames_whose_mesh_is_part_of_the_body(read):
         ("unit", "board", False),
     ],
 )
-def test_the_last_word_of_a_part_says_whether_it_is_a_fixture(read, body, part, is_fixture):
+def test_the_last_word_of_a_name_decides_on_fixtures(read, body, part, is_fixture):
     scene = read(xform("World", rigid(body, cube("mesh"), cube(part)), cube("box")))
     assert (f"/World/{body}/{part}" in scene.by_path) == is_fixture
 
@@ -456,7 +456,7 @@ def test_fixtures_of_a_body_within_a_body_belong_to_the_inner_one(read):
 
 
 @pytest.mark.parametrize("piece", ["mesh_{}", "part{}_obj", "Object_{}", "solid{}_LOD0", "n{}"])
-def test_a_named_thing_in_unnamed_pieces_is_one_object(read, piece):
+def test_a_named_prim_with_unnamed_pieces_is_one_object(read, piece):
     pieces = [xform(f"group_{index}", cube(piece.format(index))) for index in (1, 2, 3)]
     scene = read(xform("World", xform("Chair", *pieces), xform("Table", cube("top"))))
     assert chosen(scene) == {"/World/Chair": OWNER, "/World/Table": OWNER}
@@ -472,21 +472,21 @@ def test_unnamed_pieces_deeper_down_are_still_pieces(read):
     assert list(chosen(read(xform("World", xform("Chair", *pieces), cube("box"))))) == ["/World/Chair", "/World/box"]
 
 
-def test_one_named_piece_keeps_all_pieces_apart(read):
+def test_one_named_piece_keeps_all_pieces_separate(read):
     pieces = xform("n1", cube("mesh_1")) + xform("Cushion", cube("mesh_2"))
     scene = read(xform("World", xform("Chair", pieces), cube("box")))
     assert list(chosen(scene)) == ["/World/Chair/n1", "/World/Chair/Cushion", "/World/box"]
 
 
 @pytest.mark.parametrize("name", ["Furniture", "Chair_grp"])
-def test_a_grouping_does_not_swallow_unnamed_pieces(read, name):
+def test_a_grouping_does_not_merge_unnamed_pieces(read, name):
     pieces = [xform(f"n{index}", cube(f"mesh_{index}")) for index in (1, 2)]
     scene = read(xform("World", xform("Corner", component("Lamp", cube("bulb")), xform(name, *pieces)), cube("box")))
     assert f"/World/Corner/{name}" not in scene.by_path
     assert [path for path in chosen(scene) if "/n" in path] == [f"/World/Corner/{name}/n{index}" for index in (1, 2)]
 
 
-def test_the_root_of_the_stage_does_not_swallow_unnamed_pieces(read):
+def test_the_root_of_the_stage_does_not_merge_unnamed_pieces(read):
     pieces = [xform(f"n{index}", cube(f"mesh_{index}")) for index in (1, 2)]
     assert list(chosen(read(xform("Kitchen", *pieces)))) == ["/Kitchen/n1", "/Kitchen/n2"]
 
@@ -508,13 +508,13 @@ def links(*more, count=5, holder="/World/Arm", world=False):
 
 
 @pytest.mark.parametrize("world", [False, True])
-def test_five_links_side_by_side_are_one_robot(read, world):
+def test_five_sibling_links_are_one_robot(read, world):
     scene = read(xform("World", links(world=world), cube("box")))
     assert chosen(scene) == {"/World/Arm": ROBOT, "/World/box": OWNER}
     assert scene.by_path["/World/Arm"].parts[:2] == ("link0", "mesh0")
 
 
-def test_links_side_by_side_within_an_instance_are_one_robot(read, write_stage):
+def test_sibling_links_within_an_instance_are_one_robot(read, write_stage):
     write_stage('(\n    defaultPrim = "Arm"\n)\n' + links(holder="/Arm"), "arm.usda")
     arms = [reference(f"Arm{index}", "arm.usda", meta=["instanceable = true"]) for index in (1, 2)]
     assert chosen(read(xform("World", *arms, cube("box")))) == {
@@ -530,19 +530,19 @@ def test_four_links_have_too_few_joints_for_a_robot(read):
 
 
 @pytest.mark.parametrize("other", [rigid("Cup", cube("a")), component("Cup", cube("a"))], ids=["body", "component"])
-def test_links_beside_another_object_stay_apart(read, other):
+def test_links_beside_another_object_are_not_merged(read, other):
     scene = read(xform("World", links(other), cube("box")))
     assert ROBOT not in chosen(scene).values()
     assert len(scene.objects) == 7
 
 
-def test_links_below_the_root_beside_other_things_stay_apart(read):
+def test_links_below_the_root_beside_other_objects_are_not_merged(read):
     scene = read(links(cube("Table"), rigid("Cup", cube("a")), holder="/World"))
     assert ROBOT not in chosen(scene).values()
     assert len(scene.objects) == 7
 
 
-def test_wheels_in_a_star_are_no_arm(read):
+def test_wheels_on_one_base_are_not_an_arm(read):
     wheels = [rigid(f"wheel{index}", cube(f"tyre{index}")) for index in range(6)]
     joints = [joint(index, "chassis", f"wheel{index}") for index in range(6)]
     cart = xform("Arm", rigid("chassis", cube("deck")), *wheels, *joints)
@@ -551,14 +551,14 @@ def test_wheels_in_a_star_are_no_arm(read):
 
 
 @pytest.mark.parametrize("closing", [("link4", "link0"), ("link4", "link1"), ("link2", "link2")])
-def test_joints_in_a_circle_come_to_an_end(read, closing):
-    # Which of the two joints of the body where the circle closes counts, nobody can say.
+def test_cyclic_joints_terminate(read, closing):
+    # Which of the two joints at the closing body counts is undefined.
     scene = read(xform("World", links(joint(9, *closing)), cube("box")))
     assert "/World/box" in scene.by_path
     assert len(scene.objects) in {2, 6}
 
 
-def test_a_robot_beside_furniture_with_drawers_of_its_own_joints(read):
+def test_a_robot_beside_furniture_with_joints(read):
     drawers = [rigid(f"Drawer{index}", cube(f"front{index}")) for index in range(6)]
     slides = [joint(i, "Case", f"Drawer{i}", "PhysicsPrismaticJoint", "/World/Cabinet") for i in range(5)]
     door = joint(5, "Case", "Drawer5", holder="/World/Cabinet")
@@ -577,7 +577,7 @@ def test_two_robots_are_two(read):
     assert chosen(scene) == {"/World/Arm": ROBOT, "/World/Arm2": ROBOT, "/World/box": OWNER}
 
 
-def test_a_robot_that_is_bolted_to_a_table_leaves_the_room_alone(read):
+def test_a_robot_fixed_to_a_table_does_not_merge_the_room(read):
     bodies = [f"rel physics:body{side} = <{path}>" for side, path in ((0, "/World/Table"), (1, "/World/Arm/link0"))]
     bolt = prim("PhysicsFixedJoint", "bolt", *bodies)
     found = chosen(read(xform("World", links(bolt), rigid("Table", cube("top")), xform("Sofa", cube("a"), cube("b")))))
@@ -586,7 +586,7 @@ def test_a_robot_that_is_bolted_to_a_table_leaves_the_room_alone(read):
 
 
 @pytest.mark.parametrize("holder", ["/World", "/World/Corner"])
-def test_a_robot_does_not_swallow_the_things_beside_it(read, holder):
+def test_a_robot_does_not_merge_the_objects_beside_it(read, holder):
     arm = links(xform("Sofa", cube("seat"), cube("back")), holder=holder)
     scene = read(arm if holder == "/World" else xform("World", arm, cube("box")))
     assert f"{holder}/Sofa" in scene.by_path

@@ -1,4 +1,4 @@
-"""What a user says about how a stage is to be read, and the answer to "why is this an object?"."""
+"""Options of reading, explanations of the selection, and sanity checks."""
 
 import math
 
@@ -27,7 +27,7 @@ def _read(read, *, layer=None, **selection):
     return read(xform("World", ROOM), **arguments)
 
 
-def test_nothing_said_changes_nothing(read):
+def test_empty_overrides_change_nothing(read):
     assert _paths(_read(read)) == ["Chair_1", "Chair_2", "Wall"]
 
 
@@ -43,11 +43,11 @@ def test_a_pattern_excludes_with_all_below(read):
     assert _paths(_read(read, include=("/World/**/leg",), exclude=("/World/Chair_1",))) == ["Chair_2", "Wall"]
 
 
-def test_a_list_is_the_whole_answer(read):
+def test_a_list_of_paths_replaces_the_rules(read):
     assert _paths(_read(read, only=("/World/Chair_1/seat", "/World/Wall", "/World/None"))) == ["Chair_1/seat", "Wall"]
 
 
-def test_other_kinds_make_objects(read):
+def test_other_kinds_can_be_objects(read):
     scene = read(
         xform("World", xform("Set", component("Cup", cube("a")), component("Saucer", cube("a")), kind="group")),
         options=ReadOptions(selection=SelectionOverrides(kinds=("group",))),
@@ -82,7 +82,7 @@ def test_patterns(pattern, path, fits):
     assert bool(path_pattern(pattern).fullmatch(path)) is fits
 
 
-def test_units_and_axis_of_the_user_win(read):
+def test_options_override_units_and_axis(read):
     layer = header(metersPerUnit=0.01, upAxis="Y")
     tall = cube("box", ops(("double3", "scale", (1, 2, 3))), size=1)
     assert read(xform("World", tall, cube("b")), layer=layer).by_path["/World/box"].box.size == pytest.approx(
@@ -109,7 +109,7 @@ def test_impossible_axis_is_refused():
         ReadOptions(up_axis="X")
 
 
-def test_the_time_of_the_user(read):
+def test_reads_the_given_time(read):
     moving = prim(
         "Cube",
         "Ball",
@@ -124,7 +124,7 @@ def test_the_time_of_the_user(read):
     assert (earliest.time, halfway.time) == (None, 2.0)
 
 
-def test_why(write_stage):
+def test_explains_why_a_prim_is_an_object(write_stage):
     source = write_stage(
         xform(
             "World",
@@ -152,7 +152,7 @@ def test_why(write_stage):
         explain_choice(source, "/World/Nope")
 
 
-def test_a_stage_that_is_open_is_read_as_it_stands(write_stage):
+def test_an_open_stage_is_read_with_its_current_state(write_stage):
     source = write_stage(xform("World", component("Cup", cube("a"), meta=['variants = { string size = "small" }'])))
     stage = Usd.Stage.Open(str(source))
     before = read_scene(stage)
@@ -198,18 +198,18 @@ def _angles(count):
 
 
 @pytest.mark.parametrize("degrees", [0, 30, 45, 90, 123])
-def test_a_round_table_is_as_wide_however_it_is_turned(read, degrees):
+def test_rotation_keeps_the_width_of_a_round_table(read, degrees):
     scene = read(xform("World", _disc("table", degrees), cube("b")))
     # Turning the extent by 45 degrees would make it 2 * sqrt(2) = 2.83 wide.
     assert scene.by_path["/World/table"].box.size == pytest.approx((2, 2, 0), abs=0.01)
 
 
-def test_a_group_of_turned_meshes_is_measured_by_its_points(read):
+def test_rotated_meshes_are_measured_by_their_points(read):
     scene = read(xform("World", component("Table", _disc("a", 45), _disc("b", 45)), cube("b")))
     assert scene.by_path["/World/Table"].box.size == pytest.approx((2, 2, 0), abs=0.01)
 
 
-def test_an_extent_inside_out_is_measured_by_its_points(read):
+def test_a_mesh_with_an_inverted_extent_is_measured_by_its_points(read):
     inverted = prim(
         "Mesh",
         "plate",
@@ -221,7 +221,7 @@ def test_an_extent_inside_out_is_measured_by_its_points(read):
     assert read(xform("World", inverted, cube("b"))).by_path["/World/plate"].box.size == (2, 3, 0)
 
 
-def test_the_extent_along_its_own_axes_where_it_is_turned(read):
+def test_oriented_size_of_a_rotated_object(read):
     board = component("Board", cube("a", ops(("double3", "scale", (4, 1, 2)))), meta=())
     turned = xform(
         "Turned", cube("a", ops(("double3", "scale", (4, 1, 2)))), ops(("double", "rotateZ", 30)), kind="component"
@@ -274,8 +274,8 @@ def _row(count, step=1.0, size=1.0):
     return [cube(f"c{i}", size=size, at=(i * step, 0, 0)) for i in range(count)]
 
 
-def test_a_room_36_centimetres_wide_is_told(read):
-    # Metres in a file that says nothing of its unit: the fallback makes the room 1/100 of its size.
+def test_an_implausibly_small_room_is_reported(read):
+    # The file is in metres without saying so: the fallback makes the room 1/100 of its size.
     scene = read(xform("World", *_row(36)), layer=header(upAxis="Z"))
     notes = [note.message for note in scene.diagnostics if note.code == "units"]
     assert any(
@@ -285,11 +285,11 @@ def test_a_room_36_centimetres_wide_is_told(read):
     assert any("--metres-per-unit" in note for note in notes)
 
 
-def test_a_room_of_usual_size_is_not_told(read):
+def test_a_room_of_plausible_size_is_not_reported(read):
     assert not [note for note in read(xform("World", *_row(5))).diagnostics if note.code == "units"]
 
 
-def test_a_book_343_km_away_is_kept_and_told(read):
+def test_an_outlier_is_kept_and_reported(read):
     scene = read(xform("World", *_row(8), cube("book", at=(0, 0, 343_000))))
     (note,) = [note for note in scene.diagnostics if note.code == "outlier"]
     assert note.prim_path == "/World/book"
@@ -298,7 +298,7 @@ def test_a_book_343_km_away_is_kept_and_told(read):
     assert scene.extent_without({"/World/book"}).size == pytest.approx((8, 1, 1))
 
 
-def test_a_sky_dome_is_told(read):
+def test_a_sky_dome_is_reported(read):
     scene = read(xform("World", *_row(8), cube("sky", size=5000)))
     (note,) = [note for note in scene.diagnostics if note.code == "outlier"]
     assert (note.prim_path, "sky dome" in note.message) == ("/World/sky", True)

@@ -39,7 +39,7 @@ def test_rotation_of_the_quaternion_is_written_x_y_z_w(read):
     assert thing.orientation == pytest.approx((0.5, 0.5, 0.5, 0.5))
 
 
-def test_y_up_frame_is_tipped_up(read):
+def test_y_up_frame_is_rotated_to_z_up(read):
     # The prim's y axis becomes the world's z: a quarter turn about x.
     thing, _ = pose(read, ("double3", "translate", (1, 2, 3)), layer=Y_UP)
     assert thing.position == (1, -3, 2)
@@ -60,13 +60,13 @@ def test_position_is_in_metres_and_world_wide(read):
     assert thing.position == pytest.approx((0, 1.5, 0), abs=1e-12)
 
 
-def test_scale_is_taken_out(read):
+def test_rotation_excludes_scale(read):
     thing, notes = pose(read, ("double", "rotateZ", 90), ("double3", "scale", (2, 5, 0.1)))
     assert thing.orientation == pytest.approx((0, 0, HALF, HALF))
     assert notes == []
 
 
-def test_mirroring_is_taken_out(read):
+def test_rotation_excludes_mirroring(read):
     # diag(-1, 1, 1) is the point reflection of diag(1, -1, -1), half a turn about x.
     thing, notes = pose(read, ("double3", "scale", (-1, 1, 1)))
     assert thing.orientation == pytest.approx((1, 0, 0, 0))
@@ -74,7 +74,7 @@ def test_mirroring_is_taken_out(read):
 
 
 @pytest.mark.parametrize("factors", [(0, 0, 0), (1, 0, 1)])
-def test_zero_scale_has_a_place_and_no_rotation(read, factors):
+def test_zero_scale_has_a_position_but_no_rotation(read, factors):
     thing, notes = pose(
         read, ("double3", "translate", (1, 2, 3)), ("double", "rotateZ", 90), ("double3", "scale", factors)
     )
@@ -92,7 +92,7 @@ def test_non_finite_transform_has_no_pose(read):
 
 
 @pytest.mark.parametrize("axis", "XYZ")
-def test_half_turns_either_way_are_written_the_same(read, axis):
+def test_half_turns_in_both_directions_have_the_same_quaternion(read, axis):
     # 180 and -180 degrees are one rotation; w is 0 but for rounding, so its sign must not decide.
     there, _ = pose(read, ("double", f"rotate{axis}", 180))
     back, _ = pose(read, ("double", f"rotate{axis}", -180))

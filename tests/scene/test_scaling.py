@@ -1,4 +1,4 @@
-"""How reading grows with the stage: by calls and bytes where those tell, by the clock with generous slack where not."""
+"""Time and memory of reading are linear in the size of the stage, measured by calls, bytes or the clock."""
 
 import cProfile
 import gc

@@ -1,4 +1,4 @@
-"""Opening a stage: what cannot be read, what is missing, what it measures in."""
+"""Opening stages: unreadable files, missing assets, units."""
 
 import hashlib
 import subprocess
@@ -16,7 +16,7 @@ CUBE = xform("World", cube("box"))
 
 
 def refusal(path):
-    """Return the message with which `path` is refused, after the path itself; it is one line."""
+    """Return the error message about `path` after the path itself, and check that it is one line."""
     with pytest.raises(SceneError) as caught:
         read_scene(path)
     message = str(caught.value)
@@ -55,7 +55,7 @@ def test_empty_file_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize(("name", "ending"), [("scene.txt", "'.txt'"), ("scene.gltf", "'.gltf'"), ("scene", "missing")])
-def test_other_endings_are_refused_with_the_ending(tmp_path, name, ending):
+def test_unknown_suffixes_are_refused(tmp_path, name, ending):
     path = tmp_path / name
     path.write_text("#usda 1.0\n" + CUBE)
     message = refusal(path)
@@ -65,7 +65,7 @@ def test_other_endings_are_refused_with_the_ending(tmp_path, name, ending):
 
 
 @pytest.mark.parametrize("name", ["a.usd", "a.usda", "a.usdc", "a.usdz"])
-def test_text_that_is_no_layer_is_refused(tmp_path, name, capfd):
+def test_text_that_is_not_a_layer_is_refused(tmp_path, name, capfd):
     path = tmp_path / name
     path.write_text("A kitchen with a table.\n")
     message = refusal(path)
@@ -81,7 +81,7 @@ def test_syntax_error_is_located(write_stage):
     assert "wrong" in message
 
 
-def test_latin1_layer_is_refused_and_not_a_crash(tmp_path):
+def test_latin1_layer_is_refused(tmp_path):
     path = tmp_path / "umlaut.usda"
     path.write_bytes('#usda 1.0\ndef Xform "Küche" {}\n'.encode("latin-1"))
     assert refusal(path).startswith("OpenUSD cannot read this layer")
@@ -123,7 +123,7 @@ def test_stage_without_geometry_names_the_commonest_reasons(write_stage):
 
 
 @pytest.mark.parametrize("arc", ["references", "payload"])
-def test_unresolved_arc_keeps_its_object_and_is_told_once(read, write_stage, capfd, arc):
+def test_unresolved_arc_keeps_its_object_and_is_reported_once(read, write_stage, capfd, arc):
     chair = xform("Chair", move(1, 2, 0), meta=[f"{arc} = @chair.usd@"])
     scene = read(xform("World", chair, cube("box")))
     obj = scene.by_path["/World/Chair"]
@@ -136,7 +136,7 @@ def test_unresolved_arc_keeps_its_object_and_is_told_once(read, write_stage, cap
     assert capfd.readouterr() == ("", "")
 
 
-def test_place_of_a_prim_whose_type_went_missing_with_its_asset_is_kept(read):
+def test_position_of_a_prim_whose_asset_and_type_are_missing_is_kept(read):
     # `def "Chair"` leaves the type to the asset; without one OpenUSD does not look at its transform.
     chair = prim("", "Chair", move(1, 2, 0), meta=["references = @chair.usd@"])
     assert read(xform("World", chair, cube("box"))).by_path["/World/Chair"].position == (1, 2, 0)
@@ -157,7 +157,7 @@ def test_missing_prim_of_an_existing_layer_keeps_its_object(read, write_stage):
     assert "/World/Cup" in {note.prim_path for note in scene.diagnostics}
 
 
-def test_missing_sublayer_is_told_with_the_root_layer(read):
+def test_missing_sublayer_is_reported_with_the_root_layer(read):
     scene = read(CUBE, layer="(\n    metersPerUnit = 1\n    subLayers = [@gone.usda@]\n)\n")
     assert [obj.prim_path for obj in scene.objects] == ["/World"]
     note = next(note for note in scene.diagnostics if "gone.usda" in note.message)
@@ -221,7 +221,7 @@ def test_units_are_read_as_authored(read):
     assert scene.diagnostics == ()
 
 
-def test_missing_units_fall_back_and_are_told(read):
+def test_missing_units_fall_back_and_are_reported(read):
     scene, frame = frame_of(read)
     # OpenUSD's fallbacks: a centimetre, y-up, one kilogram.
     assert (frame.metres_per_unit, frame.up_axis, frame.kilograms_per_unit, frame.is_authored) == (
@@ -236,7 +236,7 @@ def test_missing_units_fall_back_and_are_told(read):
 
 
 @pytest.mark.parametrize("value", [-1, 0, "inf", "nan"])
-def test_impossible_metres_per_unit_fall_back_and_are_told(read, value):
+def test_invalid_metres_per_unit_falls_back_and_is_reported(read, value):
     text = f"(\n    metersPerUnit = {value}\n)\n"
     scene = read(CUBE, layer=text)
     assert scene.frame.metres_per_unit == 0.01
@@ -260,14 +260,14 @@ def test_metres_per_unit_authored_as_float_means_the_number_typed(tmp_path):
     assert scene.objects[0].box.size == (1.0, 1.0, 1.0)
 
 
-def test_wrong_up_axis_is_told_and_y_is_used(read):
+def test_invalid_up_axis_is_reported_and_y_is_used(read):
     scene, frame = frame_of(read, metersPerUnit=1, upAxis="X")
     assert frame.up_axis == "Y"
     assert [note.message for note in scene.diagnostics] == ["upAxis is 'X', expected Y or Z; Y is used"]
 
 
 @pytest.mark.parametrize("value", [-2, 0, "inf"])
-def test_impossible_kilograms_per_unit_count_as_one_and_are_told(read, value):
+def test_invalid_kilograms_per_unit_falls_back_and_is_reported(read, value):
     scene = read(CUBE, layer=f"(\n    metersPerUnit = 1\n    kilogramsPerUnit = {value}\n)\n")
     assert scene.frame.kilograms_per_unit == 1.0
     assert [note.code for note in scene.diagnostics] == ["units"]
@@ -277,7 +277,7 @@ def test_impossible_kilograms_per_unit_count_as_one_and_are_told(read, value):
 # --- what identifies it ------------------------------------------------------------------------------
 
 
-def test_hash_covers_every_layer_and_not_the_place(write_stage):
+def test_hash_depends_on_every_layer_but_not_on_the_path(write_stage):
     def digest(folder, asset_size=1, other_size=1):
         write_stage(cube("Cup", size=asset_size), f"{folder}/asset.usda")
         cup = prim("", "Cup", meta=["references = @asset.usda@</Cup>"])
@@ -387,7 +387,7 @@ def test_an_open_stage_is_left_as_it_was():
     assert stage.GetPrimAtPath("/World/Chair/seat").IsValid()
 
 
-def test_of_a_masked_stage_only_what_is_in_the_mask_is_read(write_stage):
+def test_only_masked_prims_of_a_masked_stage_are_read(write_stage):
     stage = Usd.Stage.OpenMasked(str(write_stage(METRES + ROOM)), Usd.StagePopulationMask(["/World/Table"]))
     scene = read_scene(stage)
     assert names(scene) == ["/World/Table"]

@@ -1,4 +1,4 @@
-"""Stages in which nobody named anything: what hangs together is one object."""
+"""Unnamed pieces that are connected are merged into one object."""
 
 import pytest
 
@@ -23,7 +23,7 @@ def sketched_chair(name, x):
     return xform(name, move(x, 0, 0), *legs, seat, back)
 
 
-def test_groups_of_unnamed_pieces_are_one_object_each(read):
+def test_each_group_of_unnamed_pieces_is_one_object(read):
     scene = read(xform("World", *(sketched_chair(f"Group_{10 + i}", 3 * i) for i in range(4))))
     assert chosen(scene) == {f"/World/Group_{10 + i}": PIECES for i in range(4)}
     assert scene.objects[0].box.size == pytest.approx((0.5, 0.5, 1.0))
@@ -33,7 +33,7 @@ def test_groups_of_unnamed_pieces_are_one_object_each(read):
     )
 
 
-def test_a_group_around_several_whole_things_is_none_itself(read):
+def test_a_group_of_several_merged_objects_is_not_an_object(read):
     """3 m apart they do not touch: the outer group is a grouping."""
     chairs = [sketched_chair(f"Group_{10 + i}", 3 * i) for i in range(2)]
     scene = read(xform("World", xform("Group_1", *chairs), cube("floor", size=9, at=(0, 0, -4.5))))
@@ -44,7 +44,7 @@ def test_a_group_around_several_whole_things_is_none_itself(read):
     }
 
 
-def test_the_outermost_group_that_holds_the_same_pieces_is_the_object(read):
+def test_the_outermost_group_with_the_same_pieces_is_the_object(read):
     scene = read(xform("World", xform("Node_1", sketched_chair("Group_10", 0)), cube("floor", size=9)))
     assert PIECES in chosen(scene)["/World/Node_1"]
 
@@ -52,27 +52,27 @@ def test_the_outermost_group_that_holds_the_same_pieces_is_the_object(read):
 @pytest.mark.parametrize(
     ("gap", "is_one"), [pytest.param(0.02, True, id="the gap that is bridged"), pytest.param(0.03, False, id="beyond")]
 )
-def test_pieces_hang_together_over_two_centimetres(read, gap, is_one):
+def test_pieces_are_connected_across_two_centimetres(read, gap, is_one):
     pieces = [xform(f"Group_{i}", cube(f"Mesh_{i}", size=0.5, at=((0.5 + gap - 1e-6) * i, 0, 0))) for i in range(3)]
     scene = read(xform("World", xform("Group_9", *pieces), cube("floor", size=9, at=(0, 0, -9))))
     assert ("/World/Group_9" in chosen(scene)) is is_one
     assert len(scene.objects) == (2 if is_one else 4)
 
 
-def test_what_is_larger_than_furniture_is_no_whole(read):
+def test_pieces_larger_than_furniture_are_not_merged(read):
     pieces = [xform(f"Group_{i}", cube(f"Mesh_{i}", at=(i, 0, 0))) for i in range(4)]
     scene = read(xform("World", xform("Group_9", *pieces), cube("floor", size=9, at=(0, 0, -9))))
     assert len(scene.objects) == 5
 
 
-def test_named_pieces_stay_what_they_are(read):
+def test_named_pieces_are_not_merged(read):
     pieces = [xform("Cup", cube("Mesh_1", size=0.1)), xform("Group_2", cube("Mesh_2", size=0.1))]
     scene = read(xform("World", xform("Group_9", *pieces), cube("floor", size=9, at=(0, 0, -9))))
     assert set(chosen(scene)) == {"/World/Group_9/Cup", "/World/Group_9/Group_2/Mesh_2", "/World/floor"}
 
 
-def test_things_of_several_meshes_are_wholes_themselves(read):
-    """Two unnamed things of two meshes each that touch: a table with a chair pushed under it, say."""
+def test_pieces_of_several_meshes_are_not_merged(read):
+    """Two touching unnamed objects of two meshes each, like a table with a chair pushed under it."""
     things = [
         xform(
             f"part{i}_obj", cube("Mesh_1", size=0.4, at=(0.4 * i, 0, 0)), cube("Mesh_2", size=0.4, at=(0.4 * i, 0, 0.4))
@@ -84,19 +84,19 @@ def test_things_of_several_meshes_are_wholes_themselves(read):
 
 
 @pytest.mark.parametrize("make", [component, rigid])
-def test_models_and_bodies_are_never_pieces(read, make):
+def test_models_and_bodies_are_not_merged(read, make):
     models = [make(f"part{i}_obj", cube(f"Mesh_{i}", size=0.5, at=(0.5 * i, 0, 0))) for i in range(3)]
     scene = read(xform("World", xform("Group_9", *models), cube("floor", size=9, at=(0, 0, -9))))
     assert len(scene.objects) == 4
 
 
-def test_meshes_strewn_over_a_room_are_objects_of_their_own(read):
+def test_disconnected_meshes_in_a_room_are_objects(read):
     lamps = [cube(f"Mesh_{i}", size=0.2, at=(2 * i, 0, 0)) for i in range(4)]
     scene = read(xform("World", xform("Node_1", *lamps), cube("floor", size=9, at=(0, 0, -9))))
     assert set(chosen(scene)) == {*(f"/World/Node_1/Mesh_{i}" for i in range(4)), "/World/floor"}
 
 
-def test_meshes_of_one_large_thing_stay_one(read):
+def test_connected_meshes_of_a_large_object_stay_one_object(read):
     wall = [cube(f"Mesh_{i}", at=(i, 0, 0)) for i in range(5)]
     scene = read(xform("World", xform("Node_1", *wall), cube("floor", size=9, at=(0, 0, -9))))
     assert set(chosen(scene)) == {"/World/Node_1", "/World/floor"}
@@ -114,14 +114,14 @@ def test_a_room_of_thousands_of_pieces(read):
     assert chosen(scene) == {f"/Model/Component_{chair}": PIECES for chair in range(100)}
 
 
-def test_a_stage_without_names_says_so(read):
+def test_many_unnamed_objects_are_reported(read):
     pieces = [cube(f"Mesh_{i}", size=0.1, at=(0.5 * i, 0, 0)) for i in range(30)]
     scene = read(xform("World", *pieces))
     [note] = [note for note in scene.diagnostics if note.code == "unnamed"]
     assert note.message.startswith("30 of 30 objects have no descriptive name (Mesh_0, Mesh_1, Mesh_2, …)")
 
 
-def test_few_unnamed_objects_are_not_worth_a_note(read):
+def test_few_unnamed_objects_are_not_reported(read):
     named = [cube(f"cup_{i}", size=0.1, at=(0.5 * i, 0, 0)) for i in range(30)]
     scene = read(xform("World", *named, cube("Mesh_1", at=(0, 3, 0))))
     assert not [note for note in scene.diagnostics if note.code == "unnamed"]

@@ -1,7 +1,7 @@
-"""Short ways to write small stages as text: one call a prim, nested as the prims are."""
+"""Functions that write small stages as text: one call per prim, nested like the prims."""
 
 METRES = '(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n'
-"""Layer metadata of most stages here."""
+"""Layer metadata of most test stages."""
 
 
 def header(**metadata):
@@ -22,7 +22,7 @@ def prim(type_name, name, *body, meta=(), specifier="def"):
 
 
 def xform(name, *body, meta=(), apis=(), kind=None):
-    """Return an Xform, with API schemas and a model kind if wanted."""
+    """Return an Xform, optionally with API schemas and a model kind."""
     metadata = list(meta)
     if apis:
         metadata.append(f"prepend apiSchemas = [{', '.join(f'{chr(34)}{api}{chr(34)}' for api in apis)}]")
@@ -42,7 +42,7 @@ def rigid(name, *body, meta=()):
 
 
 def cube(name, *body, size=1, at=None, purpose=None, meta=()):
-    """Return a cube of `size` stage units, its middle at `at`."""
+    """Return a cube of `size` stage units, centred at `at`."""
     lines = [f"double size = {size}", *body]
     if at is not None:
         lines.append(move(*at))

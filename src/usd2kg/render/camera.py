@@ -59,7 +59,11 @@ class Camera:
 
 
 def aim(
-    points: NDArray[np.floating], azimuth: float, elevation: float, size: tuple[int, int], margin: float = 0.08
+    points: NDArray[np.floating],
+    azimuth: float,
+    elevation: float,
+    size: tuple[int, int],
+    margin: float = VIEWPOINT.object_margin,
 ) -> Camera:
     """Return a camera that frames all `points` from a direction.
 

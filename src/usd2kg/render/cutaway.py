@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.render.settings import CUTAWAY
 from usd2kg.render.triangle_soup import TriangleSoup
 
 __all__ = ["open_room", "without_ground", "without_strays"]
@@ -16,12 +17,13 @@ def without_strays(soup: TriangleSoup) -> TriangleSoup:
     """Return the triangles without sky domes and far outliers, which would shrink the rest to a dot."""
     low, high = _mesh_boxes(soup)
     extent, middle = (high - low).max(axis=1), (low + high) / 2
-    # The scene is where the middle 60 % of mesh centres are.
     inner_low, center, inner_high = (
-        np.nanquantile(middle, share, axis=0, method="nearest") for share in (0.2, 0.5, 0.8)
+        np.nanquantile(middle, share, axis=0, method="nearest")
+        for share in (CUTAWAY.stray_quantile, 0.5, 1 - CUTAWAY.stray_quantile)
     )
     reach = max(float((inner_high - inner_low).max()), float(np.nanmedian(extent)))
-    is_stray = (np.abs(middle - center).max(axis=1) > 8 * reach) | (extent > 12 * reach)
+    is_far = np.abs(middle - center).max(axis=1) > CUTAWAY.stray_distance * reach
+    is_stray = is_far | (extent > CUTAWAY.stray_extent * reach)
     kept = ~is_stray[soup.mesh]
     return soup.part(kept) if kept.any() else soup
 
@@ -30,12 +32,12 @@ def without_ground(soup: TriangleSoup) -> TriangleSoup:
     """Return the triangles without ground planes that extend far beyond all other meshes, for framing."""
     low, high = _mesh_boxes(soup)
     size = high - low
-    is_flat = size[:, 2] < 0.02 * size.max(axis=1)
+    is_flat = size[:, 2] < CUTAWAY.flat_ratio * size.max(axis=1)
     rest = ~is_flat & np.isfinite(size).all(axis=1)
     if not rest.any():
         return soup
     built = (high[rest].max(axis=0) - low[rest].min(axis=0))[:2].max()
-    is_ground = is_flat & (size[:, :2].max(axis=1) > 1.4 * built)
+    is_ground = is_flat & (size[:, :2].max(axis=1) > CUTAWAY.ground_ratio * built)
     return soup.part(~is_ground[soup.mesh])
 
 
@@ -53,24 +55,27 @@ def open_room(soup: TriangleSoup, azimuth: float, kept_meshes: int = 0) -> Trian
     z0, z1, z2 = corners[..., 2].T
     bottom = np.minimum(np.minimum(z0, z1), z2)
     rise = np.maximum(np.maximum(z0, z1), z2) - bottom
-    is_wide = (size[:, :2] > 0.5 * span[:2]).all(axis=1)
-    is_out = bottom > floor[2] + np.where(is_wide[soup.mesh], 0.8, 0.95) * span[2]
+    rules = CUTAWAY
+    is_wide = (size[:, :2] > rules.wide_share * span[:2]).all(axis=1)
+    is_out = bottom > floor[2] + np.where(is_wide[soup.mesh], rules.ceiling_height, rules.top_height) * span[2]
     # A roof may slope: remove flat-ish triangles high up in a mesh as wide as the scene.
-    is_out |= is_wide[soup.mesh] & (bottom > floor[2] + 0.55 * span[2]) & (_steepness(corners) < 0.8)
-    is_tall = size[:, 2] > 0.6 * span[2]
+    is_high = bottom > floor[2] + rules.roof_height * span[2]
+    is_out |= is_wide[soup.mesh] & is_high & (_steepness(corners) < rules.roof_steepness)
+    is_tall = size[:, 2] > rules.tall_share * span[2]
     for axis, toward in ((0, math.cos(math.radians(azimuth))), (1, math.sin(math.radians(azimuth)))):
         across = 1 - axis
         # Distance that each mesh extends into the scene from the near side, in metres.
         inward = top[axis] - low[:, axis] if toward > 0 else high[:, axis] - floor[axis]
-        is_thin = size[:, axis] < 0.08 * span.max()
-        is_wall = is_tall & is_thin & (size[:, across] > 0.25 * span[across]) & (inward < 0.15 * span[axis])
+        is_thin = size[:, axis] < rules.wall_thickness * span.max()
+        is_near = inward < rules.wall_distance * span[axis]
+        is_wall = is_tall & is_thin & is_near & (size[:, across] > rules.wall_width * span[across])
         if is_wall.any():
-            is_out |= (inward < inward[is_wall].max() + 0.08 * span[2])[soup.mesh]
+            is_out |= (inward < inward[is_wall].max() + rules.wall_reach * span[2])[soup.mesh]
         # A room shell in one mesh: cut out its near wall triangle by triangle.
-        is_shell = is_tall & (size[:, :2] > 0.6 * span[:2]).all(axis=1)
+        is_shell = is_tall & (size[:, :2] > rules.shell_share * span[:2]).all(axis=1)
         depth = top[axis] - corners[..., axis] if toward > 0 else corners[..., axis] - floor[axis]
-        is_near = (depth < 0.1 * span[2]).all(axis=1) & (rise > 0.02 * span[2])
-        is_out |= is_shell[soup.mesh] & is_near
+        is_front = (depth < rules.shell_depth * span[2]).all(axis=1) & (rise > rules.shell_rise * span[2])
+        is_out |= is_shell[soup.mesh] & is_front
     kept = ~is_out | (soup.mesh < kept_meshes)
     return soup.part(kept) if kept.any() else soup
 

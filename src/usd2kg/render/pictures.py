@@ -29,6 +29,8 @@ Size = tuple[int, int]
 _BACKGROUND = np.array(PICTURE.background)
 _HIGHLIGHT = np.array(PICTURE.highlight)
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+"""Luminance of linear RGB (ITU-R BT.709)."""
+_OBJECT_PREVIEW, _SCENE_PREVIEW, _CONTEXT_PREVIEW = VIEWPOINT.preview_size
 
 
 class SceneView(NamedTuple):
@@ -46,7 +48,7 @@ def picture_of_object(soup: TriangleSoup, size: Size) -> Pixels:
     elevation = VIEWPOINT.flat_object_elevation if is_flat else VIEWPOINT.object_elevation
     views = [aim(points, VIEWPOINT.front + turn, elevation, size) for turn in VIEWPOINT.corner_turns]
     # Doors and knobs are at the front, and have more edges than the back.
-    detail = [_detail(view.scaled(96 / max(size)), soup, is_smooth=True) for view in views]
+    detail = [_detail(view.scaled(_OBJECT_PREVIEW / max(size)), soup, is_smooth=True) for view in views]
     camera = views[_first_clearly_best(detail, VIEWPOINT.object_gain)]
     return _downsample(draw(camera.scaled(PICTURE.samples), soup).over(_BACKGROUND))
 
@@ -65,9 +67,12 @@ def choose_scene_view(soup: TriangleSoup, size: Size) -> SceneView:
         visible = open_room(soup, VIEWPOINT.front + turn)
         points = without_ground(visible).used_points()
         views.append(
-            SceneView(aim(points, VIEWPOINT.front + turn, VIEWPOINT.scene_elevation, size, margin=0.03), visible)
+            SceneView(
+                aim(points, VIEWPOINT.front + turn, VIEWPOINT.scene_elevation, size, margin=VIEWPOINT.scene_margin),
+                visible,
+            )
         )
-    detail = [_detail(view.camera.scaled(160 / max(size)), view.soup, is_smooth=False) for view in views]
+    detail = [_detail(view.camera.scaled(_SCENE_PREVIEW / max(size)), view.soup, is_smooth=False) for view in views]
     return views[_first_clearly_best(detail, VIEWPOINT.scene_gain)]
 
 
@@ -95,8 +100,8 @@ def picture_in_context(soup: TriangleSoup, own_meshes: int, size: Size) -> Pixel
     hidden = silhouette & ((drawn.mesh < 0) | (drawn.mesh >= own_meshes))
     if hidden.sum() < PICTURE.occluded_share * silhouette.sum():
         silhouette, hidden = silhouette & ~hidden, np.zeros_like(hidden)
-    light[hidden] = 0.5 * light[hidden] + 0.5 * alone.over(_BACKGROUND)[hidden]
-    light[_dilate(silhouette, 2) & ~silhouette] = 0.75 * _HIGHLIGHT
+    light[hidden] = (1 - PICTURE.hidden_alpha) * light[hidden] + PICTURE.hidden_alpha * alone.over(_BACKGROUND)[hidden]
+    light[_dilate(silhouette, PICTURE.outline_width) & ~silhouette] = PICTURE.outline_light * _HIGHLIGHT
     return _downsample(light)
 
 
@@ -107,10 +112,13 @@ def _choose_context_view(soup: TriangleSoup, own_meshes: int, size: Size) -> Sce
     extent = float((high - low).max())
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
     is_large = extent > VIEWPOINT.large_share * float(np.ptp(soup.used_points(), axis=0).max())
-    padding = 0.15 * extent if is_large else max(0.6 * extent, 0.1)
+    padding = max(VIEWPOINT.context_padding * extent, VIEWPOINT.min_context_padding)
+    if is_large:
+        padding = VIEWPOINT.large_padding * extent
     framed = (low - padding) + corners * (high - low + 2 * padding)
     views, visible_pixels = [], []
-    for elevation, weight in ((VIEWPOINT.scene_elevation, 1.0),) if is_large else VIEWPOINT.context_elevations:
+    elevations = list(zip(VIEWPOINT.context_elevations, VIEWPOINT.context_weights, strict=True))
+    for elevation, weight in [(VIEWPOINT.scene_elevation, 1.0)] if is_large else elevations:
         for turn in VIEWPOINT.corner_turns if is_large else VIEWPOINT.context_turns:
             azimuth = VIEWPOINT.front + turn
             camera = aim(framed, azimuth, elevation, size, margin=0.0)
@@ -120,7 +128,9 @@ def _choose_context_view(soup: TriangleSoup, own_meshes: int, size: Size) -> Sce
                 if is_large
                 else SceneView(camera.cut_before(framed), soup)
             )
-            hits = rasterise(view.camera.scaled(72 / max(size)), view.soup.points, view.soup.triangles).triangle
+            hits = rasterise(
+                view.camera.scaled(_CONTEXT_PREVIEW / max(size)), view.soup.points, view.soup.triangles
+            ).triangle
             visible_pixels.append(weight * float((view.soup.mesh[hits[hits >= 0]] < own_meshes).sum()))
             views.append(view)
     return views[_first_clearly_best(visible_pixels, VIEWPOINT.context_gain)]
@@ -142,7 +152,9 @@ def _first_clearly_best(values: list[float], factor: float) -> int:
 def _detail(camera: Camera, soup: TriangleSoup, *, is_smooth: bool) -> float:
     """Return the number of pixels that differ from the next pixel to the right or below."""
     image = draw(camera, soup, is_smooth=is_smooth).light
-    return float(sum((np.abs(np.diff(image, axis=axis)).max(axis=2) > 0.03).sum() for axis in (0, 1)))
+    return float(
+        sum((np.abs(np.diff(image, axis=axis)).max(axis=2) > VIEWPOINT.detail_difference).sum() for axis in (0, 1))
+    )
 
 
 def _dilate(mask: NDArray[np.bool_], radius: int) -> NDArray[np.bool_]:

@@ -132,7 +132,7 @@ class Renderer:
         """Return the other meshes that overlap the surroundings of an object."""
         low = np.min([mesh.points.min(axis=0) for mesh in meshes], axis=0)
         high = np.max([mesh.points.max(axis=0) for mesh in meshes], axis=0)
-        reach = max(VIEWPOINT.surroundings * float((high - low).max()), VIEWPOINT.least_surroundings)
+        reach = max(VIEWPOINT.surroundings * float((high - low).max()), VIEWPOINT.min_surroundings)
         is_near = ((self._boxes[:, 1] >= low - reach) & (self._boxes[:, 0] <= high + reach)).all(axis=1)
         own = {mesh.prim_path for mesh in meshes}
         return [self._all_meshes[i] for i in np.flatnonzero(is_near) if self._all_meshes[i].prim_path not in own]
@@ -153,7 +153,7 @@ class Renderer:
 
 
 def _check_size(size: Size) -> None:
-    if not all(1 <= side <= PICTURE.largest_side for side in size):
+    if not all(1 <= side <= PICTURE.max_side for side in size):
         raise SceneError(
-            f"cannot draw a picture of {size[0]}x{size[1]} pixels; expected 1 to {PICTURE.largest_side} per side"
+            f"cannot draw a picture of {size[0]}x{size[1]} pixels; expected 1 to {PICTURE.max_side} per side"
         )

@@ -1,103 +1,104 @@
-"""Settings of pictures: light, viewpoint, quality. All were chosen by eye on the demo kitchen and on real scenes."""
+"""Settings of pictures, documented in `knowledge/settings/render.toml`."""
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from usd2kg.knowledge import read_settings
 
-__all__ = ["LIGHTING", "PICTURE", "VIEWPOINT", "LightingSettings", "PictureSettings", "ViewpointSettings"]
-
-Array = NDArray[np.float64]
-
-
-def _unit(*vector: float) -> Array:
-    array = np.array(vector)
-    unit: Array = array / np.linalg.norm(array)
-    return unit
+__all__ = ["CUTAWAY", "LIGHTING", "PICTURE", "VIEWPOINT"]
 
 
 @dataclass(frozen=True)
 class LightingSettings:
-    """Light and edge lines. Directions are in camera axes (right, up, forward); intensities scale linear RGB."""
+    """Light and edge lines."""
 
-    key_light: Array
-    """Direction to the key light: over the viewer's left shoulder."""
-    fill_light: Array
-    """Direction to the fill light."""
-    key_intensity: float = 0.62
-    fill_intensity: float = 0.1
-    sky: float = 0.45
-    """Ambient light on a surface that faces up."""
-    ground: float = 0.25
-    """Ambient light on a surface that faces down."""
-    gloss: float = 0.1
-    """Specular reflection of the key light; with the rim light, it gives black plastic and steel a shape."""
-    gloss_exponent: float = 30
-    rim: float = 0.05
-    """Light on surfaces seen at a grazing angle."""
-    lift: float = 0.012
-    """Light added everywhere, so that black objects do not merge."""
-    line: float = 0.42
-    """Share of the light left on an edge line."""
-    crease_cosine: float = 0.85
-    """Neighbouring pixels whose normals differ by more than this cosine are separated by a line."""
-    depth_step: float = 0.012
-    """Relative second difference of inverse depth above which neighbouring pixels are separated by a line."""
-    transparent_alpha: float = 0.35
-    """Opacity with which transparent meshes are blended over solid ones."""
+    key_light: tuple[float, float, float]
+    fill_light: tuple[float, float, float]
+    key_intensity: float
+    fill_intensity: float
+    sky: float
+    ground: float
+    gloss: float
+    gloss_exponent: float
+    rim: float
+    lift: float
+    line: float
+    crease_cosine: float
+    depth_step: float
+    transparent_alpha: float
 
 
 @dataclass(frozen=True)
 class ViewpointSettings:
-    """Where the camera stands. Angles are degrees; azimuth 0 is +x, counter-clockwise seen from above."""
+    """Positions of the camera."""
 
-    vertical_view_angle: float = 28
-    """A long lens, which keeps verticals nearly parallel."""
-    front: float = -90
-    """Azimuth of the usual front: +y points to the back, as -z does on a y-up stage."""
-    corner_turns: tuple[float, ...] = (-35, 55, 145, 235)
-    """Three-quarter views relative to the front; the first is the default."""
-    context_turns: tuple[float, ...] = (-35, 35, 80, -80, 125, -125, 170, -170)
-    """Views tried for an object in its surroundings, relative to the front."""
-    context_elevations: tuple[tuple[float, float], ...] = ((28, 1), (50, 1), (-18, 0.6))
-    """(elevation, weight of a visible pixel): a view from below wins only where it shows much more, as for lamps."""
-    scene_elevation: float = 40
-    object_elevation: float = 24
-    flat_object_elevation: float = 42
-    flat_object_ratio: float = 0.2
-    """Height over width below which an object is seen from higher up."""
-    object_gain: float = 1.1
-    """Another view of an object must show this many times the detail of the default view."""
-    scene_gain: float = 1.2
-    context_gain: float = 1.08
-    large_share: float = 0.35
-    """Share of the extent of its surroundings from which an object is viewed as a room is: cut open, from outside."""
-    surroundings: float = 3.0
-    """Radius of the surroundings that are drawn, in extents of the object."""
-    least_surroundings: float = 0.6
-    """Metres."""
+    vertical_view_angle: float
+    front: float
+    corner_turns: tuple[float, ...]
+    context_turns: tuple[float, ...]
+    context_elevations: tuple[float, ...]
+    context_weights: tuple[float, ...]
+    scene_elevation: float
+    object_elevation: float
+    flat_object_elevation: float
+    flat_object_ratio: float
+    object_gain: float
+    scene_gain: float
+    context_gain: float
+    large_share: float
+    surroundings: float
+    min_surroundings: float
+    scene_margin: float
+    object_margin: float
+    large_padding: float
+    context_padding: float
+    min_context_padding: float
+    preview_size: tuple[int, int, int]
+    detail_difference: float
+
+
+@dataclass(frozen=True)
+class CutawaySettings:
+    """What is removed to look into a scene."""
+
+    stray_quantile: float
+    stray_distance: float
+    stray_extent: float
+    flat_ratio: float
+    ground_ratio: float
+    wide_share: float
+    ceiling_height: float
+    top_height: float
+    roof_height: float
+    roof_steepness: float
+    tall_share: float
+    wall_thickness: float
+    wall_width: float
+    wall_distance: float
+    wall_reach: float
+    shell_share: float
+    shell_depth: float
+    shell_rise: float
 
 
 @dataclass(frozen=True)
 class PictureSettings:
-    """Sizes, colours and quality of pictures. Colours are linear RGB."""
+    """Sizes, colours and quality of pictures."""
 
-    thumbnail_size: tuple[int, int] = (256, 256)
-    scene_size: tuple[int, int] = (800, 600)
-    largest_side: int = 4096
-    """Pixels."""
-    samples: int = 2
-    """Samples per pixel along each axis."""
-    background: tuple[float, float, float] = (0.66, 0.69, 0.72)
-    highlight: tuple[float, float, float] = (1.0, 0.33, 0.03)
-    occluded_share: float = 0.6
-    """Hidden share of an object above which its hidden part is blended in."""
-    smooth_angle: float = 42
-    """Degrees: faces that meet at a smaller angle share their normals."""
-    most_faces_at_point: int = 64
-    """A point shared by more faces keeps the faces' own normals: averaging them would take quadratic time."""
+    thumbnail_size: tuple[int, int]
+    scene_size: tuple[int, int]
+    max_side: int
+    samples: int
+    background: tuple[float, float, float]
+    highlight: tuple[float, float, float]
+    occluded_share: float
+    hidden_alpha: float
+    outline_width: int
+    outline_light: float
+    smooth_angle: float
+    max_faces_at_point: int
 
 
-LIGHTING = LightingSettings(key_light=_unit(-0.5, 0.75, -0.9), fill_light=_unit(0.9, 0.1, -0.5))
-VIEWPOINT = ViewpointSettings()
-PICTURE = PictureSettings()
+LIGHTING = read_settings("render", "lighting", LightingSettings)
+VIEWPOINT = read_settings("render", "viewpoint", ViewpointSettings)
+CUTAWAY = read_settings("render", "cutaway", CutawaySettings)
+PICTURE = read_settings("render", "picture", PictureSettings)

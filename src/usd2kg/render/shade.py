@@ -14,6 +14,10 @@ __all__ = ["ShadedImage", "draw", "to_srgb"]
 
 Image = NDArray[np.float64]
 
+_KEY_LIGHT, _FILL_LIGHT = (
+    np.array(light) / np.linalg.norm(light) for light in (LIGHTING.key_light, LIGHTING.fill_light)
+)
+
 
 class ShadedImage(NamedTuple):
     """An image before it is composited over a background."""
@@ -114,9 +118,9 @@ def _lit(camera: Camera, colors: Image, normal: Image, rays: Image) -> Image:
     settings = LIGHTING
     up = camera.axes[:, 2]
     diffuse = settings.ground + (settings.sky - settings.ground) * (0.5 + 0.5 * (normal @ up))
-    diffuse += settings.key_intensity * np.maximum(normal @ settings.key_light, 0)
-    diffuse += settings.fill_intensity * np.maximum(normal @ settings.fill_light, 0)
-    half = settings.key_light - rays
+    diffuse += settings.key_intensity * np.maximum(normal @ _KEY_LIGHT, 0)
+    diffuse += settings.fill_intensity * np.maximum(normal @ _FILL_LIGHT, 0)
+    half = _KEY_LIGHT - rays
     half /= np.maximum(np.linalg.norm(half, axis=1, keepdims=True), 1e-9)
     gloss = settings.gloss * np.maximum(np.einsum("ij,ij->i", normal, half), 0) ** settings.gloss_exponent
     rim = settings.rim * (1 - np.clip(-np.einsum("ij,ij->i", normal, rays), 0, 1)) ** 3

@@ -84,7 +84,7 @@ def corner_normals(points: NDArray[np.float32], triangles: NDArray[np.int64], wa
     count = np.bincount(place.reshape(-1), minlength=1)
     start = np.cumsum(count) - count
     asked = place[wanted].reshape(-1)
-    counts = np.where(count[asked] <= PICTURE.most_faces_at_point, count[asked], 0)
+    counts = np.where(count[asked] <= PICTURE.max_faces_at_point, count[asked], 0)
     of = np.repeat(np.arange(len(asked)), counts)
     ends = np.cumsum(counts)
     nth = np.arange(len(of)) - np.repeat(ends - counts, counts)

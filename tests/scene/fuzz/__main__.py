@@ -1,8 +1,8 @@
-"""A fuzz test of the stage reader: small stages are mangled at random and read, each in a child process.
+"""Fuzz test of the stage reader: small stages are mutated at random and read in child processes.
 
-`python -m tests.scene.fuzz --seconds 600 --seed 1 [--keep DIR]` prints what happened to how many stages and
-returns 1 if the reader broke its promise: a sane Scene or a SceneError of one line, in time and in silence. Mangled
-files may crash OpenUSD itself, or keep it busy for ever; this is counted apart. The same seed makes the same files.
+`python -m tests.scene.fuzz --seconds 600 --seed 1 [--keep DIR]` prints the number of stages per outcome and returns 1
+if the reader failed to return a valid Scene or a SceneError of one line, in time and without output. Crashes and
+endless loops of OpenUSD itself are counted separately. The same seed gives the same files.
 """
 
 import argparse
@@ -13,11 +13,11 @@ from tests.scene.fuzz.loop import all_cases, fuzz
 
 
 def main() -> int:
-    """Fuzz for a while; return 1 if the reader did something wrong."""
+    """Run the fuzz test; return 1 if the reader failed."""
     parser = argparse.ArgumentParser(prog="python -m tests.scene.fuzz", description=__doc__.splitlines()[0])
-    parser.add_argument("--seconds", type=float, default=600, help="how long (default: 600)")
-    parser.add_argument("--seed", type=int, default=1, help="same seed, same files (default: 1)")
-    parser.add_argument("--keep", type=Path, help="folder for the files of all faults")
+    parser.add_argument("--seconds", type=float, default=600, help="duration (default: 600)")
+    parser.add_argument("--seed", type=int, default=1, help="the same seed gives the same files (default: 1)")
+    parser.add_argument("--keep", type=Path, help="folder for the files of failing cases")
     arguments = parser.parse_args()
     tally = fuzz(all_cases(arguments.seed), arguments.seconds)
     print(tally)

@@ -1,4 +1,4 @@
-"""What is mangled: small stages of our own that use all that the reader looks at, and those of others."""
+"""Corpus: small stages that use every feature the reader reads, and small third-party files."""
 
 from pathlib import Path
 
@@ -9,10 +9,10 @@ from tests.scene.usda import METRES, component, cube, header, move, ops, prim, r
 from usd2kg.scene.stage import captured_diagnostics
 
 _LARGEST = 100_000
-"""Bytes of the largest file of others that is mangled."""
+"""Bytes of the largest third-party file in the corpus."""
 
 Files = dict[str, bytes]
-"""Name → content of one stage's files, the root layer first."""
+"""Name → content of the files of one stage, the root layer first."""
 
 _TRIANGLES = (
     "point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 2)]\nint[] faceVertexCounts = [3, 3]\n"
@@ -29,7 +29,7 @@ _OPS = (
 
 
 def own_corpus() -> dict[str, Files]:
-    """Return small stages by name, as text; `base.usda` is a layer beside the root that others refer to."""
+    """Return small stages by name, as text; they reference the layer `base.usda` beside the root layer."""
     base = METRES.replace("(\n", '(\n    defaultPrim = "Chair"\n', 1) + _CHAIR
     stages = {
         "kinds": _kinds(), "arcs": _arcs(), "variants": _variants(), "instances": _instances(),
@@ -190,16 +190,18 @@ def _classes():
 
 
 def shared_corpus() -> dict[str, Files]:
-    """Return the small files among the awkward ones of others; empty where they are absent."""
+    """Return the small ones of the shared awkward files; empty if the folder is missing."""
     folder = SHARED / "scenes" / "awkward"
     paths = [path for path in sorted(folder.rglob("*.usd*")) if path.stat().st_size < _LARGEST]
     return {str(path.relative_to(folder)): {path.name: path.read_bytes()} for path in paths}
 
 
 def as_crate(files: Files, folder: Path) -> Files | None:
-    """Return a stage with its root layer in OpenUSD's binary format, None if it is no text that OpenUSD reads.
+    """Return a stage with its root layer as crate, OpenUSD's binary format; None if OpenUSD cannot read the text.
 
-    `folder` holds it for a moment.
+    Args:
+        files: the stage as text.
+        folder: where the crate is written temporarily.
     """
     (name, data), *others = files.items()
     path = folder / f"{Path(name).stem}.usdc"
@@ -214,7 +216,7 @@ def as_crate(files: Files, folder: Path) -> Files | None:
 
 
 def text_of(data: bytes) -> str:
-    """Return a layer of text; empty if it is none."""
+    """Return the text of a layer; empty if it is not a text layer."""
     try:
         return data.decode() if data.startswith(b"#usda") else ""
     except UnicodeDecodeError:

@@ -1,4 +1,4 @@
-"""Mangling and reading one stage after the other, and counting what happens."""
+"""Mutate and read stages, and count the outcomes."""
 
 import itertools
 import math
@@ -18,24 +18,24 @@ from tests.scene.fuzz.mutators import mangle_bytes, mangle_text
 from tests.scene.fuzz.worker import OPENUSDS, Judge, Outcome, Verdict, write_files
 
 _KEPT = 3
-"""Cases kept of each failure."""
+"""Cases kept per failure."""
 
 
 class Case(NamedTuple):
-    """One mangled stage."""
+    """One mutated stage."""
 
     name: str
-    """Seed, number and what it was made of; the same name means the same files."""
+    """Seed, number and original stage; the same name means the same files."""
     files: Files
 
 
 @dataclass
 class Tally:
-    """What happened to all cases."""
+    """The outcomes of all cases."""
 
     outcomes: Counter[str] = field(default_factory=Counter)
     found: dict[Verdict, list[Case]] = field(default_factory=dict)
-    """Each fault of OpenUSD or ours, told apart by place, with its first cases."""
+    """Faults of OpenUSD or usd2kg, by place, with their first cases."""
 
     def add(self, case: Case, verdict: Verdict) -> None:
         """Count a case."""
@@ -49,7 +49,7 @@ class Tally:
 
     @property
     def failures(self) -> list[str]:
-        """What the reader itself did wrong, with the first case of each fault."""
+        """The faults of usd2kg, with the first case of each."""
         return [
             f"{verdict.outcome}: {verdict.place} ({cases[0].name}) {verdict.detail}"
             for verdict, cases in self.found.items()
@@ -62,43 +62,43 @@ class Tally:
         return "\n".join(lines)
 
     def keep(self, folder: Path) -> None:
-        """Write the files of all faults, each with a note of what it does."""
+        """Write the files of all faults, each with a description."""
         for verdict, cases in self.found.items():
             for case in cases:
                 below = folder / re.sub(r"\W+", "_", f"{verdict.outcome} {verdict.place} {case.name}")
                 shutil.rmtree(below, ignore_errors=True)
                 write_files(case.files, below)
-                (below / "what.txt").write_text("\n".join(verdict), encoding="utf-8", errors="replace")
+                (below / "verdict.txt").write_text("\n".join(verdict), encoding="utf-8", errors="replace")
 
 
 def make_cases(corpus: dict[str, Files], seed: int) -> Iterator[Case]:
-    """Yield mangled stages without end: of the text ones every fourth as crate, crates as they are."""
+    """Yield an endless sequence of mutated stages; every fourth is a crate if there are any."""
     with tempfile.TemporaryDirectory() as folder:
         crates = [(name, crate) for name, files in corpus.items() if (crate := as_crate(files, Path(folder)))]
     texts = [text for files in corpus.values() if (text := text_of(next(iter(files.values()))))]
     for number in itertools.count():
-        # A string: the same numbers in each run, and apart for neighbouring seeds.
+        # A string seed gives reproducible sequences that differ between neighbouring seeds.
         rng = random.Random(f"{seed} {number}")
         name, files = rng.choice(crates if crates and number % 4 == 3 else list(corpus.items()))
-        # Mostly the root; the whole is written anew, so that the root stays first.
+        # Mutate the root layer in most cases; rebuild the dict so that it stays first.
         chosen = next(iter(files)) if rng.random() < 0.85 else rng.choice(list(files))
         yield Case(f"{seed} {number} {name}", {**files, chosen: _mangle(files[chosen], rng, texts)})
 
 
 def all_cases(seed: int) -> Iterator[Case]:
-    """Yield mangled stages of our own, and in turn with them those of others where they are there."""
+    """Yield mutated stages of the own corpus, alternating with third-party files if there are any."""
     streams = [make_cases(corpus, seed) for corpus in (own_corpus(), shared_corpus()) if corpus]
     return itertools.chain.from_iterable(zip(*streams, strict=True))
 
 
 def _mangle(data: bytes, rng: random.Random, texts: list[str]) -> bytes:
     text = text_of(data)
-    # Half a surrogate makes a file that is not UTF-8.
+    # An unpaired surrogate makes a file that is not UTF-8.
     return mangle_text(text, rng, texts).encode(errors="surrogatepass") if text else mangle_bytes(data, rng)
 
 
 def fuzz(cases: Iterable[Case], seconds: float = math.inf) -> Tally:
-    """Return what becomes of the cases, up to the first that comes after `seconds`."""
+    """Return the outcomes of the cases that start within `seconds`."""
     tally = Tally()
     end = time.monotonic() + seconds
     with tempfile.TemporaryDirectory() as folder:

@@ -1,11 +1,11 @@
-"""How stages are mangled: as text by lines, tokens, prims and values, as bytes by what storage does to them."""
+"""Mutators of stages: lines, tokens, prims and values of text, and storage faults of bytes."""
 
 import random
 import re
 from collections.abc import Callable
 
 Mutator = Callable[[str, random.Random, list[str]], str]
-"""From a text to a mangled one; the list holds the texts of other stages, to take pieces from."""
+"""Text → mutated text; the list holds the texts of other stages to take pieces from."""
 
 _LINE = re.compile(r"[^\n]+")
 _TOKEN = re.compile(r'"[^"\n]*"|@[^@\n]*@|<[^<>\n]*>|[\w:.+-]+|[^\w\s]')
@@ -59,7 +59,7 @@ _VALUES = {
     "dictionary": ["{ int a = 1 }"],
     "pathExpression": ['"//*"'],
 }
-"""Types with odd values of them."""
+"""Type → unusual values."""
 _TYPES = """
 Xform Scope Cube Sphere Cone Capsule Cylinder Plane Mesh Points BasisCurves NurbsPatch TetMesh PointInstancer
 GeomSubset Camera Material Shader NodeGraph PhysicsRevoluteJoint PhysicsPrismaticJoint PhysicsFixedJoint PhysicsScene
@@ -80,7 +80,7 @@ _METADATA = (
 
 
 def _spans(text: str, rng: random.Random) -> tuple[str, list[tuple[int, int]]]:
-    """Return what joins them and the spans of all lines, or of all tokens; never none."""
+    """Return a separator and the spans of all lines or all tokens; at least one."""
     joint, pattern = ("\n", _LINE) if rng.random() < 0.5 else (" ", _TOKEN)
     return joint, [match.span() for match in pattern.finditer(text)] or [(0, 0)]
 
@@ -125,7 +125,7 @@ def _quote(text, rng, others):
 
 
 def _retype(text, rng, others):
-    """Give a property another type and a value of it, sometimes as time samples or connected."""
+    """Change the type and value of a property, sometimes to time samples or a connection."""
 
     def new(match: re.Match[str]) -> str:
         type_name = rng.choice(list(_VALUES))
@@ -140,7 +140,7 @@ def _retype(text, rng, others):
 
 
 def _move_property(text, rng, others):
-    """Put a line of some stage behind a line of this one."""
+    """Insert a line of some stage after a line of this one."""
     lines = rng.choice([text, *others]).splitlines()
     here = text.splitlines() or [""]
     here.insert(rng.randrange(len(here)) + 1, rng.choice(lines or [""]))
@@ -168,7 +168,7 @@ def _asset(text, rng, others):
 
 
 def _metadata(text, rng, others):
-    """Give a prim or the layer metadata, its own if it has none yet."""
+    """Add metadata to a prim or the layer."""
 
     def new(match: re.Match[str]) -> str:
         return f"{match[0]} (\n{rng.choice(_METADATA)}\n)"
@@ -184,7 +184,7 @@ def _truncate(text, rng, others):
 
 
 def _characters(text, rng, others):
-    """Put odd characters into strings, or anywhere."""
+    """Insert unusual characters into strings, or anywhere."""
     odd = "".join(rng.choices(_CHARACTERS, k=rng.choice((1, 1, 1, 5))))
     if rng.random() < 0.7:
         return _replace(_STRING, text, rng, lambda match: match[0][:-1] + odd + '"')
@@ -193,7 +193,7 @@ def _characters(text, rng, others):
 
 
 def _nest(text, rng, others):
-    """Put prims below a few hundred others, or a value into as many brackets."""
+    """Nest prims below a few hundred others, or a value in as many brackets."""
     depth = rng.choice((10, 200, 500))
     first = _HEAD.search(text)
     if first and rng.random() < 0.6:
@@ -223,7 +223,7 @@ def _blocks(text: str) -> list[tuple[int, int]]:
 
 
 def paths_of(text: str) -> list[str]:
-    """Return the paths of the prims that a layer of text seems to hold; the root's if there are none."""
+    """Return the paths of the prims in a text layer, found heuristically; the root path if there are none."""
     paths, stack = [], []
     name = None
     for match in _SCOPE.finditer(text):
@@ -240,7 +240,7 @@ def paths_of(text: str) -> list[str]:
 
 
 def _copy_prim(text, rng, others):
-    """Put a prim of some stage, under its own or another name, into a prim of this one or beside it."""
+    """Copy a prim of some stage into or beside a prim of this one, possibly renamed."""
     source = rng.choice([text, text, *others])
     blocks = _blocks(source)
     if not blocks:
@@ -259,22 +259,22 @@ MUTATORS: dict[Mutator, int] = {
     _prim_type: 6, _rename: 4, _retarget: 6, _asset: 4, _metadata: 8, _truncate: 1, _characters: 4, _nest: 1,
     _copy_prim: 6,
 }  # fmt: skip
-"""Mutators of text, and how often each is taken."""
+"""Mutators of text with their weights."""
 
 
 def mangle_text(text: str, rng: random.Random, others: list[str]) -> str:
-    """Return the text after one to five mutators."""
+    """Return the text after one to five mutations."""
     for mutate in rng.choices(list(MUTATORS), weights=list(MUTATORS.values()), k=rng.choice((1, 1, 1, 2, 2, 3, 5))):
         text = mutate(text, rng, others) if text else text
     return text
 
 
 def mangle_bytes(data: bytes, rng: random.Random) -> bytes:
-    """Return the bytes with one to four faults: flipped, zeroed, set, spliced, cut out or put in; or cut off."""
+    """Return the bytes with one to four faults: flipped, zeroed, set, spliced, removed, inserted or truncated."""
     for _ in range(rng.choice((1, 1, 2, 4))):
         at, elsewhere = rng.randrange(len(data) + 1), rng.randrange(len(data) + 1)
         if rng.random() < 0.3:
-            # Offsets and lengths are 64 bits each.
+            # Offsets and lengths have 64 bits.
             at &= ~7
         size = rng.choice((1, 1, 2, 4, 8, 64))
         there = data[at : at + size]

@@ -1,4 +1,4 @@
-"""What no scene should hold, whatever the file was."""
+"""Invariants of every Scene, whatever the file contains."""
 
 import itertools
 import math
@@ -8,7 +8,7 @@ from usd2kg.scene import Box, Joint, MaterialDetails, Scene, SceneObject
 
 
 def insane(scene: Scene) -> Iterator[str]:
-    """Yield what a scene holds that none should."""
+    """Yield the violated invariants of a scene."""
     yield from insane_objects(scene)
     if scene.prim_count != len(scene.objects) + sum(scene.left_out.values()):
         yield "prims neither objects nor left out"

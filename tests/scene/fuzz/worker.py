@@ -1,4 +1,4 @@
-"""Reading files in a child process, which may die of them or never come back."""
+"""Read files in a child process, which may crash or hang."""
 
 import ctypes
 import faulthandler
@@ -32,7 +32,7 @@ from usd2kg.scene import ReadOptions, read_scene
 from usd2kg.scene.stage import captured_diagnostics
 
 SECONDS = 10
-"""Time that one case may take."""
+"""Time limit of one case."""
 _MEMORY = 4 * 2**30
 _REPOSITORY = Path(__file__).parents[3]
 _PACKAGE = str(Path(usd2kg.__file__).parent)
@@ -40,7 +40,7 @@ _READY = "ready\n"
 
 
 class Outcome(StrEnum):
-    """What can become of a case."""
+    """Outcome of a case."""
 
     READ = "read"
     REFUSED = "refused"
@@ -56,20 +56,20 @@ class Outcome(StrEnum):
 
 
 OPENUSDS = frozenset({Outcome.OPENUSD_DIED, Outcome.OPENUSD_BUSY, Outcome.OPENUSD_TALKED})
-"""Outcomes that are not the reader's fault."""
+"""Outcomes that are faults of OpenUSD."""
 
 
 class Verdict(NamedTuple):
-    """What became of one case."""
+    """Outcome of one case, with its place."""
 
     outcome: Outcome
     place: str = ""
-    """Innermost line of usd2kg, or what is insane: equal for equal faults."""
+    """Innermost line of usd2kg, or the violated invariant; equal for equal faults."""
     detail: str = ""
 
 
 def read_checked(path: str) -> Verdict:
-    """Return what `read_scene` makes of a file."""
+    """Return the verdict on `read_scene` for a file."""
     try:
         scene = read_scene(path)
         problem = next(insane(scene), None)
@@ -91,17 +91,17 @@ def read_checked(path: str) -> Verdict:
 
 
 def read_plainly(path: str) -> Verdict:
-    """Return `Outcome.READ` once OpenUSD alone has composed a file, given all its values and measured it."""
+    """Return the verdict on OpenUSD alone: compose a file, read all values and compute its bounds."""
     try:
         with captured_diagnostics():
             stage = Usd.Stage.Open(path)
             for item in stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)):
-                _ask_for_all(item)
+                _read_all_values(item)
             for key in stage.GetRootLayer().pseudoRoot.ListInfoKeys():
                 with suppress(Tf.ErrorException, UnicodeDecodeError):
                     stage.GetMetadata(key)
             for layer in stage.GetUsedLayers():
-                layer.Traverse(Sdf.Path.absoluteRootPath, partial(_ask_for_fields, layer))
+                layer.Traverse(Sdf.Path.absoluteRootPath, partial(_read_all_fields, layer))
             UsdGeom.BBoxCache(Usd.TimeCode.EarliestTime(), ["default"]).ComputeWorldBound(stage.GetPseudoRoot())
     except (Tf.ErrorException, UnicodeDecodeError):
         return Verdict(Outcome.REFUSED)
@@ -110,11 +110,11 @@ def read_plainly(path: str) -> Verdict:
     return Verdict(Outcome.READ)
 
 
-def _ask_for_all(item):
+def _read_all_values(item):
     attributes = []
     questions = [item.GetAllAuthoredMetadata, item.GetAssetInfo]
     with suppress(Tf.ErrorException, UnicodeDecodeError):
-        # Of the schemas' attributes too: what is authored may be no attribute.
+        # Include schema attributes, since an authored property may not be an attribute.
         attributes = item.GetAttributes()
     for attribute in attributes:
         questions += [attribute.Get, partial(attribute.Get, Usd.TimeCode.EarliestTime())]
@@ -123,7 +123,7 @@ def _ask_for_all(item):
             ask()
 
 
-def _ask_for_fields(layer, path):
+def _read_all_fields(layer, path):
     with suppress(Tf.ErrorException, UnicodeDecodeError):
         spec = layer.GetObjectAtPath(path)
         for key in spec.ListInfoKeys() if spec else ():
@@ -136,11 +136,11 @@ def _place(file: str, line: int | None, function: str) -> str:
 
 
 def serve(examine: str, trace: str) -> None:
-    """Answer each path on standard input by a verdict, one line of JSON, until the input ends.
+    """Answer each path on standard input with a verdict as one line of JSON, until the input ends.
 
     Args:
-        examine: `module:function` that gives the verdict.
-        trace: file for where Python stood when the process was killed by a signal or took too long.
+        examine: `module:function` that returns the verdict.
+        trace: file for the Python traceback when the process is killed by a signal or times out.
     """
     module, _, name = examine.partition(":")
     judge = getattr(importlib.import_module(module), name)
@@ -164,7 +164,7 @@ def serve(examine: str, trace: str) -> None:
             if os.lseek(1, 0, os.SEEK_END) and verdict.outcome in {Outcome.READ, Outcome.REFUSED}:
                 os.lseek(1, 0, os.SEEK_SET)
                 text = os.read(1, 500).decode(errors="replace")
-                # Numbers differ from case to case.
+                # Numbers differ between cases.
                 verdict = Verdict(Outcome.TALKED, re.split(r"[\d(\n]", text, maxsplit=1)[0][:60], text)
             os.ftruncate(1, 0)
             os.lseek(1, 0, os.SEEK_SET)
@@ -172,7 +172,7 @@ def serve(examine: str, trace: str) -> None:
 
 
 class Worker:
-    """A child process that examines one file after the other; a new one takes the place of one that died."""
+    """A child process that examines files one by one; it is replaced when it dies."""
 
     def __init__(self, examine: str, folder: Path) -> None:
         self.starts = 0
@@ -181,7 +181,7 @@ class Worker:
         self._process: subprocess.Popen[str] | None = None
 
     def ask(self, path: Path, seconds: float = SECONDS) -> Verdict:
-        """Return the verdict on a file; `DIED` or `HUNG` where the worker gave none."""
+        """Return the verdict on a file; `DIED` or `HUNG` if the process returned none."""
         process = self._process or self._start()
         print(path, file=process.stdin, flush=True)
         ready, _, _ = select.select([process.stdout], [], [], seconds)
@@ -204,7 +204,7 @@ class Worker:
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=_REPOSITORY,
         )  # fmt: skip
         if self._process.stdout.readline() != _READY:
-            raise RuntimeError(f"the worker for {self._examine} does not start")
+            raise RuntimeError(f"the worker for {self._examine} did not start")
         return self._process
 
     def close(self) -> None:
@@ -221,7 +221,7 @@ class Worker:
         return _place(found[1], int(found[2]), found[3]) if found else "OpenUSD"
 
 
-_OPENUSDS_SHARE = {
+_ATTRIBUTED_TO_OPENUSD = {
     Outcome.HUNG: Outcome.OPENUSD_BUSY,
     Outcome.MEMORY: Outcome.OPENUSD_BUSY,
     Outcome.TALKED: Outcome.OPENUSD_TALKED,
@@ -229,7 +229,7 @@ _OPENUSDS_SHARE = {
 
 
 class Judge:
-    """Writes the files of cases into a folder and finds out what becomes of them."""
+    """Writes the files of cases into a folder and returns the verdicts on them."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -238,18 +238,18 @@ class Judge:
         self._plain = Worker("tests.scene.fuzz.worker:read_plainly", folder)
 
     def judge(self, files: Files) -> Verdict:
-        """Return what becomes of a stage; what OpenUSD alone does not survive either is put down to OpenUSD."""
-        # A new path each time: OpenUSD keeps layers by their paths.
+        """Return the verdict on a stage; faults that OpenUSD alone reproduces are attributed to OpenUSD."""
+        # A new path each time, because OpenUSD caches layers by path.
         folder = self._folder / str(next(self._cases))
         write_files(files, folder)
         path = folder / next(iter(files))
         verdict = self.reader.ask(path)
         if verdict.outcome == Outcome.DIED and verdict.place.startswith("SIG"):
-            # Python code alone cannot end so.
+            # Python code alone cannot end with a signal.
             verdict = verdict._replace(outcome=Outcome.OPENUSD_DIED)
-        openusds = _OPENUSDS_SHARE.get(verdict.outcome)
-        if openusds and self._plain.ask(path).outcome not in {Outcome.READ, Outcome.REFUSED}:
-            verdict = verdict._replace(outcome=openusds)
+        attributed = _ATTRIBUTED_TO_OPENUSD.get(verdict.outcome)
+        if attributed and self._plain.ask(path).outcome not in {Outcome.READ, Outcome.REFUSED}:
+            verdict = verdict._replace(outcome=attributed)
         shutil.rmtree(folder)
         return verdict
 
