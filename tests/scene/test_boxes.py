@@ -100,11 +100,11 @@ def test_the_earliest_time_of_a_range_is_read_and_recorded(read):
     assert read(cube("Still")).time is None
 
 
-# --- boxes with and without what is nested -----------------------------------------------------------
+# --- boxes with and without nested objects -----------------------------------------------------------
 
 
 def test_own_box_leaves_out_nested_objects(read):
-    # Carcass from x = -0.5 to 0.5; drawer, an object of its own, from 2.5 to 3.5.
+    # Carcass from x = -0.5 to 0.5; drawer, a nested object, from 2.5 to 3.5.
     drawer = rigid("Drawer", move(3, 0, 0), cube("front"))
     scene = read(xform("World", rigid("Cabinet", cube("carcass"), drawer), cube("other")))
     cabinet, drawer = scene.by_path["/World/Cabinet"], scene.by_path["/World/Cabinet/Drawer"]
@@ -255,7 +255,7 @@ def test_box_is_the_tightest_around_the_eight_corners(tmp_path_factory, place, t
     assert corners(box) == pytest.approx((*points.min(axis=0), *points.max(axis=0)), rel=1e-6, abs=1e-6 * unit)
 
 
-# --- round solids: the box of what is turned, not the turned box -----------------------------------------
+# --- round solids: the box of the rotated surface, not the rotated box -----------------------------------------
 
 
 def solid(type_name, *sizes):

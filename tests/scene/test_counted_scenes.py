@@ -25,7 +25,7 @@ CABINET1 = "/apartment/Geometry/apartment_root/kitchen_root/side_A/cabinet1"
 FRANKA = "/franka_kitchen/Geometry/desk"
 
 MISSED = {
-    # A mesh without a body of its own, of a name that is no word: a part, as far as the stage says.
+    # A mesh without a rigid body and without a meaningful name is a part.
     "franka_kitchen": {f"{FRANKA}/oven/ovenroot/oventop"},
 }
 EXTRA = {

@@ -69,7 +69,7 @@ def center(x, y, z):
 
 
 def test_center_of_mass_is_in_the_world(read):
-    # Turned by 90° about z: (1, 0, 0) of the thing is (0, 1, 0); moved by (10, 0, 0).
+    # Turned by 90° about z: (1, 0, 0) of the object is (0, 1, 0); translated by (10, 0, 0).
     turned = ops(("double3", "translate", (10, 0, 0)), ("float", "rotateZ", 90))
     obj = thing(read, "float physics:mass = 2", center(1, 0, 0.5), turned, cube("a"), meta=[MASS])
     assert obj.center_of_mass == pytest.approx((10, 1, 0.5))

@@ -29,7 +29,7 @@ def shared(*body, name="Proto", type_name="Xform", meta=()):
 
 
 def instance(name, *body, of="Proto", type_name="Xform", meta=(), is_shared=True):
-    """Return an instance of a class or, where nothing is to be shared, a copy by reference."""
+    """Return an instance of a class or, without sharing, a copy by reference."""
     flag = "true" if is_shared else "false"
     return prim(type_name, name, *body, meta=[f"references = </{of}>", f"instanceable = {flag}", *meta])
 
@@ -70,8 +70,8 @@ def assert_alike(of_instances, of_copies, but=()):
     for one, other in zip(of_instances.objects, of_copies.objects, strict=True):
         for field in fields(one):
             if field.name not in {"instance_of", *but}:
-                told, expected = getattr(one, field.name), getattr(other, field.name)
-                assert alike(told, expected) == expected, f"{field.name} of {one.prim_path}"
+                actual, expected = getattr(one, field.name), getattr(other, field.name)
+                assert alike(actual, expected) == expected, f"{field.name} of {one.prim_path}"
     assert alike(of_instances.joints, of_copies.joints) == of_copies.joints
     assert (of_instances.prim_count, of_instances.left_out) == (of_copies.prim_count, of_copies.left_out)
 
@@ -126,7 +126,7 @@ class Maker:
         return f"{self.pick(*NAMES)}_{next(self.numbers)}"
 
     def say(self, path):
-        """Return property lines and API schemas: what may be authored on whatever is drawn below `path`."""
+        """Return property lines and API schemas that may be authored on prims below `path`."""
         lines, apis = [], []
         if self.rarely():
             lines.append(self.binding(path))
@@ -236,7 +236,7 @@ def test_instances_are_read_like_copies(text, layer):
         assert (one.oriented_size is None) == (other.oriented_size is None)
 
 
-# --- instances and copies, one thing at a time --------------------------------------------------------
+# --- instances and copies, one property at a time --------------------------------------------------------
 
 TURNED = ops(("float", "rotateZ", 30))
 
@@ -253,7 +253,7 @@ def uninstanced(text):
 
 
 def instance_paths(scene):
-    """Return name → the path that `instance_of` tells."""
+    """Return name → `instance_of`."""
     return {obj.name: obj.instance_of for obj in scene.objects if obj.name != "Floor"}
 
 
@@ -317,9 +317,9 @@ def test_materials_of_instances_have_paths_in_each():
     scene, copies = world(shared(looks("Red", "Blue"), red_cube("a"), mesh), *three())
     assert_alike(scene, copies)
     for name in ("I1", "I2", "I3"):
-        told = scene.by_path[f"/World/{name}"].material_details
-        assert [m.prim_path for m in told] == [f"/World/{name}/Looks/Red", f"/World/{name}/Looks/Blue"]
-        assert told[0].base_color == (1, 0, 0)
+        actual = scene.by_path[f"/World/{name}"].material_details
+        assert [m.prim_path for m in actual] == [f"/World/{name}/Looks/Red", f"/World/{name}/Looks/Blue"]
+        assert actual[0].base_color == (1, 0, 0)
 
 
 @pytest.mark.parametrize("is_above", [True, False])
@@ -367,7 +367,7 @@ def test_boxes_where_the_same_geometry_belongs_to_another_prim():
 
 LEG = shared(cube("a"), cube("b", at=(0, 0, 1)), name="Leg")
 STOOL = shared(instance("leg", move(5, 0, 0), of="Leg"), name="Stool")
-"""Nothing but a leg, 5 m off."""
+"""Only a leg, at a distance of 5 m."""
 
 
 def test_boxes_of_an_instance_that_wraps_another():
@@ -416,8 +416,8 @@ def test_point_instancers_and_masses_in_prototypes():
     scene, copies = world(shared(grass, pot, meta=['kind = "component"']), *three())
     assert_alike(scene, copies)
     assert scene.by_path["/World/I3"].mass_kg == 3
-    told = scene.by_path["/World/I3/Grass"]
-    assert (told.instances.count, told.box.lower, told.box.upper) == (2, (2.5, -0.5, -0.5), (7.5, 0.5, 0.5))
+    actual = scene.by_path["/World/I3/Grass"]
+    assert (actual.instances.count, actual.box.lower, actual.box.upper) == (2, (2.5, -0.5, -0.5), (7.5, 0.5, 0.5))
 
 
 # --- the first instance -------------------------------------------------------------------------------
@@ -480,8 +480,8 @@ def test_joints_are_read_for_each_instance():
 
 def test_instance_of_where_the_prototype_holds_joints():
     scene, _ = world(JOINTED, *three(meta=['kind = "component"']))
-    told = [obj.instance_of for obj in scene.objects if obj.name.startswith("I")]
-    assert told == ["/World/I1"] * 3
+    actual = [obj.instance_of for obj in scene.objects if obj.name.startswith("I")]
+    assert actual == ["/World/I1"] * 3
 
 
 LABEL = 'token[] semantics:labels:class = ["{}"]'

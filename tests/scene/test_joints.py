@@ -301,7 +301,7 @@ def test_joints_of_instances_join_the_parts_of_their_own_copy(read):
     assert second.axis_vector == pytest.approx((0, -1, 0), abs=1e-6)
 
 
-# --- what is broken -----------------------------------------------------------------------------------
+# --- broken joints -----------------------------------------------------------------------------------
 
 
 def trouble(reading) -> tuple[Joint, list[str]]:

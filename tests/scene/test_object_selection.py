@@ -116,7 +116,7 @@ def test_component_that_is_the_whole_file_is_the_object(read):
 
 
 def test_root_cabinet_with_drawers_stays_an_object(read):
-    # It owns its carcass, and another thing stands beside it: it is no room.
+    # It has its own carcass and another object beside it, so it is not a room.
     cabinet = component("Cabinet", cube("carcass"), rigid("Upper", cube("a")), rigid("Lower", cube("b")))
     scene = read(cabinet + component("Table", cube("top")))
     assert chosen(scene) == {"/Cabinet": KIND, "/Cabinet/Upper": BODY, "/Cabinet/Lower": BODY, "/Table": KIND}
@@ -357,7 +357,7 @@ def test_component_that_wraps_an_instancer_keeps_the_count(read):
     assert [obj.instances.count for obj in scene.objects if obj.instances] == [5]
 
 
-# --- what a user asks for ----------------------------------------------------------------------------
+# --- requested paths ----------------------------------------------------------------------------
 
 
 def test_requested_paths_are_added_in_traversal_order(read):
@@ -426,7 +426,7 @@ def test_fixtures_may_be_frames_whose_mesh_is_part_of_the_body(read):
         ("sink", "sink_visual", False),  # the body itself by its own name
         ("kitchen_sink", "sink", False),
         ("sink", "basin_sink", False),
-        ("unit", "faucet_handle", False),  # the last word says what it is
+        ("unit", "faucet_handle", False),  # the last word decides
         ("unit", "Faucet_LOD0", True),
         ("unit", "board", False),
     ],
@@ -452,7 +452,7 @@ def test_fixtures_of_a_body_within_a_body_belong_to_the_inner_one(read):
     assert parents(scene) == {"unit": None, "drawer": "unit", "burner": "drawer", "box": None}
 
 
-# --- pieces that nobody named ------------------------------------------------------------------------
+# --- unnamed pieces ------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("piece", ["mesh_{}", "part{}_obj", "Object_{}", "solid{}_LOD0", "n{}"])

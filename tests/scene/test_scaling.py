@@ -47,7 +47,7 @@ def test_calls_for_siblings_are_in_proportion():
 
 
 def nested(count, make=component):
-    """Return a stage of objects in objects, each with a mesh of its own."""
+    """Return a stage of nested objects with one mesh each."""
     tree = ""
     for index in reversed(range(count)):
         tree = make(f"thing_{index}", cube("mesh"), tree)
@@ -85,8 +85,8 @@ def labelled(count):
 
 def test_calls_for_objects_that_inherit_labels_are_in_proportion():
     assert growth(labelled, 125, 500) == IN_PROPORTION
-    told = {tuple(label.value for label in obj.labels.inherited) for obj in read_scene(labelled(500)).objects}
-    assert told == {("furniture", "room")}
+    actual = {tuple(label.value for label in obj.labels.inherited) for obj in read_scene(labelled(500)).objects}
+    assert actual == {("furniture", "room")}
 
 
 def instances(count):
@@ -135,7 +135,7 @@ def furniture(meshes, count=100):
 
 
 def test_a_scene_holds_objects_and_not_prims():
-    read_scene(furniture(2, count=2))  # what is loaded once is no part of it
+    read_scene(furniture(2, count=2))  # exclude what is loaded once
     (few, small), (many, large) = bytes_held(furniture(2)), bytes_held(furniture(40))
     assert (few.prim_count, many.prim_count) == (301, 4_101)
     # A part has a name, a place in two tuples, and a box: two tuples of three floats and the record. That is
@@ -149,7 +149,7 @@ def test_no_outline_is_held_after_reading():
     gc.collect()
     gc.disable()
     try:
-        # Without looking for garbage: what refers to itself in a circle would still be there.
+        # Without garbage collection, reference cycles would survive.
         scene = read_scene(furniture(20))
         assert not [thing for thing in gc.get_objects() if isinstance(thing, PrimRecord)]
     finally:

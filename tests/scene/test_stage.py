@@ -35,7 +35,7 @@ def write_crate(path):
     return path.read_bytes()
 
 
-# --- what is refused ---------------------------------------------------------------------------------
+# --- refused files ---------------------------------------------------------------------------------
 
 
 def test_missing_file_is_refused(tmp_path):
@@ -119,7 +119,7 @@ def test_stage_without_geometry_names_the_commonest_reasons(write_stage):
     assert "4 prims (2 camera, " in refusal(path)
 
 
-# --- what is missing ---------------------------------------------------------------------------------
+# --- missing assets ---------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arc", ["references", "payload"])
@@ -202,7 +202,7 @@ def test_broken_point_instancer_is_a_diagnostic_and_prints_nothing(read, capfd, 
     assert capfd.readouterr() == ("", "")
 
 
-# --- what it measures in -----------------------------------------------------------------------------
+# --- units -----------------------------------------------------------------------------
 
 
 def frame_of(read, **metadata):
@@ -368,11 +368,11 @@ def test_the_session_layer_of_an_open_stage_switches_a_variant():
     meta = ['kind = "component"', 'variants = {\nstring seat = "plain"\n}', 'prepend variantSets = "seat"']
     chair = prim("Xform", "Chair", f'variantSet "seat" = {{\n{one}{two}}}', meta=meta)
     stage = opened(xform("World", chair, component("Table", cube("top"))))
-    told = [read_scene(stage).objects[0]]
+    actual = [read_scene(stage).objects[0]]
     stage.SetEditTarget(stage.GetSessionLayer())
     stage.GetPrimAtPath("/World/Chair").GetVariantSet("seat").SetVariantSelection("padded")
-    told.append(read_scene(stage).objects[0])
-    assert [(chair.variants, chair.parts) for chair in told] == [
+    actual.append(read_scene(stage).objects[0])
+    assert [(chair.variants, chair.parts) for chair in actual] == [
         ((("seat", "plain"),), ("plain",)),
         ((("seat", "padded"),), ("padded",)),
     ]
