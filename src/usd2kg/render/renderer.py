@@ -18,7 +18,7 @@ from usd2kg.render.triangle_soup import gather
 from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
 from usd2kg.scene.model import Diagnostic
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.stage import captured_diagnostics, open_stage
+from usd2kg.scene.stage import captured_diagnostics, open_stage, time_code
 
 __all__ = ["Renderer", "render_object", "render_objects", "render_scene"]
 
@@ -69,7 +69,7 @@ class Renderer:
     def __init__(self, source: Path | str | Usd.Stage, options: ReadOptions | None = None) -> None:
         options = options or ReadOptions()
         self._opened = open_stage(source, options)
-        self._time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
+        self._time = time_code(options.time)
         self.diagnostics: list[Diagnostic] = list(self._opened.diagnostics)
         """Problems found on the stage so far."""
 

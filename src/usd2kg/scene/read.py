@@ -26,13 +26,23 @@ from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Outline, PrimRecord
 from usd2kg.scene.sanity_checks import check_sanity
 from usd2kg.scene.settings import LIMITS
-from usd2kg.scene.stage import UNREADABLE, OpenedStage, captured_diagnostics, error_text, open_stage, translated_errors
+from usd2kg.scene.stage import (
+    UNREADABLE,
+    OpenedStage,
+    captured_diagnostics,
+    error_text,
+    open_stage,
+    time_code,
+    translated_errors,
+)
 from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage, paths_above_endless
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
 logger = logging.getLogger(__name__)
 
+_MAX_REASONS = 4
+"""Reasons that the error message of a stage without objects lists."""
 _BATCH = 1000
 """Objects whose materials are computed together; affects speed only."""
 _NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
@@ -56,7 +66,7 @@ def read_scene(
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
-    time = _time_code(options)
+    time = time_code(options.time)
     with (
         translated_errors(opened.source),
         captured_diagnostics() as openusd_notes,
@@ -118,7 +128,7 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     """
     options = options or ReadOptions()
     opened = open_stage(source, options)
-    time = _time_code(options)
+    time = time_code(options.time)
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
         boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below)
@@ -129,11 +139,6 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
         return explain(path, outline, selection)
 
 
-def _time_code(options: ReadOptions) -> Usd.TimeCode:
-    # An attribute without time samples has its default value at the earliest time, too.
-    return Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
-
-
 def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
     if options.time is not None:
         return options.time
@@ -142,7 +147,7 @@ def _time_read(opened: OpenedStage, options: ReadOptions) -> float | None:
 
 
 def _no_object_message(source: str, outline: Outline, selection: Selection, opened: OpenedStage) -> str:
-    counts = ", ".join(f"{count} {reason}" for reason, count in selection.left_out.most_common(4))
+    counts = ", ".join(f"{count} {reason}" for reason, count in selection.left_out.most_common(_MAX_REASONS))
     found = f"{outline.prim_count} prims ({counts})" if counts else f"{outline.prim_count} prims"
     problem = f"; {opened.diagnostics[0].message}" if opened.diagnostics else ""
     return f"{source}: no object among {found}, expected prims with geometry; check the referenced files{problem}"

@@ -13,7 +13,7 @@ from pxr import Sdf, Usd, UsdGeom
 from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
 from usd2kg.scene.model import Diagnostic, Scene
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage
+from usd2kg.scene.stage import OpenedStage, captured_diagnostics, open_stage, time_code
 from usd2kg.shapes.descriptors import ShapeDescriptors, describe_mesh
 from usd2kg.shapes.triangle_mesh import is_turned_copy, make_triangle_mesh
 
@@ -64,7 +64,7 @@ def describe_shapes(
 def _own_meshes(
     opened: OpenedStage, scene: Scene, wanted: set[str], notes: list[Diagnostic]
 ) -> Iterator[tuple[str, list[ObjectMesh]]]:
-    time = Usd.TimeCode.EarliestTime() if scene.time is None else Usd.TimeCode(scene.time)
+    time = time_code(scene.time)
     copies = {path for path in wanted if path.endswith("]")}
     own: dict[str, list[ObjectMesh]] = defaultdict(list)
     for mesh in iterate_meshes(opened, sorted(wanted - copies), time, diagnostics=notes):

@@ -27,6 +27,7 @@ __all__ = [
     "open_stage",
     "read_targets",
     "read_value",
+    "time_code",
     "translated_errors",
     "value_of",
 ]
@@ -144,6 +145,11 @@ def read_targets(prim: Any, name: str) -> list[Any]:
         return list(relationship.GetTargets()) if relationship else []
     except UNREADABLE:
         return []
+
+
+def time_code(time: float | None) -> Usd.TimeCode:
+    """Return the time code of a number; the earliest time for None, at which unanimated attributes have their value."""
+    return Usd.TimeCode.EarliestTime() if time is None else Usd.TimeCode(time)
 
 
 def _check_file(source: Path) -> None:
