@@ -10,6 +10,9 @@ from tests.conftest import shared_file
 from tests.scene.usda import METRES, header, move, ops, prim, xform
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.model import Joint, StageFrame
+from usd2kg.scene.options import ReadOptions
+from usd2kg.scene.stage import open_stage
+from usd2kg.scene.traversal import outline_stage
 
 CENTIMETRES_Y_UP = header(metersPerUnit=0.01, upAxis="Y")
 Z_UP = StageFrame("Z", 1.0, 1.0, True)
@@ -17,13 +20,18 @@ Y_UP = StageFrame("Y", 0.01, 1.0, True)
 HALF = math.sqrt(0.5)
 
 
+def read_file(path, frame=Z_UP, time=None):
+    time = time or Usd.TimeCode.EarliestTime()
+    opened = open_stage(path, ReadOptions())
+    return read_joints(outline_stage(opened, time).joint_prims, frame, time)
+
+
 @pytest.fixture
 def read(write_stage):
     """A function that writes a cabinet, its door and a joint, and returns all joints."""
 
     def run(*prims, layer=METRES, frame=Z_UP, time=None):
-        stage = Usd.Stage.Open(str(write_stage(layer + "\n".join(prims))))
-        return read_joints(stage, frame, Usd.TimeCode.EarliestTime() if time is None else time)
+        return read_file(write_stage(layer + "\n".join(prims)), frame, time)
 
     return run
 
@@ -111,13 +119,9 @@ def test_a_type_named_like_a_joint_without_bodies_is_none(read):
     assert read(butt_joint, unknown).joints == ()
 
 
-def test_joints_come_in_traversal_order_and_can_be_given(read, write_stage):
-    text = METRES + "\n".join(world(revolute(name="b") + prismatic(name="a")))
-    stage = Usd.Stage.Open(str(write_stage(text)))
-    time = Usd.TimeCode.EarliestTime()
-    assert [found.prim_path for found in read_joints(stage, Z_UP, time).joints] == ["/b", "/a"]
-    given = read_joints([stage.GetPrimAtPath("/a")], Z_UP, time)
-    assert [found.prim_path for found in given.joints] == ["/a"]
+def test_joints_are_in_traversal_order(read):
+    found = read(*world(revolute(name="b") + prismatic(name="a"))).joints
+    assert [joint.prim_path for joint in found] == ["/b", "/a"]
 
 
 # --- axis ---------------------------------------------------------------------------------------------
@@ -390,8 +394,7 @@ def test_ignores_values_of_other_types(read):
 
 
 def read_shared(relative):
-    stage = Usd.Stage.Open(str(shared_file(relative)))
-    return read_joints(stage, Z_UP, Usd.TimeCode.EarliestTime())
+    return read_file(shared_file(relative))
 
 
 def test_apartment():

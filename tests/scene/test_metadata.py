@@ -10,7 +10,7 @@ from pxr import Usd
 from tests.conftest import shared_file
 from tests.scene.usda import METRES, cube, prim, xform
 from usd2kg.scene import evidence
-from usd2kg.scene.metadata import clean_text, material_details, text_attributes, variant_selections
+from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
 from usd2kg.scene.model import MaterialDetails
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.stage import open_stage
@@ -252,7 +252,7 @@ def materials(write_stage):
         opened = open_stage(write_stage(METRES + "\n".join(prims)), ReadOptions())
         with outline_stage(opened, EARLIEST) as outline:
             nodes = {node.path: node for node in outline.root.walk()}
-            return material_details(list(evidence.own_records(nodes[path], {path: "asked for"})))
+            return MaterialReader(EARLIEST).read(list(evidence.own_records(nodes[path], {path: "asked for"})))
 
     return run
 
@@ -508,7 +508,7 @@ def test_materials_of_the_apartment():
     opened = open_stage(shared_file("scenes/iai_apartment/apartment.usdc"), ReadOptions())
     nodes = {node.path: node for node in outline_stage(opened, EARLIEST).root.walk()}
     walls = nodes["/apartment/Geometry/apartment_root/furnitures_root/walls"]
-    first = material_details(list(walls.walk()))[0]
+    first = MaterialReader(EARLIEST).read(list(walls.walk()))[0]
     assert first == MaterialDetails(
         "M_Basic_Wall", "/apartment/Materials/M_Basic_Wall", (0.62151, 0.617319, 0.592806), 0.5, 0.0, 1.0
     )

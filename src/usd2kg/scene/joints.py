@@ -1,10 +1,10 @@
 """Physics joints of a stage, in radians, metres and the z-up world frame."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from pxr import Gf, Usd, UsdGeom, UsdPhysics
+from pxr import Gf, Usd, UsdGeom
 
 from usd2kg.scene.bounds import to_metres
 from usd2kg.scene.metadata import texts_of
@@ -44,32 +44,20 @@ class JointReading(NamedTuple):
     """Code `joint`."""
 
 
-def read_joints(source: Any, frame: StageFrame, time: Any) -> JointReading:
-    """Return the joints of a stage, including those in instances.
+def read_joints(prims: Iterable[Any], frame: StageFrame, time: Any) -> JointReading:
+    """Return the joints of a stage.
 
     Authored limits and states are in degrees or stage units, and joint frames are relative to the bodies, as UsdPhysics
     specifies.
 
     Args:
-        source: a stage, or joint prims.
+        prims: the joint prims.
         frame: units and up axis of the stage.
         time: time code at which bodies and values are read.
     """
-    prims = _joint_prims(source) if hasattr(source, "GetPseudoRoot") else source
     reader = _JointReader(frame, time)
     joints = tuple(joint for prim in prims if (joint := reader.read(prim)))
     return JointReading(joints, tuple(reader.notes))
-
-
-def _joint_prims(stage: Any) -> Iterator[Any]:
-    is_joint: dict[str, bool] = {}
-    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
-        type_name = str(prim.GetTypeName())
-        if type_name not in is_joint:
-            # Plain OpenUSD has no schemas of vendors' joints, such as PhysxPhysicsGearJoint.
-            is_joint[type_name] = prim.IsA(UsdPhysics.Joint) or type_name.endswith("Joint")
-        if is_joint[type_name] and (prim.IsA(UsdPhysics.Joint) or prim.HasRelationship("physics:body1")):
-            yield prim
 
 
 class _JointReader:

@@ -20,7 +20,6 @@ __all__ = [
     "BASE_COLOR_INPUTS",
     "MaterialReader",
     "clean_text",
-    "material_details",
     "text_attributes",
     "text_names",
     "texts_of",
@@ -258,11 +257,6 @@ def _authored_target(prim: Any) -> Any:
             return targets[0].GetPrimPath()
         prim = prim.GetParent()
     return None
-
-
-def material_details(records: list[PrimRecord], time: Any = None) -> tuple[MaterialDetails, ...]:
-    """Return the materials of one object; see `MaterialReader.read`. Without `time`, the earliest is read."""
-    return MaterialReader(Usd.TimeCode.EarliestTime() if time is None else time).read(records)
 
 
 def _bindable(prim: Any) -> list[Any]:

@@ -8,7 +8,7 @@ __all__ = ["BOUNDING_BOX", "MESH", "VESSEL"]
 
 
 @dataclass(frozen=True)
-class MeshSettings:
+class TriangleMeshSettings:
     """Tolerances of triangle meshes."""
 
     weld_distance: float
@@ -41,6 +41,6 @@ class VesselSettings:
     max_rows: int
 
 
-MESH = read_settings("shapes", "mesh", MeshSettings)
+MESH = read_settings("shapes", "mesh", TriangleMeshSettings)
 BOUNDING_BOX = read_settings("shapes", "bounding_box", BoundingBoxSettings)
 VESSEL = read_settings("shapes", "vessel", VesselSettings)
