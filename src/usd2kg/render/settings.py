@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["CUTAWAY", "LIGHTING", "PICTURE", "VIEWPOINT"]
+__all__ = [
+    "CUTAWAY",
+    "LIGHTING",
+    "PICTURE",
+    "VIEWPOINT",
+    "CutawaySettings",
+    "LightingSettings",
+    "PictureSettings",
+    "ViewpointSettings",
+]
 
 
 @dataclass(frozen=True)

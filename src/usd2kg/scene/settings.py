@@ -16,6 +16,16 @@ __all__ = [
     "SOLIDS",
     "TEXTS",
     "UNNAMED",
+    "JointSettings",
+    "LabelSettings",
+    "LevelSettings",
+    "LimitSettings",
+    "MeshSettings",
+    "RobotSettings",
+    "SanitySettings",
+    "SolidSettings",
+    "TextSettings",
+    "UnnamedSettings",
 ]
 
 MAX_COORDINATE = 1e30

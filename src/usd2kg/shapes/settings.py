@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["BOUNDING_BOX", "MESH", "VESSEL"]
+__all__ = ["BOUNDING_BOX", "MESH", "VESSEL", "BoundingBoxSettings", "TriangleMeshSettings", "VesselSettings"]
 
 
 @dataclass(frozen=True)
