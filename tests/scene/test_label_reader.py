@@ -178,7 +178,7 @@ class TestObjectLabels:
             chosen = dict.fromkeys(paths, "asked for")
             nodes = {node.path: node for node in outline_stage(opened, EARLIEST).root.walk()}
             reader = LabelReader(EARLIEST)
-            return [reader.read(list(evidence.own_nodes(nodes[path], chosen))) for path in paths]
+            return [reader.read(list(evidence.own_records(nodes[path], chosen))) for path in paths]
 
         return run
 
