@@ -1,13 +1,18 @@
 """Scenes and TBoxes written by hand, so that grounding is tested without OpenUSD or OWL files."""
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import Any
 
 from usd2kg.grounding import ObjectView, Prediction
 from usd2kg.grounding.context import Company
 from usd2kg.grounding.context.neighbours import Ways
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.ontology import OntologyClass, TBox
+from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.ontology import OntologyClass, TBox, load_home_tbox
 from usd2kg.scene import Joint, Scene, SceneObject, StageFrame
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
@@ -88,6 +93,22 @@ def ground_names(names: Sequence[str], tbox: TBox, **evidence: Any) -> list[Pred
 
 def ground_view(view: ObjectView, tbox: TBox) -> Prediction:
     return LexicalGrounder().ground_views([("/Room/thing", view)], tbox)[0]
+
+
+@lru_cache(maxsize=1)
+def _home_readers() -> tuple[NameReader, AbbreviationReader]:
+    lexicon, taxonomy = build_lexicon(load_home_tbox(), load_taxonomy(), {}), load_taxonomy()
+    return NameReader(lexicon, taxonomy), AbbreviationReader(lexicon, taxonomy)
+
+
+def read_words(name: str, parents: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the words of a name below these parents, in the home ontology."""
+    return _home_readers()[0].read(name, parents).words
+
+
+def read_abbreviation(tokens: Sequence[str]) -> tuple[str, ...]:
+    """Return the likeliest words behind abbreviated tokens, in the home ontology."""
+    return next((reading.words for reading in _home_readers()[1].read(tokens)), ())
 
 
 def local(prediction: Prediction) -> str:
