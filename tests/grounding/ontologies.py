@@ -55,6 +55,7 @@ Equipment
     "music": "dul:DesignedArtifact\n  StringedInstrument",
     "no general class": "Chair\nTable\nMug\nPlate\nKnife\nRefrigerator\nDoor",
     "no general class, home room": "soma:Room\nChair",
+    "numbered classes": 'OBI_0000968 "device"\nOBI_0400082 "photodetector"',
     "office": """
 Asset
   Stationery

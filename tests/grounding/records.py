@@ -11,7 +11,7 @@ from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader
-from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
 from usd2kg.ontology import OntologyClass, TBox, load_home_tbox
 from usd2kg.scene import Joint, Scene, SceneObject, StageFrame
 
@@ -21,7 +21,7 @@ DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 
 
 def make_object(path: str, **known: Any) -> SceneObject:
-    """Return an object of which only the path is known, and what `known` adds."""
+    """Return an object at a path with the fields of `known`; all other fields are empty."""
     blank: dict[str, Any] = {
         "prim_path": path,
         "name": path.rpartition("/")[2],
@@ -101,9 +101,14 @@ def _home_readers() -> tuple[NameReader, AbbreviationReader]:
     return NameReader(lexicon, taxonomy), AbbreviationReader(lexicon, taxonomy)
 
 
+def read_name(name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
+    """Return a name below these parents as a noun phrase, with the words of the home ontology."""
+    return _home_readers()[0].read(name, parents)
+
+
 def read_words(name: str, parents: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """Return the words of a name below these parents, in the home ontology."""
-    return _home_readers()[0].read(name, parents).words
+    """Return the words of a name below these parents."""
+    return read_name(name, parents).words
 
 
 def read_abbreviation(tokens: Sequence[str]) -> tuple[str, ...]:
@@ -117,7 +122,7 @@ def local(prediction: Prediction) -> str:
 
 
 def words_written(company: Company, form: str, ways: Ways) -> list[tuple[str, float, float]]:
-    """Return (word, share, score) of the words in other objects' names that may be written in a form, sorted."""
+    """Return (word, share of the other objects, score) of the words that a form may abbreviate, sorted."""
     return company.words_written(ways, _as_it_is, _all_of_them, 1000)(form) or []
 
 
