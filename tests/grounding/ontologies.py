@@ -11,17 +11,20 @@ __all__ = ["load_ontology", "parse_outline"]
 
 _BASES = {"dul": DUL, "soma": SOMA, "": LAB}
 _LINE = re.compile(
-    r'(?P<indent>(?:  )*)(?:(?P<prefix>\w+):)?(?P<name>[\w.]+)(?: "(?P<label>[^"]+)")?(?: = (?P<synonyms>.+))?'
+    r'(?P<indent>(?:  )*)(?:(?P<prefix>\w+):)?(?P<name>[\w.]+)(?: "(?P<label>[^"]+)")?(?: = (?P<synonyms>[^;]+))?(?:; (?P<comment>.+))?'
 )
 
 OUTLINES = {
     "appliances and furniture": "Thing\n  Appliances\n  Furniture",
+    "army": "Thing\n  Post; A military installation.",
     "bedside tables": "soma:DesignedFurniture\n  soma:BedsideTable",
+    "birds": "Thing\n  Bird\n    Crane",
     "chairs, tables and other furniture": "chair\ntable\notherfurniture",
     "computers": "Asset\n  Equipment\n    Computer",
     "containers": "Thing\n  Container",
     "containers and post boxes": 'Thing\n  Container\n  PostBox "post box"',
     "cookware": 'Artifact\n  Utensil "kitchen utensil"\n  Cookware',
+    "cups and mugs": "Thing\n  Cup = mug\n  Mug",
     "designed things": "DesignedTool\nDesignedBox\nDesignedRack",
     "exhibits": "Object\n  Exhibit = artefact",
     "freezers": "Thing\n  Refrigerator\n  Freezer",
@@ -51,6 +54,7 @@ Equipment
         "wall floor cabinet bed chair sofa table door window bookshelf counter desk shelves curtain television towel "
         "box lamp otherstructure otherfurniture otherprop".split()
     ),
+    "lifting devices": "Thing\n  LiftingDevice\n    Crane",
     "luminaires": "Asset\n  Luminaire",
     "music": "dul:DesignedArtifact\n  StringedInstrument",
     "no general class": "Chair\nTable\nMug\nPlate\nKnife\nRefrigerator\nDoor",
@@ -70,8 +74,10 @@ Asset
     "one class": "Thing",
     "other activities": "Object\n  Table\nActivity\n  Other",
     "panels": "Thing\n  Art\n  Panel",
+    "nested containers": "Equipment\n  Zvessel = container\n    Ajar = container",
     "park": "Entity\n  Telescope\n  Rock\n  Seating",
     "people": "Thing\n  Person\n  Tool",
+    "posts": "Thing\n  Post; An upright that carries a beam.",
     "portions": """
 Artifact
   BreadPortion "portion of bread"
@@ -90,6 +96,7 @@ Railway
     "shop": "ShopThing\n  Furniture\n    Table\n  MiscItem\nProcess",
     "tableware": "Thing\n  Tableware\n    Plate",
     "test tubes": "Thing\n  TestTube\n  Tube\n  HighTable\n  Table\n  Cup",
+    "timber": "Thing\n  Furniture\n    Lamp",
     "town": """
 Vehicle
   Cycle
@@ -102,7 +109,7 @@ Vehicle
     "vehicles": "Equipment\n  Vehicle\n    KickScooter\n  Device\n    AnaesthesiaMachine",
     "zones": "dul:DesignedArtifact\n  Room\n  Place\n    Zone\n      Area",
 }
-"""Name of the ontology → one class a line below its superclass: `prefix:Name "label" = synonym, synonym`."""
+"""Name of the ontology → one class a line below its superclass: `prefix:Name "label" = synonym, synonym; comment`."""
 
 
 @cache
@@ -115,16 +122,17 @@ def parse_outline(outline: str) -> TBox:
     """Return the TBox that an indented outline describes.
 
     Raises:
-        ValueError: a line is not `prefix:Name "label" = synonym, synonym`, indented by two spaces a level.
+        ValueError: a line is not `prefix:Name "label" = synonym, synonym; comment`, indented by two spaces a level.
     """
     above: list[str] = []
     classes: list[OntologyClass] = []
     for line in outline.strip("\n").splitlines():
         if (found := _LINE.fullmatch(line)) is None:
-            raise ValueError(f'{line!r}: expected `prefix:Name "label" = synonym, synonym`')
+            raise ValueError(f'{line!r}: expected `prefix:Name "label" = synonym, synonym; comment`')
         level, base = len(found["indent"]) // 2, _BASES[found["prefix"] or ""]
         synonyms = found["synonyms"].split(", ") if found["synonyms"] else ()
-        cls = make_class(found["name"], label=found["label"] or "", synonyms=synonyms, base=base)
+        label, comment = found["label"] or "", found["comment"] or ""
+        cls = make_class(found["name"], label=label, synonyms=synonyms, comment=comment, base=base)
         above[level:] = [cls.iri]
         classes.append(replace(cls, parents=tuple(above[level - 1 : level])) if level else cls)
     return make_tbox(*classes)

@@ -70,7 +70,7 @@ class Floor(NamedTuple):
 def groups() -> dict[str, list[dict[str, str]]]:
     """Return the rows of each group, in the order of the files."""
     found: dict[str, list[dict[str, str]]] = {}
-    for row in [*_read("regression.csv"), *_decorated(), *_read("readings.csv")]:
+    for row in [*_read("regression.csv"), *_home_class_names(), *_decorated(), *_read("readings.csv")]:
         found.setdefault(row["group"], []).append(row)
     return found
 
@@ -91,6 +91,14 @@ def floors() -> dict[str, Floor]:
 def _read(name: str) -> list[dict[str, str]]:
     with (_FOLDER / name).open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
+
+
+def _home_class_names() -> Iterator[dict[str, str]]:
+    """Yield a row for each class of the home ontology: an object with the class's own name."""
+    fields = dict.fromkeys(("parents", "size_m", "evidence", "also"), "")
+    for cls in load_ontology("home").classes:
+        name = cls.local_name
+        yield {**fields, "group": "home class names", "ontology": "home", "name": name, "expected": name}
 
 
 def _decorated() -> Iterator[dict[str, str]]:

@@ -1,87 +1,106 @@
-"""Ontologies of which no class is true of things of all kinds."""
+"""Classes for everything else, as in NYU40 (Gupta et al., CVPR 2013), and ontologies without a general class."""
 
 from dataclasses import replace
 
 import pytest
 
-from tests.grounding.records import LAB, ground_names, make_class, make_tbox, scene_of
+from tests.grounding.ontologies import load_ontology, parse_outline
+from tests.grounding.records import LAB, ground_names, scene_of
 from usd2kg.grounding import ObjectView, Status, ground
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.alignment.residual_class import default_class, residue_of
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import load_home_tbox
 
-FLAT = make_tbox(*(make_class(name) for name in ("Chair", "Table", "Mug", "Plate", "Knife", "Refrigerator", "Door")))
-KNOWN = {"chair_06": "Chair", "side_plate": "Plate", "Fridge_01": "Refrigerator", "coffeeTable": "Table"}
-PART = ("Cup", "Bowl", "Sofa")
-NONE = ["kitchen_scale", "table_fork", "Wall_N", "teddy", "DoorMat", "qwrtzx", "pCube3", ""]
 
-
-def default_of(*classes: tuple[str, ...]) -> str | None:
-    tbox = make_tbox(*(make_class(*names) for names in classes))
-    iri = build_lexicon(tbox, load_taxonomy(), {}).default
-    return iri and iri.removeprefix(LAB)
+@pytest.mark.parametrize(
+    ("label", "residue"),
+    [
+        ("otherfurniture", "furniture"),
+        ("other structures", "structure"),
+        ("Miscellaneous kitchen tools", "kitchen tool"),
+        ("otherprop", ""),
+        ("sundry item", ""),
+        ("Sundries", ""),
+        ("Misc", ""),
+        ("miscellaneous objects", ""),
+        ("furniture", None),
+        ("mother", None),
+        ("prop", None),
+        ("another chair", None),
+        ("", None),
+    ],
+)
+def test_residue_is_the_category_that_a_label_covers_the_rest_of(label: str, residue: str | None):
+    assert residue_of(label, load_taxonomy()) == residue
 
 
 @pytest.mark.parametrize(
-    ("classes", "default"),
+    ("outline", "default"),
     [
-        ([("Chair",), ("Table",)], None),
-        ([("Furniture",), ("Chair", "Furniture"), ("Table", "Furniture"), ("Tool",)], None),
-        # Of a single tree the root is true of all that is in the scope.
-        ([("Furniture",), ("Chair", "Furniture"), ("Table", "Furniture")], "Furniture"),
-        ([("Artifact",), ("Chair", "Artifact"), ("Person",)], "Artifact"),
-        ([("StockItem",), ("Chair", "StockItem"), ("Person",)], "StockItem"),
-        # What is no known word may be anything.
-        ([("Zorkable",), ("Chair", "Zorkable"), ("Person",)], "Zorkable"),
+        ("Chair\nTable", None),
+        ("Furniture\n  Chair\n  Table\nTool", None),
+        # The only root is true of everything in the scope.
+        ("Furniture\n  Chair\n  Table", "Furniture"),
+        ("Artifact\n  Chair\nPerson", "Artifact"),
+        ("StockItem\n  Chair\nPerson", "StockItem"),
+        # A word that no dictionary has may mean anything.
+        ("Zorkable\n  Chair\nPerson", "Zorkable"),
+        ("Object\n  Table\nActivity\n  Other", "Object"),
+        ("chair\ntable\notherfurniture", None),
+        ("Alone\nWide\n  A\n  B", "Wide"),
+        # No physical thing is a command.
+        ("Command\n  OpenCommand\n  CloseCommand\n  StopCommand\nManaged\n  Fridge", "Managed"),
+        ("Managed\n  Fridge\nUnManaged\n  Wall", "UnManaged"),
     ],
 )
-def test_a_root_of_one_kind_is_not_true_of_most_things(classes: list[tuple[str, ...]], default: str | None):
-    assert default_of(*classes) == default
+def test_default_class_is_a_root_that_most_things_belong_to(outline: str, default: str | None):
+    iri = build_lexicon(parse_outline(outline), load_taxonomy(), {}).default
+    assert (iri and iri.removeprefix(LAB)) == default
 
 
-def test_what_the_ontology_has_is_found():
-    found = ground_names([*KNOWN], FLAT)
-    assert {name: one.class_iri for name, one in zip(KNOWN, found, strict=True)} == {
-        name: LAB + cls for name, cls in KNOWN.items()
-    }
-    assert all((one.confidence or 0.0) > 0.5 for one in found)
+def test_a_residual_class_of_one_category_is_no_default():
+    assert default_class(load_ontology("other activities"), load_taxonomy()) == LAB + "Object"
+    assert default_class(load_ontology("chairs, tables and other furniture"), load_taxonomy()) is None
 
 
-@pytest.mark.parametrize("abstains", [False, True])
-def test_what_it_lacks_gets_no_class(abstains: bool):
-    views = [(f"/x{at}", ObjectView(name)) for at, name in enumerate(NONE)]
-    found = LexicalGrounder(abstains=abstains).ground_views(views, FLAT)
-    assert [one.class_iri for one in found] == [None] * len(NONE)
-    assert {one.status for one in found} == {Status.REFUSED}
-    assert {one.confidence for one in found} == {None}
+def test_general_classes_are_roots_and_residual_classes():
+    grounder, home = LexicalGrounder(), load_home_tbox()
+    assert grounder.general_classes(load_ontology("shop")) == {LAB + n for n in ("ShopThing", "MiscItem", "Process")}
+    assert LAB + "chair" not in grounder.general_classes(load_ontology("labels"))
+    assert grounder.general_classes(home) == frozenset(home.roots)
 
 
-def test_the_explanation_says_why():
-    scale, unknown = ground_names(["kitchen_scale", "qwrtzx"], FLAT)
-    assert scale.explanation.startswith("“kitchen scale” is a kind of ")
-    assert scale.explanation.endswith("“artifact”, which is no class of the ontology")
-    assert unknown.explanation.endswith("; no class of the ontology is true of most things")
+class TestWithoutGeneralClass:
+    FLAT = load_ontology("no general class")
+    OTHERS = ("kitchen_scale", "table_fork", "teddy", "qwrtzx", "pCube3", "")
 
+    @pytest.mark.parametrize("abstains", [False, True])
+    def test_an_object_of_no_class_is_refused_without_confidence(self, abstains: bool):
+        views = [(f"/x{at}", ObjectView(name)) for at, name in enumerate(self.OTHERS)]
+        predictions = LexicalGrounder(abstains=abstains).ground_views(views, self.FLAT)
+        assert {(p.class_iri, p.status, p.confidence) for p in predictions} == {(None, Status.REFUSED, None)}
 
-def test_no_answer_and_no_candidate_is_another_class_than_the_ontology_has():
-    scene = scene_of(*(f"/World/{name}" for name in [*KNOWN, *filter(None, NONE)]))
-    for prediction in ground(scene, FLAT).predictions:
-        assert {candidate.class_iri for candidate in prediction.candidates} <= FLAT.by_iri.keys()
-        assert prediction.class_iri is None or prediction.class_iri in FLAT.by_iri
+    def test_an_object_of_a_class_is_grounded_with_confidence(self):
+        predictions = ground_names(["chair_06", "Fridge_01"], self.FLAT)
+        assert all(p.confidence > 0.5 for p in predictions)
 
+    def test_explanation_says_why_no_class_is_predicted(self):
+        scale, unknown = ground_names(["kitchen_scale", "qwrtzx"], self.FLAT)
+        assert scale.explanation.startswith("“kitchen scale” is a kind of ")
+        assert scale.explanation.endswith("“artifact”, which is no class of the ontology")
+        assert unknown.explanation.endswith("; no class of the ontology is true of most things")
 
-def test_a_part_of_the_home_tbox_may_have_no_general_class():
-    home = load_home_tbox()
-    part = replace(home, classes=tuple(replace(home.by_iri[home.resolve(name)], parents=()) for name in PART))
-    cup, teddy = ground_names(["coffee_mug", "teddy"], part)
-    assert cup.class_iri == home.resolve("Cup")
-    assert teddy.class_iri is None
+    def test_all_predicted_classes_and_candidates_are_classes_of_the_ontology(self):
+        scene = scene_of(*(f"/World/{name}" for name in ["chair_06", "side_plate", *filter(None, self.OTHERS)]))
+        for prediction in ground(scene, self.FLAT).predictions:
+            assert {candidate.class_iri for candidate in prediction.candidates} <= self.FLAT.by_iri.keys()
+            assert prediction.class_iri is None or prediction.class_iri in self.FLAT.by_iri
 
-
-def test_names_of_the_home_vocabulary_are_no_kinds_that_people_count_things_among():
-    # Cold storage is a name of a room, and a refrigerator is cold storage.
-    home = load_home_tbox()
-    room = home.resolve("Room")
-    tbox = make_tbox(make_class("Room", base=room.removesuffix("Room")), make_class("Chair"))
-    assert [found.class_iri for found in ground_names(["Fridge", "guest_room"], tbox)] == [None, room]
+    def test_part_of_the_home_ontology_needs_no_general_class(self):
+        home = load_home_tbox()
+        names = ("Cup", "Bowl", "Sofa")
+        part = replace(home, classes=tuple(replace(home.by_iri[home.resolve(name)], parents=()) for name in names))
+        cup, teddy = ground_names(["coffee_mug", "teddy"], part)
+        assert (cup.class_iri, teddy.class_iri) == (home.resolve("Cup"), None)
