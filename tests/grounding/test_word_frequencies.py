@@ -1,13 +1,12 @@
-"""Word frequencies: known words, orderings a speaker of English would sign, and the prior of things."""
+"""Word frequencies, and the prior that a word names a thing in a scene."""
 
 import gzip
 import math
-import time
+from functools import cache
 
 import pytest
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
-from usd2kg.grounding.lexical.reading import word_frequencies as frequencies
 from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY, thing_prior, word_frequency
 from usd2kg.knowledge import read_bytes, read_text
 
@@ -17,24 +16,24 @@ COMMON_AND_RARE = """
     pan skillet, hammer mallet, bag reticule, basket pannier, screen reredos, car phaeton, truck dray, curtain arras,
     mirror speculum, carpet drugget, stove brazier, wheel cogwheel, ladder ratline, cabinet credenza, shovel mattock
 """
-PAIRS = [tuple(pair.split()) for pair in COMMON_AND_RARE.split(",")]
 
 
+@cache
 def shipped_lines() -> list[list[str]]:
     words, entries = gzip.decompress(read_bytes("frequencies.txt.gz")).decode("ascii").splitlines()
     return [[word, *entry.split("/")] for word, entry in zip(words.split(), entries.split(), strict=True)]
 
 
-@pytest.mark.parametrize(("common", "rare"), PAIRS)
-def test_the_common_artifact_is_more_frequent_and_likelier_in_a_scene(common: str, rare: str):
-    assert word_frequency(common) > word_frequency(rare)
-    assert thing_prior(common) > thing_prior(rare)
+def test_common_artifacts_are_more_frequent_and_likelier_in_a_scene_than_rare_ones():
+    for common, rare in map(str.split, COMMON_AND_RARE.split(",")):
+        assert word_frequency(common) > word_frequency(rare)
+        assert thing_prior(common) > thing_prior(rare)
 
 
 @pytest.mark.parametrize(
     ("word", "low", "high"),
     [
-        # Within a factor of three or so of everyday English: a chair about once in 12,000 words.
+        # Zipf scores; a chair is written about once in 12,000 words.
         ("time", 6.0, 6.6),
         ("house", 5.3, 6.1),
         ("chair", 4.5, 5.2),
@@ -44,34 +43,30 @@ def test_the_common_artifact_is_more_frequent_and_likelier_in_a_scene(common: st
         ("wooden", 4.2, 4.9),
     ],
 )
-def test_zipf_scores_have_the_size_of_everyday_english(word: str, low: float, high: float):
+def test_frequencies_are_those_of_everyday_english(word: str, low: float, high: float):
     assert low <= word_frequency(word) <= high
 
 
 @pytest.mark.parametrize("word", ["", "xqzt", "Chair", "chairs", "coffee table", "coffeetable", "the"])
-def test_a_word_outside_the_vocabulary_has_the_floor(word: str):
+def test_words_outside_the_vocabulary_have_the_lowest_frequency(word: str):
     assert word_frequency(word) == UNKNOWN_FREQUENCY == 1.0
 
 
-def test_plurals_count_for_their_singular():
-    # Shoes and chopsticks are spoken of in pairs: `chopstick` itself is in none of the ranked lists.
+def test_plurals_count_for_their_singular_unless_they_are_nouns_themselves():
+    # `chopstick` itself is in none of the ranked lists.
     assert word_frequency("shoe") > word_frequency("wallet")
     assert word_frequency("chopstick") > word_frequency("forklift")
-
-
-def test_a_plural_that_is_a_noun_of_its_own_stays():
     assert word_frequency("scissors") > word_frequency("scissor")
 
 
-def test_every_single_word_noun_and_adjective_of_the_taxonomy_is_there():
+def test_the_vocabulary_has_every_single_word_noun_and_adjective_of_the_taxonomy():
     words = [word for word, *_ in shipped_lines()]
     assert words == sorted(set(words))
     assert load_taxonomy().adjectives <= set(words)
     assert {"chair", "forklift", "apple", "dog", "water", "wooden", "flowerpot", "worktop"} <= set(words)
-    assert len(words) == 35752
 
 
-def test_scores_lie_between_the_floor_and_the_commonest_words():
+def test_shipped_scores_and_shares_are_in_range():
     tenths = [int(score) for _, score, _ in shipped_lines()]
     assert min(tenths) == 10 * UNKNOWN_FREQUENCY
     assert max(tenths) < 80
@@ -79,60 +74,41 @@ def test_scores_lie_between_the_floor_and_the_commonest_words():
     assert (min(shares), max(shares)) == (0, 100)
 
 
-def test_the_prior_sums_to_one_over_the_vocabulary():
-    assert math.fsum(math.exp(thing_prior(word)) for word, *_ in shipped_lines()) == pytest.approx(1, abs=1e-9)
+class TestThingPrior:
+    def test_sums_to_one_over_the_vocabulary(self):
+        assert math.fsum(math.exp(thing_prior(word)) for word, *_ in shipped_lines()) == pytest.approx(1, abs=1e-9)
+
+    @pytest.mark.parametrize("word", ["time", "people", "person", "way", "idea", "love", "can", "chef", "wooden"])
+    def test_words_that_name_no_thing_come_after_a_chair(self, word: str):
+        assert thing_prior(word) < thing_prior("chair")
+
+    def test_at_equal_frequency_artifacts_come_before_food_and_food_before_persons(self):
+        assert word_frequency("oven") == pytest.approx(word_frequency("onion"), abs=0.4)
+        assert word_frequency("onion") == pytest.approx(word_frequency("chef"), abs=0.4)
+        assert thing_prior("oven") > thing_prior("onion") > thing_prior("chef")
+
+    def test_a_past_tense_does_not_count_for_the_tool(self):
+        assert word_frequency("saw") > word_frequency("hammer")
+        assert thing_prior("saw") < thing_prior("hammer")
+
+    def test_formula_for_artifacts_with_one_sense(self):
+        # Only the frequencies differ.
+        difference = word_frequency("forklift") - word_frequency("flowerpot")
+        assert thing_prior("forklift") - thing_prior("flowerpot") == pytest.approx(0.75 * math.log(10) * difference)
+
+    def test_words_of_the_home_ontology_that_the_taxonomy_lacks_weigh_half(self):
+        difference = word_frequency("forklift") - word_frequency("worktop")
+        expected = 0.75 * math.log(10) * difference + math.log(2)
+        assert thing_prior("forklift") - thing_prior("worktop") == pytest.approx(expected)
+
+    def test_unknown_words_have_the_lowest_prior(self):
+        assert thing_prior("xqzt") == pytest.approx(min(thing_prior(word) for word, *_ in shipped_lines()))
+
+    def test_a_compound_of_the_taxonomy_is_a_thing_of_unknown_frequency(self):
+        assert thing_prior("xqzt") < thing_prior("coffeetable") < thing_prior("flowerpot")
 
 
-@pytest.mark.parametrize("abstract", ["time", "people", "person", "way", "idea", "love", "can", "chef", "wooden"])
-def test_common_words_that_name_no_thing_come_behind_a_chair(abstract: str):
-    assert thing_prior(abstract) < thing_prior("chair")
-
-
-def test_at_equal_frequency_artifacts_come_before_food_and_food_before_persons():
-    assert word_frequency("oven") == pytest.approx(word_frequency("onion"), abs=0.4)
-    assert word_frequency("onion") == pytest.approx(word_frequency("chef"), abs=0.4)
-    assert thing_prior("oven") > thing_prior("onion") > thing_prior("chef")
-
-
-def test_a_past_tense_does_not_pass_for_the_tool():
-    assert word_frequency("saw") > word_frequency("hammer")
-    assert thing_prior("saw") < thing_prior("hammer")
-
-
-def test_words_that_only_the_home_ontology_knows_count_as_things():
-    # The weight is 0.5 against the 1 of an artifact without another meaning.
-    difference = word_frequency("forklift") - word_frequency("worktop")
-    expected = 0.75 * math.log(10) * difference + math.log(2)
-    assert thing_prior("forklift") - thing_prior("worktop") == pytest.approx(expected)
-
-
-def test_the_prior_of_a_word_with_one_meaning_follows_the_formula():
-    # Both are artifacts in their only meaning and only nouns, so just the frequencies differ.
-    difference = word_frequency("forklift") - word_frequency("flowerpot")
-    assert thing_prior("forklift") - thing_prior("flowerpot") == pytest.approx(0.75 * math.log(10) * difference)
-
-
-def test_the_prior_of_an_unknown_word_is_the_least():
-    least = min(thing_prior(word) for word, *_ in shipped_lines())
-    assert thing_prior("xqzt") == pytest.approx(least)
-
-
-def test_a_compound_of_the_taxonomy_is_a_thing_of_unknown_frequency():
-    assert [sense.domain for sense in load_taxonomy().senses("coffeetable")] == ["artifact"]
-    assert thing_prior("xqzt") < thing_prior("coffeetable") < thing_prior("flowerpot")
-
-
-def test_the_data_loads_within_50_milliseconds():
-    def seconds() -> float:
-        frequencies._load_entries.cache_clear()
-        start = time.process_time()
-        frequencies._load_entries()
-        return time.process_time() - start
-
-    assert min(seconds() for _ in range(5)) < 0.05
-
-
-def test_the_notice_stands_beside_the_data():
+def test_the_notice_credits_the_sources():
     notice = read_text("FREQUENCIES-LICENSE.txt")
     assert "https://creativecommons.org/licenses/by/3.0/" in notice
     assert "Copyright 2000-2018 by Kevin Atkinson" in notice
