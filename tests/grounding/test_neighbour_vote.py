@@ -1,138 +1,113 @@
-"""What the company says: votes of the companions."""
+"""Votes of neighbours: classes of the objects beside a target and of its size."""
 
 import math
 
 import pytest
 
-from tests.grounding.records import SOMA, make_object, make_scene
+from tests.grounding.records import SOMA, ground_view, local, make_object, make_scene
 from usd2kg.grounding import NamingRegime, ObjectView, view_objects
 from usd2kg.grounding.context import Companion, Nearness
-from usd2kg.grounding.lexical import neighbour_vote as context
-from usd2kg.grounding.lexical.alignment.naming import Match
-from usd2kg.grounding.lexical.concepts.object_likelihoods import Classify
-from usd2kg.grounding.lexical.concepts.sizes import Size
-from usd2kg.grounding.lexical.grounder import LexicalGrounder, _run_for
-from usd2kg.grounding.lexical.neighbour_vote import Votes, ask_company, siblings_as_company, vote_of
+from usd2kg.grounding.lexical.neighbour_vote import Vote, Votes, ask_company, siblings_as_company
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
 
 NEXT, SIBLING, TWIN, ALIKE = Nearness.NEXT, Nearness.SIBLING, Nearness.TWIN, Nearness.ALIKE
-REST = 0.5
-"""What the company is held to say nothing with, in weights of a companion right beside."""
+ABSTENTION = 0.5
+"""Weight of the case that neighbours say nothing, where one right beside the target weighs 1."""
 
 
 def near(name: str, nearness: Nearness = NEXT, distance: float | None = 0.1) -> Companion:
+    """Return a companion whose name is its class and, after a hyphen, the score of its vote: `cup-0.8`."""
     return Companion(name, ("Room",), nearness, distance)
 
 
-def by_first_word(name: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
-    """Take `cup-0.8` for a cup with score 0.8, and give a second class that is not to be counted."""
-    word, _, score = name.partition("-")
-    first = Match(word, float(score or 1), str)
-    return [first, Match("other", first.score / 2, str)] if word != "nothing" else []
+def vote(*companions: Companion) -> Votes[Companion]:
+    def voter(companion: Companion) -> tuple[Vote, Nearness, float | None, Companion]:
+        iri, _, score = companion.name.partition("-")
+        return Vote(iri, float(score or 1)), companion.nearness, companion.distance, companion
 
-
-def votes(*companions: Companion, classify: Classify = by_first_word) -> Votes[Companion]:
-    told = [(vote_of(classify(found.name, found.parents, found.size)), found) for found in companions]
-    return ask_company((vote, found.nearness, found.distance, found) for vote, found in told if vote is not None)
+    return ask_company(map(voter, companions))
 
 
 def ratio(one: Companion, other: Companion) -> float:
-    """Return how much heavier the vote of one companion is than that of another."""
-    shares = votes(one, other).shares
+    """Return the weight of one companion's vote divided by another's."""
+    shares = vote(one, other).shares
     return shares[one.name.partition("-")[0]] / shares[other.name.partition("-")[0]]
 
 
-# --- votes -------------------------------------------------------------------------------------------
-
-
 def test_without_companions_there_are_no_votes():
-    assert votes() == Votes({}, {})
+    assert vote() == Votes({}, {})
 
 
 def test_shares_worked_by_hand():
-    # Of unknown size a companion right beside weighs half: 0.5 · 0.8 = 0.4 for the cup, twice 0.5 for the lamp.
-    found = votes(near("cup-0.8", NEXT, None), near("lamp", NEXT, None), near("lamp", NEXT, None)).shares
-    assert found == pytest.approx({"cup": 0.4 / (1.4 + REST), "lamp": 1 / (1.4 + REST)})
+    # A companion of unknown size weighs half: 0.5 · 0.8 = 0.4 for the cup, twice 0.5 for the lamp.
+    found = vote(near("cup-0.8", NEXT, None), near("lamp", NEXT, None), near("lamp", NEXT, None)).shares
+    assert found == pytest.approx({"cup": 0.4 / (1.4 + ABSTENTION), "lamp": 1 / (1.4 + ABSTENTION)})
 
 
-def test_shares_leave_something_for_knowing_nothing():
-    few, many = votes(near("cup")).shares["cup"], votes(*[near("cup")] * 60).shares["cup"]
+def test_shares_add_up_to_less_than_one():
+    few, many = vote(near("cup")).shares["cup"], vote(*[near("cup")] * 60).shares["cup"]
     assert 0 < few < many < 1
-    mixed = votes(near("cup"), near("lamp", SIBLING), near("plate", ALIKE)).shares
-    assert sum(mixed.values()) < 1
+    assert sum(vote(near("cup"), near("lamp", SIBLING), near("plate", ALIKE)).shares.values()) < 1
 
 
-def test_the_nearer_the_heavier():
+def test_the_weight_decreases_with_distance_in_the_tree():
     order = [NEXT, TWIN, SIBLING, ALIKE]
-    shares = votes(*(near(f"{nearness.value}", nearness, 0.1) for nearness in order)).shares
-    assert list(shares) == sorted(shares, key=lambda name: -shares[name]) == [nearness.value for nearness in order]
-    expected = context._WEIGHTS[NEXT] / context._WEIGHTS[SIBLING]
-    assert ratio(near("cup", NEXT), near("lamp", SIBLING)) == pytest.approx(expected)
+    shares = vote(*(near(nearness.value, nearness, 0.1) for nearness in order)).shares
+    assert sorted(shares, key=lambda name: -shares[name]) == [nearness.value for nearness in order]
 
 
-def test_the_more_alike_in_size_the_heavier():
-    # A Gaussian kernel: one spread off weighs e^-½ = 0.607, two weigh e^-2 = 0.135.
-    spread = context._SIZE_SPREAD
-    one = ratio(near("cup", NEXT, 2 * spread), near("lamp", NEXT, spread))
+def test_the_weight_is_a_gaussian_of_the_difference_in_size():
+    # Standard deviation 0.2: one weighs exp(-1/2), two weigh exp(-2).
+    one = ratio(near("cup", NEXT, 0.4), near("lamp", NEXT, 0.2))
     assert one == pytest.approx(math.exp(-2) / math.exp(-0.5))
     assert ratio(near("cup", NEXT, 3.0), near("lamp", NEXT, 0.1)) < 1e-6
-    # Of unknown size it is neither alike nor different.
+
+
+def test_an_unknown_size_counts_for_something():
     assert 0.1 < ratio(near("cup", NEXT, None), near("lamp", NEXT, 0.02)) < 1
 
 
-def test_a_companion_of_exactly_the_same_size_counts_several_times():
-    bonus = ratio(near("cup", NEXT, 0.0), near("lamp", NEXT, 0.011))
-    assert bonus == pytest.approx(context._TWIN_BONUS, rel=0.01)
-    assert bonus > 2
-    # So two strangers in the family do not outvote the copy that stands elsewhere.
-    found = votes(near("cup", TWIN, 0.0), near("lamp", SIBLING, 0.3), near("lamp", SIBLING, 0.3)).shares
+def test_a_copy_elsewhere_outvotes_two_siblings_of_another_size():
+    assert ratio(near("cup", NEXT, 0.0), near("lamp", NEXT, 0.011)) == pytest.approx(6, rel=0.01)
+    found = vote(near("cup", TWIN, 0.0), near("lamp", SIBLING, 0.3), near("lamp", SIBLING, 0.3)).shares
     assert found["cup"] > found["lamp"]
 
 
-def test_companions_of_unclear_names_have_no_vote():
-    found = votes(near("cup-0.49"), near("nothing"), near("lamp-0.5", SIBLING))
-    assert set(found.shares) == set(found.heaviest) == {"lamp"}
-    assert votes(near("cup-0.49"), near("nothing")) == Votes({}, {})
-
-
-def test_a_clearer_name_has_more_of_a_vote():
+def test_the_weight_is_proportional_to_the_score_of_the_name():
     assert ratio(near("cup-0.9"), near("lamp-0.6")) == pytest.approx(1.5)
 
 
-def test_the_heaviest_vote_is_remembered_for_each_class():
+def test_the_heaviest_vote_of_each_class_is_kept_for_the_explanation():
     far, beside, other = near("cup", ALIKE), near("cup-0.9", NEXT), near("lamp", SIBLING)
-    assert {iri: found[-1] for iri, found in votes(far, beside, other).heaviest.items()} == {
-        "cup": beside,
-        "lamp": other,
-    }
-    assert votes(beside, far).heaviest == {"cup": (("cup", 0.9), NEXT, 0.1, beside)}
+    heaviest = vote(far, beside, other).heaviest
+    assert {iri: found[-1] for iri, found in heaviest.items()} == {"cup": beside, "lamp": other}
+    assert vote(beside, far).heaviest == {"cup": (Vote("cup", 0.9), NEXT, 0.1, beside)}
 
 
-def test_the_order_of_the_companions_makes_no_difference_to_the_shares():
+def test_shares_do_not_depend_on_the_order():
     some = [near("cup"), near("lamp", SIBLING, 0.4), near("cup", ALIKE, None), near("plate", TWIN, 0.005)]
-    assert votes(*some).shares == pytest.approx(votes(*reversed(some)).shares)
+    assert vote(*some).shares == pytest.approx(vote(*reversed(some)).shares)
 
 
-def test_a_chair_among_chairs_of_its_size_in_a_real_company(home_tbox: TBox):
-    chairs = (make_object(f"/Hall/chair_{i}", box=Box((0, 0, 0), (0.5, 0.5, 0.9))) for i in range(3))
-    table = make_object("/Hall/table", box=Box((0, 0, 0), (1.8, 0.9, 0.75)))
-    target = make_object("/Hall/x", box=Box((0, 0, 0), (0.5, 0.5, 0.9)))
-    *_, (_, view) = view_objects(make_scene(*chairs, table, target), NamingRegime.OPAQUE)
-    assert view.company is not None
-    found = votes(*view.company.companions(), classify=_run_for(home_tbox, True)._match).shares
-    assert found[SOMA + "DesignedChair"] > 0.7
-    assert found[SOMA + "Table"] < 0.1
-
-
-def test_siblings_of_which_only_the_names_are_known_vote_alike():
-    found = votes(*siblings_as_company(["cup-0.8", "cup-0.8", "bowl-0.8"], ("Room",)))
+def test_siblings_with_names_only_vote_with_equal_weight():
+    found = vote(*siblings_as_company(["cup-0.8", "cup-0.8", "bowl-0.8"], ("Room",)))
     assert found.shares["cup"] == pytest.approx(2 * found.shares["bowl"])
     assert len(siblings_as_company(map(str, range(1000)), ())) == 48
 
 
-def test_hierarchy_alone_lets_the_siblings_speak(home_tbox: TBox):
+def test_a_nameless_object_among_chairs_of_its_size_is_a_chair(home_tbox: TBox):
+    chairs = (make_object(f"/Hall/chair_{i}", box=Box((0, 0, 0), (0.5, 0.5, 0.9))) for i in range(3))
+    table = make_object("/Hall/table", box=Box((0, 0, 0), (1.8, 0.9, 0.75)))
+    target = make_object("/Hall/x", box=Box((0, 0, 0), (0.5, 0.5, 0.9)))
+    *_, (_, view) = view_objects(make_scene(*chairs, table, target), NamingRegime.OPAQUE)
+    prediction = ground_view(view, home_tbox)
+    assert prediction.class_iri == SOMA + "DesignedChair"
+    assert prediction.evidence == ("company",)
+
+
+def test_siblings_decide_where_only_the_hierarchy_is_shown(home_tbox: TBox):
     view = ObjectView(name="obj_001", parents=("Room",), siblings=["Cup_1", "Cup_2", "Plate_1"], is_masked=True)
-    (answer,) = LexicalGrounder().ground_views([("/Room/x", view)], home_tbox)
-    assert home_tbox.by_iri[answer.class_iri].local_name == "Cup"
-    assert answer.evidence == ("hierarchy",)
+    prediction = ground_view(view, home_tbox)
+    assert local(prediction) == "Cup"
+    assert prediction.evidence == ("hierarchy",)
