@@ -50,7 +50,9 @@ class TestCopiesOfOneAsset:
     @pytest.mark.parametrize(
         "other", [view("obj_7", "bowl_b"), view("obj_7", ""), view("obj_7", size=0.2), view("obj_7", is_masked=True)]
     )
-    def test_other_assets_sizes_and_masked_targets_do_not_count_as_copies(self, home_tbox: TBox, other: ObjectView) -> None:
+    def test_other_assets_sizes_and_masked_targets_do_not_count_as_copies(
+        self, home_tbox: TBox, other: ObjectView
+    ) -> None:
         answers = [answer("/a", CUP, 0.9), answer("/b", BOWL, 0.2)]
         assert agree_by_asset([view("cup_1"), other], answers, home_tbox) == answers
 
