@@ -11,7 +11,8 @@ __all__ = ["load_ontology", "parse_outline"]
 
 _BASES = {"dul": DUL, "soma": SOMA, "": LAB}
 _LINE = re.compile(
-    r'(?P<indent>(?:  )*)(?:(?P<prefix>\w+):)?(?P<name>[\w.]+)(?: "(?P<label>[^"]+)")?(?: = (?P<synonyms>[^;]+))?(?:; (?P<comment>.+))?'
+    r"(?P<indent>(?:  )*)(?:(?P<prefix>\w+):)?(?P<name>[\w.]+)"
+    r'(?: "(?P<label>[^"]+)")?(?: = (?P<synonyms>[^;]+))?(?:; (?P<comment>.+))?'
 )
 
 OUTLINES = {

@@ -44,7 +44,7 @@ def test_extents_are_sorted_and_spreads_in_range():
 
 
 def test_density_at_the_centre_worked_by_hand():
-    # pallet: 1.2 × 0.9 × 0.145 m, spread 0.12. Scale² = 0.12² + 0.08² = 0.0208, plus the millimetre's (1/1200)² = 6.9e-7,
+    # pallet: 1.2 × 0.9 × 0.145 m, spread 0.12. Scale² = 0.12² + 0.08² = 0.0208; the millimetre adds (1/1200)² = 6.9e-7,
     # (1/900)² = 1.2e-6 and (1/145)² = 4.76e-5.
     # ln(1.2/0.9) = 0.288 is 1.99 scales: the two long extents are in order with P(t4 - t4' < 1.99) ≈ 0.89.
     sigmas = [math.sqrt(0.0208 + (0.001 / extent) ** 2) for extent in (1.2, 0.9, 0.145)]
