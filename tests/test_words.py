@@ -86,10 +86,10 @@ def test_words_of(identifier, words):
 
 
 @pytest.mark.parametrize(
-    ("word", "tells"), [("cup", True), ("tv", True), ("sm", False), ("c", False), ("12", False), ("ü", True)]
+    ("word", "expected"), [("cup", True), ("tv", True), ("sm", False), ("c", False), ("12", False), ("ü", True)]
 )
-def test_is_telling(word, tells):
-    assert is_telling(word) is tells
+def test_is_telling(word, expected):
+    assert is_telling(word) is expected
 
 
 @settings(max_examples=100, deadline=None)

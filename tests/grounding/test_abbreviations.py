@@ -34,7 +34,7 @@ def best(*tokens: str, company: Company | None = None) -> tuple[str, ...]:
 
 
 def company_of(*names: str) -> Company:
-    """Return the company of a nameless object in a scene with other objects of these names."""
+    """Return the other objects of a scene, which have these names, as the company of a nameless one."""
     scene = scene_of("/Room/obj_1", *(f"/Room/{name}" for name in names))
     company = next(view for _, view in view_objects(scene, NamingRegime.OPAQUE)).company
     assert company is not None

@@ -11,7 +11,7 @@ from usd2kg.grounding.lexical.reading.shortening import Choice, FormIndex, find_
 FULL, SKELETON, FIRST_VOWEL, CUT = 0.15, 0.5, 0.15, 0.2
 """How likely a word is written in full, without vowels, without vowels after the first letter, or cut."""
 KEPT = {1: 0.02, 2: 0.1, 3: 0.28, 4: 0.35, 5: 0.15, 6: 0.1}
-"""How likely so many letters are kept."""
+"""Number of letters kept → probability."""
 PRIORS = {word: -float(at % 5) for at, word in enumerate("cup cap coffee cupboard copper oven ear eau gym a".split())}
 FORMS = sorted({form for word in PRIORS for form, _ in forms_of(word)})
 

@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import make_object, make_scene, words_written
-from usd2kg.grounding.context import Companion, Company, Nearness
-from usd2kg.grounding.context import neighbours as company
+from usd2kg.grounding.context import Companion, Company, Nearness, neighbours
 from usd2kg.grounding.context.neighbours import companies, size_distance
 from usd2kg.scene import Box, Scene
 from usd2kg.words import words_of
@@ -279,9 +278,9 @@ def test_the_target_is_never_its_own_companion(scene: Scene):
 def test_words_are_those_of_the_other_objects(scene: Scene):
     every = {word for obj in scene.objects for word in words_of(obj.name)}
     for obj, its in zip(scene.objects, companies(scene), strict=True):
-        told = {word: share for form in every for word, share, _ in words_written(its, form, initials)}
+        found = {word: share for form in every for word, share, _ in words_written(its, form, initials)}
         others = Counter(word for other in scene.objects if other is not obj for word in set(words_of(other.name)))
-        assert told == pytest.approx({word: count / len(scene.objects) for word, count in others.items()})
+        assert found == pytest.approx({word: count / len(scene.objects) for word, count in others.items()})
 
 
 @settings(max_examples=40, deadline=None)
@@ -319,13 +318,13 @@ def large_scene(count: int) -> Scene:
 
 def test_the_cost_of_a_target_does_not_depend_on_the_scene(monkeypatch):
     compared: Counter[int] = Counter()
-    real = company._distance
+    real = neighbours._distance
 
     def counted(one, other):
         compared[count] += 1
         return real(one, other)
 
-    monkeypatch.setattr(company, "_distance", counted)
+    monkeypatch.setattr(neighbours, "_distance", counted)
     for count in (400, 4000):
         everyone = companies(large_scene(count))
         for its in everyone[count // 2 : count // 2 + 20]:
@@ -344,10 +343,10 @@ def test_time_is_not_quadratic_in_the_number_of_siblings():
 
     start = time.process_time()
     everyone = companies(scene)
-    told = [words_written(its, "book", ways) for its in everyone]
+    found = [words_written(its, "book", ways) for its in everyone]
     companions = [len(its.companions()) for its in everyone[::50]]
     assert time.process_time() - start < 5
-    assert told == [[("book", 9_999 / 10_000, -1.0)]] * 10_000
+    assert found == [[("book", 9_999 / 10_000, -1.0)]] * 10_000
     # The index of words is built once, not for each target.
     assert asked == {"book": 1}
     assert max(companions) <= 48 + 40
