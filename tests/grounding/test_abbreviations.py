@@ -122,9 +122,9 @@ def test_letters_beyond_ascii_are_letters():
 @pytest.mark.parametrize("text", ["a" * 200, "abcdefghij" * 20, "cffmchn" * 29, "bcdfgh" * 34, "zxq" * 67])
 def test_long_runs_of_letters_have_no_readings_and_take_little_time(text: str):
     READER.read(sorted(set(text)))
-    start = time.perf_counter()
+    start = time.process_time()
     assert READER.read([text]) == []
-    assert time.perf_counter() - start < 2
+    assert time.process_time() - start < 2
 
 
 @settings(deadline=None, max_examples=60)

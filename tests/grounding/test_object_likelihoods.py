@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.ontologies import parse_outline
@@ -68,6 +68,7 @@ def test_typical_objects_are_among_the_three_likeliest_classes(
     assert expected in [home_tbox.by_iri[found.class_iri].local_name for found in prediction.candidates[:3]]
 
 
+@settings(deadline=None)
 @given(
     size=st.tuples(*[st.floats(0, 60)] * 3),
     height=st.none() | st.floats(0, 60),

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.test_shortening import CUT, FIRST_VOWEL, FULL, KEPT, SKELETON
@@ -58,6 +58,7 @@ def test_unexplained_letters_between_words_are_skipped():
     assert factor("xqspnfrkxq", "spoon", "fork") == pytest.approx(alone)
 
 
+@settings(deadline=None)
 @given(st.text("abcdefgst", max_size=14), st.lists(st.sampled_from(["spoon", "fork", "oak", "a", "bed"]), max_size=4))
 def test_any_letters_and_words_have_a_finite_factor(letters: str, words: list[str]):
     assert ANYHOW - 1e-9 <= factor(letters, *words) < math.inf

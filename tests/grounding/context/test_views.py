@@ -337,10 +337,10 @@ def test_objects_at_the_root_are_siblings_without_parents():
 def test_time_is_not_quadratic_in_the_number_of_siblings(regime):
     # A list for each view would hold 1e8 names.
     scene = scene_of(*(f"/W/Book_{index}" for index in range(10_000)))
-    start = time.perf_counter()
+    start = time.process_time()
     lengths = {len(view.siblings) for view in views(scene, regime)}
     assert lengths == {9_999}
-    assert time.perf_counter() - start < 5
+    assert time.process_time() - start < 5
 
 
 def test_a_name_of_thousands_of_digits_is_abbreviated():
