@@ -1,4 +1,4 @@
-"""Reading identifiers as words."""
+"""Identifiers split into words."""
 
 import unicodedata
 
@@ -27,26 +27,26 @@ from usd2kg.words import is_telling, split_identifier, words_of
         ("椅子_3", ("椅子", "3")),
         ("tn__knob1_f5", ("knob", "1")),
         ("tn__1", ("1",)),
-        ("btn__knob1_f5", ("btn", "knob", "1", "f", "5")),  # only a prefix is an exporter's escape
+        ("btn__knob1_f5", ("btn", "knob", "1", "f", "5")),  # the escape of an exporter is a prefix
     ],
 )
 def test_split_identifier(identifier, parts):
     assert split_identifier(identifier) == parts
 
 
-def test_letters_with_combining_marks_are_one_letter():
+def test_a_letter_with_a_combining_mark_is_one_letter():
     assert split_identifier(unicodedata.normalize("NFD", "Küchentür")) == ("Küchentür",)
 
 
 @pytest.mark.parametrize("word", ["मेज", "कुर्सी", "เก้าอี้"])
 def test_vowel_signs_do_not_split_a_word(word):
-    # Table and chair in Hindi, chair in Thai: vowels are marks that no precomposed letter stands for.
+    # Table and chair in Hindi, chair in Thai; their vowel signs have no precomposed letters.
     assert split_identifier(word) == (word,)
 
 
 @settings(max_examples=300, deadline=None)
 @given(st.text(max_size=30).filter(lambda text: not unicodedata.normalize("NFC", text).startswith("tn__")))
-def test_splitting_loses_no_letter_and_no_digit(text):
+def test_splitting_keeps_all_letters_and_digits(text):
     kept = "".join(char for char in unicodedata.normalize("NFC", text) if char.isalnum())
     joined = "".join(char for part in split_identifier(text) for char in part if char.isalnum())
     assert joined == kept
@@ -54,7 +54,7 @@ def test_splitting_loses_no_letter_and_no_digit(text):
 
 @settings(max_examples=300, deadline=None)
 @given(st.text(alphabet="aBcD12_- ", max_size=30))
-def test_parts_are_words_or_numbers_and_splitting_again_changes_nothing(text):
+def test_parts_are_words_or_numbers_and_are_not_split_further(text):
     for part in split_identifier(text):
         assert part.isalpha() or part.isdigit()
         assert split_identifier(part) == (part,)
@@ -62,7 +62,7 @@ def test_parts_are_words_or_numbers_and_splitting_again_changes_nothing(text):
 
 @settings(max_examples=100, deadline=None)
 @given(st.lists(st.from_regex(r"[a-z]{2,8}", fullmatch=True), min_size=1, max_size=5))
-def test_every_way_of_joining_words_is_split_alike(words):
+def test_snake_camel_and_spaced_words_are_split_alike(words):
     expected = tuple(words)
     for joined in ("_".join(words), "".join(word.capitalize() for word in words), " ".join(words)):
         assert tuple(part.lower() for part in split_identifier(joined)) == expected
@@ -76,8 +76,8 @@ def test_every_way_of_joining_words_is_split_alike(words):
         ("Kitchen_Table_LOD0", ("kitchen", "table")),
         ("aws_robomaker_warehouse_ShelfE_01", ("aws", "robomaker", "warehouse", "shelf")),
         ("LowTable", ("table",)),
-        ("Lowboard", ("lowboard",)),  # a token within a word is part of the word
-        ("椅", ("椅",)),  # one letter can be a word where letters are no alphabet
+        ("Lowboard", ("lowboard",)),  # low is a production token only as a word
+        ("椅", ("椅",)),  # an ideograph can be a word
         ("a", ()),
     ],
 )
@@ -86,10 +86,10 @@ def test_words_of(identifier, words):
 
 
 @pytest.mark.parametrize(
-    ("word", "tells"), [("cup", True), ("tv", True), ("sm", False), ("c", False), ("12", False), ("ü", True)]
+    ("word", "expected"), [("cup", True), ("tv", True), ("sm", False), ("c", False), ("12", False), ("ü", True)]
 )
-def test_is_telling(word, tells):
-    assert is_telling(word) is tells
+def test_is_telling(word, expected):
+    assert is_telling(word) is expected
 
 
 @settings(max_examples=100, deadline=None)

@@ -12,7 +12,7 @@ from tests.conftest import shared_file
 from tests.grounding.records import words_written
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ObjectView, make_grounder, view_objects
-from usd2kg.grounding.context import Companion, Neighbour
+from usd2kg.grounding.context import Neighbour, Neighbour
 from usd2kg.ontology import TBox
 from usd2kg.scene import Label, Scene, SceneObject, read_scene
 from usd2kg.words import words_of
@@ -41,8 +41,8 @@ def _texts(view: ObjectView) -> Iterator[str]:
         yield from several
 
 
-def _companions(view: ObjectView) -> list[Companion]:
-    return view.company.companions() if view.company else []
+def _companions(view: ObjectView) -> list[Neighbour]:
+    return view.neighbourhood.neighbours() if view.neighbourhood else []
 
 
 def _neighbours(view: ObjectView) -> list[Neighbour]:
@@ -52,12 +52,12 @@ def _neighbours(view: ObjectView) -> list[Neighbour]:
         asked.append(neighbour)
         return np.zeros(1)
 
-    assert view.standing is not None
-    view.standing.around(judge, 48)
+    assert view.placement is not None
+    view.placement.around(judge, 48)
     return asked
 
 
-def _path_of(companion: Companion) -> str:
+def _path_of(companion: Neighbour) -> str:
     return "/".join(("", *companion.parents, companion.name))
 
 
@@ -108,7 +108,7 @@ def test_richer_evidence_stays_hidden_where_it_is_there_and_asked_for(scene: Sce
 def test_no_companion_is_the_target(scene: Scene, regime: NamingRegime) -> None:
     paths = {obj.prim_path for obj in scene.objects}
     for obj, view in view_objects(scene, regime):
-        assert (view.company is None) == (regime is NamingRegime.OPAQUE_ANONYMOUS)
+        assert (view.neighbourhood is None) == (regime is NamingRegime.OPAQUE_ANONYMOUS)
         found = [_path_of(companion) for companion in _companions(view)]
         assert obj.prim_path not in found
         # What lies below the target has the target's name among its parents.
@@ -132,11 +132,11 @@ def test_no_neighbour_is_the_target_or_bears_its_name_above(scene: Scene, regime
 def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, regime: NamingRegime) -> None:
     bearers = Counter(word for obj in scene.objects for word in set(words_of(obj.name)))
     for obj, view in view_objects(scene, regime):
-        assert view.company is not None
+        assert view.neighbourhood is not None
         for word in set(words_of(obj.name)):
             others = bearers[word] - 1
             expected = [(word, others / len(scene.objects), 0.0)] if others else []
-            assert words_written(view.company, word, _in_full) == expected
+            assert words_written(view.neighbourhood, word, _in_full) == expected
 
 
 @pytest.mark.parametrize("regime", [NamingRegime.OPAQUE, NamingRegime.OPAQUE_ANONYMOUS])
@@ -149,8 +149,8 @@ def test_another_name_of_the_target_makes_no_difference(scene: Scene, regime: Na
         assert _companions(before) == _companions(after)
         assert list(before.siblings) == list(after.siblings)
         assert _neighbours(before) == _neighbours(after)
-        assert before.look == after.look
-        unlike = {"company": None, "siblings": (), "standing": None}
+        assert before.appearance == after.appearance
+        unlike = {"neighbours": None, "siblings": (), "standing": None}
         assert replace(before, **unlike) == replace(after, **unlike)
         one, two = (grounder.ground_views([("/x", view)], home_tbox) for view in (before, after))
         assert one == two

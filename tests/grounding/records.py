@@ -1,13 +1,18 @@
 """Scenes and TBoxes written by hand, so that grounding is tested without OpenUSD or OWL files."""
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import Any
 
 from usd2kg.grounding import ObjectView, Prediction
-from usd2kg.grounding.context import Company
-from usd2kg.grounding.context.neighbours import Ways
+from usd2kg.grounding.context import Neighbourhood
+from usd2kg.grounding.context.stage_words import WriteForms
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.ontology import OntologyClass, TBox
+from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader
+from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
+from usd2kg.ontology import OntologyClass, TBox, load_home_tbox
 from usd2kg.scene import Joint, Scene, SceneObject, StageFrame
 
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
@@ -16,7 +21,7 @@ DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 
 
 def make_object(path: str, **known: Any) -> SceneObject:
-    """Return an object of which only the path is known, and what `known` adds."""
+    """Return an object at a path with the fields of `known`; all other fields are empty."""
     blank: dict[str, Any] = {
         "prim_path": path,
         "name": path.rpartition("/")[2],
@@ -90,14 +95,35 @@ def ground_view(view: ObjectView, tbox: TBox) -> Prediction:
     return LexicalGrounder().ground_views([("/Room/thing", view)], tbox)[0]
 
 
+@lru_cache(maxsize=1)
+def _home_readers() -> tuple[NameReader, AbbreviationReader]:
+    lexicon, taxonomy = build_lexicon(load_home_tbox(), load_taxonomy(), {}), load_taxonomy()
+    return NameReader(lexicon, taxonomy), AbbreviationReader(lexicon, taxonomy)
+
+
+def read_name(name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
+    """Return a name below these parents as a noun phrase, with the words of the home ontology."""
+    return _home_readers()[0].read(name, parents)
+
+
+def read_words(name: str, parents: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the words of a name below these parents."""
+    return read_name(name, parents).words
+
+
+def read_abbreviation(tokens: Sequence[str]) -> tuple[str, ...]:
+    """Return the likeliest words behind abbreviated tokens, in the home ontology."""
+    return next((reading.words for reading in _home_readers()[1].read(tokens)), ())
+
+
 def local(prediction: Prediction) -> str:
     """Return the local name of a prediction's class, empty if it has none."""
     return (prediction.class_iri or "").rpartition("#")[2]
 
 
-def words_written(company: Company, form: str, ways: Ways) -> list[tuple[str, float, float]]:
-    """Return (word, share, score) of the words in other objects' names that may be written in a form, sorted."""
-    return company.words_written(ways, _as_it_is, _all_of_them, 1000)(form) or []
+def words_written(company: Neighbourhood, form: str, ways: WriteForms) -> list[tuple[str, float, float]]:
+    """Return (word, share of the other objects, score) of the words that a form may abbreviate, sorted."""
+    return company.words_by_form(ways, _as_it_is, _all_of_them, 1000)(form) or []
 
 
 def _as_it_is(word: str, share: float, score: float) -> tuple[str, float, float]:

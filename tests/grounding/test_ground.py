@@ -1,4 +1,4 @@
-"""ground: whose answers are asked for, in which order, and what is recorded of the run."""
+"""`ground`: which objects are grounded, in which order, and what is recorded of the run."""
 
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
@@ -24,7 +24,7 @@ TBOX = make_tbox(make_class("Thing"))
 
 
 class Recorder:
-    """Grounds everything to Thing, and keeps what it was shown."""
+    """A grounder that predicts Thing and records the views it gets."""
 
     name = "recorder"
     is_calibrated = True
@@ -38,7 +38,7 @@ class Recorder:
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         self.seen.extend(views)
-        # In another order than asked: a grounder may batch.
+        # A grounder may return another order than it was given.
         return [
             Prediction(path, LAB + "Thing", 0.5, Status.GROUNDED, self.name, view.name)
             for path, view in reversed(views)
@@ -58,21 +58,21 @@ def test_all_objects_in_scene_order():
     assert [p.explanation for p in grounding.predictions] == ["Cup", "Lamp", "Oven"]
 
 
-def test_only_the_paths_asked_for_in_their_order():
+def test_requested_paths_are_grounded_in_their_order():
     recorder = Recorder()
     grounding = ground(SCENE, TBOX, recorder, paths=["/Room/Oven", "/Room/Cup"])
     assert paths_of(grounding.predictions) == ["/Room/Oven", "/Room/Cup"]
     assert [path for path, _ in recorder.seen] == ["/Room/Oven", "/Room/Cup"]
-    # The others are context all the same.
+    # The other objects remain context.
     assert list(recorder.seen[1][1].siblings) == ["Lamp", "Oven"]
 
 
-def test_a_path_asked_for_twice_is_answered_once():
+def test_a_repeated_path_is_grounded_once():
     grounding = ground(SCENE, TBOX, Recorder(), paths=["/Room/Cup", "/Room/Lamp", "/Room/Cup"])
     assert paths_of(grounding.predictions) == ["/Room/Cup", "/Room/Lamp"]
 
 
-def test_a_path_that_is_not_there_is_missing_and_not_asked():
+def test_an_unknown_path_is_missing_and_not_grounded():
     recorder = Recorder()
     grounding = ground(SCENE, TBOX, recorder, paths=["/Room/Ghost", "/Room/Cup"])
     ghost, cup = grounding.predictions
@@ -87,7 +87,7 @@ def test_a_path_that_is_not_there_is_missing_and_not_asked():
     assert [path for path, _ in recorder.seen] == ["/Room/Cup"]
 
 
-def test_no_path_asked_for_is_no_answer():
+def test_no_requested_path_gives_no_prediction():
     assert ground(SCENE, TBOX, Recorder(), paths=[]).predictions == ()
 
 
@@ -110,7 +110,7 @@ def test_predictions_are_found_by_path():
     assert "/Room" not in grounding.by_path
 
 
-def test_only_the_evidence_that_is_allowed_is_shown():
+def test_only_the_allowed_evidence_is_shown():
     box = Box((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
     cup = make_object("/Room/Cup", box=box, mass_kg=0.2, position=(1.0, 1.0, 1.0), asset=("mug_v1",), parts=("Handle",))
     recorder = Recorder()
@@ -126,7 +126,7 @@ def test_regimes_by_name(regime: str):
 
 
 @pytest.mark.parametrize("text", ["", "Opaque", "opaque_anonymous", "none"])
-def test_an_unknown_regime_is_an_error_that_names_the_known_ones(text: str):
+def test_rejects_an_unknown_regime_and_lists_the_known_ones(text: str):
     with pytest.raises(GroundingError) as error:
         parse_regime(text)
     assert str(error.value) == (
@@ -150,7 +150,7 @@ def test_every_evidence_group_can_be_named():
     ("text", "found"),
     [("", "no group is named"), (" , ", "no group is named"), ("name,colour", "'colour'"), ("Name", "'Name'")],
 )
-def test_unknown_evidence_is_an_error_that_names_the_known_groups(text: str, found: str):
+def test_rejects_unknown_evidence_and_lists_the_known_groups(text: str, found: str):
     with pytest.raises(GroundingError) as error:
         parse_evidence(text)
     assert found in str(error.value)

@@ -152,7 +152,7 @@ class TestJson:
             "{}",
             '{"format": "usd2kg-grounding/2", "predictions": []}',
             '{"format": "usd2kg-grounding/1"}',
-            '{"format": "usd2kg-grounding/1", "predictions": [], "surprise": 1}',
+            '{"format": "usd2kg-grounding/1", "predictions": [], "size_log_likelihood_ratio": 1}',
             '{"format": "usd2kg-grounding/1", "predictions": [{}]}',
             '{"format": "usd2kg-grounding/1", "predictions": 7}',
         ],

@@ -1,4 +1,4 @@
-"""The noun taxonomy: senses in order, ways up, singulars."""
+"""The noun taxonomy: senses by rank, paths of hypernyms, singulars."""
 
 import itertools
 
@@ -10,7 +10,7 @@ from tools.build_wordnet import Synset, build_columns
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.concepts.taxonomy_file import format_taxonomy, parse_taxonomy
 
-# Synsets by number; the rank of a meaning stands after its lemma.
+# Synsets by number. A lemma is followed by the rank of its sense.
 #
 #   0 entity ── 1 artifact ── 2 tool ── 4 cutter ── 6 knife
 #            └─ 3 food        └──────────────────────┘ (a knife is an artifact also directly)
@@ -43,7 +43,7 @@ def test_columns_of_the_file():
     }
 
 
-def test_a_file_is_read_as_it_was_written():
+def test_a_file_round_trips():
     columns = build_columns(["red", "wooden"], SYNSETS)
     text = format_taxonomy(columns)
     assert text.startswith(b"usd2kg noun taxonomy, format 2\n[adjectives]\nred\twooden\n[domains]\ntop\t")
@@ -58,11 +58,11 @@ def test_rejects_a_file_of_another_format(text):
         parse_taxonomy(text)
 
 
-def test_the_meaning_used_most_comes_first_whatever_the_order_of_the_file():
+def test_senses_are_sorted_by_rank():
     assert TINY.senses("bun") == (Sense(6, 1, "artifact"), Sense(5, 2, "food"))
 
 
-def test_the_size_of_a_synset_is_what_is_below_it_with_itself():
+def test_the_size_of_a_synset_counts_itself_and_its_hyponyms():
     assert [TINY.size(synset) for synset in range(TINY.synset_count)] == [7, 4, 3, 2, 2, 1, 1]
 
 
@@ -74,22 +74,22 @@ def test_an_unknown_lemma_has_no_senses():
     assert "bun" in TINY
 
 
-def test_a_compound_is_found_without_its_space_or_hyphen():
+def test_compounds_are_looked_up_without_space_or_hyphen():
     assert TINY.senses("flowerpot") == (Sense(6, 1, "artifact"),)
     assert TINY.senses("xray") == (Sense(6, 3, "artifact"),)
     assert TINY.senses("flower pot") == ()
 
 
-def test_kinds_are_the_ranks_and_domains_of_the_meanings():
+def test_kinds_encode_the_ranks_and_domains_of_the_senses():
     assert TINY.parse_kinds(TINY.kinds("bun")) == [(1, "artifact"), (2, "food")]
     assert TINY.kinds("knife") == TINY.kinds("tool")
 
 
-def test_adjectives_are_the_first_line():
+def test_adjectives_are_listed():
     assert TINY.adjectives == {"red", "wooden"}
 
 
-def test_a_synset_is_named_by_its_first_lemma():
+def test_the_name_of_a_synset_is_its_first_lemma():
     assert [TINY.name(synset) for synset in (5, 6)] == ["bun", "knife"]
 
 
@@ -99,7 +99,7 @@ def test_walk_up_yields_each_synset_once_at_its_shortest_distance():
     assert list(TINY.walk_up(0)) == [(0, 0)]
 
 
-def test_path_up_takes_a_shortest_way():
+def test_path_up_is_a_shortest_path():
     assert TINY.path_up(6, 0) == [6, 1, 0]
     assert TINY.path_up(6, 2) == [6, 4, 2]
     assert TINY.path_up(6, 6) == [6]
@@ -116,12 +116,14 @@ def test_path_up_takes_a_shortest_way():
         ("cherries", "cherry"),
         ("toys", "toy"),
         ("women", "woman"),
-        # Nouns as they stand, although they end like plurals.
+        ("windows", "window"),
+        ("taps", "tap"),
+        # Nouns that end like plurals.
         ("glass", "glass"),
         ("glasses", "glasses"),
         ("lens", "lens"),
         ("gas", "gas"),
-        # Not nouns at all.
+        # No nouns.
         ("qwertys", "qwertys"),
         ("us", "us"),
         ("", ""),
@@ -131,9 +133,9 @@ def test_singular(word: str, singular: str):
     assert load_taxonomy().singular(word) == singular
 
 
-def test_words_are_single_and_of_the_domain():
+def test_words_lists_single_words_of_the_domains():
     assert TINY.words(frozenset({"food"})) == ["bun", "food", "roll"]
-    # Here it is written as two words alone.
+    # This taxonomy has it only as two words.
     assert "flowerpot" not in TINY.words(frozenset({"artifact"}))
     assert "flowerpot" in load_taxonomy().words(frozenset({"artifact"}))
     assert TINY.words(frozenset({"plant"})) == []

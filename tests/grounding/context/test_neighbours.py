@@ -1,4 +1,4 @@
-"""The company an object keeps: who is near, how near, and that it never tells the target's own name."""
+"""Companions of an object: which, how near, and never with the target's own name."""
 
 import math
 import time
@@ -9,13 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import make_object, make_scene, words_written
-from usd2kg.grounding.context import Companion, Company, Nearness
-from usd2kg.grounding.context import neighbours as company
-from usd2kg.grounding.context.neighbours import companies, size_distance
+from usd2kg.grounding.context import Neighbour, Neighbourhood, Nearness, neighbours
+from usd2kg.grounding.context.neighbours import neighbourhoods, size_distance
 from usd2kg.scene import Box, Scene
 from usd2kg.words import words_of
 
-NEXT, SIBLING, TWIN, ALIKE = Nearness.NEXT, Nearness.SIBLING, Nearness.TWIN, Nearness.ALIKE
+NEXT, SIBLING, TWIN, ALIKE = Nearness.NEXT, Nearness.SIBLING, Nearness.SAME_SIZE, Nearness.SIMILAR_SIZE
 
 
 def thing(path: str, size=None, **known):
@@ -27,24 +26,24 @@ def things(*objects) -> Scene:
     return make_scene(*(thing(o) if isinstance(o, str) else thing(*o) for o in objects))
 
 
-def company_of(scene: Scene, path: str) -> Company:
+def company_of(scene: Scene, path: str) -> Neighbourhood:
     index = [obj.prim_path for obj in scene.objects].index(path)
-    return companies(scene)[index]
+    return neighbourhoods(scene)[index]
 
 
 def seen(scene: Scene, path: str) -> dict[str, Nearness]:
     """Return path → nearness of the companions of an object."""
-    found = company_of(scene, path).companions()
+    found = company_of(scene, path).neighbours()
     listed = {path_of(companion): companion.nearness for companion in found}
     assert len(listed) == len(found)
     return listed
 
 
-def path_of(companion: Companion) -> str:
+def path_of(companion: Neighbour) -> str:
     return "/".join(("", *companion.parents, companion.name))
 
 
-# --- how much sizes differ ---------------------------------------------------------------------------
+# --- difference in size ------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -77,10 +76,10 @@ def test_size_distance_is_a_distance(one, other, third):
     assert there <= size_distance(one, third) + size_distance(third, other) + 1e-9
 
 
-# --- who is near -------------------------------------------------------------------------------------
+# --- nearness ----------------------------------------------------------------------------------------
 
 
-def test_two_on_each_side_are_next_and_the_others_are_siblings():
+def test_two_siblings_on_each_side_are_next():
     scene = things(*(f"/W/a{i}" for i in range(7)), "/V/b")
     found = seen(scene, "/W/a3")
     assert found == {
@@ -95,34 +94,34 @@ def test_two_on_each_side_are_next_and_the_others_are_siblings():
     assert seen(scene, "/W/a0") == {f"/W/a{i}": NEXT if i < 3 else SIBLING for i in range(1, 7)}
 
 
-def test_objects_of_other_families_between_do_not_count():
-    # Traversal goes down first: the cabinet's drawers come between the cabinet and the oven.
+def test_objects_below_other_parents_are_not_between_siblings():
+    # In traversal order the cabinet's drawers come between the cabinet and the oven.
     scene = things("/W/cabinet", "/W/cabinet/a", "/W/cabinet/b", "/W/cabinet/c", "/W/oven")
     assert seen(scene, "/W/cabinet") == {"/W/oven": NEXT}
     assert seen(scene, "/W/cabinet/a") == {"/W/cabinet/b": NEXT, "/W/cabinet/c": NEXT}
 
 
-def test_companions_know_the_names_above_and_no_distance_without_sizes():
+def test_companions_have_their_parents_and_no_distance_without_sizes():
     scene = things("/World/Kitchen/cup", "/World/Kitchen/plate")
-    (plate,) = company_of(scene, "/World/Kitchen/cup").companions()
-    assert plate == Companion("plate", ("World", "Kitchen"), NEXT, None, None)
+    (plate,) = company_of(scene, "/World/Kitchen/cup").neighbours()
+    assert plate == Neighbour("plate", ("World", "Kitchen"), NEXT, None, None)
 
 
-def test_companions_know_their_own_size():
+def test_companions_have_their_oriented_size():
     scene = make_scene(
         make_object("/W/cup", box=Box((0, 0, 0), (0.1, 0.1, 0.1))),
         make_object("/W/oven", box=Box((0, 0, 0), (0.9, 0.6, 0.6)), oriented_size=(0.6, 0.6, 0.6)),
     )
-    (oven,) = company_of(scene, "/W/cup").companions()
+    (oven,) = company_of(scene, "/W/cup").neighbours()
     assert oven.size == (0.6, 0.6, 0.6)
 
 
-def test_objects_at_the_root_are_a_family():
+def test_objects_at_the_root_are_siblings():
     assert seen(things("/a", "/b"), "/a") == {"/b": NEXT}
-    assert company_of(things("/a", "/b"), "/a").companions()[0].parents == ()
+    assert company_of(things("/a", "/b"), "/a").neighbours()[0].parents == ()
 
 
-def test_things_of_the_same_size_elsewhere_are_twins_and_alike():
+def test_objects_elsewhere_are_twins_or_alike_by_size():
     scene = things(
         ("/A/target", (1, 1, 1)),
         ("/B/turned", (1, 1, 1)),
@@ -131,50 +130,50 @@ def test_things_of_the_same_size_elsewhere_are_twins_and_alike():
         ("/B/sizeless",),
     )
     assert seen(scene, "/A/target") == {"/B/turned": TWIN, "/B/nearly": TWIN, "/B/about": ALIKE}
-    distances = {c.name: c.distance for c in company_of(scene, "/A/target").companions()}
+    distances = {c.name: c.distance for c in company_of(scene, "/A/target").neighbours()}
     expected = {"turned": 0, "nearly": math.log(1.009), "about": math.log(1.011)}
     assert distances == pytest.approx(expected, abs=1e-12)
 
 
-def test_a_twin_beside_the_target_is_beside_it_and_named_once():
+def test_a_twin_next_to_the_target_is_listed_once_as_next():
     scene = things(("/A/target", (1, 2, 3)), ("/A/copy", (3, 2, 1)), ("/B/copy", (2, 1, 3)))
     assert seen(scene, "/A/target") == {"/A/copy": NEXT, "/B/copy": TWIN}
-    assert [c.distance for c in company_of(scene, "/A/target").companions()] == pytest.approx([0, 0])
+    assert [c.distance for c in company_of(scene, "/A/target").neighbours()] == pytest.approx([0, 0])
 
 
-def test_the_most_alike_come_first():
+def test_companions_elsewhere_are_sorted_by_difference_in_size():
     factors = [1.3, 1.05, 2, 1.1, 1]
     scene = things(("/A/target", (1, 1, 1)), *((f"/B/x{i}", (f, f, f)) for i, f in enumerate(factors)))
     assert list(seen(scene, "/A/target")) == ["/B/x4", "/B/x1", "/B/x3", "/B/x0", "/B/x2"]
 
 
-def test_the_size_along_its_own_axes_counts_where_it_is_known():
+def test_the_oriented_size_counts_where_it_is_known():
     # A box of 1 × 1 m turned by 45 degrees fills 1.414 × 1.414 m of the world.
     turned = thing("/A/turned", (math.sqrt(2), math.sqrt(2), 1), oriented_size=(1, 1, 1))
     scene = make_scene(turned, thing("/B/straight", (1, 1, 1)), thing("/B/larger", (math.sqrt(2), math.sqrt(2), 1)))
-    found = {c.name: (c.nearness, c.distance) for c in company_of(scene, "/A/turned").companions()}
+    found = {c.name: (c.nearness, c.distance) for c in company_of(scene, "/A/turned").neighbours()}
     assert found["straight"] == (TWIN, 0)
     # Two extents of three are off by ln √2.
     assert found["larger"] == (ALIKE, pytest.approx(math.log(2) / 2 * math.sqrt(2 / 3)))
 
 
-def test_without_a_size_only_the_family_is_known():
+def test_without_a_size_only_siblings_are_companions():
     scene = things("/A/target", ("/A/beside", (1, 1, 1)), ("/B/elsewhere", (1, 1, 1)))
     assert seen(scene, "/A/target") == {"/A/beside": NEXT}
-    assert company_of(scene, "/A/target").companions()[0].distance is None
+    assert company_of(scene, "/A/target").neighbours()[0].distance is None
 
 
-def test_alone_in_the_scene():
+def test_a_single_object_has_no_companions():
     lonely = company_of(things(("/A", (1, 1, 1))), "/A")
-    assert lonely.companions() == []
+    assert lonely.neighbours() == []
     assert words_written(lonely, "a", lambda word: [(word, 0.0)]) == []
-    assert companies(things()) == []
+    assert neighbourhoods(things()) == []
 
 
 # --- limits ------------------------------------------------------------------------------------------
 
 
-def test_of_a_large_family_those_around_are_heard():
+def test_of_many_siblings_the_nearest_are_companions():
     scene = things(*(f"/W/a{i:03d}" for i in range(200)))
     found = seen(scene, "/W/a100")
     assert {f"/W/a{i:03d}" for i in range(77, 124) if i != 100} <= set(found)
@@ -187,7 +186,7 @@ def test_of_a_large_family_those_around_are_heard():
 
 
 @pytest.mark.parametrize("position", [0, 50, 99])
-def test_of_many_of_a_size_some_are_heard(position):
+def test_of_many_twins_sixteen_are_companions(position):
     scene = things(*((f"/G{i:02d}/x", (1, 1, 1)) for i in range(100)))
     found = seen(scene, f"/G{position:02d}/x")
     assert Counter(found.values())[TWIN] == 16
@@ -203,7 +202,7 @@ def test_the_twin_is_found_among_thousands_of_other_sizes():
 # --- judgements ---------------------------------------------------------------------------------------
 
 
-def test_a_judge_is_told_the_names_above_and_the_size_once_an_object_for_all_targets():
+def test_each_object_is_judged_once_with_its_parents_and_size():
     scene = things(("/World/Kitchen/cabinet", (0.6, 0.6, 0.9)), "/World/Kitchen/x", "/World/Kitchen/y")
     asked = []
 
@@ -211,8 +210,8 @@ def test_a_judge_is_told_the_names_above_and_the_size_once_an_object_for_all_tar
         asked.append((name, parents, size))
         return name.upper() if name == "cabinet" else None
 
-    of_cabinet, of_x, of_y = (its.judged(judge) for its in companies(scene))
-    # Those of which the judge says nothing are left out; the last is the place in the scene.
+    of_cabinet, of_x, of_y = (its.votes(judge) for its in neighbourhoods(scene))
+    # Without a judgement a companion is left out; the last number is its index in the scene.
     assert (of_cabinet, of_x, of_y) == ([], [("CABINET", NEXT, None, 0)], [("CABINET", NEXT, None, 0)])
     above = ("World", "Kitchen")
     assert sorted(asked) == [("cabinet", above, (0.6, 0.6, 0.9)), ("x", above, None), ("y", above, None)]
@@ -222,23 +221,23 @@ def test_a_judge_is_told_the_names_above_and_the_size_once_an_object_for_all_tar
 
 
 def initials(word: str) -> list[tuple[str, float]]:
-    """Ways to write a word: its first letter, or in full."""
+    """Return two forms of a word: its first letter, and the word in full."""
     return [(word[0], -2.0), (word, -1.0)]
 
 
-def test_words_come_with_the_share_of_the_other_objects_that_bear_them():
+def test_words_have_the_share_of_objects_whose_names_contain_them():
     scene = things("/W/CoffeeCup_1", "/W/CoffeePot", "/W/Lamp", "/W/cup_cup")
     lamp = company_of(scene, "/W/Lamp")
-    # Of four objects two bear coffee and two cup, one of them twice, which counts once.
+    # Two of four names contain coffee and two cup; a repeated word counts once.
     assert words_written(lamp, "c", initials) == [("coffee", 0.5, -2.0), ("cup", 0.5, -2.0)]
     assert words_written(lamp, "pot", initials) == [("pot", 0.25, -1.0)]
     assert words_written(lamp, "nothing", initials) == []
 
 
-def test_what_only_the_target_bears_is_not_told():
+def test_words_of_the_target_itself_do_not_count():
     scene = things("/W/CoffeeCup_1", "/W/CoffeePot", "/W/Lamp", "/W/cup_cup")
     assert words_written(company_of(scene, "/W/Lamp"), "l", initials) == []
-    # The pot has its own coffee left out of the count, and its own pot altogether.
+    # Without the target's own name, coffee is left in one name and pot in none.
     assert words_written(company_of(scene, "/W/CoffeePot"), "coffee", initials) == [("coffee", 0.25, -1.0)]
     assert words_written(company_of(scene, "/W/CoffeePot"), "p", initials) == []
 
@@ -264,9 +263,9 @@ def scenes(draw) -> Scene:
 
 @settings(max_examples=50, deadline=None)
 @given(scenes())
-def test_the_target_is_never_among_its_company(scene: Scene):
-    for obj, its in zip(scene.objects, companies(scene), strict=True):
-        found = its.companions()
+def test_the_target_is_never_its_own_companion(scene: Scene):
+    for obj, its in zip(scene.objects, neighbourhoods(scene), strict=True):
+        found = its.neighbours()
         paths = [path_of(companion) for companion in found]
         assert obj.prim_path not in paths
         assert len(set(paths)) == len(paths)
@@ -276,29 +275,29 @@ def test_the_target_is_never_among_its_company(scene: Scene):
 
 @settings(max_examples=50, deadline=None)
 @given(scenes())
-def test_the_words_told_are_those_of_the_others(scene: Scene):
+def test_words_are_those_of_the_other_objects(scene: Scene):
     every = {word for obj in scene.objects for word in words_of(obj.name)}
-    for obj, its in zip(scene.objects, companies(scene), strict=True):
-        told = {word: share for form in every for word, share, _ in words_written(its, form, initials)}
+    for obj, its in zip(scene.objects, neighbourhoods(scene), strict=True):
+        found = {word: share for form in every for word, share, _ in words_written(its, form, initials)}
         others = Counter(word for other in scene.objects if other is not obj for word in set(words_of(other.name)))
-        assert told == pytest.approx({word: count / len(scene.objects) for word, count in others.items()})
+        assert found == pytest.approx({word: count / len(scene.objects) for word, count in others.items()})
 
 
 @settings(max_examples=40, deadline=None)
 @given(scenes(), st.data())
-def test_another_name_of_the_target_makes_no_difference(scene: Scene, data):
+def test_renaming_the_target_changes_nothing(scene: Scene, data):
     at = data.draw(st.integers(0, len(scene.objects) - 1))
     old = scene.objects[at]
     path = old.prim_path.rpartition("/")[0] + "/Zebra_77"
     renamed = make_scene(*scene.objects[:at], thing(path, old.box and old.box.size), *scene.objects[at + 1 :])
-    before, after = companies(scene)[at], companies(renamed)[at]
-    assert before.companions() == after.companions()
+    before, after = neighbourhoods(scene)[at], neighbourhoods(renamed)[at]
+    assert before.neighbours() == after.neighbours()
     for word in {word for obj in scene.objects for word in words_of(obj.name)} | {"zebra"}:
         assert words_written(before, word, initials) == words_written(after, word, initials)
 
 
-def test_what_lies_below_the_target_does_not_tell_its_name():
-    # A body of about the oven's size has the oven's name among its parents; the top beside it has not.
+def test_descendants_of_the_target_are_no_companions():
+    # The body has the oven's name among its parents, so it would give the name away.
     scene = things(
         ("/Kitchen/Oven", (0.6, 0.6, 0.9)),
         ("/Kitchen/Oven/Body", (0.58, 0.58, 0.88)),
@@ -317,25 +316,25 @@ def large_scene(count: int) -> Scene:
     return things(*((f"/W/Book_{i}", (0.2 + i * 1e-5, 0.15, 0.03)) for i in range(count)))
 
 
-def test_what_a_target_costs_does_not_grow_with_the_scene(monkeypatch):
+def test_the_cost_of_a_target_does_not_depend_on_the_scene(monkeypatch):
     compared: Counter[int] = Counter()
-    real = company._distance
+    real = neighbours._distance
 
     def counted(one, other):
         compared[count] += 1
         return real(one, other)
 
-    monkeypatch.setattr(company, "_distance", counted)
+    monkeypatch.setattr(neighbours, "_distance", counted)
     for count in (400, 4000):
-        everyone = companies(large_scene(count))
+        everyone = neighbourhoods(large_scene(count))
         for its in everyone[count // 2 : count // 2 + 20]:
-            assert len(its.companions()) <= 48 + 40
-    # At most one comparison for each neighbour in the order of volumes and one for each companion.
+            assert len(its.neighbours()) <= 48 + 40
+    # At most one comparison for each neighbour by volume and one for each companion.
     assert compared[400] == compared[4000] <= 20 * (48 + 88)
 
 
-def test_twenty_thousand_siblings_are_not_quadratic():
-    scene = large_scene(20_000)
+def test_time_is_not_quadratic_in_the_number_of_siblings():
+    scene = large_scene(10_000)
     asked: Counter[str] = Counter()
 
     def ways(word: str) -> list[tuple[str, float]]:
@@ -343,11 +342,11 @@ def test_twenty_thousand_siblings_are_not_quadratic():
         return initials(word)
 
     start = time.process_time()
-    everyone = companies(scene)
-    told = [words_written(its, "book", ways) for its in everyone]
-    companions = [len(its.companions()) for its in everyone[::50]]
+    everyone = neighbourhoods(scene)
+    found = [words_written(its, "book", ways) for its in everyone]
+    companions = [len(its.neighbours()) for its in everyone[::50]]
     assert time.process_time() - start < 5
-    assert told == [[("book", 19_999 / 20_000, -1.0)]] * 20_000
-    # The index of the words is made once, not once a target.
+    assert found == [[("book", 9_999 / 10_000, -1.0)]] * 10_000
+    # The index of words is built once, not for each target.
     assert asked == {"book": 1}
     assert max(companions) <= 48 + 40

@@ -1,10 +1,10 @@
-"""Deciding: copies of one asset agree, and split candidates give way to the class above them."""
+"""Choice of a class: copies of one asset agree, and split candidates give way to their superclass."""
 
 import pytest
 
 from tests.grounding.records import SOMA
 from usd2kg.grounding import ObjectView, Prediction
-from usd2kg.grounding.lexical.class_choice import agree_by_asset, safest_class
+from usd2kg.grounding.lexical.class_choice import reconcile_copies, choose_superclass
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Status
 from usd2kg.ontology import TBox
@@ -24,55 +24,57 @@ def view(name: str, asset: str = "cup_a", size: float = 0.1, *, is_masked: bool 
 
 
 class TestCopiesOfOneAsset:
-    def test_the_unsure_copy_follows_the_others(self, home_tbox: TBox) -> None:
+    def test_a_copy_with_low_confidence_follows_the_others(self, home_tbox: TBox) -> None:
         views = [view("cup_1"), view("cup_2"), view("obj_7")]
         answers = [answer("/a", CUP, 0.9), answer("/b", CUP, 0.8), answer("/c", BOWL, 0.3)]
-        agreed = agree_by_asset(views, answers, home_tbox)
+        agreed = reconcile_copies(views, answers, home_tbox)
         assert agreed[:2] == answers[:2]
         assert (agreed[2].prim_path, agreed[2].class_iri, agreed[2].evidence) == ("/c", CUP, ("asset",))
         assert agreed[2].explanation.startswith("it is a copy of “cup_1”, of the same asset and size: ")
 
-    def test_one_sure_outlier_does_not_speak_for_many(self, home_tbox: TBox) -> None:
+    def test_one_confident_outlier_does_not_overrule_many_copies(self, home_tbox: TBox) -> None:
         views = [view(f"cup_{number}") for number in range(4)]
         answers = [answer("/a", BOWL, 0.95), *(answer(f"/{number}", CUP, 0.6) for number in range(3))]
-        agreed = agree_by_asset(views, answers, home_tbox)
+        agreed = reconcile_copies(views, answers, home_tbox)
         assert [prediction.class_iri for prediction in agreed] == [CUP] * 4
 
-    def test_no_clear_majority_changes_nothing(self, home_tbox: TBox) -> None:
+    def test_without_a_clear_majority_nothing_changes(self, home_tbox: TBox) -> None:
         answers = [answer("/a", BOWL, 0.8), answer("/b", CUP, 0.9)]
-        assert agree_by_asset([view("x"), view("y")], answers, home_tbox) == answers
+        assert reconcile_copies([view("x"), view("y")], answers, home_tbox) == answers
 
-    def test_the_more_special_class_stays(self, home_tbox: TBox) -> None:
+    def test_a_more_special_class_stays(self, home_tbox: TBox) -> None:
         views = [view("knife_1"), view("knife_2"), view("steak_knife")]
         answers = [answer("/a", KNIFE, 0.9), answer("/b", KNIFE, 0.9), answer("/c", TABLE_KNIFE, 0.9)]
-        assert agree_by_asset(views, answers, home_tbox) == answers
+        assert reconcile_copies(views, answers, home_tbox) == answers
 
     @pytest.mark.parametrize(
         "other", [view("obj_7", "bowl_b"), view("obj_7", ""), view("obj_7", size=0.2), view("obj_7", is_masked=True)]
     )
-    def test_other_assets_sizes_and_masked_targets_are_left_alone(self, home_tbox: TBox, other: ObjectView) -> None:
+    def test_other_assets_sizes_and_masked_targets_do_not_count_as_copies(
+        self, home_tbox: TBox, other: ObjectView
+    ) -> None:
         answers = [answer("/a", CUP, 0.9), answer("/b", BOWL, 0.2)]
-        assert agree_by_asset([view("cup_1"), other], answers, home_tbox) == answers
+        assert reconcile_copies([view("cup_1"), other], answers, home_tbox) == answers
 
 
 class TestAbstaining:
-    def test_a_split_becomes_the_class_above(self, home_tbox: TBox) -> None:
-        # Between two leaves a toss is worth more than the class above: half of the tosses are exactly right.
-        assert safest_class({CUP: 0.5, BOWL: 0.5}, home_tbox) in {CUP, BOWL}
-        assert safest_class({CUP: 0.5, BOWL: 0.5, PLATE: 0.5}, home_tbox) == CROCKERY
+    def test_split_candidates_give_their_superclass(self, home_tbox: TBox) -> None:
+        # Of two leaves, guessing one scores more than their superclass: it is exactly right in half of the cases.
+        assert choose_superclass({CUP: 0.5, BOWL: 0.5}, home_tbox) in {CUP, BOWL}
+        assert choose_superclass({CUP: 0.5, BOWL: 0.5, PLATE: 0.5}, home_tbox) == CROCKERY
 
-    def test_a_clear_answer_stays(self, home_tbox: TBox) -> None:
-        assert safest_class({CUP: 0.9, BOWL: 0.1}, home_tbox) == CUP
-        assert safest_class({CUP: 0.4}, home_tbox) == CUP
+    def test_a_clear_candidate_stays(self, home_tbox: TBox) -> None:
+        assert choose_superclass({CUP: 0.9, BOWL: 0.1}, home_tbox) == CUP
+        assert choose_superclass({CUP: 0.4}, home_tbox) == CUP
 
-    def test_expected_value_by_hand(self, home_tbox: TBox) -> None:
+    def test_expected_f1_worked_by_hand(self, home_tbox: TBox) -> None:
         # P(Cup) = 0.64 / 0.80 = 0.8. With n classes in the closure of Crockery and one more in those of Cup and Bowl:
         # F1(Cup, Bowl) = n / (n + 1) and F1(Crockery, Cup) = 2 n / (2 n + 1).
         n = len(home_tbox.closure(CROCKERY))
         cup, crockery = 0.8 + 0.2 * n / (n + 1), 2 * n / (2 * n + 1)
-        assert safest_class({CUP: 0.8, BOWL: 0.4}, home_tbox) == (CUP if cup > crockery else CROCKERY)
+        assert choose_superclass({CUP: 0.8, BOWL: 0.4}, home_tbox) == (CUP if cup > crockery else CROCKERY)
 
-    def test_the_grounder_tells_that_it_abstained(self, home_tbox: TBox) -> None:
+    def test_the_decision_is_a_recorded_setting(self, home_tbox: TBox) -> None:
         grounder = LexicalGrounder(abstains=True)
         assert grounder.settings["decision"] == "hierarchical"
         (clear,) = grounder.ground_views([("/a", ObjectView(name="Cup_1"))], home_tbox)
