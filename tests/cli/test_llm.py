@@ -15,8 +15,8 @@ from tests.cli.conftest import Run
 from tests.grounding.llm.servers import Reply, openai_events, openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.options import Strategy
-from usd2kg.grounding.llm.settings import parse_llm_name
+from usd2kg.grounding.llm.factory import parse_llm_name
+from usd2kg.grounding.llm.prompt_options import Strategy
 
 KEY = "sk-very-secret-4711"
 

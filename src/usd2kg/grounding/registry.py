@@ -56,7 +56,7 @@ def make_grounder(
 
         return VolumeGrounder.from_csv(class_sizes) if class_sizes else VolumeGrounder()
     if is_llm_name(name):
-        from usd2kg.grounding.llm.settings import make_llm_grounder  # noqa: PLC0415
+        from usd2kg.grounding.llm.factory import make_llm_grounder  # noqa: PLC0415
 
         return make_llm_grounder(name)
     raise GroundingError(f"grounder {name!r} is unknown; expected one of {', '.join(GROUNDERS)}, or llm-B:MODEL")

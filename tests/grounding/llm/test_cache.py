@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from usd2kg.errors import GroundingError, OutputError
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
-from usd2kg.grounding.llm.records import request_key
+from usd2kg.grounding.llm.serialization import request_key
 
 MODEL = "google:gemini-2.5-flash"
 SCHEMA = {"type": "object", "properties": {"reasoning": {"type": "string"}, "class": {"enum": ["Cup", "Fork"]}}}
@@ -127,7 +127,7 @@ CHANGES = {
     "system": "Classes: Fork, Cup",
     "user": "/World/cup_02",
     "schema": {"type": "object"},
-    "most_tokens": 4097,
+    "max_tokens": 4097,
     "temperature": 0.7,
     "is_thinking": True,
     "sample": 1,

@@ -12,10 +12,10 @@ import pytest
 
 from tests.grounding.llm import servers
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm import addresses
+from usd2kg.grounding.llm import model_reference
 from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
-from usd2kg.grounding.llm.retry import Failure, Redactor, Retries
+from usd2kg.grounding.llm.retry import Failure, Redactor, RetryPolicy
 
 KEYS = {
     "OPENAI_API_KEY": "openai-secret-1",
@@ -28,7 +28,7 @@ SCHEMA = {
     "required": ["reasoning", "class"],
     "additionalProperties": False,
 }
-REQUEST = Request("the classes", "the objects", SCHEMA, most_tokens=4000, temperature=0.5)
+REQUEST = Request("the classes", "the objects", SCHEMA, max_tokens=4000, temperature=0.5)
 ANSWERS = {
     "openai:m": servers.openai_reply("{}"),
     "google:gemini-2.5-flash": servers.gemini_reply("{}"),
@@ -190,7 +190,7 @@ class TestOpenAIItself:
 
     def _receive(self, monkeypatch: pytest.MonkeyPatch, name: str, request: Request, *replies) -> list[dict]:
         with servers.serve(*replies, servers.openai_reply("{}")) as server:
-            monkeypatch.setitem(addresses.ADDRESSES, "openai", server.url)
+            monkeypatch.setitem(model_reference.PROVIDER_URLS, "openai", server.url)
             with make_client(f"openai:{name}", environment=KEYS, retries=0) as client:
                 client.complete(request)
             return [received.body for received in server.received]
@@ -301,7 +301,7 @@ class TestAnthropic:
         assert received.body["thinking"] == {"type": "adaptive"}
 
     def test_too_few_tokens_to_reason_are_refused_before_any_request(self):
-        request = replace(REQUEST, is_thinking=True, most_tokens=2047)
+        request = replace(REQUEST, is_thinking=True, max_tokens=2047)
         with (
             servers.serve(servers.anthropic_reply("{}")) as server,
             _connect(server, "anthropic:claude-haiku-4-5") as client,
@@ -496,7 +496,7 @@ class TestRetries:
         waits: list[float] = []
         failure = Failure("down", 503, is_transient=True)
 
-        assert Retries(8, waits.append, lambda: 1.0).run(lambda: failure) is failure
+        assert RetryPolicy(8, waits.append, lambda: 1.0).run(lambda: failure) is failure
         assert waits == [1, 2, 4, 8, 16, 32, 60, 60]
 
 

@@ -10,9 +10,9 @@ from tests.grounding.records import make_class, make_tbox
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.llm.completion import Request, Usage
 from usd2kg.grounding.llm.estimates import estimate_input, estimate_usage
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_text import estimate_tokens
 from usd2kg.grounding.llm.prompts import build_requests
-from usd2kg.grounding.llm.text import estimate_tokens
 
 TBOX = make_tbox(make_class("Cup"), make_class("Plate"))
 """The names have three and five letters: four on average."""

@@ -16,13 +16,13 @@ import pytest
 from tests.grounding.records import make_object, make_scene
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import NamingRegime, ObjectView, Status, ground
-from usd2kg.grounding.llm.asking import Asker, Limits
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.grounder import LLMGrounder
-from usd2kg.grounding.llm.grouping import distinct_views
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.grouping import group_similar_views
+from usd2kg.grounding.llm.metered_client import Budget, MeteredClient
 from usd2kg.grounding.llm.prices import Tariff, parse_price
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, Scene
 
@@ -69,8 +69,8 @@ def asking(
     **form: Any,
 ) -> LLMGrounder:
     """Return a grounder that asks the model."""
-    limits = Limits(token_budget, budget)
-    asker = Asker(model, cache=cache, is_refreshed=is_refreshed, limits=limits, tariff=tariff)
+    limits = Budget(token_budget, budget)
+    asker = MeteredClient(model, cache=cache, is_refreshed=is_refreshed, limits=limits, tariff=tariff)
     return LLMGrounder(asker, options, **form)
 
 
@@ -106,7 +106,7 @@ def test_objects_that_differ_in_a_number_are_asked_about_once(home_tbox: TBox):
     assert answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, asking(model, PromptOptions())) == ["Cup"] * 3
     assert len(model.requests) == 1
     each = Model(always("Cup"))
-    answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, asking(each, PromptOptions(), is_once_each=False))
+    answers(kitchen("mug_1", "mug_2", "mug_3"), home_tbox, asking(each, PromptOptions(), shares_answers=False))
     assert len(each.requests) == 3
 
 
@@ -118,8 +118,8 @@ def test_masked_objects_are_never_taken_for_each_other(home_tbox: TBox):
 
 def test_size_keeps_objects_apart_where_the_model_is_shown_it():
     views = [ObjectView(name="box_1", size=(1, 1, 1)), ObjectView(name="box_2", size=(2, 1, 1))]
-    assert distinct_views(views, PromptOptions(strategy=Strategy.NAME_ONLY)) == [[0, 1]]
-    assert distinct_views(views, PromptOptions(strategy=Strategy.CONTEXT)) == [[0], [1]]
+    assert group_similar_views(views, PromptOptions(strategy=Strategy.NAME_ONLY)) == [[0, 1]]
+    assert group_similar_views(views, PromptOptions(strategy=Strategy.CONTEXT)) == [[0], [1]]
 
 
 def test_an_invented_class_is_asked_for_once_more(home_tbox: TBox):

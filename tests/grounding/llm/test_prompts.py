@@ -19,9 +19,9 @@ from usd2kg.errors import GroundingError
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Request
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_text import estimate_tokens, quote
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
-from usd2kg.grounding.llm.text import estimate_tokens, quote
 from usd2kg.ontology import TBox
 
 LETTERS = (Strategy.NAME_ONLY, Strategy.CONTEXT, Strategy.CHAIN_OF_THOUGHT)
@@ -122,9 +122,9 @@ class TestEvidence:
 
     def test_many_siblings_are_counted(self) -> None:
         view = ObjectView(name="a", siblings=[f"s{i}" for i in range(50)])
-        assert rows(only((view,), most_siblings=2).request)[0].endswith('siblings: "s0", "s1" and 48 more')
+        assert rows(only((view,), max_siblings=2).request)[0].endswith('siblings: "s0", "s1" and 48 more')
         assert rows(only((view,)).request)[0].endswith('"s47" and 2 more')
-        assert rows(only((view,), most_siblings=50).request)[0].endswith('"s49"')
+        assert rows(only((view,), max_siblings=50).request)[0].endswith('"s49"')
 
 
 class TestBatches:
@@ -143,8 +143,8 @@ class TestBatches:
             PromptOptions(objects_per_prompt=0)
 
     def test_settings_reach_the_request(self) -> None:
-        request = only(most_tokens=7, temperature=0.5, is_thinking=True).request
-        assert (request.most_tokens, request.temperature, request.is_thinking, request.sample) == (7, 0.5, True, 0)
+        request = only(max_tokens=7, temperature=0.5, is_thinking=True).request
+        assert (request.max_tokens, request.temperature, request.is_thinking, request.sample) == (7, 0.5, True, 0)
 
     def test_reasoning_comes_before_the_class(self) -> None:
         row = only(strategy=Strategy.CHAIN_OF_THOUGHT).request.schema["properties"]["1"]

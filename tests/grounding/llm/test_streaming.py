@@ -15,11 +15,11 @@ from tests.grounding.llm.servers import FakeServer, Reply, sse
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
-from usd2kg.grounding.llm.streaming import Watch
+from usd2kg.grounding.llm.streaming import StreamMonitor
 
 KEYS = {"OPENAI_API_KEY": "none", "GOOGLE_API_KEY": "none", "ANTHROPIC_API_KEY": "none"}
 SCHEMA = {"type": "object", "properties": {"class": {"type": "string"}}, "required": ["class"]}
-REQUEST = Request("the classes", "the objects", SCHEMA, most_tokens=4000)
+REQUEST = Request("the classes", "the objects", SCHEMA, max_tokens=4000)
 """Estimated at (11 + 11) / 4, rounded up: 6 tokens."""
 CUP = '{"class": "Cup"}'
 OPENAI, GOOGLE, ANTHROPIC = "openai:m", "google:gemini-2.5-flash", "anthropic:claude-haiku-4-5"
@@ -180,7 +180,7 @@ class TestCutOff:
 
     @every_format
     def test_a_server_that_does_not_keep_to_the_limit_is_cut_off(self, model: str):
-        completion, _ = complete(model, streaming(model, numbers), request=replace(REQUEST, most_tokens=100))
+        completion, _ = complete(model, streaming(model, numbers), request=replace(REQUEST, max_tokens=100))
 
         assert completion.finish is Finish.LENGTH
         assert 3200 < len(completion.text) < 3300
@@ -197,7 +197,7 @@ class TestCutOff:
 
 class TestWatch:
     def test_a_text_is_looked_at_when_there_is_enough_of_it(self):
-        watch = Watch(most_tokens=1000)
+        watch = StreamMonitor(max_tokens=1000)
 
         found = [watch.add("la la la ") for _ in range(60)]
 
@@ -205,13 +205,13 @@ class TestWatch:
         assert found.index(Finish.DEGENERATE) == 55
 
     def test_another_text_is_looked_at_by_itself(self):
-        watch = Watch(most_tokens=1000)
+        watch = StreamMonitor(max_tokens=1000)
 
         assert {watch.add("la la la ") for _ in range(50)} == {None}
         assert {watch.add("la la la ", is_first=number == 0) for number in range(50)} == {None}
 
     def test_all_texts_count_towards_the_limit(self):
-        watch = Watch(most_tokens=1)
+        watch = StreamMonitor(max_tokens=1)
 
         assert watch.add("x" * 20) is None
         assert watch.add("y" * 12, is_first=True) is None
@@ -236,7 +236,7 @@ class TestTime:
         start = time.monotonic()
 
         completion, _ = complete(
-            OPENAI, streaming(OPENAI, lambda: pieces), request=replace(REQUEST, most_tokens=60_000), timeout_s=60
+            OPENAI, streaming(OPENAI, lambda: pieces), request=replace(REQUEST, max_tokens=60_000), timeout_s=60
         )
 
         assert completion.text == "".join(pieces)

@@ -10,7 +10,7 @@ from tests.grounding.llm import servers
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Request
-from usd2kg.grounding.llm.traffic import Pace, Traffic
+from usd2kg.grounding.llm.traffic import RateLimiter, Traffic
 
 REQUEST = Request("the classes", "the objects", {"type": "object", "properties": {}})
 
@@ -55,7 +55,7 @@ class Clock:
 class TestPace:
     def test_requests_are_spaced_evenly(self):
         clock = Clock()
-        pace = Pace(30, clock.sleep, clock.now)
+        pace = RateLimiter(30, clock.sleep, clock.now)
 
         times = []
         for _ in range(5):
@@ -66,7 +66,7 @@ class TestPace:
 
     def test_time_that_passed_is_not_made_up_for(self):
         clock = Clock()
-        pace = Pace(60, clock.sleep, clock.now)
+        pace = RateLimiter(60, clock.sleep, clock.now)
 
         pace.wait_for_turn()
         clock.sleep(10)
@@ -79,7 +79,7 @@ class TestPace:
 
     def test_without_a_rate_nobody_waits(self):
         waits: list[float] = []
-        pace = Pace(None, waits.append, lambda: 0.0)
+        pace = RateLimiter(None, waits.append, lambda: 0.0)
 
         for _ in range(100):
             pace.wait_for_turn()
@@ -89,7 +89,7 @@ class TestPace:
     def test_threads_share_the_rate(self):
         """Eight threads send ten requests each, 60 a minute: the last of them in second 79."""
         clock = Clock(threads=8)
-        pace = Pace(60, clock.sleep, clock.now)
+        pace = RateLimiter(60, clock.sleep, clock.now)
         times: list[float] = []
 
         def send() -> None:

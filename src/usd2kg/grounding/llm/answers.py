@@ -8,11 +8,11 @@ from itertools import pairwise
 from typing import Any
 
 from usd2kg.errors import OntologyError
+from usd2kg.grounding.llm.answer_rows import AnswerRow, read_answer_rows
 from usd2kg.grounding.llm.completion import Request
+from usd2kg.grounding.llm.prompt_text import fill_template, quote
 from usd2kg.grounding.llm.prompts import Batch
-from usd2kg.grounding.llm.rows import Row, read_rows
-from usd2kg.grounding.llm.text import fill_template, quote
-from usd2kg.grounding.llm.token_sums import TokenSums
+from usd2kg.grounding.llm.token_logprobs import TokenLogprobs
 from usd2kg.grounding.model import Status
 from usd2kg.ontology import ClassIRI, TBox, compact_iri
 
@@ -65,7 +65,7 @@ def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[st
         tbox: the classes.
         tokens: text and natural logarithm of the probability of each token of the text; empty where nobody told.
     """
-    rows, sums = read_rows(text, batch.numbers), TokenSums(text, tokens)
+    rows, sums = read_answer_rows(text, batch.numbers), TokenLogprobs(text, tokens)
     if not rows and not text.strip():
         problem = "the answer was empty"
     else:
@@ -74,7 +74,7 @@ def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[st
     return [_read_row(rows[number], batch, tbox, sums) if number in rows else missing for number in batch.numbers]
 
 
-def _read_row(row: Row, batch: Batch, tbox: TBox, sums: TokenSums) -> Answer:
+def _read_row(row: AnswerRow, batch: Batch, tbox: TBox, sums: TokenLogprobs) -> Answer:
     answer = _read_value(row.value, batch, tbox)
     return replace(answer, logprob=sums.logprob(row.class_span)) if row.class_span is not None else answer
 

@@ -26,10 +26,10 @@ from usd2kg.errors import GroundingError, OutputError
 from usd2kg.files import write_whole
 from usd2kg.grounding.llm.completion import Completion, Request
 from usd2kg.grounding.llm.recordings import format_line, read_line
-from usd2kg.grounding.llm.records import (
+from usd2kg.grounding.llm.serialization import (
     UNREADABLE,
-    Row,
-    make_row,
+    CacheEntry,
+    make_entry,
     read_completion,
     request_fields,
     request_key,
@@ -122,7 +122,7 @@ class CompletionCache:
         A completion that is there already stays, unless `replace`. Two halves of a surrogate pair come back as the
         character that they make; all other text comes back as it is.
         """
-        row = make_row(model, request_fields(request), completion)
+        row = make_entry(model, request_fields(request), completion)
         with self._transaction("BEGIN IMMEDIATE"):
             self._insert(row, replace=replace)
 
@@ -215,7 +215,7 @@ class CompletionCache:
                     raise
                 time.sleep(0.01)
 
-    def _insert(self, row: Row, *, replace: bool = False) -> None:
+    def _insert(self, row: CacheEntry, *, replace: bool = False) -> None:
         how = "REPLACE" if replace else "IGNORE"
         self._connection.executemany("INSERT OR IGNORE INTO shared VALUES (?, ?)", row.shared)
         self._connection.execute(f"INSERT OR {how} INTO completions VALUES (?, ?, ?, ?, ?)", row.values)

@@ -7,15 +7,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from usd2kg.grounding.llm.options import PromptOptions
-from usd2kg.grounding.llm.text import MOST_CHARACTERS, fill_template, quote
+from usd2kg.grounding.llm.prompt_options import PromptOptions
+from usd2kg.grounding.llm.prompt_text import MOST_CHARACTERS, fill_template, quote
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
 
-__all__ = ["Offer", "name_classes", "offer_classes"]
+__all__ = ["OfferedClasses", "list_classes", "name_classes"]
 
 
 @dataclass(frozen=True, slots=True)
-class Offer:
+class OfferedClasses:
     """The classes of a prompt: their block of text, and name → IRI."""
 
     text: str
@@ -50,9 +50,9 @@ def _prefix(iri: ClassIRI) -> str:
     return re.sub(r"\W", "_", re.sub(r"\.(owl|ttl|rdf)$", "", namespace)) or "ns"
 
 
-def offer_classes(
+def list_classes(
     tbox: TBox, names: Mapping[ClassIRI, str], offered: Mapping[ClassIRI, Any], options: PromptOptions
-) -> Offer:
+) -> OfferedClasses:
     """Return the block of text that lists the offered classes, as the options say."""
     order = sorted(offered, key=lambda iri: names[iri])
     if options.shuffle_seed is not None:
@@ -60,7 +60,7 @@ def offer_classes(
     parents = {iri: _parents(tbox, iri, offered) for iri in order}
     lines = _tree_lines if options.is_tree else _flat_lines
     text = fill_template("classes", classes="\n".join(lines(tbox, names, parents)))
-    return Offer(text, {names[iri]: iri for iri in order})
+    return OfferedClasses(text, {names[iri]: iri for iri in order})
 
 
 def _parents(tbox: TBox, iri: ClassIRI, offered: Mapping[ClassIRI, Any]) -> list[ClassIRI]:

@@ -15,22 +15,22 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.abilities import Abilities
-from usd2kg.grounding.llm.addresses import KEY_VARIABLES, Address, find_key, parse_address
-from usd2kg.grounding.llm.background import Background
-from usd2kg.grounding.llm.completion import Completion, Request
-from usd2kg.grounding.llm.providers import closing_responses, open_http, serve_model
-from usd2kg.grounding.llm.retry import Failure, Redactor, Retries, advise, read_failure
-from usd2kg.grounding.llm.streaming import ask_for_stream
-from usd2kg.grounding.llm.traffic import Pace, Traffic
-from usd2kg.grounding.llm.wire import (
+from usd2kg.grounding.llm.adapter import (
+    convert_response,
     is_sampled,
+    json_object_format,
     make_message,
     make_parameters,
     make_settings,
-    older_format,
-    read_completion,
 )
+from usd2kg.grounding.llm.capabilities import Capabilities
+from usd2kg.grounding.llm.completion import Completion, Request
+from usd2kg.grounding.llm.event_loop import EventLoopThread
+from usd2kg.grounding.llm.model_reference import KEY_VARIABLES, ModelReference, find_key, parse_model_reference
+from usd2kg.grounding.llm.providers import closing_responses, make_provider_model, open_http
+from usd2kg.grounding.llm.retry import Failure, Redactor, RetryPolicy, advise, convert_error
+from usd2kg.grounding.llm.streaming import request_stream
+from usd2kg.grounding.llm.traffic import RateLimiter, Traffic
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient
@@ -65,12 +65,12 @@ def make_client(
     Raises:
         GroundingError: the model is malformed, its key is missing, or the extra `llm` is not installed.
     """
-    address = parse_address(model)
+    address = parse_model_reference(model)
     key = find_key(address, environment)
     redact = Redactor([key, *(environment.get(name, "").strip() for names in KEY_VARIABLES.values() for name in names)])
     try:
         http = open_http(address, timeout_s)
-        served = serve_model(address, key, http)
+        served = make_provider_model(address, key, http)
     except ImportError as error:
         missing = error.name or getattr(error.__cause__, "name", None) or "pydantic_ai"
         raise GroundingError(
@@ -79,8 +79,8 @@ def make_client(
         ) from error
     traffic = Traffic()
     wait = traffic.counting(sleep)
-    pace = Pace(requests_per_minute, wait, clock)
-    return HttpClient(address, served, http, redact, Retries(retries, wait, random), pace, traffic, timeout_s)
+    pace = RateLimiter(requests_per_minute, wait, clock)
+    return HttpClient(address, served, http, redact, RetryPolicy(retries, wait, random), pace, traffic, timeout_s)
 
 
 class HttpClient:
@@ -92,12 +92,12 @@ class HttpClient:
 
     def __init__(
         self,
-        address: Address,
+        address: ModelReference,
         served: "Model[Any]",
         http: "AsyncClient",
         redact: Redactor,
-        retries: Retries,
-        pace: Pace,
+        retries: RetryPolicy,
+        pace: RateLimiter,
         traffic: Traffic,
         timeout_s: float,
     ) -> None:
@@ -110,8 +110,8 @@ class HttpClient:
         self._retries = retries
         self._pace = pace
         self._timeout_s = timeout_s
-        self._abilities = Abilities(logprobs=address.provider == "openai", json_schemas=address.is_compatible)
-        self._background = Background()
+        self._abilities = Capabilities(logprobs=address.provider == "openai", json_schemas=address.is_openai_compatible)
+        self._background = EventLoopThread()
         self._close = weakref.finalize(self, self._background.stop, http.aclose)
 
     def __enter__(self) -> Self:
@@ -162,13 +162,13 @@ class HttpClient:
             outcome = self._send_once(request, asked)
         return outcome
 
-    def _send_once(self, request: Request, asked: Abilities) -> Completion | Failure:
+    def _send_once(self, request: Request, asked: Capabilities) -> Completion | Failure:
         prompt = self._make_prompt(request, asked)
         self._pace.wait_for_turn()
         self.traffic.add(attempts=1)
         return self._background.run(self._ask(request, prompt, asked))
 
-    async def _ask(self, request: Request, prompt: dict[str, Any], asked: Abilities) -> Completion | Failure:
+    async def _ask(self, request: Request, prompt: dict[str, Any], asked: Capabilities) -> Completion | Failure:
         from pydantic_ai import direct  # noqa: PLC0415 - the extra may be missing
         from pydantic_ai.exceptions import AgentRunError, UserError  # noqa: PLC0415
 
@@ -176,28 +176,28 @@ class HttpClient:
         try:
             async with asyncio.timeout(self._timeout_s), closing_responses():
                 if asked.streams:
-                    return await ask_for_stream(self._served, prompt, request, provider)
+                    return await request_stream(self._served, prompt, request, provider)
                 response = await direct.model_request(self._served, **prompt)
         except TimeoutError:
             return Failure(f"timed out after {self._timeout_s:g} seconds", None, is_transient=True)
         except AgentRunError as error:
-            return read_failure(error, self._redact)
+            return convert_error(error, self._redact)
         except UserError as error:
             return Failure(self._redact(str(error)))
-        return read_completion(response, request, provider)
+        return convert_response(response, request, provider)
 
-    def _make_prompt(self, request: Request, asked: Abilities) -> dict[str, Any]:
+    def _make_prompt(self, request: Request, asked: Capabilities) -> dict[str, Any]:
         """The arguments of the library's functions that send a request."""
         from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415 - the extra may be missing
 
         settings = make_settings(self._address, self._served, request, asked.logprobs)
         settings |= {"timeout": self._timeout_s, "max_retries": 0}
-        parameters = make_parameters(self._served, request, self._address.is_compatible)
-        if self._address.is_compatible and not asked.json_schemas:
+        parameters = make_parameters(self._served, request, self._address.is_openai_compatible)
+        if self._address.is_openai_compatible and not asked.json_schemas:
             parameters = ModelRequestParameters()
             # llama-cpp-python's server would sort its whole vocabulary for each token, longer than that takes to come.
             settings.pop("openai_top_logprobs", None)
-            body = {**settings.get("extra_body", {}), "response_format": older_format(request)}
+            body = {**settings.get("extra_body", {}), "response_format": json_object_format(request)}
             settings |= {"extra_body": body}
         return {
             "messages": [make_message(request)],

@@ -30,7 +30,7 @@ class Request:
     """The objects that are asked about."""
     schema: Mapping[str, Any]
     """JSON Schema of the answer."""
-    most_tokens: int = 4096
+    max_tokens: int = 4096
     """Output tokens after which the model is cut off."""
     temperature: float = 0.0
     is_thinking: bool = False

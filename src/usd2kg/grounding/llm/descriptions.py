@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from itertools import islice
 
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
-from usd2kg.grounding.llm.text import quote
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_text import quote
 
 __all__ = ["describe"]
 
@@ -29,9 +29,9 @@ def _evidence(view: ObjectView, options: PromptOptions) -> Iterator[tuple[str, s
     if view.position is not None:
         yield "position (x, y, z) in metres", ", ".join(map(_number, view.position))
     yield "parent path, outermost first", " / ".join(map(quote, view.parents))
-    left_out = len(view.siblings) - options.most_siblings
+    left_out = len(view.siblings) - options.max_siblings
     more = f" and {left_out} more" if left_out > 0 else ""
-    yield "siblings", ", ".join(map(quote, islice(view.siblings, options.most_siblings))) + more
+    yield "siblings", ", ".join(map(quote, islice(view.siblings, options.max_siblings))) + more
     if options.has_more_evidence:
         yield from _more_evidence(view)
 

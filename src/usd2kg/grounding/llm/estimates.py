@@ -4,8 +4,8 @@ import json
 from fractions import Fraction
 
 from usd2kg.grounding.llm.completion import Request, Usage
+from usd2kg.grounding.llm.prompt_text import estimate_tokens
 from usd2kg.grounding.llm.prompts import Batch
-from usd2kg.grounding.llm.text import estimate_tokens
 
 __all__ = ["estimate_input", "estimate_usage"]
 

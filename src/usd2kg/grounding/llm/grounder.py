@@ -9,12 +9,12 @@ from dataclasses import replace
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
-from usd2kg.grounding.llm.asking import Asker, RunReport
 from usd2kg.grounding.llm.completion import Completion, Finish
-from usd2kg.grounding.llm.grouping import distinct_views, shortlists
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.grouping import group_similar_views, make_shortlists
+from usd2kg.grounding.llm.metered_client import MeteredClient, RunReport
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
-from usd2kg.grounding.llm.voting import Reply, vote
+from usd2kg.grounding.llm.voting import ScoredAnswer, vote
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.grounding.platt_scaling import PlattScaling
 from usd2kg.ontology import TBox
@@ -35,10 +35,10 @@ class LLMGrounder:
 
     def __init__(
         self,
-        asker: Asker,
+        asker: MeteredClient,
         options: PromptOptions,
         *,
-        is_once_each: bool = True,
+        shares_answers: bool = True,
         shortlist: int | None = None,
         workers: int = 4,
         samples: int = 1,
@@ -53,7 +53,7 @@ class LLMGrounder:
         Args:
             asker: who asks the model.
             options: strategy and form of the prompts.
-            is_once_each: ask once about objects whose prompts would differ in a number alone.
+            shares_answers: ask once about objects whose prompts would differ in a number alone.
             shortlist: offer for each object only so many classes that the lexical grounder thinks of first, with
                 those above them and the roots; None offers all.
             workers: prompts that are on their way at the same time.
@@ -72,7 +72,7 @@ class LLMGrounder:
         if samples > 1 and options.temperature == 0:
             raise GroundingError(f"{samples} samples at temperature 0 are all the same; expected a temperature above 0")
         self._asker, self._options = asker, options
-        self._is_once_each, self._shortlist, self._workers = is_once_each, shortlist, workers
+        self._is_once_each, self._shortlist, self._workers = shares_answers, shortlist, workers
         self._samples, self._first_sample = samples, first_sample
         self._examples, self._picture, self._progress = examples, picture, progress
         self.tariff = asker.tariff
@@ -107,12 +107,12 @@ class LLMGrounder:
         """Return the prompts that `ground_views` would send once for each sample, repairs left out."""
         asked = [views[indices[0]] for indices in self._groups([view for _, view in views])]
         shown = [view for _, view in asked]
-        offered = shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None
+        offered = make_shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None
         pictures = self._pictures(asked)
         return build_requests(shown, tbox, self._options, offered, examples=self._examples, pictures=pictures)
 
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
-        return distinct_views(views, self._options) if self._is_once_each else [[i] for i in range(len(views))]
+        return group_similar_views(views, self._options) if self._is_once_each else [[i] for i in range(len(views))]
 
     def _pictures(self, asked: Sequence[tuple[str, ObjectView]]) -> dict[int, bytes]:
         if self._picture is None:
@@ -136,7 +136,7 @@ class LLMGrounder:
         self.report.seconds += time.monotonic() - start
         return [found[index] for index in range(len(views))]
 
-    def _replies(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[Reply]]]:
+    def _replies(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[ScoredAnswer]]]:
         """Yield the batches as they are answered; after an interruption nothing more is asked."""
         left = dict(enumerate(batches))
         with ThreadPoolExecutor(max_workers=self._workers) as pool:
@@ -151,9 +151,12 @@ class LLMGrounder:
         for future, index in pending.items():
             if index in left:
                 batch = left[index]
-                yield batch, [Reply(_INTERRUPTED, None)] * len(batch.indices) if future.cancelled() else future.result()
+                yield (
+                    batch,
+                    [ScoredAnswer(_INTERRUPTED, None)] * len(batch.indices) if future.cancelled() else future.result(),
+                )
 
-    def _ask(self, batch: Batch, tbox: TBox) -> list[Reply]:
+    def _ask(self, batch: Batch, tbox: TBox) -> list[ScoredAnswer]:
         numbers = range(self._first_sample, self._first_sample + self._samples)
         samples = [self._sample(batch, number, tbox) for number in numbers]
         return [vote([_reply(answer) for answer in answers]) for answers in zip(*samples, strict=True)]
@@ -189,7 +192,7 @@ class LLMGrounder:
                 self.report.degenerate += 1
         return answers
 
-    def _prediction(self, path: str, reply: Reply) -> Prediction:
+    def _prediction(self, path: str, reply: ScoredAnswer) -> Prediction:
         answer = reply.answer
         return Prediction(
             prim_path=path,
@@ -206,7 +209,7 @@ class LLMGrounder:
         return confidence if confidence is None or self._scaling is None else self._scaling(confidence)
 
 
-def _reply(answer: Answer) -> Reply:
+def _reply(answer: Answer) -> ScoredAnswer:
     """Return a single answer, as sure as the tokens of its class are likely."""
     is_known = answer.class_iri is not None and answer.logprob is not None
-    return Reply(answer, round(math.exp(min(0.0, answer.logprob or 0.0)), 4) if is_known else None)
+    return ScoredAnswer(answer, round(math.exp(min(0.0, answer.logprob or 0.0)), 4) if is_known else None)

@@ -5,20 +5,20 @@ from dataclasses import replace
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["distinct_views", "shortlists"]
+__all__ = ["group_similar_views", "make_shortlists"]
 
 
-def shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
+def make_shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
     """Return for each view the classes that the lexical grounder thinks of first, all above them, and the roots."""
     first = LexicalGrounder().ground_views([("", view) for view in views], tbox)
     likely = [[candidate.class_iri for candidate in found.candidates[:most]] for found in first]
     return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
 
 
-def distinct_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
+def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
     """Return the indices of views in groups that one answer serves: they differ in numbers and in where they stand.
 
     By strategy A only the name counts; by B and C also the names above and the size, to the centimetre. A masked view

@@ -9,8 +9,8 @@ from decimal import Decimal, InvalidOperation
 from typing import Any
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.addresses import ADDRESSES, Address, parse_address
 from usd2kg.grounding.llm.completion import Usage
+from usd2kg.grounding.llm.model_reference import PROVIDER_URLS, ModelReference, parse_model_reference
 
 __all__ = ["Tariff", "find_tariff", "format_price", "parse_price"]
 
@@ -26,20 +26,20 @@ def find_tariff(model: str) -> Tariff | None:
     Raises:
         GroundingError: the model names a provider, but is malformed.
     """
-    if model.partition(":")[0] not in ADDRESSES:
+    if model.partition(":")[0] not in PROVIDER_URLS:
         return None
     try:
-        tariff = _listed(parse_address(model))
+        tariff = _listed(parse_model_reference(model))
         tariff(Usage())
     except (ImportError, LookupError):
         return None
     return tariff
 
 
-def _listed(address: Address) -> Tariff:
+def _listed(address: ModelReference) -> Tariff:
     import genai_prices  # noqa: PLC0415 - the extra may be missing
 
-    where: Any = {"provider_api_url": address.url} if address.is_own_server else {"provider_id": address.provider}
+    where: Any = {"provider_api_url": address.url} if address.has_custom_url else {"provider_id": address.provider}
 
     def price(usage: Usage) -> Decimal:
         # A server that claims to have read more from its cache than was sent is not believed.

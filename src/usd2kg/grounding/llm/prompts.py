@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.llm.class_lists import name_classes, offer_classes
+from usd2kg.grounding.llm.class_lists import list_classes, name_classes
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.descriptions import describe
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
-from usd2kg.grounding.llm.text import fill_template, read_template
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_text import fill_template, read_template
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["Batch", "Example", "build_requests"]
@@ -86,7 +86,7 @@ class _Writer:
         self._options = options
         self._names = name_classes(tbox)
         self._examples = examples
-        self._whole = offer_classes(tbox, self._names, tbox.by_iri, options) if offers_all else None
+        self._whole = list_classes(tbox, self._names, tbox.by_iri, options) if offers_all else None
         strategy = read_template(f"strategy_{options.strategy}").template
         parts = [fill_template("system", strategy=strategy)]
         if self._whole is not None:
@@ -112,7 +112,7 @@ class _Writer:
         if offer is None:
             offered = {iri: None for row in candidates for iri in row or self._tbox.roots}
             offered |= dict.fromkeys(example.class_iri for example in self._examples)
-            offer = offer_classes(self._tbox, self._names, offered, self._options)
+            offer = list_classes(self._tbox, self._names, offered, self._options)
             user = offer.text + "\n"
         user += self._describe(views, pictures)
         options = self._options
@@ -120,7 +120,7 @@ class _Writer:
             system=self._system,
             user=user,
             schema=_schema(len(indices), list(offer.classes), options.strategy),
-            most_tokens=options.most_tokens,
+            max_tokens=options.max_tokens,
             temperature=options.temperature,
             is_thinking=options.is_thinking,
             images=tuple(picture for picture in pictures if picture is not None),

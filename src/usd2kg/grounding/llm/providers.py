@@ -5,20 +5,20 @@ from contextlib import asynccontextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
-from usd2kg.grounding.llm.addresses import Address
+from usd2kg.grounding.llm.model_reference import ModelReference
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient, Response
     from pydantic_ai.models import Model
 
-__all__ = ["closing_responses", "open_http", "serve_model"]
+__all__ = ["closing_responses", "make_provider_model", "open_http"]
 
 _LONGEST_CONNECT_S = 10.0
 
 _opened: ContextVar["list[Response]"] = ContextVar("opened")
 
 
-def open_http(address: Address, timeout_s: float) -> "AsyncClient":
+def open_http(address: ModelReference, timeout_s: float) -> "AsyncClient":
     """Return the connections to a server.
 
     Raises:
@@ -55,7 +55,7 @@ async def closing_responses() -> AsyncIterator[None]:
             await response.aclose()
 
 
-def serve_model(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def make_provider_model(address: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     """Return the library's model of that name at that address.
 
     Raises:
@@ -64,14 +64,14 @@ def serve_model(address: Address, key: str, http: "AsyncClient") -> "Model[Any]"
     return _SERVED[address.provider](address, key, http)
 
 
-def _serve_google(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _serve_google(address: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     from pydantic_ai.models.google import GoogleModel  # noqa: PLC0415
     from pydantic_ai.providers.google import GoogleProvider  # noqa: PLC0415
 
     return GoogleModel(address.name, provider=GoogleProvider(api_key=key, base_url=address.url, http_client=http))
 
 
-def _serve_anthropic(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _serve_anthropic(address: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     from anthropic import AsyncAnthropic  # noqa: PLC0415
     from pydantic_ai.models.anthropic import AnthropicModel  # noqa: PLC0415
     from pydantic_ai.providers.anthropic import AnthropicProvider  # noqa: PLC0415
@@ -80,7 +80,7 @@ def _serve_anthropic(address: Address, key: str, http: "AsyncClient") -> "Model[
     return AnthropicModel(address.name, provider=AnthropicProvider(anthropic_client=client))
 
 
-def _serve_openai(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _serve_openai(address: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     from pydantic_ai.models.openai import OpenAIChatModel  # noqa: PLC0415
     from pydantic_ai.profiles.openai import OpenAIModelProfile  # noqa: PLC0415
     from pydantic_ai.providers.openai import OpenAIProvider  # noqa: PLC0415
@@ -96,10 +96,10 @@ def _serve_openai(address: Address, key: str, http: "AsyncClient") -> "Model[Any
         openai_chat_supports_max_completion_tokens=False,
     )
     provider = OpenAIProvider(base_url=address.url, api_key=key, http_client=http)
-    return OpenAIChatModel(address.name, provider=provider, profile=plain if address.is_compatible else None)
+    return OpenAIChatModel(address.name, provider=provider, profile=plain if address.is_openai_compatible else None)
 
 
-_SERVED: dict[str, Callable[[Address, str, "AsyncClient"], "Model[Any]"]] = {
+_SERVED: dict[str, Callable[[ModelReference, str, "AsyncClient"], "Model[Any]"]] = {
     "google": _serve_google,
     "anthropic": _serve_anthropic,
     "openai": _serve_openai,

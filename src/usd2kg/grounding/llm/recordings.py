@@ -4,11 +4,11 @@ import json
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.records import (
+from usd2kg.grounding.llm.serialization import (
     UNREADABLE,
-    Row,
+    CacheEntry,
     checked,
-    make_row,
+    make_entry,
     order_request_fields,
     read_completion,
     read_request_fields,
@@ -29,7 +29,7 @@ def format_line(key: str, system: str, schema: str, rest: str, completion: str) 
     return f"{to_json(line)}\n".encode()
 
 
-def read_line(path: Path, number: int, line: bytes) -> Row:
+def read_line(path: Path, number: int, line: bytes) -> CacheEntry:
     """Return what one line of a recording tells to keep; recordings of format 1 are read too.
 
     Raises:
@@ -38,7 +38,7 @@ def read_line(path: Path, number: int, line: bytes) -> Row:
     try:
         data = checked(json.loads(line.decode("utf-8")), _LINE, "the line")
         request, said = read_request_fields(data["request"]), read_completion(upgrade_completion(data["completion"]))
-        row = make_row(data["model"], request, said)
+        row = make_entry(data["model"], request, said)
         if data["key"] != row.values[0]:
             raise ValueError("the key is not that of its model and request")
     except UNREADABLE as error:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 if TYPE_CHECKING:
     from pydantic_ai.exceptions import AgentRunError
 
-__all__ = ["Failure", "Redactor", "Retries", "advise", "read_failure"]
+__all__ = ["Failure", "Redactor", "RetryPolicy", "advise", "convert_error"]
 
 _Answer = TypeVar("_Answer")
 
@@ -37,12 +37,12 @@ class Failure:
     """HTTP status; None where no answer came."""
     is_transient: bool = False
     """Whether the same request may work later."""
-    asked_wait_s: float | None = None
+    retry_after_s: float | None = None
     """Seconds that the server asks to wait before the next request; None where it does not say."""
 
 
 @dataclass(frozen=True, slots=True)
-class Retries:
+class RetryPolicy:
     """Exponential backoff with full jitter: a wait is uniform between 0 and a bound that doubles.
 
     A server that names the wait is obeyed to the second, unless it asks for more than two minutes.
@@ -64,8 +64,8 @@ class Retries:
         return outcome
 
     def _wait_s(self, done: int, failure: Failure) -> float:
-        if failure.asked_wait_s is not None:
-            return max(failure.asked_wait_s, 0.0)
+        if failure.retry_after_s is not None:
+            return max(failure.retry_after_s, 0.0)
         return self.random() * min(_FIRST_WAIT_S * 2.0**done, _LONGEST_WAIT_S)
 
 
@@ -85,7 +85,7 @@ class Redactor:
         return line if len(line) <= _MOST_CHARACTERS else line[: _MOST_CHARACTERS - 1] + "…"
 
 
-def read_failure(error: "AgentRunError", redact: Redactor) -> Failure:
+def convert_error(error: "AgentRunError", redact: Redactor) -> Failure:
     """Return what the library's error says, without the library's words around it."""
     from pydantic_ai.exceptions import (  # noqa: PLC0415 - the extra may be missing
         ModelAPIError,
@@ -138,4 +138,4 @@ def _find_message(body: object) -> str:
 
 
 def _may_wait(failure: Failure) -> bool:
-    return failure.is_transient and (failure.asked_wait_s or 0.0) <= _LONGEST_ASKED_WAIT_S
+    return failure.is_transient and (failure.retry_after_s or 0.0) <= _LONGEST_ASKED_WAIT_S

@@ -4,17 +4,17 @@ from collections.abc import AsyncIterator, Mapping
 from contextlib import AsyncExitStack
 from typing import TYPE_CHECKING, Any
 
-from usd2kg.grounding.llm.abilities import NO_STREAM
+from usd2kg.grounding.llm.adapter import convert_response
 from usd2kg.grounding.llm.answers import is_degenerate
+from usd2kg.grounding.llm.capabilities import NO_STREAM
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
 from usd2kg.grounding.llm.retry import Failure
-from usd2kg.grounding.llm.wire import read_completion
 
 if TYPE_CHECKING:
     from pydantic_ai.messages import ModelResponse, ModelResponseStreamEvent
     from pydantic_ai.models import Model, StreamedResponse
 
-__all__ = ["Watch", "ask_for_stream"]
+__all__ = ["StreamMonitor", "request_stream"]
 
 _LOOKS_EVERY = 500
 """Characters between two looks for a loop, which take one or two milliseconds."""
@@ -27,12 +27,12 @@ _TRIPS = (AttributeError, KeyError, TypeError, ValueError)
 _ODD = "a piece of the stream is not what it should be"
 
 
-class Watch:
+class StreamMonitor:
     """Watches a text grow, and tells when it should be cut off."""
 
-    def __init__(self, most_tokens: int) -> None:
-        """Start with nothing; `most_tokens` is what the server was told to keep to."""
-        self._left = most_tokens * _MOST_CHARACTERS_PER_TOKEN
+    def __init__(self, max_tokens: int) -> None:
+        """Start with nothing; `max_tokens` is what the server was told to keep to."""
+        self._left = max_tokens * _MOST_CHARACTERS_PER_TOKEN
         self._fresh = 0
         self._tail = ""
 
@@ -54,7 +54,7 @@ class Watch:
         return Finish.DEGENERATE if is_degenerate(self._tail) else None
 
 
-async def ask_for_stream(
+async def request_stream(
     served: "Model[Any]", prompt: Mapping[str, Any], request: Request, provider: str
 ) -> Completion | Failure:
     """Return the completion that a server streams, or why it brings none.
@@ -85,7 +85,7 @@ async def ask_for_stream(
 
 
 async def _read_stream(stream: "StreamedResponse", request: Request, provider: str) -> Completion | Failure:
-    watch, events = Watch(request.most_tokens), aiter(stream)
+    watch, events = StreamMonitor(request.max_tokens), aiter(stream)
     cut: Finish | None = None
     while cut is None and (event := await _next_event(events)) is not None:
         if isinstance(event, Failure):
@@ -94,7 +94,7 @@ async def _read_stream(stream: "StreamedResponse", request: Request, provider: s
     response = stream.get()
     if cut is None and not _is_whole(response, provider):
         return Failure("the stream broke off", None, is_transient=True)
-    return read_completion(response, request, provider, cut)
+    return convert_response(response, request, provider, cut)
 
 
 async def _next_event(events: "AsyncIterator[ModelResponseStreamEvent]") -> "ModelResponseStreamEvent | Failure | None":

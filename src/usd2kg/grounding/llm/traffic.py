@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from threading import Lock
 
-__all__ = ["Pace", "Traffic"]
+__all__ = ["RateLimiter", "Traffic"]
 
 Sleep = Callable[[float], object]
 """Waits so many seconds."""
@@ -43,7 +43,7 @@ class Traffic:
         return wait
 
 
-class Pace:
+class RateLimiter:
     """Spaces requests evenly over all threads, so that no minute has more of them than allowed.
 
     There are no bursts, not even after a pause: servers may count by the second what they allow by the minute.

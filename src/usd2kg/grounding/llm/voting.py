@@ -11,11 +11,11 @@ from usd2kg.grounding.llm.answers import Answer
 from usd2kg.grounding.model import Candidate
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["Reply", "vote"]
+__all__ = ["ScoredAnswer", "vote"]
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
+class ScoredAnswer:
     """What came back about one object."""
 
     answer: Answer
@@ -25,7 +25,7 @@ class Reply:
     """The classes that samples named, with their shares, most first; empty for a single sample."""
 
 
-def vote(replies: Sequence[Reply]) -> Reply:
+def vote(replies: Sequence[ScoredAnswer]) -> ScoredAnswer:
     """Return the reply that stands for all samples: of equally many votes the class that was named first.
 
     Samples that name no class count as votes for none of them; where all do, the first one stands.
@@ -38,4 +38,4 @@ def vote(replies: Sequence[Reply]) -> Reply:
     shares = {iri: count / len(replies) for iri, count in votes.most_common()}
     chosen = next(iter(shares))
     answer = next(reply.answer for reply in replies if reply.answer.class_iri == chosen)
-    return Reply(answer, shares[chosen], tuple(Candidate(iri, share) for iri, share in shares.items()))
+    return ScoredAnswer(answer, shares[chosen], tuple(Candidate(iri, share) for iri, share in shares.items()))

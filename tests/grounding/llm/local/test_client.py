@@ -13,8 +13,8 @@ import pytest
 from tests.grounding.llm.local.fakes import FakeModel, Probabilities
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Finish, Request, Usage
+from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounder
 from usd2kg.grounding.llm.local.client import LocalClient, is_local_model, open_local
-from usd2kg.grounding.llm.settings import LLMSettings, open_llm_grounder
 
 SCHEMA = {
     "type": "object",
@@ -55,13 +55,13 @@ class TestComplete:
         model = make_model()
         with connect(model) as client:
             client.complete(REQUEST)
-            client.complete(replace(REQUEST, most_tokens=40))
+            client.complete(replace(REQUEST, max_tokens=40))
         assert [room for _, room in model.prompts] == [ANSWER_TOKENS, 40]
 
     def test_leaves_rows_out_where_the_output_is_limited_or_the_window_ends(self):
-        for window, most_tokens in ((10_000, 40), (20 + 40, 4096)):
+        for window, max_tokens in ((10_000, 40), (20 + 40, 4096)):
             with connect(make_model(window)) as client:
-                completion = client.complete(replace(REQUEST, most_tokens=most_tokens))
+                completion = client.complete(replace(REQUEST, max_tokens=max_tokens))
             assert (json.loads(completion.text), completion.finish) == ({"1": {"class": "Cup"}}, Finish.LENGTH)
 
     def test_says_what_a_prompt_needs_where_the_window_is_too_small(self):

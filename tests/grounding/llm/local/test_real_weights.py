@@ -17,14 +17,14 @@ from tests.grounding.llm.test_llama_server import WEIGHTS_SHA256
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import ObjectView, Status, ground
-from usd2kg.grounding.llm.asking import Asker
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Finish, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.local.client import LocalClient, open_local
 from usd2kg.grounding.llm.local.library import import_llama_cpp
 from usd2kg.grounding.llm.local.llama import LlamaModel
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.metered_client import MeteredClient
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import build_requests
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Box
@@ -62,9 +62,9 @@ def make_views(*names: str) -> list[ObjectView]:
     return [ObjectView(name=name, parents=("Room",), size=(0.5, 0.5, 0.9)) for name in names]
 
 
-def ask(names: list[str], strategy: Strategy = Strategy.CONTEXT, tbox: TBox = TBOX, most_tokens: int = 400) -> Request:
+def ask(names: list[str], strategy: Strategy = Strategy.CONTEXT, tbox: TBox = TBOX, max_tokens: int = 400) -> Request:
     """The request that asks about all of them at once."""
-    options = PromptOptions(strategy=strategy, objects_per_prompt=len(names), most_tokens=most_tokens)
+    options = PromptOptions(strategy=strategy, objects_per_prompt=len(names), max_tokens=max_tokens)
     (batch,) = build_requests(make_views(*names), tbox, options)
     return batch.request
 
@@ -84,7 +84,7 @@ class TestAnswers:
         assert strategy is Strategy.CHAIN_OF_THOUGHT or completion.finish is Finish.STOP
 
     def test_leave_out_what_finds_no_room(self, client: LocalClient):
-        completion = client.complete(ask(NAMES, most_tokens=30))
+        completion = client.complete(ask(NAMES, max_tokens=30))
         assert completion.finish is Finish.LENGTH
         assert 0 < len(json.loads(completion.text)) < 5
 
@@ -142,9 +142,9 @@ def test_a_run_with_a_shortlist_grounds_with_offered_classes(client: LocalClient
     scene = make_scene(*(make_object(f"/Room/{name}", box=Box((0, 0, 0), (0.5, 0.5, 0.9))) for name in NAMES))
     options = PromptOptions(objects_per_prompt=5)
     with CompletionCache(tmp_path / "said.sqlite") as cache:
-        grounder = LLMGrounder(Asker(client, cache=cache), options, shortlist=2, workers=1)
+        grounder = LLMGrounder(MeteredClient(client, cache=cache), options, shortlist=2, workers=1)
         found = ground(scene, tbox, grounder).predictions
-        again = LLMGrounder(Asker(client, cache=cache), options, shortlist=2, workers=1)
+        again = LLMGrounder(MeteredClient(client, cache=cache), options, shortlist=2, workers=1)
         assert ground(scene, tbox, again).predictions == found
     views = zip((f"/Room/{name}" for name in NAMES), make_views(*NAMES), strict=True)
     (batch,) = grounder.plan(list(views), tbox)

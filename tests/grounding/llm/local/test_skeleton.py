@@ -3,8 +3,8 @@
 import pytest
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.local.json_tokens import classify_tokens
 from usd2kg.grounding.llm.local.skeleton import Choice, Fixed, FreeText, read_schema
-from usd2kg.grounding.llm.local.vocabulary import read_vocabulary
 
 CLASS = {"type": "string", "enum": ["Cup", "Knife"]}
 REASONING = {"type": "string"}
@@ -54,7 +54,7 @@ def test_what_else_a_schema_may_hold_is_refused(schema: dict[str, object]):
 
 def test_tokens_inside_a_string_are_told_apart():
     pieces = [b"", b"cup", b'"', b'",', b'. "', b'\\"', b"\\", b"a\nb", b"\xc3", b"\x00", b'\\u"', b"\\n"]
-    vocabulary = read_vocabulary(pieces, [0])
+    vocabulary = classify_tokens(pieces, [0])
     assert vocabulary.closers.tolist() == [2, 3]
     assert vocabulary.heads == {0: b"", 2: b"", 3: b"", 4: b". "}
     # Not: a backslash that would change the quote behind it, control characters, an escape cut short.

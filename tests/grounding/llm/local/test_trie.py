@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from usd2kg.grounding.llm.local.trie import FloatArray, Path, add_logprobs, build_trie, normalize, score_names
+from usd2kg.grounding.llm.local.trie import FloatArray, TokenPath, add_logprobs, build_trie, normalize, score_names
 
 QUOTE = 0
 CLOSERS = np.array([QUOTE])
@@ -15,11 +15,11 @@ CLOSERS = np.array([QUOTE])
 class Model:
     """Probabilities of the next token behind a path; what is left is for texts that are not offered."""
 
-    def __init__(self, table: Mapping[Path, Mapping[int, float]]) -> None:
+    def __init__(self, table: Mapping[TokenPath, Mapping[int, float]]) -> None:
         self.table = table
-        self.asked: list[Path] = []
+        self.asked: list[TokenPath] = []
 
-    def __call__(self, path: Path) -> FloatArray:
+    def __call__(self, path: TokenPath) -> FloatArray:
         self.asked.append(path)
         found = np.full(100, 1e-12)
         for token, probability in self.table.get(path, {}).items():

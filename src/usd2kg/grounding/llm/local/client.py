@@ -9,19 +9,19 @@ from typing import Protocol, Self
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Completion, Request, Usage
+from usd2kg.grounding.llm.local.decoding import DecodingPlan, TextTokenizer, TokenModel, decode_answer
+from usd2kg.grounding.llm.local.json_tokens import JsonStringTokens, classify_tokens
 from usd2kg.grounding.llm.local.library import check_weights, import_llama_cpp
 from usd2kg.grounding.llm.local.llama import LlamaModel
 from usd2kg.grounding.llm.local.skeleton import read_schema
 from usd2kg.grounding.llm.local.tokenizer import Prompt
-from usd2kg.grounding.llm.local.vocabulary import Vocabulary, read_vocabulary
-from usd2kg.grounding.llm.local.writing import Plan, TokenModel, Tokens, write_answer
 
-__all__ = ["ChatTokens", "LocalClient", "LocalModel", "is_local_model", "open_local"]
+__all__ = ["ChatTokenizer", "LocalClient", "LocalModel", "is_local_model", "open_local"]
 
 _SCHEME = "gguf:"
 
 
-class ChatTokens(Tokens, Protocol):
+class ChatTokenizer(TextTokenizer, Protocol):
     """A vocabulary with a chat template."""
 
     @property
@@ -39,11 +39,11 @@ class LocalModel(TokenModel, Protocol):
 
     @property
     def window(self) -> int:
-        """Tokens that it can read at once."""
+        """TextTokenizer that it can read at once."""
         ...
 
     @property
-    def tokenizer(self) -> ChatTokens:
+    def tokenizer(self) -> ChatTokenizer:
         """Its vocabulary."""
         ...
 
@@ -87,7 +87,7 @@ class LocalClient:
         """Make the client of a model that `load` loads."""
         self.model = model
         self._load = load
-        self._loaded: tuple[LocalModel, Vocabulary] | None = None
+        self._loaded: tuple[LocalModel, JsonStringTokens] | None = None
         self._lock = Lock()
 
     def __enter__(self) -> Self:
@@ -123,23 +123,25 @@ class LocalClient:
     def _answer(self, request: Request) -> Completion:
         if self._loaded is None:
             model = self._load()
-            self._loaded = model, read_vocabulary(model.tokenizer.pieces, model.tokenizer.ends)
+            self._loaded = model, classify_tokens(model.tokenizer.pieces, model.tokenizer.ends)
         model, vocabulary = self._loaded
-        plan = Plan(read_schema(request.schema), model.tokenizer)
+        plan = DecodingPlan(read_schema(request.schema), model.tokenizer)
         prompt = model.tokenizer.frame(request.system, request.user)
-        room = min(request.most_tokens, plan.most_answer, self._check_room(prompt, plan, model.window))
+        room = min(request.max_tokens, plan.max_answer_tokens, self._check_room(prompt, plan, model.window))
         cached = model.begin(prompt, room)
-        written = write_answer(plan, model, vocabulary, room=room, temperature=request.temperature, seed=request.sample)
+        written = decode_answer(
+            plan, model, vocabulary, room=room, temperature=request.temperature, seed=request.sample
+        )
         usage = Usage(len(prompt.tokens), cached, len(written.tokens))
         return Completion(written.text, written.finish, usage, tokens=written.tokens)
 
-    def _check_room(self, prompt: Prompt, plan: Plan, window: int) -> int:
+    def _check_room(self, prompt: Prompt, plan: DecodingPlan, window: int) -> int:
         """Return how many tokens may follow a prompt."""
         size, room = len(prompt.tokens), window - len(prompt.tokens)
-        if room < plan.least_answer:
+        if room < plan.min_answer_tokens:
             raise GroundingError(
-                f"model '{self.model}': the prompt has {size} tokens and its answer {plan.least_answer} or more, but "
-                f"the model reads {window} at most; offer fewer classes with --shortlist, or ask about fewer objects "
-                "a prompt with --objects-per-prompt"
+                f"model '{self.model}': the prompt has {size} tokens and its answer {plan.min_answer_tokens} or more, "
+                f"but the model reads {window} at most; offer fewer classes with --shortlist, or ask about fewer "
+                "objects a prompt with --objects-per-prompt"
             )
         return room

@@ -7,7 +7,7 @@ from typing import Any
 
 from usd2kg.errors import GroundingError
 
-__all__ = ["CLOSING", "OPENING", "Choice", "Fixed", "FreeText", "Row", "read_schema"]
+__all__ = ["CLOSING", "OPENING", "Choice", "Fixed", "FreeText", "SkeletonRow", "read_schema"]
 
 OPENING = "{"
 """What an answer without rows begins with; the first row has it inside."""
@@ -35,11 +35,11 @@ class FreeText:
     """Any string, inside quotes that stand in the text around it."""
 
 
-Row = tuple[Fixed | Choice | FreeText, ...]
+SkeletonRow = tuple[Fixed | Choice | FreeText, ...]
 """One property of the answer, with the brace or comma before it."""
 
 
-def read_schema(schema: Mapping[str, Any]) -> list[Row]:
+def read_schema(schema: Mapping[str, Any]) -> list[SkeletonRow]:
     """Return the rows of an answer by a schema of objects and strings, in the order of its properties.
 
     Raises:
@@ -74,7 +74,7 @@ def _properties(schema: Mapping[str, Any]) -> Mapping[str, Mapping[str, Any]]:
     return dict(properties)
 
 
-def _join(steps: list[Fixed | Choice | FreeText]) -> Row:
+def _join(steps: list[Fixed | Choice | FreeText]) -> SkeletonRow:
     """Return the steps with texts that follow each other made one."""
     joined: list[Fixed | Choice | FreeText] = []
     for step in steps:

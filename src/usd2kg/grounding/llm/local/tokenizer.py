@@ -5,7 +5,7 @@ from functools import cached_property
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from usd2kg.grounding.llm.local.chat import PLAIN, Frame, Message, read_template
+from usd2kg.grounding.llm.local.chat_template import PLAIN, Frame, Message, read_template
 
 __all__ = ["Prompt", "Tokenizer"]
 

@@ -9,10 +9,10 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["FloatArray", "Path", "Scores", "Trie", "add_logprobs", "build_trie", "normalize", "score_names"]
+__all__ = ["FloatArray", "Scores", "TokenPath", "Trie", "add_logprobs", "build_trie", "normalize", "score_names"]
 
 FloatArray = npt.NDArray[np.float64]
-Path = tuple[int, ...]
+TokenPath = tuple[int, ...]
 """Tokens from the start of a name."""
 
 _SLACK = 0.01
@@ -35,12 +35,12 @@ class Trie:
 class Scores:
     """How likely the offered names are, as far as the trie was read."""
 
-    found: tuple[tuple[str, Path, float], ...]
+    found: tuple[tuple[str, TokenPath, float], ...]
     """(name, tokens, natural logarithm of its probability among all texts), the likeliest first."""
-    unread: tuple[tuple[Path, float], ...]
+    unread: tuple[tuple[TokenPath, float], ...]
     """(start of names, logarithm of the most that the names below it can have)."""
 
-    def explain(self, path: Path) -> list[float]:
+    def explain(self, path: TokenPath) -> list[float]:
         """Return natural logarithms of the probabilities of a found name's tokens, given the ones before.
 
         They are normalised over the offered names, so that their sum is the logarithm of the probability of the name
@@ -50,7 +50,7 @@ class Scores:
         reached.append(next(logprob for _, other, logprob in self.found if other == path))
         return [min(0.0, after - before) for before, after in pairwise(reached)]
 
-    def _weigh(self, start: Path) -> float:
+    def _weigh(self, start: TokenPath) -> float:
         below = [logprob for _, path, logprob in self.found if path[: len(start)] == start]
         return add_logprobs([*below, *(logprob for path, logprob in self.unread if path[: len(start)] == start)])
 
@@ -66,7 +66,7 @@ def build_trie(names: Mapping[str, Sequence[int]]) -> Trie:
     return root
 
 
-def score_names(trie: Trie, predict: Callable[[Path], FloatArray], closers: npt.NDArray[np.intp]) -> Scores:
+def score_names(trie: Trie, predict: Callable[[TokenPath], FloatArray], closers: npt.NDArray[np.intp]) -> Scores:
     """Return how likely a model finds the names, by best-first search.
 
     A start of names is as likely as all texts that begin with it, hence at least as likely as the names below it. The
@@ -79,10 +79,10 @@ def score_names(trie: Trie, predict: Callable[[Path], FloatArray], closers: npt.
         predict: for the start of a name natural logarithms of the probabilities of all next tokens.
         closers: the tokens that end a name.
     """
-    found: list[tuple[str, Path, float]] = []
-    unread: list[tuple[float, Path, Trie]] = [(0.0, (), trie)]
+    found: list[tuple[str, TokenPath, float]] = []
+    unread: list[tuple[float, TokenPath, Trie]] = [(0.0, (), trie)]
     read = 0
-    last: Path = ()
+    last: TokenPath = ()
     while unread and not (found and _is_enough(found, unread, read)):
         cost, last, place = _take(unread, last if read >= _MOST_READ else ())
         logprobs = predict(last)
@@ -95,7 +95,7 @@ def score_names(trie: Trie, predict: Callable[[Path], FloatArray], closers: npt.
     return Scores(tuple(found), tuple((path, -cost) for cost, path, _ in unread))
 
 
-def _take(unread: list[tuple[float, Path, Trie]], start: Path) -> tuple[float, Path, Trie]:
+def _take(unread: list[tuple[float, TokenPath, Trie]], start: TokenPath) -> tuple[float, TokenPath, Trie]:
     """Remove and return the likeliest entry below a start."""
     if not start:
         return heapq.heappop(unread)
@@ -105,7 +105,9 @@ def _take(unread: list[tuple[float, Path, Trie]], start: Path) -> tuple[float, P
     return entry
 
 
-def _is_enough(found: list[tuple[str, Path, float]], unread: list[tuple[float, Path, Trie]], read: int) -> bool:
+def _is_enough(
+    found: list[tuple[str, TokenPath, float]], unread: list[tuple[float, TokenPath, Trie]], read: int
+) -> bool:
     rest = add_logprobs([-cost for cost, _, _ in unread])
     return read >= _MOST_READ or rest <= add_logprobs([logprob for _, _, logprob in found]) + math.log(_SLACK)
 

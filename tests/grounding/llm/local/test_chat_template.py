@@ -4,7 +4,7 @@ import logging
 
 import pytest
 
-from usd2kg.grounding.llm.local.chat import PLAIN, Frame, Message, read_template
+from usd2kg.grounding.llm.local.chat_template import PLAIN, Frame, Message, read_template
 
 
 def chatml(messages: list[Message]) -> str:

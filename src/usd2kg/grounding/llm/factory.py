@@ -8,19 +8,19 @@ from decimal import Decimal
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.asking import Asker, Limits
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.local.client import is_local_model, open_local
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.metered_client import Budget, MeteredClient
 from usd2kg.grounding.llm.prices import find_tariff, parse_price
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Example
 from usd2kg.grounding.llm.traffic import Traffic
 from usd2kg.grounding.platt_scaling import read_scaling
 
-__all__ = ["LLMSettings", "make_llm_grounder", "open_asker", "open_llm_grounder", "parse_llm_name"]
+__all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "open_metered_client", "parse_llm_name"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ def open_llm_grounder(
         yield LLMGrounder(
             asker,
             _prompt_options(settings),
-            is_once_each=not settings.is_each_object,
+            shares_answers=not settings.is_each_object,
             shortlist=settings.shortlist,
             # A model in this process serves one prompt at a time: others would only wait, and an interrupt for them.
             workers=1 if is_local_model(settings.model) else settings.concurrency,
@@ -108,7 +108,7 @@ def open_llm_grounder(
 
 
 @contextmanager
-def open_asker(settings: LLMSettings) -> Iterator[Asker]:
+def open_metered_client(settings: LLMSettings) -> Iterator[MeteredClient]:
     """Open a model to be asked anything, with its connections and its cache.
 
     Raises:
@@ -131,14 +131,16 @@ def _prompt_options(settings: LLMSettings) -> PromptOptions:
     )
 
 
-def _open_asker(settings: LLMSettings, stack: ExitStack, *, is_dry: bool = False) -> Asker:
+def _open_asker(settings: LLMSettings, stack: ExitStack, *, is_dry: bool = False) -> MeteredClient:
     tariff = find_tariff(settings.model) if settings.price is None else parse_price(settings.price)
-    limits = Limits(settings.token_budget, settings.budget)
+    limits = Budget(settings.token_budget, settings.budget)
     if is_dry:
-        return Asker(_NoClient(settings.model), tariff=tariff, limits=limits)
+        return MeteredClient(_NoClient(settings.model), tariff=tariff, limits=limits)
     cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
     client, traffic = _open_client(settings, stack)
-    return Asker(client, cache=cache, is_refreshed=settings.is_refreshed, limits=limits, tariff=tariff, traffic=traffic)
+    return MeteredClient(
+        client, cache=cache, is_refreshed=settings.is_refreshed, limits=limits, tariff=tariff, traffic=traffic
+    )
 
 
 def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traffic]:

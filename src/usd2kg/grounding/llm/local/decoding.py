@@ -10,20 +10,20 @@ import numpy.typing as npt
 
 from usd2kg.grounding.llm.answers import is_degenerate
 from usd2kg.grounding.llm.completion import Finish
-from usd2kg.grounding.llm.local.skeleton import CLOSING, OPENING, Choice, Fixed, FreeText, Row
-from usd2kg.grounding.llm.local.trie import FloatArray, Path, Trie, build_trie, normalize, score_names
-from usd2kg.grounding.llm.local.vocabulary import Vocabulary
+from usd2kg.grounding.llm.local.json_tokens import JsonStringTokens
+from usd2kg.grounding.llm.local.skeleton import CLOSING, OPENING, Choice, Fixed, FreeText, SkeletonRow
+from usd2kg.grounding.llm.local.trie import FloatArray, TokenPath, Trie, build_trie, normalize, score_names
 
-__all__ = ["Plan", "TokenModel", "Tokens", "Written", "write_answer"]
+__all__ = ["DecodedAnswer", "DecodingPlan", "TextTokenizer", "TokenModel", "decode_answer"]
 
 _MOST_TEXT = 256
-"""Tokens of a free text."""
+"""TextTokenizer of a free text."""
 _LOOP_CHECK = 16
-"""Tokens from one look for a loop to the next."""
+"""TextTokenizer from one look for a loop to the next."""
 _SEVERITY = (Finish.STOP, Finish.LENGTH, Finish.DEGENERATE)
 
 
-class Tokens(Protocol):
+class TextTokenizer(Protocol):
     """A vocabulary."""
 
     @property
@@ -45,7 +45,7 @@ class TokenModel(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class DecodedAnswer:
     """An answer; all of it is JSON by the schema, though rows may be missing."""
 
     text: str
@@ -54,10 +54,10 @@ class Written:
     finish: Finish
 
 
-class Plan:
+class DecodingPlan:
     """The rows of an answer in the tokens of a model."""
 
-    def __init__(self, rows: Sequence[Row], tokens: Tokens) -> None:
+    def __init__(self, rows: Sequence[SkeletonRow], tokens: TextTokenizer) -> None:
         tokenize = tokens.tokenize
         choices = {step.names for row in rows for step in row if isinstance(step, Choice)}
         spelt = {names: {name: tokenize(name) for name in names} for names in choices}
@@ -69,26 +69,26 @@ class Plan:
         """The tokens of what is certain."""
         self._longest = {names: max(map(len, found.values())) for names, found in spelt.items()}
 
-    def least(self, row: Row) -> int:
+    def least(self, row: SkeletonRow) -> int:
         """Return how many tokens a row needs, whatever is chosen, if its free texts stay empty."""
         certain = sum(len(self.texts[step.text]) for step in row if isinstance(step, Fixed))
         return certain + sum(self._longest[step.names] for step in row if isinstance(step, Choice))
 
     @property
-    def least_answer(self) -> int:
-        """Tokens that an answer with one row needs at least."""
+    def min_answer_tokens(self) -> int:
+        """TextTokenizer that an answer with one row needs at least."""
         return self.least(self.rows[0]) + len(self.texts[CLOSING])
 
     @property
-    def most_answer(self) -> int:
-        """Tokens that an answer takes at most."""
+    def max_answer_tokens(self) -> int:
+        """TextTokenizer that an answer takes at most."""
         free = sum(isinstance(step, FreeText) for row in self.rows for step in row)
         return sum(map(self.least, self.rows)) + free * _MOST_TEXT + len(self.texts[CLOSING])
 
 
-def write_answer(
-    plan: Plan, model: TokenModel, vocabulary: Vocabulary, *, room: int, temperature: float, seed: int
-) -> Written:
+def decode_answer(
+    plan: DecodingPlan, model: TokenModel, vocabulary: JsonStringTokens, *, room: int, temperature: float, seed: int
+) -> DecodedAnswer:
     """Return an answer of at most `room` tokens.
 
     Rows that find no room are left out, and free texts are cut so that as many rows as possible do.
@@ -114,20 +114,22 @@ def write_answer(
     if not writer.ids:
         writer.feed(OPENING)
     writer.feed(CLOSING)
-    return Written("".join(text for text, _ in writer.said), tuple(writer.said), writer.finish)
+    return DecodedAnswer("".join(text for text, _ in writer.said), tuple(writer.said), writer.finish)
 
 
 class _Writer:
     """An answer while it is written."""
 
-    def __init__(self, plan: Plan, model: TokenModel, vocabulary: Vocabulary, temperature: float, seed: int) -> None:
+    def __init__(
+        self, plan: DecodingPlan, model: TokenModel, vocabulary: JsonStringTokens, temperature: float, seed: int
+    ) -> None:
         self._plan, self._model, self._vocabulary, self._temperature = plan, model, vocabulary, temperature
         self._random = np.random.default_rng(seed)
         self.ids: list[int] = []
         self.said: list[tuple[str, float]] = []
         self.finish = Finish.STOP
 
-    def write_row(self, row: Row, most_text: int) -> None:
+    def write_row(self, row: SkeletonRow, most_text: int) -> None:
         """Write a row, with so many tokens for each free text at most."""
         for step in row:
             if isinstance(step, Fixed):
@@ -147,7 +149,7 @@ class _Writer:
         self.said += zip(_spell([self._plan.tokens.pieces[token] for token in ids], text), logprobs, strict=True)
 
     def _choose(self, trie: Trie) -> None:
-        def predict(path: Path) -> FloatArray:
+        def predict(path: TokenPath) -> FloatArray:
             return normalize(self._model.logits([*self.ids, *path]))
 
         scores = score_names(trie, predict, self._vocabulary.closers)

@@ -10,7 +10,7 @@ from usd2kg.grounding.llm.completion import Client, Completion, Request, Usage
 from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.traffic import Traffic
 
-__all__ = ["Asker", "Limits", "RunReport"]
+__all__ = ["Budget", "MeteredClient", "RunReport"]
 
 _FAILURES_IN_A_ROW = 3
 """After so many without an answer between, the model is not asked again."""
@@ -47,7 +47,7 @@ class RunReport:
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class Budget:
     """When to stop asking. Prompts that are on their way then are paid, too."""
 
     tokens: int | None = None
@@ -55,7 +55,7 @@ class Limits:
     dollars: Decimal | None = None
 
 
-class Asker:
+class MeteredClient:
     """Asks one model, from any number of threads."""
 
     def __init__(
@@ -64,7 +64,7 @@ class Asker:
         *,
         cache: CompletionCache | None = None,
         is_refreshed: bool = False,
-        limits: Limits | None = None,
+        limits: Budget | None = None,
         tariff: Tariff | None = None,
         traffic: Traffic | None = None,
     ) -> None:
@@ -81,7 +81,7 @@ class Asker:
         Raises:
             GroundingError: there is a limit in dollars, but no tariff.
         """
-        self._limits = limits or Limits()
+        self._limits = limits or Budget()
         if self._limits.dollars is not None and tariff is None:
             raise GroundingError(
                 f"model '{client.model}': its price is not known; expected one for --budget, "
@@ -132,11 +132,9 @@ class Asker:
         with self.lock:
             used = self.report.usage.input_tokens + self.report.usage.output_tokens
             paid, failures = self.report.price, self._failures
-        most_tokens, most_dollars = self._limits.tokens, self._limits.dollars
-        if most_tokens is not None and used >= most_tokens:
-            raise GroundingError(
-                f"not asked: {used} tokens are used of a budget of {most_tokens}; raise --token-budget"
-            )
+        max_tokens, most_dollars = self._limits.tokens, self._limits.dollars
+        if max_tokens is not None and used >= max_tokens:
+            raise GroundingError(f"not asked: {used} tokens are used of a budget of {max_tokens}; raise --token-budget")
         if most_dollars is not None and paid is not None and paid >= most_dollars:
             raise GroundingError(
                 f"not asked: {format_price(paid)} are spent of a budget of {format_price(most_dollars)}; raise --budget"

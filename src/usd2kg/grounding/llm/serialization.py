@@ -11,9 +11,9 @@ from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 
 __all__ = [
     "UNREADABLE",
-    "Row",
+    "CacheEntry",
     "checked",
-    "make_row",
+    "make_entry",
     "order_request_fields",
     "read_completion",
     "read_request_fields",
@@ -57,7 +57,7 @@ UNREADABLE = (ValueError, OverflowError, RecursionError)
 """What reading JSON raises that is not what was written."""
 
 
-class Row(NamedTuple):
+class CacheEntry(NamedTuple):
     """A request and its completion."""
 
     shared: tuple[tuple[str, str], ...]
@@ -81,7 +81,15 @@ def _key(model: str, values: Mapping[str, Any]) -> str:
 
 def request_fields(request: Request) -> dict[str, Any]:
     """Return what is kept of a request: all of it, but of images the digests alone, and nothing where it has none."""
-    values = {name: getattr(request, name) for name in _REQUEST} | {"temperature": float(request.temperature)}
+    values = {
+        "system": request.system,
+        "user": request.user,
+        "schema": request.schema,
+        "most_tokens": request.max_tokens,
+        "temperature": float(request.temperature),
+        "is_thinking": request.is_thinking,
+        "sample": request.sample,
+    }
     images = [hashlib.sha256(image).hexdigest() for image in request.images]
     return values | ({"images": images} if images else {})
 
@@ -105,13 +113,13 @@ def order_request_fields(values: Mapping[str, Any]) -> dict[str, Any]:
     return {name: values[name] for name in (*_REQUEST, *_IMAGES) if name in values}
 
 
-def make_row(model: str, values: Mapping[str, Any], completion: Completion) -> Row:
+def make_entry(model: str, values: Mapping[str, Any], completion: Completion) -> CacheEntry:
     """Return what is kept of a request, given as its fields, and of its completion."""
     rest = {"model": model, **values}
     system, schema = (to_json(rest.pop(name)) for name in ("system", "schema"))
     shared = ((_digest(system), system), (_digest(schema), schema))
     said = to_json(_completion_fields(completion))
-    return Row(shared, (_key(model, values), shared[0][0], shared[1][0], to_json(rest), said))
+    return CacheEntry(shared, (_key(model, values), shared[0][0], shared[1][0], to_json(rest), said))
 
 
 def _completion_fields(completion: Completion) -> dict[str, Any]:

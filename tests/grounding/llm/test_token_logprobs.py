@@ -2,14 +2,14 @@
 
 import pytest
 
-from usd2kg.grounding.llm.token_sums import TokenSums
+from usd2kg.grounding.llm.token_logprobs import TokenLogprobs
 
 TEXT = '{"1": {"class": "Cup"}}'
 CUP = (17, 20)
 
 
 def total(*tokens: tuple[str, float], text: str = TEXT, span: tuple[int, int] = CUP) -> float | None:
-    return TokenSums(text, tokens).logprob(span)
+    return TokenLogprobs(text, tokens).logprob(span)
 
 
 def test_the_span_is_that_of_the_class():

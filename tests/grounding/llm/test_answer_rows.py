@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from usd2kg.grounding.llm.rows import read_rows
+from usd2kg.grounding.llm.answer_rows import read_answer_rows
 
 
 def spans(text: str, *numbers: str) -> dict[str, str | None]:
     """The text that stands where each row's class is."""
-    rows = read_rows(text, numbers)
+    rows = read_answer_rows(text, numbers)
     return {number: text[slice(*row.class_span)] if row.class_span else None for number, row in rows.items()}
 
 
@@ -54,7 +54,7 @@ JSON = st.recursive(
 )
 def test_places_agree_with_the_decoder(rows: dict, indent: int | None, before: str):
     text = before.replace("{", "") + json.dumps(rows, indent=indent)
-    found = read_rows(text, ("1", "2", "3"))
+    found = read_answer_rows(text, ("1", "2", "3"))
     assert {number: row.value for number, row in found.items()} == rows
     for number, row in found.items():
         value = rows[number]

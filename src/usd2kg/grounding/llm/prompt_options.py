@@ -47,11 +47,11 @@ class PromptOptions:
     shuffle_seed: int | None = None
     """Seed of a random order of the classes (in a tree, of those below one class); None keeps the alphabet."""
     objects_per_prompt: int = 1
-    most_siblings: int = 48
+    max_siblings: int = 48
     """Siblings that are named; the others are counted."""
     has_more_evidence: bool = False
     """Whether labels, documentation, own axes, asset, materials and parts are told too, which the study does not."""
-    most_tokens: int = 4096
+    max_tokens: int = 4096
     """Output tokens after which the model is cut off."""
     temperature: float = 0.0
     is_thinking: bool = False

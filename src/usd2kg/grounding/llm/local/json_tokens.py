@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Vocabulary", "read_vocabulary"]
+__all__ = ["JsonStringTokens", "classify_tokens"]
 
 _INSIDE = rb'(?:[^\x00-\x1f"\\\x7f]|\\["\\/bfnrt])'
 """RFC 8259, section 7, without \\u: what may stand between quotes. A part of a UTF-8 sequence may, too."""
@@ -16,7 +16,7 @@ _END = re.compile(b"(" + _INSIDE + b'*)"')
 
 
 @dataclass(frozen=True, slots=True)
-class Vocabulary:
+class JsonStringTokens:
     """The tokens that matter inside a JSON string."""
 
     closers: npt.NDArray[np.intp]
@@ -27,7 +27,7 @@ class Vocabulary:
     """Of those that end it: what they write before the quote."""
 
 
-def read_vocabulary(pieces: Sequence[bytes], ends: Iterable[int]) -> Vocabulary:
+def classify_tokens(pieces: Sequence[bytes], ends: Iterable[int]) -> JsonStringTokens:
     """Return what the tokens can do.
 
     Args:
@@ -38,4 +38,4 @@ def read_vocabulary(pieces: Sequence[bytes], ends: Iterable[int]) -> Vocabulary:
     heads = {token: match[1] for token, piece in enumerate(pieces) if (match := _END.match(piece))}
     heads |= dict.fromkeys(ends, b"")
     plain = [token for token, piece in enumerate(pieces) if _TEXT.fullmatch(piece) and token not in heads]
-    return Vocabulary(np.array(closers, np.intp), np.array(sorted([*plain, *heads]), np.intp), heads)
+    return JsonStringTokens(np.array(closers, np.intp), np.array(sorted([*plain, *heads]), np.intp), heads)

@@ -12,14 +12,14 @@ from urllib.parse import urlsplit
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.retry import Redactor
 
-__all__ = ["ADDRESSES", "KEY_VARIABLES", "Address", "find_key", "parse_address"]
+__all__ = ["KEY_VARIABLES", "PROVIDER_URLS", "ModelReference", "find_key", "parse_model_reference"]
 
 KEY_VARIABLES = {
     "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
     "anthropic": ("ANTHROPIC_API_KEY",),
     "openai": ("OPENAI_API_KEY",),
 }
-ADDRESSES = {
+PROVIDER_URLS = {
     "google": "https://generativelanguage.googleapis.com",
     "anthropic": "https://api.anthropic.com",
     "openai": "https://api.openai.com/v1",
@@ -32,14 +32,14 @@ _NO_KEY = "none"
 
 
 @dataclass(frozen=True, slots=True)
-class Address:
+class ModelReference:
     """A model string, taken apart."""
 
     model: str
     provider: str
     name: str
     url: str
-    is_own_server: bool
+    has_custom_url: bool
     """Whether the user named the server."""
 
     @property
@@ -52,12 +52,12 @@ class Address:
             return host == "localhost" or host.endswith(".localhost")
 
     @property
-    def is_compatible(self) -> bool:
+    def is_openai_compatible(self) -> bool:
         """Whether this is a server that speaks OpenAI's language without being OpenAI's."""
-        return self.provider == "openai" and self.is_own_server
+        return self.provider == "openai" and self.has_custom_url
 
 
-def parse_address(model: str) -> Address:
+def parse_model_reference(model: str) -> ModelReference:
     """Return a model string taken apart.
 
     Raises:
@@ -67,11 +67,11 @@ def parse_address(model: str) -> Address:
     # A model's name may hold an @, an address begins with a scheme.
     at = max(rest.find("@http://"), rest.find("@https://"))
     name, url = (rest, None) if at < 0 else (rest[:at], rest[at + 1 :].rstrip("/"))
-    if provider not in ADDRESSES or not name or any(map(str.isspace, model)):
+    if provider not in PROVIDER_URLS or not name or any(map(str.isspace, model)):
         raise GroundingError(f"model '{Redactor([])(model)}': no provider and name in it; {_EXPECTED}")
     if url is not None:
         _check_url(provider, name, url)
-    return Address(model, provider, name, url or ADDRESSES[provider], url is not None)
+    return ModelReference(model, provider, name, url or PROVIDER_URLS[provider], url is not None)
 
 
 def _check_url(provider: str, name: str, url: str) -> None:
@@ -90,7 +90,7 @@ def _check_url(provider: str, name: str, url: str) -> None:
         )
 
 
-def find_key(address: Address, environment: Mapping[str, str]) -> str:
+def find_key(address: ModelReference, environment: Mapping[str, str]) -> str:
     """Return the key for a model from the environment; servers of this machine need none.
 
     Raises:

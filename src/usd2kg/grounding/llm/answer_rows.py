@@ -5,13 +5,13 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-__all__ = ["Row", "read_rows"]
+__all__ = ["AnswerRow", "read_answer_rows"]
 
 _MOST_STARTS = 200
 """Braces that are tried as the start of a JSON object, from the front."""
 
 
-class Row(NamedTuple):
+class AnswerRow(NamedTuple):
     """What an answer says of one object."""
 
     value: Any
@@ -20,7 +20,7 @@ class Row(NamedTuple):
     """Where in the text the class's JSON value starts and ends, without its quotes; None where the row has none."""
 
 
-def read_rows(text: str, numbers: Sequence[str]) -> dict[str, Row]:
+def read_answer_rows(text: str, numbers: Sequence[str]) -> dict[str, AnswerRow]:
     """Return number → row for the objects of these numbers that the text has rows for.
 
     Read are a JSON object, alone, fenced or after prose, and the whole rows of one that breaks off. Of several JSON
@@ -58,14 +58,14 @@ def _whole_rows(text: str, numbers: Sequence[str]) -> dict[str, int]:
     }
 
 
-def _read_row(text: str, start: int) -> Row:
+def _read_row(text: str, start: int) -> AnswerRow:
     value, end = _decode(text, start)
     if not isinstance(value, dict):
-        return Row(value, _without_quotes(text, start, end))
+        return AnswerRow(value, _without_quotes(text, start, end))
     if "class" not in value:
-        return Row(value, None)
+        return AnswerRow(value, None)
     start = _members(text, start)["class"]
-    return Row(value, _without_quotes(text, start, _decode(text, start)[1]))
+    return AnswerRow(value, _without_quotes(text, start, _decode(text, start)[1]))
 
 
 def _without_quotes(text: str, start: int, end: int) -> tuple[int, int]:

@@ -9,9 +9,9 @@ import pytest
 
 from tests.grounding.llm.local.fakes import FakeModel, Probabilities
 from usd2kg.grounding.llm.completion import Finish
+from usd2kg.grounding.llm.local.decoding import DecodedAnswer, DecodingPlan, decode_answer
+from usd2kg.grounding.llm.local.json_tokens import classify_tokens
 from usd2kg.grounding.llm.local.skeleton import read_schema
-from usd2kg.grounding.llm.local.vocabulary import read_vocabulary
-from usd2kg.grounding.llm.local.writing import Plan, Written, write_answer
 
 NAMES = ["Cup", "Knife"]
 PIECES = ("Cup", "Kni", "fe", '"}', "A handle", '. "', "x ", "é")
@@ -33,11 +33,11 @@ def write(
     room: int = 10_000,
     temperature: float = 0.0,
     seed: int = 0,
-) -> tuple[Written, FakeModel]:
+) -> tuple[DecodedAnswer, FakeModel]:
     model = FakeModel(predict, *PIECES)
-    plan = Plan(read_schema(schema(count, has_reasoning=has_reasoning)), model.tokenizer)
-    vocabulary = read_vocabulary(model.tokenizer.pieces, model.tokenizer.ends)
-    written = write_answer(plan, model, vocabulary, room=room, temperature=temperature, seed=seed)
+    plan = DecodingPlan(read_schema(schema(count, has_reasoning=has_reasoning)), model.tokenizer)
+    vocabulary = classify_tokens(model.tokenizer.pieces, model.tokenizer.ends)
+    written = decode_answer(plan, model, vocabulary, room=room, temperature=temperature, seed=seed)
     assert "".join(text for text, _ in written.tokens) == written.text
     assert len(written.tokens) <= room
     assert all(logprob <= 0 for _, logprob in written.tokens)

@@ -5,12 +5,12 @@ import threading
 from collections.abc import Callable, Coroutine
 from typing import Any, TypeVar
 
-__all__ = ["Background"]
+__all__ = ["EventLoopThread"]
 
 _T = TypeVar("_T")
 
 
-class Background:
+class EventLoopThread:
     """An event loop in a daemon thread."""
 
     def __init__(self) -> None:

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 from usd2kg.grounding.llm.retry import Failure
 
-__all__ = ["NO_STREAM", "Abilities"]
+__all__ = ["NO_STREAM", "Capabilities"]
 
 NO_STREAM = "the server answered a request for a stream without one"
 
 
 @dataclass(frozen=True, slots=True)
-class Abilities:
+class Capabilities:
     """What a server is asked for as long as it has not refused it."""
 
     streams: bool = True
@@ -22,7 +22,7 @@ class Abilities:
     json_schemas: bool = False
     """To take a JSON Schema in OpenAI's words, where it only speaks OpenAI's language."""
 
-    def without(self, failure: Failure) -> "Abilities":
+    def without(self, failure: Failure) -> "Capabilities":
         """Return them less the one that the failure refuses; all of them where it is about something else."""
         for name, refuses in _REFUSALS.items():
             if getattr(self, name) and refuses(failure):

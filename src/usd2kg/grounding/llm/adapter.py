@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any, cast
 from urllib.parse import urlsplit
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.addresses import Address
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.estimates import estimate_input
-from usd2kg.grounding.llm.text import estimate_tokens
+from usd2kg.grounding.llm.model_reference import ModelReference
+from usd2kg.grounding.llm.prompt_text import estimate_tokens
 
 if TYPE_CHECKING:
     from pydantic_ai.messages import ModelRequest, ModelResponse
     from pydantic_ai.models import Model, ModelRequestParameters
 
-__all__ = ["is_sampled", "make_message", "make_parameters", "make_settings", "older_format", "read_completion"]
+__all__ = ["convert_response", "is_sampled", "json_object_format", "make_message", "make_parameters", "make_settings"]
 
 _LEAST_REASONING_TOKENS = 1024
 """https://platform.claude.com/docs/en/build-with-claude/extended-thinking: the smallest budget of Claude models."""
@@ -32,32 +32,34 @@ def make_message(request: Request) -> "ModelRequest":
     return ModelRequest([UserPromptPart([request.user, *images])], instructions=request.system)
 
 
-def make_parameters(served: "Model[Any]", request: Request, is_compatible: bool) -> "ModelRequestParameters":
+def make_parameters(served: "Model[Any]", request: Request, is_openai_compatible: bool) -> "ModelRequestParameters":
     """How the answer must look: enforced by the server where it can, in the prompt where it cannot."""
     from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
     from pydantic_ai.output import OutputObjectDefinition  # noqa: PLC0415
 
     is_enforced = served.profile.get("supports_json_schema_output", False)
     # At OpenAI's own the library finds out whether strict mode takes the schema.
-    answer = OutputObjectDefinition(dict(request.schema), name="answer", strict=True if is_compatible else None)
+    answer = OutputObjectDefinition(dict(request.schema), name="answer", strict=True if is_openai_compatible else None)
     return ModelRequestParameters(output_mode="native" if is_enforced else "prompted", output_object=answer)
 
 
-def make_settings(address: Address, served: "Model[Any]", request: Request, asks_logprobs: bool) -> dict[str, Any]:
+def make_settings(
+    address: ModelReference, served: "Model[Any]", request: Request, asks_logprobs: bool
+) -> dict[str, Any]:
     """What goes with the prompt, in the library's words."""
-    settings: dict[str, Any] = {"max_tokens": request.most_tokens}
+    settings: dict[str, Any] = {"max_tokens": request.max_tokens}
     if is_sampled(served, request.is_thinking):
         settings["temperature"] = request.temperature
     if asks_logprobs:
         settings["openai_logprobs"] = True
-        if address.is_compatible:
+        if address.is_openai_compatible:
             # llama.cpp's server tells those of twenty other tokens for each unless it is told how many.
             settings["openai_top_logprobs"] = 1
     if served.profile.get("supports_thinking", False):
         settings["thinking"] = request.is_thinking
     if address.provider == "anthropic":
         return settings | {"anthropic_cache_instructions": True} | _budget_reasoning(address, served, request)
-    if address.is_compatible:
+    if address.is_openai_compatible:
         settings |= _switch_reasoning(address, request.is_thinking)
     return settings | {"seed": request.sample}
 
@@ -75,21 +77,21 @@ def is_sampled(served: "Model[Any]", is_thinking: bool) -> bool:
     return True
 
 
-def _budget_reasoning(address: Address, served: "Model[Any]", request: Request) -> dict[str, Any]:
+def _budget_reasoning(address: ModelReference, served: "Model[Any]", request: Request) -> dict[str, Any]:
     """Half of the output tokens for models of Anthropic that need to be told how long they may reason."""
     profile = cast("Mapping[str, Any]", served.profile)
     if not request.is_thinking or profile.get("anthropic_supports_adaptive_thinking", False):
         return {}
-    budget = request.most_tokens // 2
+    budget = request.max_tokens // 2
     if budget < _LEAST_REASONING_TOKENS:
         raise GroundingError(
-            f"model '{address.model}': {request.most_tokens} output tokens leave no room to think; "
+            f"model '{address.model}': {request.max_tokens} output tokens leave no room to think; "
             f"expected at least {2 * _LEAST_REASONING_TOKENS}, allow more or switch thinking off"
         )
     return {"anthropic_thinking": {"type": "enabled", "budget_tokens": budget}}
 
 
-def _switch_reasoning(address: Address, is_thinking: bool) -> dict[str, Any]:
+def _switch_reasoning(address: ModelReference, is_thinking: bool) -> dict[str, Any]:
     """The field of the request that turns reasoning on or off, which every server names its own way.
 
     Left out when off, save for Qwen models: they reason unless told not to.
@@ -104,7 +106,7 @@ def _switch_reasoning(address: Address, is_thinking: bool) -> dict[str, Any]:
     return {"extra_body": {"chat_template_kwargs": {"enable_thinking": is_thinking}}}
 
 
-def read_completion(
+def convert_response(
     response: "ModelResponse", request: Request, provider: str, cut: Finish | None = None
 ) -> Completion:
     """Return the library's response as a completion.
@@ -157,6 +159,6 @@ def _piece(token: Mapping[str, Any], decode: Callable[[bytes], str]) -> str:
     return str(token["token"]) if raw is None else decode(bytes(raw))
 
 
-def older_format(request: Request) -> dict[str, Any]:
+def json_object_format(request: Request) -> dict[str, Any]:
     """The schema in the words of llama-cpp-python's server, which enforces it by a grammar."""
     return {"type": "json_object", "schema": dict(request.schema)}

@@ -4,10 +4,10 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from itertools import accumulate
 
-__all__ = ["TokenSums"]
+__all__ = ["TokenLogprobs"]
 
 
-class TokenSums:
+class TokenLogprobs:
     """The tokens of a text, by the places where they stand in it."""
 
     def __init__(self, text: str, tokens: Sequence[tuple[str, float]]) -> None:
