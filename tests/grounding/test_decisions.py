@@ -13,10 +13,10 @@ from usd2kg.grounding import (
     Grounding,
     Prediction,
     Status,
+    find_uncertain,
     format_queue,
     ground,
     read_decisions,
-    unsure_of,
 )
 from usd2kg.ontology import TBox
 
@@ -40,7 +40,7 @@ def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tm
         prediction("/d", box, 0.1),
         Prediction("/gone", None, None, Status.MISSING, "lexical", "there is no such prim"),
     )
-    queue = unsure_of(found, 0.6)
+    queue = find_uncertain(found, 0.6)
     assert [p.prim_path for p in queue] == ["/c", "/d", "/b"]
     text = format_queue(queue, home_tbox)
     rows = list(csv.DictReader(text.splitlines()))

@@ -8,7 +8,7 @@ import pytest
 from tests.grounding.records import LAB, SOMA, local, make_class, make_tbox
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Candidate, ObjectView, Prediction, Status
-from usd2kg.grounding.baselines.volume import SMALLEST_SIDE, VolumeGrounder
+from usd2kg.grounding.baselines.volume import VolumeGrounder
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 
@@ -73,7 +73,6 @@ def test_equal_volumes_have_confidence_1():
 
 @pytest.mark.parametrize("size", [(0.5, 0.5, 0.0), (0.5, 0.5, 0.0002), (0.0, 0.5, 0.5)])
 def test_a_flat_box_is_taken_to_be_1_mm_thick(size: tuple[float, float, float]):
-    assert SMALLEST_SIDE == 0.001
     prediction = ask(VolumeGrounder({"Cup": 0.00025, "Crate": 0.05}), size)
     assert (local(prediction), prediction.confidence) == ("Cup", pytest.approx(1.0))
     assert prediction.explanation == "its box holds 0.25 l, nearest is Cup with 0.25 l"

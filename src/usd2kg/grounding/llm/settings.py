@@ -1,0 +1,52 @@
+"""Settings of the language-model grounder, from `knowledge/settings/llm.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["DECODING", "DEGENERATION", "ESTIMATES", "SAMPLING"]
+
+
+@dataclass(frozen=True, slots=True)
+class DegenerationSettings:
+    """When a completion counts as degenerate."""
+
+    window_characters: int
+    check_interval_characters: int
+    check_interval_tokens: int
+    min_loop_characters: int
+    min_repetitions: int
+    period_scales: tuple[int, ...]
+    max_distinct_fragments: int
+    min_growing_run: int
+
+
+@dataclass(frozen=True, slots=True)
+class DecodingSettings:
+    """Constrained decoding of a model in this process."""
+
+    max_text_tokens: int
+    max_unread_probability: float
+    max_predictions: int
+
+
+@dataclass(frozen=True, slots=True)
+class SamplingSettings:
+    """Several completions of a prompt."""
+
+    temperature: float
+
+
+@dataclass(frozen=True, slots=True)
+class EstimateSettings:
+    """Token counts before a server has counted them."""
+
+    bytes_per_token: int
+    pixels_per_token: int
+    reasoning_tokens: int
+
+
+DEGENERATION = read_settings("llm", "degeneration", DegenerationSettings)
+DECODING = read_settings("llm", "decoding", DecodingSettings)
+SAMPLING = read_settings("llm", "sampling", SamplingSettings)
+ESTIMATES = read_settings("llm", "estimates", EstimateSettings)
