@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
+from usd2kg.grounding.llm.answers import Answer, parse_answers, repair_request
+from usd2kg.grounding.llm.degeneration import is_degenerate
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Status

@@ -22,6 +22,7 @@ from hypothesis import strategies as st
 from usd2kg.errors import GroundingError, OutputError
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
+from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.serialization import request_key
 
 MODEL = "google:gemini-2.5-flash"
@@ -319,11 +320,13 @@ def test_a_killed_process_leaves_every_put_that_returned(tmp_path: Path, after: 
 
 
 def test_a_run_that_waits_too_long_for_another_says_so(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr("usd2kg.grounding.llm.cache._BUSY_SECONDS", 0.05)
+    monkeypatch.setattr("usd2kg.grounding.llm.cache.LIMITS", replace(LIMITS, cache_busy_s=0.05))
     with CompletionCache(tmp_path / "cache.sqlite") as cache:
         other = sqlite3.connect(cache.path, isolation_level=None)
         other.execute("BEGIN IMMEDIATE")
-        with pytest.raises(GroundingError, match=r"cache\.sqlite: .*database is locked.*end what else holds it"):
+        with pytest.raises(
+            GroundingError, match=r"cache\.sqlite: .*database is locked.*end other programs that use it"
+        ):
             cache.put(MODEL, REQUEST, COMPLETION)
         other.execute("ROLLBACK")
         other.close()

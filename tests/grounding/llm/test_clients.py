@@ -38,7 +38,7 @@ every_provider = pytest.mark.parametrize("model", ANSWERS)
 
 
 def _connect(server, model: str, **options) -> HttpClient:
-    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 5, "retries": 0} | options))
+    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 5, "max_retries": 0} | options))
 
 
 def _complete(model: str, *replies, request: Request = REQUEST, **options):
@@ -145,7 +145,7 @@ class TestOpenAI:
         assert forms[1] == forms[2] == {"type": "json_object", "schema": dict(REQUEST.schema)}
 
     def test_another_refusal_is_not_asked_again(self):
-        text, attempts, url = _fail("openai:m", servers.refuse(400, "context of 4096 tokens exceeded"), retries=3)
+        text, attempts, url = _fail("openai:m", servers.refuse(400, "context of 4096 tokens exceeded"), max_retries=3)
 
         assert attempts == 1
         assert text == (
@@ -191,7 +191,7 @@ class TestOpenAIItself:
     def _receive(self, monkeypatch: pytest.MonkeyPatch, name: str, request: Request, *replies) -> list[dict]:
         with servers.serve(*replies, servers.openai_reply("{}")) as server:
             monkeypatch.setitem(model_reference.PROVIDER_URLS, "openai", server.url)
-            with make_client(f"openai:{name}", environment=KEYS, retries=0) as client:
+            with make_client(f"openai:{name}", environment=KEYS, max_retries=0) as client:
                 client.complete(request)
             return [received.body for received in server.received]
 
@@ -403,7 +403,7 @@ class TestRetries:
         waits: list[float] = []
 
         completion, received = _complete(
-            model, servers.refuse(429, "slow down", Retry_After="7"), ANSWERS[model], retries=1, sleep=waits.append
+            model, servers.refuse(429, "slow down", Retry_After="7"), ANSWERS[model], max_retries=1, sleep=waits.append
         )
 
         assert (completion.text, len(received), waits) == ("{}", 2, [7.0])
@@ -414,7 +414,12 @@ class TestRetries:
         failures = [servers.refuse(status, "oops") for status in (500, 503, 408, 409)]
 
         _, received = _complete(
-            model, *failures, ANSWERS[model], retries=4, sleep=waits.append, random=iter([0.5, 0.25, 1.0, 0.0]).__next__
+            model,
+            *failures,
+            ANSWERS[model],
+            max_retries=4,
+            sleep=waits.append,
+            random=iter([0.5, 0.25, 1.0, 0.0]).__next__,
         )
 
         assert waits == [0.5 * 1, 0.25 * 2, 1.0 * 4, 0.0 * 8]
@@ -429,17 +434,19 @@ class TestRetries:
             "not JSON from a proxy": servers.Reply("<html>Bad Gateway", 502, is_raw=True),
         }[fault]
 
-        completion, received = _complete(model, first, ANSWERS[model], retries=1, timeout_s=0.3, sleep=lambda _: None)
+        completion, received = _complete(
+            model, first, ANSWERS[model], max_retries=1, timeout_s=0.3, sleep=lambda _: None
+        )
 
         assert (completion.text, len(received)) == ("{}", 2)
 
     @every_provider
     def test_last_failure_is_told_with_the_number_of_tries(self, model: str):
-        text, attempts, url = _fail(model, servers.refuse(503, "over\nloaded"), retries=2, sleep=lambda _: None)
+        text, attempts, url = _fail(model, servers.refuse(503, "over\nloaded"), max_retries=2, sleep=lambda _: None)
 
         assert attempts == 3
         assert text == (
-            f"model '{model}@{url}': {url}: status 503 after 3 tries: over loaded; "
+            f"model '{model}@{url}': {url}: status 503 after 3 attempts: over loaded; "
             "expected a server that works, try again later"
         )
 
@@ -450,14 +457,14 @@ class TestRetries:
     def test_refusals_are_told_at_once(self, model: str, status: int, advice: str):
         key = f"{model.partition(':')[0].upper()}_API_KEY"
 
-        text, attempts, _ = _fail(model, servers.refuse(status, "no"), retries=3)
+        text, attempts, _ = _fail(model, servers.refuse(status, "no"), max_retries=3)
 
         assert attempts == 1
         assert f"status {status}: no; expected" in text
         assert text.endswith(advice.replace("{KEY}", key))
 
     def test_wait_of_hours_is_told_at_once(self):
-        text, attempts, _ = _fail("openai:m", servers.refuse(429, "quota", Retry_After="3600"), retries=3)
+        text, attempts, _ = _fail("openai:m", servers.refuse(429, "quota", Retry_After="3600"), max_retries=3)
 
         assert attempts == 1
         assert "status 429: quota (asks to wait 3600 s); expected" in text
@@ -472,7 +479,7 @@ class TestRetries:
 
     @every_provider
     def test_answer_that_is_not_json_is_told(self, model: str):
-        text, attempts, _ = _fail(model, servers.Reply("<html>", is_raw=True), retries=2)
+        text, attempts, _ = _fail(model, servers.Reply("<html>", is_raw=True), max_retries=2)
 
         # Once as a stream, and where that brings nothing once as a whole.
         assert attempts == (1 if model.startswith("google") else 2)
@@ -484,9 +491,9 @@ class TestRetries:
             url = server.url
         waits: list[float] = []
         with make_client(
-            f"openai:m@{url}", environment={}, retries=2, sleep=waits.append, random=lambda: 1.0
+            f"openai:m@{url}", environment={}, max_retries=2, sleep=waits.append, random=lambda: 1.0
         ) as client:
-            with pytest.raises(GroundingError, match="no readable answer after 3 tries: "):
+            with pytest.raises(GroundingError, match="no readable answer after 3 attempts: "):
                 client.complete(REQUEST)
 
             assert client.traffic.attempts == 3
@@ -503,12 +510,12 @@ class TestRetries:
 class TestModelStrings:
     @pytest.mark.parametrize("model", ["", "gemini", "google:", "gguf:/m.gguf", "openai:@http://h/v1", "openai:a b"])
     def test_malformed_ones_are_refused(self, model: str):
-        with pytest.raises(GroundingError, match="no provider and name in it; expected google:NAME, anthropic:NAME or"):
+        with pytest.raises(GroundingError, match="no known provider and name; expected google:NAME, anthropic:NAME or"):
             make_client(model, environment=KEYS)
 
     @pytest.mark.parametrize("url", ["http://", "http://:80/v1", "http://h:99999/v1", "http://[::1/v1"])
     def test_malformed_addresses_are_refused(self, url: str):
-        with pytest.raises(GroundingError, match="model 'openai:m@…': no host and port in its address"):
+        with pytest.raises(GroundingError, match="model 'openai:m@…': no host and port in its URL"):
             make_client(f"openai:m@{url}", environment=KEYS)
 
     @pytest.mark.parametrize("url", ["http://me:hunter2x@h/v1", "http://hunter2x@h/v1", "https://h/v1?key=hunter2x"])
@@ -535,7 +542,7 @@ class TestModelStrings:
 
     @pytest.mark.parametrize("key", ["schlüssel", "two\nlines"])
     def test_key_that_no_header_can_hold_is_refused_without_being_shown(self, key: str):
-        with pytest.raises(GroundingError, match="the key holds characters that no header can") as caught:
+        with pytest.raises(GroundingError, match="the key contains characters that an HTTP header cannot") as caught:
             make_client("openai:gpt-4o", environment={"OPENAI_API_KEY": key})
 
         assert key not in str(caught.value)
@@ -608,12 +615,12 @@ class TestLife:
 
         with (
             servers.serve(servers.refuse(500, "oops")) as server,
-            _connect(server, "openai:m", retries=1, sleep=lambda _: None) as client,
+            _connect(server, "openai:m", max_retries=1, sleep=lambda _: None) as client,
             ThreadPoolExecutor(4) as pool,
         ):
             texts = list(pool.map(fail, [client] * 8))
             assert client.traffic.attempts == 16
-        assert all("status 500 after 2 tries: oops" in text for text in texts)
+        assert all("status 500 after 2 attempts: oops" in text for text in texts)
 
     def test_works_inside_an_event_loop(self):
         async def ask() -> str:
@@ -626,7 +633,7 @@ class TestLife:
             raise KeyboardInterrupt
 
         replies = servers.refuse(500, "oops"), servers.openai_reply("{}")
-        with servers.serve(*replies) as server, _connect(server, "openai:m", retries=1, sleep=interrupt) as client:
+        with servers.serve(*replies) as server, _connect(server, "openai:m", max_retries=1, sleep=interrupt) as client:
             with pytest.raises(KeyboardInterrupt):
                 client.complete(REQUEST)
 

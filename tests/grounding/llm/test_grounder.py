@@ -70,7 +70,7 @@ def asking(
 ) -> LLMGrounder:
     """Return a grounder that asks the model."""
     limits = Budget(token_budget, budget)
-    asker = MeteredClient(model, cache=cache, is_refreshed=is_refreshed, limits=limits, tariff=tariff)
+    asker = MeteredClient(model, cache=cache, is_refreshed=is_refreshed, budget=limits, tariff=tariff)
     return LLMGrounder(asker, options, **form)
 
 

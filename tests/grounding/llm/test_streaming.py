@@ -37,7 +37,7 @@ every_format = pytest.mark.parametrize("model", REPLIES)
 
 
 def connect(server: FakeServer, model: str, **options) -> HttpClient:
-    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 10, "retries": 0} | options))
+    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 10, "max_retries": 0} | options))
 
 
 def complete(model: str, *replies: Reply, request: Request = REQUEST, **options) -> tuple[Completion, FakeServer]:
@@ -250,7 +250,7 @@ class TestTrouble:
     def test_a_stream_that_breaks_off_is_asked_for_again(self, model: str, after: int):
         whole = REPLIES[model](CUP)
 
-        completion, server = complete(model, servers.broken_off(whole, after), whole, retries=1)
+        completion, server = complete(model, servers.broken_off(whole, after), whole, max_retries=1)
 
         assert completion.text == CUP
         assert len(server.received) == 2
@@ -261,16 +261,16 @@ class TestTrouble:
         whole = REPLIES[model](CUP)
         early = replace(servers.broken_off(whole, 4), is_broken=False)
 
-        assert complete(model, early, whole, retries=1)[0].text == CUP
-        text, requests = fail(model, early, retries=1)
+        assert complete(model, early, whole, max_retries=1)[0].text == CUP
+        text, requests = fail(model, early, max_retries=1)
         assert requests == 2
-        assert "no readable answer after 2 tries: the stream broke off; expected a server that is up" in text
+        assert "no readable answer after 2 attempts: the stream broke off; expected a server that is up" in text
 
     @every_format
     def test_a_refusal_before_the_stream_is_waited_for(self, model: str):
         waits: list[float] = []
         replies = servers.refuse(429, "slow down", Retry_After="7"), REPLIES[model](CUP)
-        with servers.serve(*replies) as server, connect(server, model, retries=1, sleep=waits.append) as client:
+        with servers.serve(*replies) as server, connect(server, model, max_retries=1, sleep=waits.append) as client:
             assert client.complete(REQUEST).text == CUP
         assert waits == [7.0]
 
@@ -294,10 +294,10 @@ class TestTrouble:
         whole = REPLIES[model](CUP)
         failing = replace(whole, events=lambda: [*itertools.islice(whole.events(), before), error])
 
-        assert complete(model, failing, whole, retries=1)[0].text == CUP
-        text, requests = fail(model, failing, retries=1)
+        assert complete(model, failing, whole, max_retries=1)[0].text == CUP
+        text, requests = fail(model, failing, max_retries=1)
         assert requests == 2
-        assert f"{status} after 2 tries: overloaded" in text
+        assert f"{status} after 2 attempts: overloaded" in text
         assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
 
     @pytest.mark.parametrize(
@@ -312,7 +312,7 @@ class TestTrouble:
         ],
     )
     def test_an_error_that_stays_is_not_tried_again(self, model: str, error: str):
-        text, requests = fail(model, Reply(events=lambda: [error]), retries=3)
+        text, requests = fail(model, Reply(events=lambda: [error]), max_retries=3)
 
         assert requests == 1
         assert "status 400: bad prompt" in text
@@ -332,7 +332,7 @@ class TestTrouble:
         whole = REPLIES[model](CUP)
         odd = Reply(events=lambda: [*itertools.islice(whole.events(), before), piece])
 
-        text, requests = fail(model, odd, retries=3)
+        text, requests = fail(model, odd, max_retries=3)
 
         assert requests == 1
         assert "expected an answer in the provider's format" in text

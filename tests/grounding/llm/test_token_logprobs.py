@@ -9,7 +9,7 @@ CUP = (17, 20)
 
 
 def total(*tokens: tuple[str, float], text: str = TEXT, span: tuple[int, int] = CUP) -> float | None:
-    return TokenLogprobs(text, tokens).logprob(span)
+    return TokenLogprobs(text, tokens).sum_over(span)
 
 
 def test_the_span_is_that_of_the_class():

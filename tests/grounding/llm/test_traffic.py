@@ -55,46 +55,46 @@ class Clock:
 class TestPace:
     def test_requests_are_spaced_evenly(self):
         clock = Clock()
-        pace = RateLimiter(30, clock.sleep, clock.now)
+        limiter = RateLimiter(30, clock.sleep, clock.now)
 
         times = []
         for _ in range(5):
-            pace.wait_for_turn()
+            limiter.wait_for_turn()
             times.append(clock.now())
 
         assert times == [0, 2, 4, 6, 8]
 
     def test_time_that_passed_is_not_made_up_for(self):
         clock = Clock()
-        pace = RateLimiter(60, clock.sleep, clock.now)
+        limiter = RateLimiter(60, clock.sleep, clock.now)
 
-        pace.wait_for_turn()
+        limiter.wait_for_turn()
         clock.sleep(10)
         times = []
         for _ in range(3):
-            pace.wait_for_turn()
+            limiter.wait_for_turn()
             times.append(clock.now())
 
         assert times == [10, 11, 12]
 
     def test_without_a_rate_nobody_waits(self):
         waits: list[float] = []
-        pace = RateLimiter(None, waits.append, lambda: 0.0)
+        limiter = RateLimiter(None, waits.append, lambda: 0.0)
 
         for _ in range(100):
-            pace.wait_for_turn()
+            limiter.wait_for_turn()
 
         assert waits == []
 
     def test_threads_share_the_rate(self):
         """Eight threads send ten requests each, 60 a minute: the last of them in second 79."""
         clock = Clock(threads=8)
-        pace = RateLimiter(60, clock.sleep, clock.now)
+        limiter = RateLimiter(60, clock.sleep, clock.now)
         times: list[float] = []
 
         def send() -> None:
             for _ in range(10):
-                pace.wait_for_turn()
+                limiter.wait_for_turn()
                 times.append(clock.now())
             clock.leave()
 
@@ -177,7 +177,7 @@ class TestClient:
     def test_failures_are_counted_too(self):
         with (
             servers.serve(servers.refuse(500, "oops")) as server,
-            make_client(f"openai:m@{server.url}", environment={}, retries=2, sleep=lambda _: None) as client,
+            make_client(f"openai:m@{server.url}", environment={}, max_retries=2, sleep=lambda _: None) as client,
         ):
             with pytest.raises(GroundingError):
                 client.complete(REQUEST)

@@ -1,4 +1,4 @@
-"""A request in the words of pydantic-ai and of the servers behind it, and the completion in ours."""
+"""Adapter between `Request`/`Completion` and the messages, settings and responses of pydantic-ai."""
 
 from codecs import getincrementaldecoder
 from collections.abc import Callable, Mapping
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 __all__ = ["convert_response", "is_sampled", "json_object_format", "make_message", "make_parameters", "make_settings"]
 
-_LEAST_REASONING_TOKENS = 1024
-"""https://platform.claude.com/docs/en/build-with-claude/extended-thinking: the smallest budget of Claude models."""
+_MIN_REASONING_TOKENS = 1024
+"""Smallest budget, https://platform.claude.com/docs/en/build-with-claude/extended-thinking."""
 
 
 def make_message(request: Request) -> "ModelRequest":
-    """The prompt: instructions, text, and the images behind it."""
+    """Return the prompt: instructions, text, and images."""
     from pydantic_ai.messages import BinaryContent, ModelRequest, UserContent, UserPromptPart  # noqa: PLC0415
 
     if not request.images:
@@ -32,73 +32,75 @@ def make_message(request: Request) -> "ModelRequest":
     return ModelRequest([UserPromptPart([request.user, *images])], instructions=request.system)
 
 
-def make_parameters(served: "Model[Any]", request: Request, is_openai_compatible: bool) -> "ModelRequestParameters":
-    """How the answer must look: enforced by the server where it can, in the prompt where it cannot."""
+def make_parameters(
+    provider_model: "Model[Any]", request: Request, is_openai_compatible: bool
+) -> "ModelRequestParameters":
+    """Return the output format: enforced by the server if it supports JSON Schema, else described in the prompt."""
     from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
     from pydantic_ai.output import OutputObjectDefinition  # noqa: PLC0415
 
-    is_enforced = served.profile.get("supports_json_schema_output", False)
-    # At OpenAI's own the library finds out whether strict mode takes the schema.
+    is_enforced = provider_model.profile.get("supports_json_schema_output", False)
+    # For OpenAI itself, the library determines whether strict mode accepts the schema.
     answer = OutputObjectDefinition(dict(request.schema), name="answer", strict=True if is_openai_compatible else None)
     return ModelRequestParameters(output_mode="native" if is_enforced else "prompted", output_object=answer)
 
 
 def make_settings(
-    address: ModelReference, served: "Model[Any]", request: Request, asks_logprobs: bool
+    reference: ModelReference, provider_model: "Model[Any]", request: Request, asks_logprobs: bool
 ) -> dict[str, Any]:
-    """What goes with the prompt, in the library's words."""
+    """Return the model settings of a request, by the names of pydantic-ai."""
     settings: dict[str, Any] = {"max_tokens": request.max_tokens}
-    if is_sampled(served, request.is_thinking):
+    if is_sampled(provider_model, request.is_thinking):
         settings["temperature"] = request.temperature
     if asks_logprobs:
         settings["openai_logprobs"] = True
-        if address.is_openai_compatible:
-            # llama.cpp's server tells those of twenty other tokens for each unless it is told how many.
+        if reference.is_openai_compatible:
+            # By default, llama.cpp's server returns twenty alternatives for each token.
             settings["openai_top_logprobs"] = 1
-    if served.profile.get("supports_thinking", False):
+    if provider_model.profile.get("supports_thinking", False):
         settings["thinking"] = request.is_thinking
-    if address.provider == "anthropic":
-        return settings | {"anthropic_cache_instructions": True} | _budget_reasoning(address, served, request)
-    if address.is_openai_compatible:
-        settings |= _switch_reasoning(address, request.is_thinking)
+    if reference.provider == "anthropic":
+        return settings | {"anthropic_cache_instructions": True} | _budget_reasoning(reference, provider_model, request)
+    if reference.is_openai_compatible:
+        settings |= _toggle_reasoning(reference, request.is_thinking)
     return settings | {"seed": request.sample}
 
 
-def is_sampled(served: "Model[Any]", is_thinking: bool) -> bool:
-    """Whether the model takes a temperature: some that reason refuse it, with a warning or a status 400."""
-    profile = cast("Mapping[str, Any]", served.profile)
+def is_sampled(provider_model: "Model[Any]", is_thinking: bool) -> bool:
+    """Return whether the model accepts a temperature; some reasoning models reject it with status 400."""
+    profile = cast("Mapping[str, Any]", provider_model.profile)
     if profile.get("openai_supports_reasoning", False):
         efforts = profile.get("openai_reasoning_efforts")
         can_stop = profile.get("openai_supports_reasoning_effort_none", False) if efforts is None else "none" in efforts
         return can_stop and not is_thinking
-    if served.system == "anthropic":
+    if provider_model.system == "anthropic":
         always = profile.get("thinking_always_enabled", False)
         return not (is_thinking or always or profile.get("anthropic_disallows_sampling_settings", False))
     return True
 
 
-def _budget_reasoning(address: ModelReference, served: "Model[Any]", request: Request) -> dict[str, Any]:
-    """Half of the output tokens for models of Anthropic that need to be told how long they may reason."""
-    profile = cast("Mapping[str, Any]", served.profile)
+def _budget_reasoning(reference: ModelReference, provider_model: "Model[Any]", request: Request) -> dict[str, Any]:
+    """Return a budget of half the output tokens for Anthropic models that require a reasoning budget."""
+    profile = cast("Mapping[str, Any]", provider_model.profile)
     if not request.is_thinking or profile.get("anthropic_supports_adaptive_thinking", False):
         return {}
     budget = request.max_tokens // 2
-    if budget < _LEAST_REASONING_TOKENS:
+    if budget < _MIN_REASONING_TOKENS:
         raise GroundingError(
-            f"model '{address.model}': {request.max_tokens} output tokens leave no room to think; "
-            f"expected at least {2 * _LEAST_REASONING_TOKENS}, allow more or switch thinking off"
+            f"model '{reference.model}': {request.max_tokens} output tokens leave no room to think; "
+            f"expected at least {2 * _MIN_REASONING_TOKENS}, allow more or switch thinking off"
         )
     return {"anthropic_thinking": {"type": "enabled", "budget_tokens": budget}}
 
 
-def _switch_reasoning(address: ModelReference, is_thinking: bool) -> dict[str, Any]:
-    """The field of the request that turns reasoning on or off, which every server names its own way.
+def _toggle_reasoning(reference: ModelReference, is_thinking: bool) -> dict[str, Any]:
+    """Return the request field that turns reasoning on or off, whose name depends on the server.
 
-    Left out when off, save for Qwen models: they reason unless told not to.
+    There is none to turn it off, except for Qwen models, which reason by default.
     """
-    if not is_thinking and "qwen" not in address.name.lower():
+    if not is_thinking and "qwen" not in reference.name.lower():
         return {}
-    host = urlsplit(address.url).hostname or ""
+    host = urlsplit(reference.url).hostname or ""
     if host.endswith(".aliyuncs.com"):
         return {"extra_body": {"enable_thinking": is_thinking}}
     if host == "openrouter.ai":
@@ -107,15 +109,15 @@ def _switch_reasoning(address: ModelReference, is_thinking: bool) -> dict[str, A
 
 
 def convert_response(
-    response: "ModelResponse", request: Request, provider: str, cut: Finish | None = None
+    response: "ModelResponse", request: Request, provider: str, cutoff: Finish | None = None
 ) -> Completion:
-    """Return the library's response as a completion.
+    """Return a response of pydantic-ai as a completion.
 
     Args:
-        response: what came, whole or not.
-        request: what was asked.
-        provider: in whose format.
-        cut: why we ended it before the server did; None where the server ended it.
+        response: the response, complete or not.
+        request: the request, for estimates.
+        provider: name of the provider.
+        cutoff: why the client ended the response; None if the server did.
     """
     from pydantic_ai.messages import TextPart, ThinkingPart  # noqa: PLC0415
 
@@ -126,26 +128,26 @@ def convert_response(
     counted = Usage(
         usage.input_tokens, usage.cache_read_tokens, usage.output_tokens, written_tokens=usage.cache_write_tokens
     )
-    if cut is not None and provider != "google":
-        # Only Gemini counts as it goes; what Anthropic's servers tell at the start of a message is a stand-in.
+    if cutoff is not None and provider != "google":
+        # Only Gemini reports output tokens during a stream; Anthropic's count at the start is a placeholder.
         counted = replace(counted, output_tokens=0)
     tokens = _read_tokens(response.provider_details or {})
     if not counted.output_tokens:
         counted = replace(counted, output_tokens=len(tokens))
-    if cut is not None or usage.unmeasured_requests:
+    if cutoff is not None or usage.unmeasured_requests:
         counted += _estimate_missing(counted, request, thinking + text)
-    return Completion(text, cut or finish, counted, tokens, thinking)
+    return Completion(text, cutoff or finish, counted, tokens, thinking)
 
 
-def _estimate_missing(counted: Usage, request: Request, said: str) -> Usage:
-    """Return an estimate of about four bytes a token for the counts that the server did not tell."""
+def _estimate_missing(counted: Usage, request: Request, text: str) -> Usage:
+    """Return an estimate of the token counts that the server did not report."""
     input_tokens = 0 if counted.input_tokens else estimate_input(request)
-    output_tokens = 0 if counted.output_tokens else estimate_tokens(said)
+    output_tokens = 0 if counted.output_tokens else estimate_tokens(text)
     return Usage(input_tokens, 0, output_tokens, input_tokens + output_tokens)
 
 
 def _read_tokens(details: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
-    """Return the text and log-probability of each token; nothing where a server tells them in a way of its own."""
+    """Return text and log-probability of each token; empty if the server uses another format."""
     decode = getincrementaldecoder("utf-8")("replace").decode
     try:
         return tuple((_piece(token, decode), float(token["logprob"])) for token in details.get("logprobs", ()))
@@ -154,11 +156,11 @@ def _read_tokens(details: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
 
 
 def _piece(token: Mapping[str, Any], decode: Callable[[bytes], str]) -> str:
-    """Return the text that a token adds: its bytes tell it where it ends within a character, its name does not."""
+    """Return the text that a token adds. Its bytes are exact even if it ends inside a character; its name is not."""
     raw = token.get("bytes")
     return str(token["token"]) if raw is None else decode(bytes(raw))
 
 
 def json_object_format(request: Request) -> dict[str, Any]:
-    """The schema in the words of llama-cpp-python's server, which enforces it by a grammar."""
+    """Return the response format of llama-cpp-python's server, which enforces the schema by a grammar."""
     return {"type": "json_object", "schema": dict(request.schema)}

@@ -1,4 +1,4 @@
-"""What a server can do beside the plain request, found out by what it refuses."""
+"""Capabilities: optional request features of a server, dropped once it rejects them."""
 
 import re
 from collections.abc import Callable
@@ -9,45 +9,46 @@ from usd2kg.grounding.llm.retry import Failure
 __all__ = ["NO_STREAM", "Capabilities"]
 
 NO_STREAM = "the server answered a request for a stream without one"
+"""Message of the failure that disables streaming without an HTTP error."""
 
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """What a server is asked for as long as it has not refused it."""
+    """The features to request from a server."""
 
     streams: bool = True
-    """To send the completion piece by piece."""
+    """Stream the completion."""
     logprobs: bool = False
-    """To tell the probability of each token."""
+    """Return token log-probabilities."""
     json_schemas: bool = False
-    """To take a JSON Schema in OpenAI's words, where it only speaks OpenAI's language."""
+    """Accept OpenAI's `json_schema` response format, for servers that are compatible with OpenAI."""
 
     def without(self, failure: Failure) -> "Capabilities":
-        """Return them less the one that the failure refuses; all of them where it is about something else."""
-        for name, refuses in _REFUSALS.items():
-            if getattr(self, name) and refuses(failure):
+        """Return a copy without the feature that the failure rejects; unchanged if the failure has another cause."""
+        for name, rejects in _REJECTIONS.items():
+            if getattr(self, name) and rejects(failure):
                 return replace(self, **{name: False})
         return self
 
 
-def _refuses_logprobs(failure: Failure) -> bool:
-    # OpenAI answers 403 for models that do not offer them, servers that check fields 422, llama-cpp-python's 500.
+def _rejects_logprobs(failure: Failure) -> bool:
+    # 403: OpenAI, for models without log-probabilities; 422: strict field validation; 500: llama-cpp-python.
     return failure.status in (400, 403, 422, 500) and "logprob" in failure.message.lower()
 
 
-def _refuses_json_schemas(failure: Failure) -> bool:
-    # llama-cpp-python's server answers 500 for a form of answer that it does not know.
+def _rejects_json_schemas(failure: Failure) -> bool:
+    # 500: llama-cpp-python, for an unknown response format.
     return failure.status in (400, 422, 500) and "response_format" in failure.message
 
 
-def _refuses_streams(failure: Failure) -> bool:
-    # Some servers stream, but do not know `stream_options`, without which they would not count the tokens.
-    is_refusal = failure.status in (400, 403, 404, 405, 415, 422, 500, 501)
-    return failure.message == NO_STREAM or (is_refusal and re.search(r"\bstream", failure.message, re.I) is not None)
+def _rejects_streams(failure: Failure) -> bool:
+    # Also matches `stream_options`: some servers stream without it, but would not report usage.
+    is_rejection = failure.status in (400, 403, 404, 405, 415, 422, 500, 501)
+    return failure.message == NO_STREAM or (is_rejection and re.search(r"\bstream", failure.message, re.I) is not None)
 
 
-_REFUSALS: dict[str, Callable[[Failure], bool]] = {
-    "logprobs": _refuses_logprobs,
-    "json_schemas": _refuses_json_schemas,
-    "streams": _refuses_streams,
+_REJECTIONS: dict[str, Callable[[Failure], bool]] = {
+    "logprobs": _rejects_logprobs,
+    "json_schemas": _rejects_json_schemas,
+    "streams": _rejects_streams,
 }

@@ -1,7 +1,6 @@
-"""Which model a string names, where it is served, and which key opens it.
+"""ModelReference: provider, model name and URL from a model string, and the API key from the environment.
 
-A model is named `google:NAME`, `anthropic:NAME` or `openai:NAME`, each with `@URL` behind it for another address.
-Keys come from the environment, never from the name.
+A model string is `google:NAME`, `anthropic:NAME` or `openai:NAME`, optionally followed by `@URL` for another server.
 """
 
 from collections.abc import Mapping
@@ -19,32 +18,33 @@ KEY_VARIABLES = {
     "anthropic": ("ANTHROPIC_API_KEY",),
     "openai": ("OPENAI_API_KEY",),
 }
+"""Provider → environment variables of its API key, in order of precedence."""
 PROVIDER_URLS = {
     "google": "https://generativelanguage.googleapis.com",
     "anthropic": "https://api.anthropic.com",
     "openai": "https://api.openai.com/v1",
 }
-_EXPECTED = (
-    "expected google:NAME, anthropic:NAME or openai:NAME, with @http://HOST:PORT/v1 behind it for another server"
-)
+"""Provider → base URL of its own service."""
+_EXPECTED = "expected google:NAME, anthropic:NAME or openai:NAME, optionally followed by @http://HOST:PORT/v1"
 _NO_KEY = "none"
-"""Sent to loopback servers without a key, as the library insists on one."""
+"""Placeholder for loopback servers without a key, since the client libraries require one."""
 
 
 @dataclass(frozen=True, slots=True)
 class ModelReference:
-    """A model string, taken apart."""
+    """A parsed model string."""
 
     model: str
+    """The model string itself."""
     provider: str
     name: str
     url: str
     has_custom_url: bool
-    """Whether the user named the server."""
+    """Whether the URL is in the model string."""
 
     @property
     def is_loopback(self) -> bool:
-        """Whether the server is this machine."""
+        """Whether the server runs on this machine."""
         host = urlsplit(self.url).hostname or ""
         try:
             return ip_address(host).is_loopback
@@ -53,22 +53,22 @@ class ModelReference:
 
     @property
     def is_openai_compatible(self) -> bool:
-        """Whether this is a server that speaks OpenAI's language without being OpenAI's."""
+        """Whether the server implements OpenAI's API but is not OpenAI's own."""
         return self.provider == "openai" and self.has_custom_url
 
 
 def parse_model_reference(model: str) -> ModelReference:
-    """Return a model string taken apart.
+    """Return the parts of a model string.
 
     Raises:
-        GroundingError: it names no known provider and model, or its address is none or holds a secret.
+        GroundingError: the provider is unknown, the name is missing, or the URL is malformed or contains credentials.
     """
     provider, _, rest = model.partition(":")
-    # A model's name may hold an @, an address begins with a scheme.
+    # A model name may contain an @; a URL begins with its scheme.
     at = max(rest.find("@http://"), rest.find("@https://"))
     name, url = (rest, None) if at < 0 else (rest[:at], rest[at + 1 :].rstrip("/"))
     if provider not in PROVIDER_URLS or not name or any(map(str.isspace, model)):
-        raise GroundingError(f"model '{Redactor([])(model)}': no provider and name in it; {_EXPECTED}")
+        raise GroundingError(f"model '{Redactor([])(model)}': no known provider and name; {_EXPECTED}")
     if url is not None:
         _check_url(provider, name, url)
     return ModelReference(model, provider, name, url or PROVIDER_URLS[provider], url is not None)
@@ -77,34 +77,34 @@ def parse_model_reference(model: str) -> ModelReference:
 def _check_url(provider: str, name: str, url: str) -> None:
     try:
         parts = urlsplit(url)
-        is_address = bool(parts.hostname) and parts.port != 0
+        is_valid = bool(parts.hostname) and parts.port != 0
     except ValueError:
-        is_address = False
-    # The address itself is not repeated: what is wrong with it may be a password inside.
-    if not is_address:
-        raise GroundingError(f"model '{provider}:{name}@…': no host and port in its address; {_EXPECTED}")
+        is_valid = False
+    # The messages omit the URL, since it may contain a password.
+    if not is_valid:
+        raise GroundingError(f"model '{provider}:{name}@…': no host and port in its URL; {_EXPECTED}")
     if parts.username is not None or parts.query or parts.fragment:
         raise GroundingError(
-            f"model '{provider}:{name}@…': its address holds a user, a query or a fragment; "
-            f"expected scheme, host, port and path alone, put the key into {KEY_VARIABLES[provider][0]}"
+            f"model '{provider}:{name}@…': its URL contains a user, a query or a fragment; "
+            f"expected only scheme, host, port and path, put the key into {KEY_VARIABLES[provider][0]}"
         )
 
 
-def find_key(address: ModelReference, environment: Mapping[str, str]) -> str:
-    """Return the key for a model from the environment; servers of this machine need none.
+def find_key(reference: ModelReference, environment: Mapping[str, str]) -> str:
+    """Return the API key of a model from the environment, or a placeholder for servers on this machine.
 
     Raises:
-        GroundingError: there is none, or it cannot stand in a header.
+        GroundingError: the key is missing or is not printable ASCII.
     """
-    names = KEY_VARIABLES[address.provider]
+    names = KEY_VARIABLES[reference.provider]
     key = next((key for name in names if (key := environment.get(name, "").strip())), "")
-    if not key and not address.is_loopback:
+    if not key and not reference.is_loopback:
         raise GroundingError(
-            f"model '{address.model}': no key in the environment; expected one, set {' or '.join(names)}"
+            f"model '{reference.model}': no key in the environment; expected one, set {' or '.join(names)}"
         )
     if not (key.isascii() and key.isprintable()):
         raise GroundingError(
-            f"model '{address.model}': the key holds characters that no header can; "
-            f"expected printable ASCII, set {' or '.join(names)} anew"
+            f"model '{reference.model}': the key contains characters that an HTTP header cannot; "
+            f"expected printable ASCII, correct {' or '.join(names)}"
         )
     return key or _NO_KEY

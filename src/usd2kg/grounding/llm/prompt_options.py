@@ -1,31 +1,32 @@
-"""How a model is asked."""
+"""Strategies and options of prompts."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.words import words_of
 
 __all__ = ["PromptOptions", "Strategy"]
 
 
 class Strategy(StrEnum):
-    """How a model is asked, by the letters of the study."""
+    """What a prompt contains, named by the letters of the study."""
 
     NAME_ONLY = "A"
-    """The name and the TBox."""
+    """The name of the object and the TBox."""
     CONTEXT = "B"
-    """Geometry, position and hierarchy beside the name."""
+    """Also geometry, position and hierarchy."""
     CHAIN_OF_THOUGHT = "C"
-    """The same, and the reasoning is written out before the class."""
+    """As B, and the model writes its reasoning before the class."""
     BY_NAME = "auto"
-    """A for objects whose name says something; else C, or B for a model that reasons by itself.
+    """A for objects with an informative name; otherwise C, or B for a reasoning model.
 
-    In the study context helped only where names said nothing, and written reasoning only models without their own.
+    In the study, context helped only with uninformative names, and written reasoning only models that do not reason.
     """
 
     def for_name(self, name: str, *, is_thinking: bool) -> "Strategy":
-        """Return the strategy for an object that is called so; another than `BY_NAME` is itself."""
+        """Return the strategy for an object called `name`, which depends on the name only for `BY_NAME`."""
         if self is not Strategy.BY_NAME:
             return self
         if words_of(name):
@@ -35,24 +36,24 @@ class Strategy(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class PromptOptions:
-    """What a prompt depends on beside the objects and the TBox.
+    """Strategy and format of the prompts.
 
     Raises:
-        GroundingError: a prompt would ask about no object.
+        GroundingError: `objects_per_prompt` is below 1.
     """
 
     strategy: Strategy = Strategy.CONTEXT
     is_tree: bool = False
-    """Whether the classes are listed as a tree instead of alphabetically."""
+    """List the classes as a tree instead of alphabetically."""
     shuffle_seed: int | None = None
-    """Seed of a random order of the classes (in a tree, of those below one class); None keeps the alphabet."""
+    """Seed of a random order of the classes, in a tree of the subclasses of each class; None for alphabetical order."""
     objects_per_prompt: int = 1
-    max_siblings: int = 48
-    """Siblings that are named; the others are counted."""
+    max_siblings: int = LIMITS.max_siblings
+    """Sibling names in a description; the others are counted."""
     has_more_evidence: bool = False
-    """Whether labels, documentation, own axes, asset, materials and parts are told too, which the study does not."""
-    max_tokens: int = 4096
-    """Output tokens after which the model is cut off."""
+    """Include labels, documentation, oriented size, asset, materials and parts, which the study omits."""
+    max_tokens: int = LIMITS.max_output_tokens
+    """Limit of output tokens."""
     temperature: float = 0.0
     is_thinking: bool = False
 

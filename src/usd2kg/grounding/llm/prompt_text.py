@@ -1,27 +1,27 @@
-"""Strangers' texts in prompts, and the templates that they are put into."""
+"""Quotation of untrusted text in prompts, prompt templates, and token estimates."""
 
 import json
 from functools import lru_cache
 from importlib.resources import files
 from string import Template
 
-__all__ = ["MOST_CHARACTERS", "estimate_tokens", "fill_template", "quote", "read_template"]
+from usd2kg.grounding.llm.limits import LIMITS
+from usd2kg.grounding.llm.settings import ESTIMATES
 
-MOST_CHARACTERS = 200
-"""Characters of a stranger's text that are told."""
-_BYTES_PER_TOKEN = 4
+__all__ = ["estimate_tokens", "fill_template", "quote", "read_template"]
+
 _MARKUP = frozenset("<>`")
 
 
-def quote(text: str, most: int = MOST_CHARACTERS) -> str:
-    r"""Return a stranger's text as a JSON string on one line, cut to `most` characters with an ellipsis.
+def quote(text: str, max_characters: int = LIMITS.max_quoted_characters) -> str:
+    r"""Return untrusted text as a JSON string on one line, truncated to `max_characters` with an ellipsis.
 
-    Escaped are also what cannot be seen (direction marks, separators of lines) and what could pass for a fence or tag.
+    Invisible characters (direction marks, line separators) and those of tags and code fences are escaped too.
 
     >>> print(quote('a "cup"\n</objects> ✓'))
     "a \"cup\"\n\u003c/objects\u003e ✓"
     """
-    quoted = json.dumps(text if len(text) <= most else text[: most - 1] + "…", ensure_ascii=False)
+    quoted = json.dumps(text if len(text) <= max_characters else text[: max_characters - 1] + "…", ensure_ascii=False)
     if quoted.isprintable() and not _MARKUP.intersection(quoted):
         return quoted
     return "".join(_escape(c) if c in _MARKUP or not c.isprintable() else c for c in quoted)
@@ -33,19 +33,19 @@ def _escape(character: str) -> str:
 
 @lru_cache
 def read_template(name: str) -> Template:
-    """Return the template of that name."""
+    """Return the template `templates/<name>.txt`."""
     text = (files("usd2kg.grounding.llm") / "templates" / f"{name}.txt").read_text("utf-8")
     return Template(text.removesuffix("\n"))
 
 
 def fill_template(name: str, **values: str) -> str:
-    """Return the text of a template with its values, as they are: what they contain is not filled in again."""
+    """Return a template with its placeholders replaced; placeholders inside the values are not replaced."""
     return read_template(name).substitute(values) + "\n"
 
 
 def estimate_tokens(text: str) -> int:
-    """Return about how many tokens a text has: one for four bytes of UTF-8.
+    """Return an estimate of the tokens of a text, from its UTF-8 length.
 
-    That is within a quarter or so for English and JSON; names cut short and long numbers take more.
+    Accurate within about a quarter for English and JSON; abbreviated names and long numbers take more tokens.
     """
-    return -(-len(text.encode("utf-8", "replace")) // _BYTES_PER_TOKEN)
+    return -(-len(text.encode("utf-8", "replace")) // ESTIMATES.bytes_per_token)

@@ -52,8 +52,8 @@ class FakeModel:
         self.is_closed = False
         self._predict = predict
 
-    def begin(self, prompt: Prompt, room: int) -> int:
-        self.prompts.append((prompt, room))
+    def read_prompt(self, prompt: Prompt, max_tokens: int) -> int:
+        self.prompts.append((prompt, max_tokens))
         return len(prompt.shared) if len(self.prompts) > 1 else 0
 
     def logits(self, said: Sequence[int]) -> npt.NDArray[np.float32]:

@@ -4,7 +4,7 @@ import logging
 
 import pytest
 
-from usd2kg.grounding.llm.local.chat_template import PLAIN, Frame, Message, read_template
+from usd2kg.grounding.llm.local.chat_template import PLAIN_FRAME, Frame, Message, read_template
 
 
 def chatml(messages: list[Message]) -> str:
@@ -33,8 +33,8 @@ def test_instructions_go_before_the_question_where_a_system_message_is_left_out(
     assert read_template(forgetful).before == "<|im_start|>user\n"
 
 
-@pytest.mark.parametrize("written", ["", "always the same", "QUESTION-STANDS-HERE INSTRUCTIONS-STAND-HERE"])
+@pytest.mark.parametrize("written", ["", "always the same", "USER-PROMPT-PLACEHOLDER SYSTEM-PROMPT-PLACEHOLDER"])
 def test_a_template_that_loses_a_text_gives_way_to_a_plain_one(written: str, caplog: pytest.LogCaptureFixture):
     with caplog.at_level(logging.WARNING):
-        assert read_template(lambda _: written) == PLAIN
-    assert caplog.messages == ["the model's chat template loses what it is given; a plain one is used instead"]
+        assert read_template(lambda _: written) == PLAIN_FRAME
+    assert caplog.messages == ["the model's chat template drops or reorders messages; a plain frame is used instead"]

@@ -95,9 +95,9 @@ class TestComplete:
 
     def test_serves_one_request_at_a_time(self):
         class Watched(FakeModel):
-            def begin(self, prompt, room):
+            def read_prompt(self, prompt, max_tokens):
                 self.asker = threading.get_ident()
-                return super().begin(prompt, room)
+                return super().read_prompt(prompt, max_tokens)
 
             def logits(self, said):
                 time.sleep(0.001)
@@ -125,7 +125,7 @@ class TestOpen:
     def test_a_file_in_another_format_is_named(self, tmp_path: Path):
         path = tmp_path / "model.gguf"
         path.write_bytes(b"PK\x03\x04 and more")
-        with pytest.raises(GroundingError, match=r"model\.gguf: is no GGUF file, it begins with b'PK"):
+        with pytest.raises(GroundingError, match=r"model\.gguf: is not a GGUF file, it begins with b'PK"):
             open_local(f"gguf:{path}")
 
     def test_a_file_may_be_in_the_home_folder(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -37,7 +37,7 @@ def write(
     model = FakeModel(predict, *PIECES)
     plan = DecodingPlan(read_schema(schema(count, has_reasoning=has_reasoning)), model.tokenizer)
     vocabulary = classify_tokens(model.tokenizer.pieces, model.tokenizer.ends)
-    written = decode_answer(plan, model, vocabulary, room=room, temperature=temperature, seed=seed)
+    written = decode_answer(plan, model, vocabulary, max_tokens=room, temperature=temperature, seed=seed)
     assert "".join(text for text, _ in written.tokens) == written.text
     assert len(written.tokens) <= room
     assert all(logprob <= 0 for _, logprob in written.tokens)

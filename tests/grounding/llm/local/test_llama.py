@@ -120,41 +120,41 @@ def tokens(*counts: int) -> tuple[int, ...]:
 class TestReading:
     def test_the_second_prompt_reads_its_own_part_alone(self):
         model, library = open_model()
-        assert model.begin(Prompt(tokens(600), tokens(0, 5)), 10) == 0
+        assert model.read_prompt(Prompt(tokens(600), tokens(0, 5)), 10) == 0
         assert [len(piece) for piece in library.decoded] == [512, 88, 5]
         model.logits([1, 2])
-        assert model.begin(Prompt(tokens(600), tokens(0, 0, 7)), 10) == 600
+        assert model.read_prompt(Prompt(tokens(600), tokens(0, 0, 7)), 10) == 600
         assert library.decoded[-1] == [3] * 7
         assert library.held == [*tokens(600, 0, 7)]
 
     def test_pieces_are_kept_whole(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(600), tokens(0, 600)), 10)
+        model.read_prompt(Prompt(tokens(600), tokens(0, 600)), 10)
         # The same for 600 + 550 tokens, of which one whole piece of the question.
-        assert model.begin(Prompt(tokens(600), tokens(0, 550, 50)), 10) == 600 + 512
+        assert model.read_prompt(Prompt(tokens(600), tokens(0, 550, 50)), 10) == 600 + 512
         assert library.decoded[-1] == [*tokens(0, 38, 50)]
 
     def test_nothing_is_kept_of_other_instructions(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(100), tokens(0, 5)), 10)
-        assert model.begin(Prompt(tokens(99, 1), tokens(0, 5)), 10) == 0
+        model.read_prompt(Prompt(tokens(100), tokens(0, 5)), 10)
+        assert model.read_prompt(Prompt(tokens(99, 1), tokens(0, 5)), 10) == 0
         assert library.held == [*tokens(99, 1), *tokens(0, 5)]
 
     def test_the_same_prompt_is_kept_and_what_was_said_to_it_dropped(self):
         model, library = open_model()
         prompt = Prompt(tokens(10), tokens(0, 5))
-        model.begin(prompt, 10)
+        model.read_prompt(prompt, 10)
         model.logits([7, 7, 7])
-        assert model.begin(prompt, 10) == 15
+        assert model.read_prompt(prompt, 10) == 15
         assert library.held == [*prompt.tokens]
 
     def test_what_a_model_says_does_not_depend_on_the_prompt_before(self):
         prompt = Prompt(tokens(700), tokens(0, 700))
         model, library = open_model()
-        model.begin(Prompt(tokens(700), tokens(0, 600, 50)), 10)
-        model.begin(prompt, 10)
+        model.read_prompt(Prompt(tokens(700), tokens(0, 600, 50)), 10)
+        model.read_prompt(prompt, 10)
         other, fresh = open_model()
-        other.begin(prompt, 10)
+        other.read_prompt(prompt, 10)
         assert model.logits([1]).tolist() == other.logits([1]).tolist()
         assert library.decoded[-2:] == fresh.decoded[-2:]
 
@@ -162,14 +162,14 @@ class TestReading:
 class TestLogits:
     def test_are_those_behind_what_was_said_whatever_was_tried_before(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(3), ()), 10)
+        model.read_prompt(Prompt(tokens(3), ()), 10)
         for said in ([1], [1, 2], [1, 2, 3], [1, 4], [1], [1]):
             assert model.logits(said)[0] == hash((1, 1, 1, *said)) % 9973
             assert library.held == [1, 1, 1, *said]
 
     def test_read_only_what_is_new(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(3), ()), 10)
+        model.read_prompt(Prompt(tokens(3), ()), 10)
         library.decoded.clear()
         for said in ([1, 2], [1, 2, 3], [1, 2, 4], [1, 2, 4]):
             model.logits(said)
@@ -180,25 +180,25 @@ class TestContext:
     def test_grows_with_the_prompts_to_the_next_power_of_two_and_never_beyond_the_window(self):
         model, library = open_model()
         for size in (10, 2000, 2100, 100, 4000):
-            model.begin(Prompt((), tokens(size)), 10)
+            model.read_prompt(Prompt((), tokens(size)), 10)
         assert library.contexts == [2048, 4096]
-        assert model.begin(Prompt((), tokens(4000)), 90) == 4000
+        assert model.read_prompt(Prompt((), tokens(4000)), 90) == 4000
 
     def test_a_new_one_is_empty(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(1000), ()), 10)
-        assert model.begin(Prompt(tokens(1000), tokens(0, 2000)), 10) == 0
+        model.read_prompt(Prompt(tokens(1000), ()), 10)
+        assert model.read_prompt(Prompt(tokens(1000), tokens(0, 2000)), 10) == 0
         assert len(library.held) == 3000
 
     def test_without_memory_for_it_says_what_helps(self):
         model, _ = open_model(has_memory=False)
         with pytest.raises(GroundingError, match=r"^model\.gguf: no memory for a context of 4096 tokens;"):
-            model.begin(Prompt((), tokens(3000)), 10)
+            model.read_prompt(Prompt((), tokens(3000)), 10)
 
     def test_that_is_full_is_an_error(self):
         model, _ = open_model()
-        model.begin(Prompt((), tokens(2000)), 48)
-        with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp gave up with status 1 after 2000 tokens$"):
+        model.read_prompt(Prompt((), tokens(2000)), 48)
+        with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp failed with status 1 after 2000 tokens$"):
             model.logits(tokens(49))
 
 
@@ -209,13 +209,13 @@ class TestLoading:
 
     def test_models_with_states_are_refused_and_freed(self):
         library = FakeLibrary(is_recurrent=True)
-        with pytest.raises(GroundingError, match="expected a decoder with attention alone"):
+        with pytest.raises(GroundingError, match="expected a pure attention decoder"):
             LlamaModel(library, Path("model.gguf"), 1)  # type: ignore[arg-type]
         assert library.alive == set()
 
     def test_closing_frees_the_context_before_the_model(self):
         model, library = open_model()
-        model.begin(Prompt((), tokens(10)), 10)
+        model.read_prompt(Prompt((), tokens(10)), 10)
         model.close()
         model.close()
         assert library.alive == set()

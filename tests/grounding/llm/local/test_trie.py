@@ -40,8 +40,8 @@ class TestTheLikeliestName:
         model = Model({(): {1: 1.0}, (1,): {QUOTE: 0.6, 2: 0.4}, (1, 2): {QUOTE: 1.0}})
         scores = score_names(build_trie({"Cup": (1,), "Cupboard": (1, 2)}), model, CLOSERS)
         assert scores.found[0][0] == "Cup"
-        assert scores.explain((1,)) == pytest.approx([math.log(0.6)])
-        assert scores.explain((1, 2)) == pytest.approx([0.0, math.log(0.4)])
+        assert scores.token_logprobs((1,)) == pytest.approx([math.log(0.6)])
+        assert scores.token_logprobs((1, 2)) == pytest.approx([0.0, math.log(0.4)])
 
     def test_is_the_first_by_its_tokens_where_two_are_as_likely(self):
         model = Model({(): {1: 0.5, 2: 0.5}, (1,): {QUOTE: 1.0}, (2,): {QUOTE: 1.0}})
@@ -51,7 +51,7 @@ class TestTheLikeliestName:
         model = Model({(): {1: 1.0}, (1,): {QUOTE: 0.2, 7: 0.3, 2: 0.5}, (1, 2): {QUOTE: 1.0}})
         trie = build_trie({"Cup": (1,), "Cupboard": (1, 2)})
         scores = score_names(trie, model, np.array([QUOTE, 7]))
-        assert scores.explain((1,)) == pytest.approx([math.log(0.5)])
+        assert scores.token_logprobs((1,)) == pytest.approx([math.log(0.5)])
 
 
 class TestTokensOfAName:
@@ -67,9 +67,9 @@ class TestTokensOfAName:
             }
         )
         scores = score_names(build_trie({"Chair": (1, 2), "Chest": (1, 3), "Table": (4,)}), model, CLOSERS)
-        assert scores.explain((1, 2)) == pytest.approx([math.log(0.45 / 0.65), math.log(0.40 / 0.45)])
-        assert math.exp(sum(scores.explain((1, 2)))) == pytest.approx(0.40 / 0.65)
-        assert math.exp(sum(scores.explain((4,)))) == pytest.approx(0.20 / 0.65)
+        assert scores.token_logprobs((1, 2)) == pytest.approx([math.log(0.45 / 0.65), math.log(0.40 / 0.45)])
+        assert math.exp(sum(scores.token_logprobs((1, 2)))) == pytest.approx(0.40 / 0.65)
+        assert math.exp(sum(scores.token_logprobs((4,)))) == pytest.approx(0.20 / 0.65)
 
     def test_count_what_was_not_read_with_the_most_that_it_can_have(self):
         # After "Fork" with 0.99 nothing else is read; the two other names together have 0.005 at most.
@@ -77,12 +77,12 @@ class TestTokensOfAName:
         scores = score_names(build_trie({"Fork": (1,), "Spoon": (2, 3), "Spade": (2, 4)}), model, CLOSERS)
         assert model.asked == [(), (1,)]
         assert scores.unread == (((2,), pytest.approx(math.log(0.005))),)
-        assert math.exp(sum(scores.explain((1,)))) == pytest.approx(0.99 / 0.995)
+        assert math.exp(sum(scores.token_logprobs((1,)))) == pytest.approx(0.99 / 0.995)
 
     def test_are_none_for_the_empty_name(self):
         scores = score_names(build_trie({"": ()}), Model({(): {QUOTE: 1.0}}), CLOSERS)
         assert scores.found == (("", (), pytest.approx(0.0, abs=1e-9)),)
-        assert scores.explain(()) == []
+        assert scores.token_logprobs(()) == []
 
 
 class TestReading:
@@ -102,7 +102,7 @@ class TestReading:
         scores = score_names(build_trie({str(token): (token,) for token in range(1, 100)}), model, CLOSERS)
         assert len(model.asked) == 64
         assert (len(scores.found), len(scores.unread)) == (63, 36)
-        assert math.exp(sum(scores.explain((1,)))) == pytest.approx(1 / 99)
+        assert math.exp(sum(scores.token_logprobs((1,)))) == pytest.approx(1 / 99)
 
     def test_goes_straight_down_after_64_places_without_a_name(self):
         # 70 beginnings, all likelier than the ends of the names behind them.

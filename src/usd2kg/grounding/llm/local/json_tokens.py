@@ -1,4 +1,4 @@
-"""What the tokens of a vocabulary can do inside a JSON string."""
+"""JsonStringTokens: the tokens of a vocabulary that can occur in a JSON string or end it."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -10,29 +10,29 @@ import numpy.typing as npt
 __all__ = ["JsonStringTokens", "classify_tokens"]
 
 _INSIDE = rb'(?:[^\x00-\x1f"\\\x7f]|\\["\\/bfnrt])'
-"""RFC 8259, section 7, without \\u: what may stand between quotes. A part of a UTF-8 sequence may, too."""
+"""Bytes of a string by RFC 8259, section 7, without `\\u` escapes; parts of UTF-8 sequences are allowed."""
 _TEXT = re.compile(_INSIDE + b"+")
 _END = re.compile(b"(" + _INSIDE + b'*)"')
 
 
 @dataclass(frozen=True, slots=True)
 class JsonStringTokens:
-    """The tokens that matter inside a JSON string."""
+    """Token ids by their role in a JSON string."""
 
     closers: npt.NDArray[np.intp]
-    """Those that begin with the closing quote."""
+    """Tokens that begin with the closing quote."""
     texts: npt.NDArray[np.intp]
-    """Those that may stand in a free text or end it, in order."""
+    """Tokens that may continue or end a free text, in order."""
     heads: dict[int, bytes]
-    """Of those that end it: what they write before the quote."""
+    """Token that ends a free text → bytes it adds before the quote."""
 
 
 def classify_tokens(pieces: Sequence[bytes], ends: Iterable[int]) -> JsonStringTokens:
-    """Return what the tokens can do.
+    """Return the tokens by their role in a JSON string.
 
     Args:
-        pieces: what each token writes.
-        ends: those by which the model says that it is done; in a free text they stand for the closing quote.
+        pieces: the bytes of each token.
+        ends: the end-of-generation tokens, which count as a closing quote in a free text.
     """
     closers = [token for token, piece in enumerate(pieces) if piece.startswith(b'"')]
     heads = {token: match[1] for token, piece in enumerate(pieces) if (match := _END.match(piece))}
