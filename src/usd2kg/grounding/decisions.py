@@ -75,8 +75,8 @@ class DecisionOrigin(NamedTuple):
 def make_decision(prim_path: str, class_iri: ClassIRI, origin: DecisionOrigin | None = None) -> Prediction:
     """Return a person's decision as a prediction; `origin` is given if it was made about another path."""
     if origin is None:
-        return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "a person decided so")
-    explanation = f"a person decided so about {origin.prim_path}, the same thing ({origin.reason})"
+        return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "decided by a person")
+    explanation = f"decided by a person for {origin.prim_path}, the same object ({origin.reason})"
     return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, explanation, decided_for=origin.prim_path)
 
 

@@ -16,7 +16,14 @@ if TYPE_CHECKING:
     from pydantic_ai.messages import ModelRequest, ModelResponse
     from pydantic_ai.models import Model, ModelRequestParameters
 
-__all__ = ["convert_response", "is_sampled", "json_object_format", "make_message", "make_parameters", "make_settings"]
+__all__ = [
+    "accepts_temperature",
+    "convert_response",
+    "json_object_format",
+    "make_message",
+    "make_parameters",
+    "make_settings",
+]
 
 _MIN_REASONING_TOKENS = 1024
 """Smallest budget, https://platform.claude.com/docs/en/build-with-claude/extended-thinking."""
@@ -50,7 +57,7 @@ def make_settings(
 ) -> dict[str, Any]:
     """Return the model settings of a request, by the names of pydantic-ai."""
     settings: dict[str, Any] = {"max_tokens": request.max_tokens}
-    if is_sampled(provider_model, request.is_thinking):
+    if accepts_temperature(provider_model, request.is_thinking):
         settings["temperature"] = request.temperature
     if asks_logprobs:
         settings["openai_logprobs"] = True
@@ -66,7 +73,7 @@ def make_settings(
     return settings | {"seed": request.sample}
 
 
-def is_sampled(provider_model: "Model[Any]", is_thinking: bool) -> bool:
+def accepts_temperature(provider_model: "Model[Any]", is_thinking: bool) -> bool:
     """Return whether the model accepts a temperature; some reasoning models reject it with status 400."""
     profile = cast("Mapping[str, Any]", provider_model.profile)
     if profile.get("openai_supports_reasoning", False):

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, Self
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.adapter import (
+    accepts_temperature,
     convert_response,
-    is_sampled,
     json_object_format,
     make_message,
     make_parameters,
@@ -162,7 +162,7 @@ class HttpClient:
     def _send(self, request: Request) -> Completion | Failure:
         """Send a request, again without each feature that the server rejects; it is never requested again."""
         features = self._capabilities
-        if not is_sampled(self._provider_model, request.is_thinking):
+        if not accepts_temperature(self._provider_model, request.is_thinking):
             features = replace(features, logprobs=False)
         outcome = self._send_once(request, features)
         while isinstance(outcome, Failure) and (rest := features.without(outcome)) != features:

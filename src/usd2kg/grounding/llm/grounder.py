@@ -197,7 +197,7 @@ class LLMGrounder:
             confidence=self._scale(scored.confidence),
             status=answer.status,
             grounder=self.name,
-            explanation=answer.problem or answer.reasoning or f"{self._client.model} says so",
+            explanation=answer.problem or answer.reasoning or f"answer of {self._client.model}",
             evidence=("name",) if self._options.strategy is Strategy.NAME_ONLY else (),
             candidates=scored.candidates,
         )
