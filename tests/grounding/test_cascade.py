@@ -25,7 +25,7 @@ class FixedGrounder:
         self.calls += [path for path, _ in views]
         status = Status.GROUNDED if self.class_iri else Status.UNREADABLE
         return [
-            Prediction(path, self.class_iri, self.sure.get(path), status, self.name, f"{self.name} says so")
+            Prediction(path, self.class_iri, self.sure.get(path), status, self.name, f"{self.name} decided")
             for path, _ in views
         ]
 
@@ -50,7 +50,7 @@ def test_keeps_the_first_prediction_if_the_second_has_no_class(home_tbox: TBox):
     cascade = CascadeGrounder(FixedGrounder("first", CUP, FIRST), FixedGrounder("second", None, {}), 0.8)
     found = cascade.ground_views(VIEWS, home_tbox)
     assert classes(found) == {"/a": CUP, "/b": CUP, "/c": CUP}
-    assert found[1].explanation == "first says so; second: second says so"
+    assert found[1].explanation == "first decided; second: second decided"
     assert found[1].confidence == 0.5
     assert (cascade.report.sure, cascade.report.decided, cascade.report.kept) == (2, 0, 1)
 
