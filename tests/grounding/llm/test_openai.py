@@ -48,7 +48,6 @@ class TestCompatibleServers:
         assert completion.finish is Finish.STOP
         assert completion.usage == Usage(input_tokens=100, cached_tokens=60, output_tokens=7)
         assert completion.tokens == tuple(tokens)
-        assert completion.mean_logprob == pytest.approx(-0.2)
         assert completion.thinking == "a handle"
 
     @pytest.mark.parametrize("is_streamed", [True, False])
@@ -81,7 +80,6 @@ class TestCompatibleServers:
             assert [received.body.get("logprobs") for received in server.received] == [True, None, None]
             assert client.traffic.attempts == 3
         assert first.tokens == second.tokens == ()
-        assert first.mean_logprob is None
 
     @pytest.mark.parametrize("status", [400, 422, 500])
     def test_falls_back_to_the_json_object_format(self, status: int):

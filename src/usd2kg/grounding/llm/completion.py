@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from statistics import fmean
 from typing import Any, Protocol
 
 from usd2kg.grounding.llm.limits import LIMITS
@@ -81,11 +80,6 @@ class Completion:
     """
     thinking: str = ""
     """The model's reasoning before the answer, if the server returns it."""
-
-    @property
-    def mean_logprob(self) -> float | None:
-        """Mean natural log-probability of the tokens; None without tokens."""
-        return fmean(logprob for _, logprob in self.tokens) if self.tokens else None
 
 
 class Client(Protocol):
