@@ -36,7 +36,7 @@ class FakeTokens:
             rest = rest[len(piece) :]
         return tokens
 
-    def frame(self, system: str, user: str) -> Prompt:
+    def encode_prompt(self, system: str, user: str) -> Prompt:
         return Prompt(tuple(self.tokenize(f"[{system}]")), tuple(self.tokenize(f"[{user}]")))
 
 

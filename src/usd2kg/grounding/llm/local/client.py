@@ -29,7 +29,7 @@ class ChatTokenizer(TextTokenizer, Protocol):
         """The end-of-generation tokens."""
         ...
 
-    def frame(self, system: str, user: str) -> Prompt:
+    def encode_prompt(self, system: str, user: str) -> Prompt:
         """Return system and user prompt in the chat template."""
         ...
 
@@ -126,7 +126,7 @@ class LocalClient:
             self._loaded = model, classify_tokens(model.tokenizer.pieces, model.tokenizer.ends)
         model, string_tokens = self._loaded
         plan = DecodingPlan(read_schema(request.schema), model.tokenizer)
-        prompt = model.tokenizer.frame(request.system, request.user)
+        prompt = model.tokenizer.encode_prompt(request.system, request.user)
         max_tokens = min(request.max_tokens, plan.max_answer_tokens, self._remaining_tokens(prompt, plan, model.window))
         cached = model.read_prompt(prompt, max_tokens)
         decoded = decode_answer(

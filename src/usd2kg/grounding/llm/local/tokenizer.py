@@ -52,7 +52,7 @@ class Tokenizer:
         prefix = self._encode(self._prefix, is_template=False)
         return self._encode(self._prefix + text, is_template=False)[len(prefix) :]
 
-    def frame(self, system: str, user: str) -> Prompt:
+    def encode_prompt(self, system: str, user: str) -> Prompt:
         """Return system and user prompt in the model's chat template."""
         frame = self._frame
         before = self._encode(frame.before, is_template=True)
