@@ -28,7 +28,7 @@ every_provider = pytest.mark.parametrize("model", ANSWERS)
 
 
 def connect(server, model: str, **options) -> HttpClient:
-    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 10, "max_retries": 0} | options))
+    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 60, "max_retries": 0} | options))
 
 
 def complete(model: str, *replies, request: Request = REQUEST, **options):
