@@ -154,4 +154,5 @@ def test_rejects_unknown_evidence(text: str, found: str):
     with pytest.raises(GroundingError) as error:
         parse_evidence(text)
     assert found in str(error.value)
-    assert "a list of asset, company, geometry, hierarchy, labels, materials, name, parts, position" in str(error.value)
+    expected = "a list of asset, geometry, hierarchy, labels, materials, name, neighbours, parts, position"
+    assert expected in str(error.value)
