@@ -18,8 +18,8 @@ from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.run import score_grounding
 from usd2kg.evaluation.summary import Summary
 from usd2kg.grounding import ground, make_grounder
-from usd2kg.grounding.llm.options import Strategy
-from usd2kg.grounding.llm.settings import LLMSettings, open_llm_grounder
+from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounder
+from usd2kg.grounding.llm.prompt_options import Strategy
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.scene import Scene, read_scene
 

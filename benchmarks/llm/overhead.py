@@ -22,12 +22,12 @@ from pydantic_ai import direct
 from pydantic_ai.messages import ModelRequest
 
 from tests.grounding.llm import servers
-from usd2kg.grounding.llm.addresses import parse_address
-from usd2kg.grounding.llm.background import Background
+from usd2kg.grounding.llm.adapter import make_parameters, make_settings
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Request
-from usd2kg.grounding.llm.providers import closing_responses, open_http, serve_model
-from usd2kg.grounding.llm.wire import make_parameters, make_settings
+from usd2kg.grounding.llm.event_loop import EventLoopThread
+from usd2kg.grounding.llm.model_reference import parse_model_reference
+from usd2kg.grounding.llm.providers import closing_responses, make_provider_model, open_http
 
 KEYS = {"OPENAI_API_KEY": "none", "GOOGLE_API_KEY": "none", "ANTHROPIC_API_KEY": "none"}
 REPLIES = {
@@ -102,15 +102,15 @@ def asking_bare(port: int, raw: bytes) -> Iterator[Callable[[], object]]:
 @contextmanager
 def asking_the_library(model: str, request: Request) -> Iterator[Callable[[], object]]:
     """Yield a function that sends the same request through pydantic-ai only."""
-    address = parse_address(model)
+    address = parse_model_reference(model)
     http = open_http(address, 60)
-    served = serve_model(address, "none", http)
-    background = Background()
+    served = make_provider_model(address, "none", http)
+    background = EventLoopThread()
 
     async def ask() -> str:
         settings: Any = make_settings(address, served, request, asks_logprobs=False)
         prompt = [ModelRequest.user_text_prompt(request.user, instructions=request.system)]
-        parameters = make_parameters(served, request, address.is_compatible)
+        parameters = make_parameters(served, request, address.is_openai_compatible)
         async with (
             closing_responses(),
             direct.model_request_stream(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
-from usd2kg.grounding import Carried, Grounder, Grounding, NamingRegime, ground
+from usd2kg.grounding import DecisionOrigin, Grounder, Grounding, NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.relations import RelationOptions, find_relations
 from usd2kg.scene import ReadOptions, Scene, read_scene
@@ -32,7 +32,7 @@ def build(
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
     decisions: Mapping[str, ClassIRI] | None = None,
-    carried: Mapping[str, Carried] | None = None,
+    carried: Mapping[str, DecisionOrigin] | None = None,
     base: str | None = None,
     profile: str = "auto",
     options: ReadOptions | None = None,

@@ -15,8 +15,8 @@ from tests.cli.conftest import Run
 from tests.grounding.llm.servers import Reply, openai_events, openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.options import Strategy
-from usd2kg.grounding.llm.settings import parse_llm_name
+from usd2kg.grounding.llm.factory import parse_llm_name
+from usd2kg.grounding.llm.prompt_options import Strategy
 
 KEY = "sk-very-secret-4711"
 
@@ -261,7 +261,7 @@ def test_replays_a_recording_without_key_or_server(run: Run, kitchen: Path, monk
     assert again.out == first.out
     empty = run("ground", kitchen, "--grounder", model, "--replay", "--completions", "empty.sqlite", "--format", "json")
     explanations = {found["explanation"] for found in json.loads(empty.out)["predictions"]}
-    assert any("is not kept; leave out --replay" in text for text in explanations)
+    assert any("leave out --replay to ask it" in text for text in explanations)
 
 
 def test_build_and_eval_run_accept_a_model(run: Run, kitchen: Path):

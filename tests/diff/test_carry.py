@@ -7,7 +7,7 @@ from tests.graph.records import BASE, reread, said_of, select, thing
 from tests.grounding.records import make_scene
 from usd2kg.diff import ObjectState, carry_decisions, objects_of_graph, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
-from usd2kg.grounding import Carried, Status, ground
+from usd2kg.grounding import DecisionOrigin, Status, ground
 from usd2kg.ontology import TBox
 
 CUP = item("/Room/Cup_1")
@@ -19,7 +19,7 @@ def test_decision_follows_a_renamed_object() -> None:
     found = carry_decisions({"/Room/Cup_1": "Cup", "/Room/Table": "Table"}, [CUP, TABLE], [MUG, TABLE])
     assert found.decisions == {"/Room/Mug": "Cup", "/Room/Table": "Table"}
     assert found.carried == {
-        "/Room/Mug": Carried("/Room/Cup_1", "renamed: same asset, same size, same class, in place")
+        "/Room/Mug": DecisionOrigin("/Room/Cup_1", "renamed: same asset, same size, same class, in place")
     }
     assert found.unplaced == ()
 
@@ -54,7 +54,7 @@ def test_decision_about_the_new_path_wins() -> None:
 def test_graph_states_the_origin_of_a_carried_decision(home_tbox: TBox) -> None:
     scene = make_scene(thing("/Room/Mug", (0, 0, 0), (0.1, 0.1, 0.1)))
     iri = home_tbox.resolve("Cup")
-    carried = {"/Room/Mug": Carried("/Room/Cup_1", "renamed")}
+    carried = {"/Room/Mug": DecisionOrigin("/Room/Cup_1", "renamed")}
     grounding = ground(scene, home_tbox, decisions={"/Room/Mug": iri}, carried=carried)
     (prediction,) = grounding.predictions
     assert (prediction.status, prediction.decided_for) == (Status.REVIEWED, "/Room/Cup_1")

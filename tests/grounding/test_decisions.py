@@ -1,4 +1,4 @@
-"""What people decide, and what they are asked about."""
+"""Decisions and the review queue."""
 
 import csv
 from pathlib import Path
@@ -13,10 +13,10 @@ from usd2kg.grounding import (
     Grounding,
     Prediction,
     Status,
+    find_uncertain,
     format_queue,
     ground,
     read_decisions,
-    unsure_of,
 )
 from usd2kg.ontology import TBox
 
@@ -31,7 +31,7 @@ def grounding_of(*predictions: Prediction) -> Grounding:
     return Grounding("s", "h", "o", "h", "lexical", {}, True, "0", predictions)
 
 
-def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tmp_path: Path):
+def test_reads_a_completed_queue_as_decisions(home_tbox: TBox, tmp_path: Path):
     cup, bowl, box = (home_tbox.resolve(name) for name in ("Cup", "Bowl", "Box"))
     found = grounding_of(
         prediction("/a", cup, 0.95),
@@ -40,7 +40,7 @@ def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tm
         prediction("/d", box, 0.1),
         Prediction("/gone", None, None, Status.MISSING, "lexical", "there is no such prim"),
     )
-    queue = unsure_of(found, 0.6)
+    queue = find_uncertain(found, 0.6)
     assert [p.prim_path for p in queue] == ["/c", "/d", "/b"]
     text = format_queue(queue, home_tbox)
     rows = list(csv.DictReader(text.splitlines()))
@@ -58,7 +58,7 @@ def test_a_queue_that_is_filled_in_is_read_back_as_decisions(home_tbox: TBox, tm
     assert read_decisions(file, home_tbox) == {"/c": home_tbox.resolve("Plate"), "/b": cup}
 
 
-def test_the_grounder_is_not_asked_about_what_a_person_decided(home_tbox: TBox):
+def test_decided_objects_are_not_passed_to_the_grounder(home_tbox: TBox):
     knife = home_tbox.resolve("Knife")
     scene = make_scene(make_object("/K/Cup"), make_object("/K/Bowl"))
     found = ground(scene, home_tbox, decisions={"/K/Cup": knife, "/elsewhere": knife})
@@ -78,13 +78,13 @@ def test_the_grounder_is_not_asked_about_what_a_person_decided(home_tbox: TBox):
         ("", "line 1 has the columns nothing"),
     ],
 )
-def test_bad_files_say_where(home_tbox: TBox, tmp_path: Path, text: str, message: str):
+def test_reports_invalid_files_with_the_line(home_tbox: TBox, tmp_path: Path, text: str, message: str):
     file = tmp_path / "decisions.csv"
     file.write_text(text, "utf-8")
     with pytest.raises(GroundingError, match=message):
         read_decisions(file, home_tbox)
 
 
-def test_a_missing_file_says_so(home_tbox: TBox, tmp_path: Path):
+def test_reports_a_missing_file(home_tbox: TBox, tmp_path: Path):
     with pytest.raises(GroundingError, match="cannot be read as decisions"):
         read_decisions(tmp_path / "none.csv", home_tbox)

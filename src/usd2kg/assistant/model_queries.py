@@ -8,7 +8,7 @@ from usd2kg.assistant.offline import InterpretedAnswer
 from usd2kg.assistant.settings import PROMPT
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.grounding.llm.completion import Completion, Finish, Request
-from usd2kg.grounding.llm.text import quote
+from usd2kg.grounding.llm.prompt_text import quote
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.questions import list_questions
 
@@ -75,7 +75,7 @@ def _repair(request: Request, query: str, error: str) -> Request:
 
 
 def _request(system: str, user: str) -> Request:
-    return Request(system=system, user=user, schema=_SCHEMA, most_tokens=PROMPT.max_tokens)
+    return Request(system=system, user=user, schema=_SCHEMA, max_tokens=PROMPT.max_tokens)
 
 
 def _read_query(completion: Completion) -> str:

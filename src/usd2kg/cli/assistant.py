@@ -55,9 +55,9 @@ def ask_command(
 def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "InterpretedAnswer":
     from usd2kg.assistant import ask_model  # noqa: PLC0415
     from usd2kg.endpoint import BoundedQueries  # noqa: PLC0415
-    from usd2kg.grounding.llm.settings import LLMSettings, open_asker  # noqa: PLC0415
+    from usd2kg.grounding.llm.factory import LLMSettings, open_metered_client  # noqa: PLC0415
 
-    with open_asker(LLMSettings(model, completions=completions)) as asker, BoundedQueries(graph) as run:
+    with open_metered_client(LLMSettings(model, completions=completions)) as asker, BoundedQueries(graph) as run:
         return ask_model(graph, text, asker.complete, run)
 
 

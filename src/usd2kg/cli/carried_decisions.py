@@ -11,7 +11,7 @@ from usd2kg.cli.output import emit, notify
 
 if TYPE_CHECKING:
     from usd2kg.diff import CarriedDecisions
-    from usd2kg.grounding import Carried
+    from usd2kg.grounding import DecisionOrigin
     from usd2kg.ontology import ClassIRI
     from usd2kg.scene import ReadOptions, Scene
 
@@ -22,7 +22,7 @@ _COLUMNS = ("path", "decision", "decided_for", "reason")
 
 def carry_over_decisions(
     decisions: "Mapping[str, ClassIRI]", scene: "Scene", reading: "ReadOptions", options: CarryOverOptions
-) -> "tuple[Mapping[str, ClassIRI], Mapping[str, Carried]]":
+) -> "tuple[Mapping[str, ClassIRI], Mapping[str, DecisionOrigin]]":
     """Return the decisions for a scene, and the origin of each that was made for another prim path.
 
     Prints what was carried over to stderr, and writes the files of the options.

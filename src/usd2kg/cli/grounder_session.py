@@ -13,7 +13,7 @@ from usd2kg.cli.output import Progress, emit, notify
 from usd2kg.errors import GroundingError, SceneError
 
 if TYPE_CHECKING:
-    from usd2kg.grounding import Carried, CascadeGrounder, Grounder, Grounding, ObjectView
+    from usd2kg.grounding import CascadeGrounder, DecisionOrigin, Grounder, Grounding, ObjectView
     from usd2kg.grounding.llm.grounder import LLMGrounder
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import ReadOptions, Scene
@@ -32,7 +32,7 @@ class GrounderSession:
     model: "LLMGrounder | None"
     cascade: "CascadeGrounder | None"
     decisions: "Mapping[str, ClassIRI]"
-    carried: "Mapping[str, Carried]"
+    carried: "Mapping[str, DecisionOrigin]"
     """Prim path → origin of a decision that was made for another path."""
 
     def views_for_model(self, views: "list[tuple[str, ObjectView]]", tbox: "TBox") -> "list[tuple[str, ObjectView]]":
@@ -40,19 +40,19 @@ class GrounderSession:
         undecided = [(path, view) for path, view in views if path not in self.decisions]
         if self.cascade is None:
             return undecided
-        return [undecided[index] for index in self.cascade.unsure(self.offline.ground_views(undecided, tbox))]
+        return [undecided[index] for index in self.cascade.find_uncertain(self.offline.ground_views(undecided, tbox))]
 
     def report(self, grounding: "Grounding", tbox: "TBox") -> None:
         """Print to stderr what each tier decided and cost, and write the review queue."""
         from usd2kg.cli.model_report import report_cost, report_tiers  # noqa: PLC0415
-        from usd2kg.grounding import format_queue, unsure_of  # noqa: PLC0415
+        from usd2kg.grounding import find_uncertain, format_queue  # noqa: PLC0415
 
         if self.cascade is not None or self.decisions:
             report_tiers(grounding, self.cascade, self.model)
         if self.model is not None:
             report_cost(self.model.report, grounding)
         if (queue := self.options.review.queue) is not None:
-            waiting = unsure_of(grounding, self.options.review.person)
+            waiting = find_uncertain(grounding, self.options.review.person)
             emit(format_queue(waiting, tbox), queue)
             notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
 
@@ -82,7 +82,7 @@ def open_session(
     from usd2kg import grounding  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     decisions: Mapping[str, ClassIRI] = options.review.read(tbox)
-    carried: Mapping[str, Carried] = {}
+    carried: Mapping[str, DecisionOrigin] = {}
     if carry_over is not None:
         decisions, carried = carry_over_decisions(decisions, scene, reading, carry_over)
     is_llm = grounding.is_llm_name(options.grounder)
@@ -108,7 +108,7 @@ def _open_model(
     options: GroundingOptions, scene: "Scene", decisions: "Mapping[str, ClassIRI]", source: Path, reading: "ReadOptions"
 ) -> "Iterator[LLMGrounder]":
     from usd2kg.grounding.llm.examples import choose_examples  # noqa: PLC0415
-    from usd2kg.grounding.llm.settings import open_llm_grounder  # noqa: PLC0415
+    from usd2kg.grounding.llm.factory import open_llm_grounder  # noqa: PLC0415
 
     asked = options.model
     if asked.examples and not decisions:

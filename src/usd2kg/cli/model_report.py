@@ -10,8 +10,8 @@ from usd2kg.cli.output import emit, format_table, notify, replace_controls
 
 if TYPE_CHECKING:
     from usd2kg.grounding import CascadeGrounder, Grounding
-    from usd2kg.grounding.llm.asking import RunReport
     from usd2kg.grounding.llm.grounder import LLMGrounder
+    from usd2kg.grounding.llm.metered_client import RunReport
     from usd2kg.grounding.llm.prices import Tariff
     from usd2kg.grounding.llm.prompts import Batch
 

@@ -14,7 +14,7 @@ from usd2kg.cli.limits import CELL_WIDTH
 from usd2kg.files import write_whole
 
 if TYPE_CHECKING:
-    from usd2kg.grounding.llm.asking import RunReport
+    from usd2kg.grounding.llm.metered_client import RunReport
     from usd2kg.ontology import TBox
 
 __all__ = [

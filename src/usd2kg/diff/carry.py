@@ -7,7 +7,7 @@ from usd2kg.diff.match import match_objects
 from usd2kg.diff.match_description import describe_match
 from usd2kg.diff.object_state import ObjectState
 from usd2kg.diff.tolerances import DEFAULT_TOLERANCES, Tolerances
-from usd2kg.grounding import Carried
+from usd2kg.grounding import DecisionOrigin
 from usd2kg.ontology import ClassIRI
 
 __all__ = ["CarriedDecisions", "UnplacedDecision", "carry_decisions"]
@@ -30,7 +30,7 @@ class CarriedDecisions:
 
     decisions: Mapping[str, ClassIRI]
     """Prim path in the new scene → class."""
-    carried: Mapping[str, Carried]
+    carried: Mapping[str, DecisionOrigin]
     """Prim path in the new scene → origin, for decisions about another path."""
     unplaced: tuple[UnplacedDecision, ...]
     """In the order of the decisions."""
@@ -55,7 +55,7 @@ def carry_decisions(
     matches = {match.old.prim_path: match for match in match_objects(old, new, tolerances).matches}
     old_paths, new_paths = ({state.prim_path for state in states} for states in (old, new))
     placed = {path: iri for path, iri in decisions.items() if path in new_paths - old_paths}
-    carried: dict[str, Carried] = {}
+    carried: dict[str, DecisionOrigin] = {}
     unplaced: list[UnplacedDecision] = []
     for path, iri in decisions.items():
         match = matches.get(path)
@@ -70,7 +70,7 @@ def carry_decisions(
             continue
         placed[target] = iri
         if target != path:
-            carried[target] = Carried(path, describe_match(match, tolerances))
+            carried[target] = DecisionOrigin(path, describe_match(match, tolerances))
     return CarriedDecisions(placed, carried, tuple(unplaced))
 
 

@@ -1,4 +1,4 @@
-"""Scene × TBox → Grounding: a class for every object, its confidence, and the evidence behind it."""
+"""Grounding: scene × TBox → a class for each object, with a confidence, the evidence and an explanation."""
 
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.cascade import CascadeGrounder
@@ -10,10 +10,10 @@ from usd2kg.grounding.context import (
     ObjectView,
     view_objects,
 )
-from usd2kg.grounding.decisions import PERSON, Carried, format_queue, read_decisions, unsure_of
-from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
+from usd2kg.grounding.decisions import PERSON, DecisionOrigin, find_uncertain, format_queue, read_decisions
 from usd2kg.grounding.ground import ground as ground
 from usd2kg.grounding.ground import parse_evidence, parse_regime
+from usd2kg.grounding.mapping_files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
 from usd2kg.grounding.platt_scaling import PlattScaling, read_scaling
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
@@ -26,8 +26,8 @@ __all__ = [
     "PERSON",
     "STUDY_GROUPS",
     "Candidate",
-    "Carried",
     "CascadeGrounder",
+    "DecisionOrigin",
     "Grounder",
     "Grounding",
     "NamingRegime",
@@ -37,6 +37,7 @@ __all__ = [
     "Review",
     "Status",
     "check_format",
+    "find_uncertain",
     "format_mapping",
     "format_queue",
     "ground",
@@ -48,6 +49,5 @@ __all__ = [
     "read_grounding",
     "read_paths",
     "read_scaling",
-    "unsure_of",
     "view_objects",
 ]

@@ -20,14 +20,13 @@ class Grounder(Protocol):
 
     @property
     def settings(self) -> Mapping[str, str]:
-        """The settings that its answers depend on, as text."""
+        """Return the settings that affect its predictions, as text."""
         ...
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view), in order.
 
-        The path is the key to answer under and no evidence: under a naming regime it would give the name
-        away. What is learnt from one view must not tell what another is; how the answers to all look may be heard in
-        their confidence.
+        The prim path identifies the prediction and is not evidence: it would reveal the name that a naming regime
+        masks. The class of a view must not depend on the other views; its confidence may.
         """
         ...

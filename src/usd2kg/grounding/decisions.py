@@ -1,6 +1,6 @@
-"""What people decide: their classes for prims, and the queue of what they are asked about.
+"""Decisions of people: the classes they chose for prims, and the queue of prims that need a decision.
 
-A queue is a CSV file with an empty column `decision`; filled in, it is read back as decisions.
+A queue is a CSV file with an empty column `decision`. Filled in, it is a file of decisions.
 """
 
 import csv
@@ -11,25 +11,25 @@ from typing import NamedTuple
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.model import Grounding, Prediction, Status
+from usd2kg.grounding.settings import QUEUE
 from usd2kg.grounding.sssom_decisions import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["PERSON", "Carried", "decided", "format_queue", "read_decisions", "unsure_of"]
+__all__ = ["PERSON", "DecisionOrigin", "find_uncertain", "format_queue", "make_decision", "read_decisions"]
 
 PERSON = "person"
-"""The grounder's id of what a person decided."""
+"""The grounder id of decisions."""
 _EXPECTED = "expected CSV with the columns path and decision (or class)"
 _QUEUE_COLUMNS = ("path", "decision", "answer", "confidence", "alternatives", "explanation")
-_MOST_ALTERNATIVES = 4
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""What a spreadsheet takes for the beginning of a formula."""
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
+"""Characters with which a spreadsheet formula begins."""
 
 
 def read_decisions(path: Path, tbox: TBox) -> dict[str, ClassIRI]:
-    """Return prim path → the class that a person decided on, from a CSV file; rows without a decision are left out.
+    """Return prim path → decided class from a CSV file, without the rows whose decision is empty.
 
-    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a local name that is unique. A file
-    whose name ends in .tsv is SSSOM, of which only rows count that a person curated or reviewed.
+    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a unique local name. A file
+    whose name ends in .tsv is read as SSSOM, see `read_sssom_decisions`.
 
     Raises:
         GroundingError: the file cannot be read, a column is missing, a class is not in scope, or a prim has two.
@@ -63,48 +63,51 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str,
     return decisions
 
 
-class Carried(NamedTuple):
-    """Where a decision comes from that was made when the thing had another prim path."""
+class DecisionOrigin(NamedTuple):
+    """The origin of a decision that was made when the object had another prim path."""
 
     prim_path: str
-    """The path that the person decided about."""
+    """The path in the decision."""
     reason: str
-    """Why it is the same thing, in words."""
+    """Why it is the same object, as text."""
 
 
-def decided(prim_path: str, class_iri: ClassIRI, carried: Carried | None = None) -> Prediction:
-    """Return what a person decided, as a prediction."""
-    if carried is None:
-        return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "a person decided so")
-    explanation = f"a person decided so about {carried.prim_path}, the same thing ({carried.reason})"
-    decided_for = carried.prim_path
-    return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, explanation, decided_for=decided_for)
+def make_decision(prim_path: str, class_iri: ClassIRI, origin: DecisionOrigin | None = None) -> Prediction:
+    """Return a person's decision as a prediction; `origin` is given if it was made about another path."""
+    if origin is None:
+        return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "decided by a person")
+    explanation = f"decided by a person for {origin.prim_path}, the same object ({origin.reason})"
+    return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, explanation, decided_for=origin.prim_path)
 
 
-def unsure_of(grounding: Grounding, least_confidence: float) -> list[Prediction]:
-    """Return the predictions that a person should see: less sure than that or without a class, the least sure first."""
-    found = [p for p in grounding.predictions if p.class_iri is None or (p.confidence or 0.0) < least_confidence]
+def find_uncertain(grounding: Grounding, min_confidence: float) -> list[Prediction]:
+    """Return the predictions without a class or below `min_confidence`, the least confident first.
+
+    Prims that are not on the stage are left out.
+    """
+    found = [p for p in grounding.predictions if p.class_iri is None or (p.confidence or 0.0) < min_confidence]
     return sorted((p for p in found if p.status is not Status.MISSING), key=lambda p: p.confidence or 0.0)
 
 
 def format_queue(predictions: Sequence[Prediction], tbox: TBox) -> str:
-    """Return the queue as CSV: what a person fills in is the column `decision`."""
+    """Return the queue as CSV, with an empty column `decision` for a person to fill in."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_QUEUE_COLUMNS)
-    for found in predictions:
-        confidence = "" if found.confidence is None else f"{found.confidence:.4f}"
-        answer = tbox.by_iri[found.class_iri].local_name if found.class_iri else ""
-        others = "|".join(_alternatives(found, tbox))
-        writer.writerow((found.prim_path, "", answer, confidence, others, _plain(found.explanation)))
+    for prediction in predictions:
+        confidence = "" if prediction.confidence is None else f"{prediction.confidence:.4f}"
+        answer = tbox.by_iri[prediction.class_iri].local_name if prediction.class_iri else ""
+        alternatives = "|".join(_alternatives(prediction, tbox))
+        explanation = _escape_formula(prediction.explanation)
+        writer.writerow((prediction.prim_path, "", answer, confidence, alternatives, explanation))
     return text.getvalue()
 
 
-def _alternatives(found: Prediction, tbox: TBox) -> Iterator[str]:
-    others = [candidate.class_iri for candidate in found.candidates if candidate.class_iri != found.class_iri]
-    return (tbox.by_iri[iri].local_name for iri in others[:_MOST_ALTERNATIVES])
+def _alternatives(prediction: Prediction, tbox: TBox) -> Iterator[str]:
+    others = [c.class_iri for c in prediction.candidates if c.class_iri != prediction.class_iri]
+    return (tbox.by_iri[iri].local_name for iri in others[: QUEUE.max_alternatives])
 
 
-def _plain(text: str) -> str:
-    """Return a text that no spreadsheet takes for a formula."""
-    return "'" + text if text.startswith(_FORMULA) else text
+def _escape_formula(text: str) -> str:
+    """Return text that a spreadsheet does not evaluate as a formula."""
+    return "'" + text if text.startswith(_FORMULA_STARTS) else text

@@ -1,11 +1,11 @@
-"""ground: run a grounder over the objects of a scene."""
+"""ground: classify the objects of a scene."""
 
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.context.views import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, view_objects
-from usd2kg.grounding.decisions import Carried, decided
+from usd2kg.grounding.decisions import DecisionOrigin, make_decision
 from usd2kg.grounding.model import Grounding, Prediction, Status
 from usd2kg.grounding.registry import make_grounder
 from usd2kg.ontology import ClassIRI, TBox
@@ -23,23 +23,23 @@ def ground(
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
     decisions: Mapping[str, ClassIRI] | None = None,
-    carried: Mapping[str, Carried] | None = None,
+    carried: Mapping[str, DecisionOrigin] | None = None,
     abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Grounding:
     """Return a class of `tbox` for each object of `scene`.
 
     Args:
-        scene: the objects; all of them are context for each other, whatever is asked for.
-        tbox: the classes to choose from.
-        grounder: who chooses: a grounder, or the name of one.
-        regime: how the names are masked.
-        evidence: names of the evidence groups that may be used; all by default.
-        decisions: prim path → class for what a person has decided; the grounder is not asked about it.
-        carried: prim path → where its decision comes from, of decisions that were made about another path.
+        scene: the objects; all of them serve as context, also those not in `paths`.
+        tbox: the candidate classes.
+        grounder: a grounder or the name of one.
+        regime: how names are masked.
+        evidence: names of the evidence groups to use; all by default.
+        paths: ground only these prims, in this order; prims that are not on the stage get the status `missing`.
+        decisions: prim path → class that a person decided on; these objects are not passed to the grounder.
+        carried: prim path → origin, for decisions that were made about another path.
         abbreviated_length: letters kept of each word in the abbreviated regime.
-        paths: answer for these prims only, in this order; those not on the stage get the status `missing`.
     """
-    # It reads e-mail headers, which takes as long as a hundred names.
+    # Imported here: parsing the package metadata takes as long as grounding a hundred names.
     from importlib.metadata import version  # noqa: PLC0415
 
     if isinstance(grounder, str):
@@ -47,9 +47,9 @@ def ground(
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
     origins = carried or {}
-    known = {path: decided(path, iri, origins.get(path)) for path, iri in (decisions or {}).items() if path in views}
-    found = [(path, views[path]) for path in wanted if path in views and path not in known]
-    by_path = known | {p.prim_path: p for p in grounder.ground_views(found, tbox)}
+    known = {p: make_decision(p, iri, origins.get(p)) for p, iri in (decisions or {}).items() if p in views}
+    undecided = [(path, views[path]) for path in wanted if path in views and path not in known]
+    by_path = known | {p.prim_path: p for p in grounder.ground_views(undecided, tbox)}
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,
@@ -73,10 +73,10 @@ def _missing(path: str, grounder: str) -> Prediction:
 
 
 def parse_regime(text: str) -> NamingRegime:
-    """Return the regime that a user names.
+    """Return the naming regime called `text`.
 
     Raises:
-        GroundingError: there is no such regime.
+        GroundingError: the regime is unknown.
     """
     try:
         return NamingRegime(text)
@@ -89,7 +89,7 @@ def parse_evidence(text: str) -> frozenset[str]:
     """Return the evidence groups of a comma-separated list.
 
     Raises:
-        GroundingError: one of them is no evidence group, or none is named.
+        GroundingError: a group is unknown, or the list is empty.
     """
     groups = frozenset(part.strip() for part in text.split(",") if part.strip())
     unknown = sorted(groups - EVIDENCE_GROUPS)

@@ -1,4 +1,4 @@
-"""What grounding gives: a class for every object, with how sure it is and why."""
+"""The result of grounding: a class for each object, with confidence, status and explanation."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -11,46 +11,46 @@ __all__ = ["Candidate", "Grounding", "Prediction", "Review", "Status"]
 
 
 class Status(StrEnum):
-    """How a prediction came about; the kinds that are no answer stay apart."""
+    """How a prediction came about. Each reason for having no class is a status."""
 
     GROUNDED = "grounded"
-    """The evidence points at the class."""
+    """The evidence supports this class."""
     SUPERCLASS = "superclass"
-    """The evidence does not decide between classes, so one above them was taken."""
+    """The evidence does not distinguish several classes, so a common superclass was chosen."""
     REFUSED = "refused"
     """The grounder declined to answer."""
     UNREADABLE = "unreadable"
-    """The grounder answered, but with no class of the TBox."""
+    """The answer names no class of the TBox."""
     FAILED = "failed"
-    """The grounder could not be asked."""
+    """The grounder could not run, for instance because a server is down."""
     MISSING = "missing"
-    """The prim that was asked for does not exist on the stage."""
+    """The requested prim is not on the stage."""
     REVIEWED = "reviewed"
-    """A person decided; `Prediction.review` keeps what was predicted."""
+    """A person decided; `Prediction.review` holds what was predicted."""
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A class that was considered."""
+    """A class that the grounder considered."""
 
     class_iri: ClassIRI
     score: float
-    """Higher is better; comparable within one prediction only."""
+    """Higher is better. Scores are comparable only within one prediction."""
 
 
 @dataclass(frozen=True, slots=True)
 class Review:
-    """A person's decision about an object, and what the grounder had said."""
+    """A person's decision about an object, and what was predicted before."""
 
     reviewer: str
-    """Who decided: an IRI such as an ORCID's, or a name."""
+    """Who decided: an IRI such as an ORCID iD, or a name."""
     predicted_class: ClassIRI | None
     predicted_confidence: float | None
     predicted_status: Status
     comment: str = ""
     """The reviewer's reason, empty if none was given."""
     time: str = ""
-    """When, as ISO 8601; empty if nobody said."""
+    """When, as ISO 8601; empty if unknown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,20 +61,20 @@ class Prediction:
     class_iri: ClassIRI | None
     """None unless the status is grounded or superclass."""
     confidence: float | None
-    """Probability that the class is right, from 0 to 1; None where there is no class, or nobody knows."""
+    """Probability that the class is correct, from 0 to 1; None if there is no class or the grounder gives none."""
     status: Status
     grounder: str
-    """Id of the grounder that decided."""
+    """Id of the grounder that chose the class."""
     explanation: str
-    """One sentence for a person."""
+    """One sentence for the user."""
     evidence: tuple[str, ...] = ()
-    """The evidence groups that decided."""
+    """The evidence groups that the choice rests on."""
     candidates: tuple[Candidate, ...] = ()
-    """All that was considered, best first, the chosen class included."""
+    """The classes considered, best first, including the chosen one."""
     review: Review | None = None
-    """A person's decision, which then is the class, status and confidence above; None if nobody decided."""
+    """A person's decision, which sets class, status and confidence above; None if there is none."""
     decided_for: str = ""
-    """The prim path that the person decided about, where the thing was renamed or moved since; else empty."""
+    """The prim path of the decision if the object has been renamed or moved since; else empty."""
 
     def reviewed(
         self,
@@ -85,16 +85,16 @@ class Prediction:
         comment: str = "",
         time: str = "",
     ) -> "Prediction":
-        """Return the prediction with a person's decision in its place.
+        """Return a copy of the prediction with a person's decision.
 
         Args:
-            class_iri: the right class, maybe the predicted one; None if no class fits.
-            reviewer: an IRI such as an ORCID's, or a name.
-            confidence: how sure the person is, 0 to 1; None if they did not say.
+            class_iri: the correct class, possibly the predicted one; None if no class fits.
+            reviewer: an IRI such as an ORCID iD, or a name.
+            confidence: the person's confidence from 0 to 1; None if not given.
             comment: the reason.
             time: when, as ISO 8601.
         """
-        # A later decision stands beside what the grounder said, not beside the earlier one.
+        # A second decision keeps what the grounder predicted, not the first decision.
         before = self.review or Review("", self.class_iri, self.confidence, self.status)
         review = replace(before, reviewer=reviewer, comment=comment, time=time)
         return replace(self, class_iri=class_iri, confidence=confidence, status=Status.REVIEWED, review=review)
@@ -102,19 +102,19 @@ class Prediction:
 
 @dataclass(frozen=True)
 class Grounding:
-    """The predictions for one scene and one TBox, and what produced them."""
+    """The predictions for one scene and one TBox, with their provenance."""
 
     scene: str
-    """Source of the scene."""
+    """`Scene.source`."""
     scene_hash: str
     ontology: str
     """IRI of the ontology."""
     ontology_hash: str
     grounder: str
     settings: Mapping[str, str]
-    """Regime, evidence and the grounder's own settings, as text."""
+    """Naming regime, evidence groups and the settings of the grounder, as text."""
     is_calibrated: bool
-    """Whether confidences were fitted to be probabilities; otherwise they only rank."""
+    """Whether confidences are fitted probabilities; otherwise they only rank."""
     tool_version: str
     predictions: tuple[Prediction, ...] = field(default=())
     """One for each object, in scene order."""

@@ -1,4 +1,4 @@
-"""From the confidence of any grounder to a probability of being right, by two numbers (Platt, 1999)."""
+"""Platt scaling: the probability that a prediction is correct, from the confidence of any grounder (Platt, 1999)."""
 
 import json
 import math
@@ -6,11 +6,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.settings import PLATT_SCALING
 
 __all__ = ["PlattScaling", "logit", "read_scaling"]
 
-_LEAST = 1e-4
-"""Confidences nearer to 0 or 1 than this count as this near: certainty has no logarithm of odds."""
 _FORMAT = "usd2kg-calibration/1"
 
 
@@ -21,30 +20,30 @@ class PlattScaling:
     intercept: float
     slope: float
     grounder: str
-    """What it was fitted for: grounder and settings in a line."""
+    """The grounder and its settings that the scaling was fitted for, as text."""
     answers: int
-    """Answers that it was fitted on."""
+    """Number of predictions that it was fitted on."""
 
     def __call__(self, confidence: float) -> float:
-        """Return the probability of being right, to four decimals."""
+        """Return the probability that the prediction is correct, rounded to four decimals."""
         return round(1 / (1 + math.exp(-(self.intercept + self.slope * logit(confidence)))), 4)
 
     def as_json(self) -> str:
-        """Return it as a file's text."""
+        """Return the text of the file that `read_scaling` reads."""
         return json.dumps({"format": _FORMAT, **asdict(self)}, indent=1, ensure_ascii=False) + "\n"
 
 
 def logit(confidence: float) -> float:
-    """Return the logarithm of the odds, of a confidence from 0 to 1."""
-    inside = min(max(confidence, _LEAST), 1 - _LEAST)
-    return math.log(inside / (1 - inside))
+    """Return the log-odds of a confidence from 0 to 1, clipped where it would be infinite."""
+    clipped = min(max(confidence, PLATT_SCALING.min_probability), 1 - PLATT_SCALING.min_probability)
+    return math.log(clipped / (1 - clipped))
 
 
 def read_scaling(path: Path) -> PlattScaling:
     """Return the scaling in a file that `usd2kg eval calibrate` wrote.
 
     Raises:
-        GroundingError: the file is missing or is no such JSON.
+        GroundingError: the file is missing or has another format.
     """
     try:
         data = json.loads(path.read_text("utf-8"))

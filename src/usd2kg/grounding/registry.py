@@ -1,4 +1,4 @@
-"""The grounders by name."""
+"""Grounders by name."""
 
 from pathlib import Path
 
@@ -8,27 +8,27 @@ from usd2kg.grounding.base import Grounder
 __all__ = ["GROUNDERS", "is_llm_name", "make_grounder"]
 
 GROUNDERS = ("lexical", "dictionary", "embedding", "volume")
-"""Names that `make_grounder` knows; the first is the default. Beside them it knows `llm-B:MODEL` and the like."""
+"""The names for `make_grounder`, the default first, without those of language models."""
 
 
 def is_llm_name(name: str) -> bool:
-    """Return whether a grounder's name is of a language model."""
+    """Return whether a grounder name is that of a language model."""
     return name.startswith(("llm-", "llm:"))
 
 
 def make_grounder(
     name: str, *, dictionary: Path | None = None, class_sizes: Path | None = None, abstains: bool = False
 ) -> Grounder:
-    """Return the grounder of that name.
+    """Return the grounder called `name`.
 
     Args:
         name: one of `GROUNDERS`, or a strategy and a language model: `llm-B:google:gemini-2.5-flash`.
-        dictionary: for `dictionary`, a CSV file `name,class` of the user's own.
-        class_sizes: for `volume`, a CSV file of usual sizes of the user's own.
-        abstains: for `lexical`, take the class above where the candidates are split.
+        dictionary: for `dictionary`, a CSV file with the columns `name,class`.
+        class_sizes: for `volume`, a CSV file of typical sizes.
+        abstains: for `lexical`, choose a superclass where the candidates disagree.
 
     Raises:
-        GroundingError: there is no such grounder, or its file cannot be read.
+        GroundingError: the name is unknown, an option does not apply to it, or a file cannot be read.
     """
     if dictionary is not None and name != "dictionary":
         raise GroundingError(
@@ -38,7 +38,7 @@ def make_grounder(
         raise GroundingError(f"grounder {name!r} takes no class sizes; choose the grounder volume to use {class_sizes}")
     if abstains and name != "lexical":
         raise GroundingError(f"grounder {name!r} cannot abstain; choose the grounder lexical")
-    # Each is imported only when it is asked for: the lexical one reads a noun taxonomy.
+    # Imported on demand: the lexical grounder reads a noun taxonomy, others need optional dependencies.
     if name == "lexical":
         from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
 
@@ -56,7 +56,7 @@ def make_grounder(
 
         return VolumeGrounder.from_csv(class_sizes) if class_sizes else VolumeGrounder()
     if is_llm_name(name):
-        from usd2kg.grounding.llm.settings import make_llm_grounder  # noqa: PLC0415
+        from usd2kg.grounding.llm.factory import make_llm_grounder  # noqa: PLC0415
 
         return make_llm_grounder(name)
     raise GroundingError(f"grounder {name!r} is unknown; expected one of {', '.join(GROUNDERS)}, or llm-B:MODEL")

@@ -1,4 +1,4 @@
-"""What people decided in a mapping file of SSSOM (SSSOM/TSV, https://mapping-commons.github.io/sssom/spec/)."""
+"""Decisions of people in an SSSOM/TSV mapping file, https://mapping-commons.github.io/sssom/spec/."""
 
 import csv
 import logging
@@ -25,8 +25,8 @@ _BUILT_IN = {
     "skos": "http://www.w3.org/2004/02/skos/core#",
     "sssom": "https://w3id.org/sssom/",
 }
-"""Prefixes that a file need not declare."""
-_NEEDED = ("prim_path", "predicate_id", "object_id", "mapping_justification")
+"""Prefixes that are predefined in SSSOM."""
+_REQUIRED = ("prim_path", "predicate_id", "object_id", "mapping_justification")
 _EXPECTED = "expected SSSOM/TSV with the column prim_path, as usd2kg ground --format sssom writes it"
 
 
@@ -36,18 +36,18 @@ class _Row(NamedTuple):
 
 
 def is_sssom(path: Path) -> bool:
-    """Return whether a file is SSSOM by its name: it ends in .tsv."""
+    """Return whether a file name ends in .tsv."""
     return path.suffix.lower() == ".tsv"
 
 
 def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, ClassIRI]:
-    """Return prim path → class for the rows that a person curated or reviewed; the others are no decisions.
+    """Return prim path → class for the rows that a person curated or reviewed; other rows are ignored.
 
-    Such a row has a reviewer (reviewer_id or reviewer_label), or its justification is semapv:ManualMappingCuration.
-    Rows that say that the class is not the one, or that none fits, decide on no class and are left out.
+    A reviewed row has a reviewer (reviewer_id or reviewer_label); a curated row has the justification
+    semapv:ManualMappingCuration. Negated rows (predicate_modifier) and sssom:NoTermFound give no class.
 
     Raises:
-        GroundingError: a column is missing, a row has no rdf:type or no class in scope, or a prim has two decisions.
+        GroundingError: a column is missing, a predicate is not rdf:type, a class is not in scope, or a prim has two.
     """
     prefixes = _BUILT_IN | dict(_read_prefixes(text))
     decisions: dict[str, ClassIRI] = {}
@@ -87,7 +87,7 @@ def _expand(curie: str, prefixes: Mapping[str, str]) -> str:
 
 
 def _read_prefixes(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the prefixes of the header's curie_map; a header is YAML, line by line behind `#`."""
+    """Yield the prefixes of the curie_map in the header, which is YAML with a `#` before each line."""
     is_inside = False
     for line in text.splitlines():
         if not line.startswith("#"):
@@ -99,12 +99,12 @@ def _read_prefixes(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _read_rows(path: Path, text: str) -> Iterator[_Row]:
-    """Yield the rows with the numbers of their last lines."""
+    """Yield the rows, each with the number of its last line."""
     lines = text.splitlines(keepends=True)
     start = next((number for number, line in enumerate(lines) if not line.startswith("#")), len(lines))
     rows = csv.DictReader(lines[start:], delimiter="\t", strict=True)
     try:
-        missing = [name for name in _NEEDED if name not in (rows.fieldnames or ())]
+        missing = [name for name in _REQUIRED if name not in (rows.fieldnames or ())]
         if missing:
             raise GroundingError(f"{path}: line {start + 1} has no column {missing[0]}; {_EXPECTED}")
         for row in rows:

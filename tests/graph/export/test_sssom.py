@@ -17,7 +17,7 @@ from usd2kg.errors import GraphError, GroundingError
 from usd2kg.graph import format_sssom
 from usd2kg.graph.iris import individual_iri
 from usd2kg.grounding import Candidate, Grounding, Prediction, Status, read_decisions
-from usd2kg.grounding.decisions import decided
+from usd2kg.grounding.decisions import make_decision
 
 TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label="cup"))
 BASE = "https://my.lab/k/"
@@ -140,7 +140,7 @@ class TestReadingBack:
         return path
 
     def test_only_reviewed_rows_are_decisions(self, tmp_path: Path):
-        by_hand = decided("/Küche/h", LAB + "Thing")
+        by_hand = make_decision("/Küche/h", LAB + "Thing")
         path = self.write(tmp_path, CUP, CORRECTED, CONFIRMED, NO_CLASS, by_hand)
         assert read_decisions(path, TBOX) == {
             "/Küche/x": LAB + "Cup",

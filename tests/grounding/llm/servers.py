@@ -1,4 +1,4 @@
-"""Local servers that answer as OpenAI's, Google's and Anthropic's do, whole or streamed, from a queue of replies."""
+"""Fake HTTP servers with the APIs of OpenAI, Google and Anthropic, which answer from a queue of replies."""
 
 import json
 import threading
@@ -15,17 +15,17 @@ class Reply:
     status: int = 200
     headers: dict[str, str] = field(default_factory=dict)
     is_broken: bool = False
-    """The connection ends in the middle of the body."""
+    """Close the connection in the middle of the body."""
     hangs: bool = False
-    """No answer comes while the server lives."""
+    """Never answer."""
     is_raw: bool = False
     """The body is text that is not JSON."""
     events: Callable[[], Iterable[str]] | None = None
-    """Server-sent events for a client that asks for a stream; None for a server that answers whole all the same."""
+    """Server-sent events if the client requests a stream; None to answer without streaming."""
     pause_s: float = 0.0
-    """Seconds between two events."""
+    """Pause between two events."""
     together: threading.Barrier | None = None
-    """No answer comes before as many requests are here."""
+    """Wait until this many requests have arrived."""
 
     def encode(self) -> bytes:
         return str(self.body).encode() if self.is_raw else json.dumps(self.body).encode()
@@ -35,10 +35,10 @@ class Reply:
 class Received:
     path: str
     headers: dict[str, str]
-    """Names in lower case."""
+    """Header names are in lower case."""
     body: dict
     port: int
-    """The client's, one a connection."""
+    """Port of the client, which identifies the connection."""
 
     @property
     def asks_for_stream(self) -> bool:
@@ -46,7 +46,7 @@ class Received:
 
 
 class FakeServer:
-    """Answers with the replies in their order, and with the last one from then on."""
+    """Answers with the replies in order, then repeats the last one."""
 
     def __init__(self, *replies: Reply) -> None:
         self._replies = list(replies)
@@ -55,10 +55,10 @@ class FakeServer:
         self.received: list[Received] = []
         self._at_once = 0
         self.most_at_once = 0
-        """Requests that were being answered at the same time."""
+        """Largest number of requests in progress at the same time."""
         self.events_sent = 0
         self.streams_cut_off = 0
-        """Streams whose client was gone before their end."""
+        """Streams that the client closed before their end."""
         self._http = ThreadingHTTPServer(("127.0.0.1", 0), self._make_handler())
         self._http.daemon_threads = False
         self._thread = threading.Thread(target=self._http.serve_forever, kwargs={"poll_interval": 0.01})
@@ -168,17 +168,17 @@ def serve(*replies: Reply) -> Iterator[FakeServer]:
 
 
 def pieces(text: str, size: int = 4) -> list[str]:
-    """The text in pieces as long as a token."""
+    """Return a text in pieces of about the length of a token."""
     return [text[start : start + size] for start in range(0, len(text), size)]
 
 
 def sse(data: object, name: str | None = None) -> str:
-    """One server-sent event."""
+    """Return a server-sent event."""
     return (f"event: {name}\n" if name else "") + f"data: {json.dumps(data)}\n\n"
 
 
 def broken_off(reply: Reply, after: int) -> Reply:
-    """The same stream, whose connection ends after so many events."""
+    """Return a reply whose connection breaks after `after` events."""
     whole = reply.events
     assert whole is not None
     return replace(reply, events=lambda: islice(whole(), after), is_broken=True)
@@ -206,11 +206,11 @@ ANTHROPIC_USAGE = {
 
 
 Token = tuple[str | bytes, float]
-"""What a token adds and the logarithm of its probability; bytes where it ends within a character."""
+"""Text and log-probability of a token; bytes if it ends inside a character."""
 
 
 def openai_reply(text: str, *, finish: str = "stop", tokens: Sequence[Token] = (), thinking: str = "") -> Reply:
-    """Chat completions: 100 input tokens of which 60 were cached, 7 output tokens."""
+    """Return a chat completion with 100 input tokens, 60 of them cached, and 7 output tokens."""
     message = {"role": "assistant", "content": text} | ({"reasoning_content": thinking} if thinking else {})
     choice: dict = {"index": 0, "message": message, "finish_reason": finish}
     if tokens:
@@ -230,7 +230,7 @@ def openai_events(
     thinking: str = "",
     usage: dict | None = OPENAI_USAGE,
 ) -> Iterator[str]:
-    """Chunks of a chat completion, with the usage in one of its own at the end."""
+    """Yield the chunks of a chat completion, with the usage in a separate chunk at the end."""
     head = {"id": "c1", "object": "chat.completion.chunk", "created": 1, "model": "m"}
 
     def chunk(delta: dict, **more: object) -> str:
@@ -251,17 +251,17 @@ def openai_events(
 
 
 def _openai_logprobs(tokens: Sequence[Token]) -> dict:
-    def told(text: str | bytes, logprob: float) -> dict:
+    def describe(text: str | bytes, logprob: float) -> dict:
         raw = text if isinstance(text, bytes) else text.encode()
-        # OpenAI names a token that is no text by its bytes.
+        # OpenAI names a token that is not valid UTF-8 by its bytes.
         name = text if isinstance(text, str) else "bytes:" + "".join(f"\\x{byte:02x}" for byte in text)
         return {"token": name, "logprob": logprob, "bytes": list(raw), "top_logprobs": []}
 
-    return {"content": [told(*token) for token in tokens], "refusal": None}
+    return {"content": [describe(*token) for token in tokens], "refusal": None}
 
 
 def gemini_reply(text: str, *, finish: str = "STOP", thinking: str = "") -> Reply:
-    """generateContent: 100 input tokens of which 60 were cached, 7 tokens of answer and 5 of thought."""
+    """Return a response of generateContent with 100 input tokens, 60 of them cached, 7 answer and 5 thought tokens."""
     thoughts = [{"text": thinking, "thought": True}] if thinking else []
     candidate = {
         "content": {"role": "model", "parts": [*thoughts, {"text": text}]},
@@ -278,7 +278,7 @@ _GEMINI_HEAD = {"modelVersion": "gemini-2.5-flash", "responseId": "r1"}
 
 
 def gemini_events(texts: Iterable[str], *, finish: str | None = "STOP", thinking: str = "") -> Iterator[str]:
-    """Responses of streamGenerateContent: each tells the usage so far, one token a piece, the last all of it."""
+    """Yield the responses of streamGenerateContent, each with the usage so far, one token per piece."""
 
     def response(parts: list[dict], usage: dict, **more: object) -> str:
         content = {"role": "model", "parts": parts}
@@ -294,7 +294,7 @@ def gemini_events(texts: Iterable[str], *, finish: str | None = "STOP", thinking
 
 
 def anthropic_reply(text: str, *, finish: str = "end_turn", thinking: str = "") -> Reply:
-    """Messages: 40 input tokens read anew, 60 from the cache, 7 output tokens."""
+    """Return a message with 40 uncached and 60 cached input tokens, and 7 output tokens."""
     thoughts = [{"type": "thinking", "thinking": thinking, "signature": "s"}] if thinking else []
     return Reply(
         {
@@ -312,7 +312,7 @@ _ANTHROPIC_HEAD = {"id": "msg_1", "type": "message", "role": "assistant", "model
 
 
 def anthropic_events(texts: Iterable[str], *, finish: str | None = "end_turn", thinking: str = "") -> Iterator[str]:
-    """Events of a message: the input is counted at its start, the output at its end."""
+    """Yield the events of a message, which report input tokens at the start and output tokens at the end."""
 
     def event(kind: str, **data: object) -> str:
         return sse({"type": kind, **data}, kind)
@@ -332,13 +332,13 @@ def anthropic_events(texts: Iterable[str], *, finish: str | None = "end_turn", t
         yield from block(0, "thinking", [*thoughts, {"type": "signature_delta", "signature": "s"}])
     yield from block(1 if thinking else 0, "text", ({"type": "text_delta", "text": piece} for piece in texts))
     if finish is not None:
-        told = {"stop_reason": finish, "stop_sequence": None}
-        yield event("message_delta", delta=told, usage={"output_tokens": ANTHROPIC_USAGE["output_tokens"]})
+        end = {"stop_reason": finish, "stop_sequence": None}
+        yield event("message_delta", delta=end, usage={"output_tokens": ANTHROPIC_USAGE["output_tokens"]})
         yield event("message_stop")
 
 
 def refuse(status: int, message: str, **headers: str) -> Reply:
-    """An error in the shape that OpenAI, Google and Anthropic share."""
+    """Return an error response that all three providers' clients understand."""
     return Reply(
         {"type": "error", "error": {"type": "some_error", "code": status, "message": message}},
         status,

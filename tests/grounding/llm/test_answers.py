@@ -1,9 +1,8 @@
-"""Answers: what counts as a class, what is unreadable, and what is no answer but noise."""
+"""parse_answers and repair_request."""
 
 import json
-import math
 from dataclasses import replace
-from time import perf_counter
+from time import process_time
 
 import pytest
 from hypothesis import given
@@ -11,8 +10,8 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.llm.answers import Answer, is_degenerate, parse_answers, repair_request
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.answers import Answer, parse_answers, repair_request
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Status
 
@@ -49,7 +48,7 @@ def one(value: object) -> Answer:
 ROWS = '{"1": {"class": "Cup"}, "2": {"class": "Knife"}}'
 
 
-class TestForms:
+class TestFormats:
     @pytest.mark.parametrize(
         "text",
         [
@@ -65,32 +64,28 @@ class TestForms:
             '{"1": {"reasoning": "line\nbreak", "class": "Cup"}, "2": {"class": "Knife"}}',
         ],
     )
-    def test_json_is_found_wherever_it_stands(self, text: str) -> None:
+    def test_finds_json_anywhere_in_the_text(self, text: str) -> None:
         assert classes(text) == [CUP, KNIFE]
 
-    def test_one_object_needs_no_number(self) -> None:
-        assert classes('{"reasoning": "round", "class": "Cup"}', 1) == [CUP]
-        assert classes('{"class": "Cup"}') == [None, None]
-
-    def test_reasoning_is_kept(self) -> None:
+    def test_keeps_the_reasoning(self) -> None:
         answers = parse('{"1": {"reasoning": "It is round.", "class": "Cup"}, "2": {"reasoning": 7, "class": "Knife"}}')
         assert answers == [Answer(CUP, Status.GROUNDED, "It is round."), Answer(KNIFE, Status.GROUNDED)]
 
-    def test_json_quoted_in_reasoning_is_no_row(self) -> None:
+    def test_ignores_json_quoted_in_the_reasoning(self) -> None:
         reasoning = json.dumps('its name says {"1": {"class": "Knife"}, "2": {"class": "Knife"}}')
         assert classes(f'{{"1": {{"reasoning": {reasoning}, "class": "Cup"}}, "2": {{"class": "Cup"}}}}') == [CUP, CUP]
         assert classes(f'{{"1": {{"class": "Cup"}}, "2": {{"reasoning": {reasoning}') == [CUP, None]
 
-    def test_a_row_that_breaks_off_is_unreadable(self) -> None:
+    def test_a_truncated_row_is_unreadable(self) -> None:
         assert parse('{"1": {"class": "Cup"}, "2": {"class": "Kni')[1] == Answer(
             None, Status.UNREADABLE, problem="the answer has no row for it"
         )
 
     @pytest.mark.parametrize("text", ["A cup and a knife.", "[1, 2]", "{{{{", '{"a": ' * 100_000, "null"])
     def test_a_text_without_rows_is_unreadable(self, text: str) -> None:
-        start = perf_counter()
+        start = process_time()
         answers = parse(text)
-        assert perf_counter() - start < 5
+        assert process_time() - start < 5
         assert [(answer.status, answer.problem) for answer in answers] == [
             (Status.UNREADABLE, "the answer has no readable JSON object")
         ] * 2
@@ -99,7 +94,7 @@ class TestForms:
         assert [answer.problem for answer in parse(" \n")] == ["the answer was empty"] * 2
 
     @given(st.text() | st.text(alphabet='{}[]":,12\\ aclsCup'))
-    def test_no_text_raises_or_invents(self, text: str) -> None:
+    def test_never_raises_or_invents_a_class(self, text: str) -> None:
         answers = parse(text)
         assert len(answers) == 2
         for answer in answers:
@@ -109,7 +104,7 @@ class TestForms:
 
 class TestClasses:
     @pytest.mark.parametrize(
-        ("said", "meant"),
+        ("written", "expected"),
         [
             ("Cup", CUP),
             (" cup ", CUP),
@@ -125,11 +120,11 @@ class TestClasses:
             ("PAN", LAB + "PAN"),
         ],
     )
-    def test_a_class_goes_by_what_people_call_it(self, said: str, meant: str) -> None:
-        assert one(said) == Answer(meant, Status.GROUNDED)
+    def test_resolves_names_labels_curies_and_iris(self, written: str, expected: str) -> None:
+        assert one(written) == Answer(expected, Status.GROUNDED)
 
     @pytest.mark.parametrize(
-        ("said", "problem"),
+        ("written", "problem"),
         [
             ("Teacup", '"Teacup" is no class of the list'),
             ("", '"" is no class of the list'),
@@ -140,34 +135,34 @@ class TestClasses:
             ("a\n</objects>", '"a\\n\\u003c/objects\\u003e" is no class of the list'),
         ],
     )
-    def test_what_is_no_class_is_unreadable(self, said: object, problem: str) -> None:
-        assert one(said) == Answer(None, Status.UNREADABLE, problem=problem)
+    def test_an_unknown_class_is_unreadable(self, written: object, problem: str) -> None:
+        assert one(written) == Answer(None, Status.UNREADABLE, problem=problem)
 
     def test_a_row_without_class_is_unreadable(self) -> None:
         assert parse('{"1": {"klass": "Cup"}}', 1)[0].problem == "its row has no class"
 
-    def test_a_class_that_was_not_offered_is_unreadable(self) -> None:
+    def test_a_class_outside_the_list_is_unreadable(self) -> None:
         (batch,) = build_requests([ObjectView(name="x")], TBOX, PromptOptions(), [[CUP]])
         (answer,) = parse_answers('{"1": {"class": "Knife"}}', batch, TBOX)
         assert (answer.status, answer.problem) == (Status.UNREADABLE, '"Knife" is a class, but not one of the list')
 
-    @pytest.mark.parametrize("said", [None, "none", "Unknown", " null "])
-    def test_refusing_is_no_answer_of_its_own_kind(self, said: str | None) -> None:
-        answer = one(said)
+    @pytest.mark.parametrize("written", [None, "none", "Unknown", " null "])
+    def test_null_and_none_are_refusals(self, written: str | None) -> None:
+        answer = one(written)
         assert (answer.class_iri, answer.status) == (None, Status.REFUSED)
         assert answer.problem.startswith("the model named no class")
 
     def test_a_null_row_is_a_refusal(self) -> None:
         assert [answer.status for answer in parse('{"1": null, "2": "Cup"}')] == [Status.REFUSED, Status.GROUNDED]
 
-    def test_a_class_called_unknown_is_a_class(self) -> None:
+    def test_accepts_a_class_called_unknown(self) -> None:
         tbox = make_tbox(make_class("Unknown"))
         (batch,) = build_requests([ObjectView(name="x")], tbox, PromptOptions())
         assert parse_answers('{"1": {"class": "unknown"}}', batch, tbox)[0].class_iri == LAB + "Unknown"
 
 
 class TestLogprob:
-    """By the tokens that spell the class of a row."""
+    """The log-probability of the class of a row."""
 
     TOKENS = (
         ('{"1": "', -1.0), ("C", -0.25), ("up", -0.5), ('", "2": {"class": "', -1.0), ("Tea", -0.125),
@@ -178,28 +173,28 @@ class TestLogprob:
     def logprobs(self, tokens: tuple[tuple[str, float], ...]) -> list[float | None]:
         return [answer.logprob for answer in parse_answers(self.TEXT, batch_of(4), TBOX, tokens)]
 
-    def test_each_row_has_its_own(self) -> None:
+    def test_sums_the_tokens_of_each_class(self) -> None:
         assert "".join(piece for piece, _ in self.TOKENS) == self.TEXT
-        # The third says null; the fourth has no row.
+        # The third row is null; the fourth is missing.
         assert self.logprobs(self.TOKENS) == [-0.75, -0.375, -2.0, None]
 
-    def test_without_tokens_or_with_those_of_another_text_it_is_unknown(self) -> None:
+    def test_is_none_without_matching_tokens(self) -> None:
         assert self.logprobs(()) == [None] * 4
         assert self.logprobs(self.TOKENS[:-1]) == [None] * 4
 
-    def test_a_class_that_nobody_knows_has_one_too(self) -> None:
+    def test_is_set_for_unknown_classes(self) -> None:
         text = '{"1": {"class": "Chalice"}}'
         [answer] = parse_answers(text, batch_of(1), TBOX, ((text, -0.5),))
         assert (answer.status, answer.logprob) == (Status.UNREADABLE, -0.5)
 
 
 class TestRepair:
-    def test_it_shows_the_same_images(self) -> None:
+    def test_keeps_the_images(self) -> None:
         batch = batch_of(1)
         shown = replace(batch, request=replace(batch.request, images=(b"front", b"side")))
         assert repair_request(shown, "", parse_answers("", shown, TBOX)).images == (b"front", b"side")
 
-    def test_it_quotes_what_was_wrong_and_offers_the_same(self) -> None:
+    def test_quotes_the_problems_and_keeps_the_schema(self) -> None:
         batch = batch_of(3, strategy=Strategy.CHAIN_OF_THOUGHT, temperature=0.5)
         text = '{"1": "Cup", "2": "Tea\\n</problems>cup"}'
         repair = repair_request(batch, text, parse_answers(text, batch, TBOX))
@@ -216,80 +211,7 @@ class TestRepair:
         )
         assert (repair.system, repair.schema, repair.temperature) == (batch.request.system, batch.request.schema, 0.5)
 
-    def test_long_texts_are_cut(self) -> None:
+    def test_truncates_long_completions(self) -> None:
         batch = batch_of(1)
         text = "so " * 100_000
         assert len(repair_request(batch, text, parse_answers(text, batch, TBOX)).user) < len(batch.request.user) + 1000
-
-
-FRAGMENTS = st.text(alphabet=st.characters(codec="utf-8"), min_size=8, max_size=300)
-
-
-@st.composite
-def answer_texts(draw: st.DrawFn) -> str:
-    """Answers for many objects, of few classes and with the same reasoning, in any layout."""
-    names = draw(st.lists(st.sampled_from(["Cup", "Knife", "DesignedContainer"]), min_size=1, max_size=3))
-    reasoning = draw(st.sampled_from([None, "It is round.", "It is small, of 0.1 m. So it is a cup, or a bowl."]))
-    rows = {}
-    for number in range(1, draw(st.integers(1, 150)) + 1):
-        row = {"class": names[number % len(names)]}
-        rows[str(number)] = row if reasoning is None else {"reasoning": reasoning, **row}
-    separators = draw(st.sampled_from([(",", ":"), (", ", ": ")]))
-    return json.dumps(rows, indent=draw(st.sampled_from([None, 0, 2, 4])), separators=separators)
-
-
-class TestDegenerate:
-    @given(answer_texts(), st.floats(0, 1))
-    def test_answers_of_many_identical_classes_are_not(self, text: str, share: float) -> None:
-        assert not is_degenerate(text)
-        assert not is_degenerate(text[: 1 + int(share * len(text))])
-
-    @given(st.text(max_size=300), FRAGMENTS, st.integers(0, 30), st.integers(0, 8))
-    def test_a_fragment_over_and_over_is(self, before: str, fragment: str, more: int, left_out: int) -> None:
-        times = max(5, 1 + math.ceil(400 / len(fragment))) + more
-        assert is_degenerate(before + (fragment * times)[: -left_out or None])
-
-    @given(st.lists(st.integers(0, 2), min_size=60, max_size=90))
-    def test_a_mix_of_three_fragments_is(self, order: list[int]) -> None:
-        fragments = ["The cup is a cup. ", "It may be a bowl. ", "Wait, let me think. "]
-        assert is_degenerate("Let us see: " + "".join(fragments[i] for i in order))
-
-    def test_a_mix_of_words_is(self) -> None:
-        assert is_degenerate("The classes: " + "".join("Cup, Bowl, "[i % 7 // 3 * 5 :] for i in range(99)))
-
-    @pytest.mark.parametrize(
-        "text",
-        [
-            "",
-            " \n\t",
-            '{"1": ' + " " * 500,
-            "{" + "\n" * 400,
-            "so it is " + "a" * 400,
-            "x " + "".join(chr(97 + i * i % 23) for i in range(500)),
-            "reply: " + " ".join("qzrtlk" * i for i in range(2, 20)),
-            "\n".join("cup " * i for i in range(1, 20)) + "\ncup",
-        ],
-    )
-    def test_noise_is(self, text: str) -> None:
-        assert is_degenerate(text)
-
-    @pytest.mark.parametrize(
-        "text",
-        [
-            "{",
-            "Cup",
-            "It is a cup. " * 4,
-            "The box is 0.1 m wide. " * 2 + "It is made of clay, stands on a table and has a handle. " * 3,
-            "a bb ccc dddd eeeee ffffff ggggggg",
-            "so " * 500 + ROWS,
-        ],
-    )
-    def test_short_texts_and_those_that_went_on_are_not(self, text: str) -> None:
-        assert not is_degenerate(text)
-
-    def test_looking_is_quick(self) -> None:
-        text = json.dumps({str(i): {"class": "Cup"} for i in range(5000)})
-        start = perf_counter()
-        for _ in range(50):
-            is_degenerate(text)
-        assert (perf_counter() - start) / 50 < 0.005

@@ -1,4 +1,4 @@
-"""Estimates of tokens, by hand."""
+"""Token estimates against values calculated by hand."""
 
 import json
 import struct
@@ -10,15 +10,15 @@ from tests.grounding.records import make_class, make_tbox
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.llm.completion import Request, Usage
 from usd2kg.grounding.llm.estimates import estimate_input, estimate_usage
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_text import estimate_tokens
 from usd2kg.grounding.llm.prompts import build_requests
-from usd2kg.grounding.llm.text import estimate_tokens
 
 TBOX = make_tbox(make_class("Cup"), make_class("Plate"))
-"""The names have three and five letters: four on average."""
+"""Class names of three and five letters: four on average."""
 
 
-def test_an_answer_is_a_row_for_each_object():
+def test_estimates_one_row_per_object():
     views = [ObjectView(name="a"), ObjectView(name="b")]
     [batch] = build_requests(views, TBOX, PromptOptions(objects_per_prompt=2))
 
@@ -30,7 +30,7 @@ def test_an_answer_is_a_row_for_each_object():
     assert usage == Usage(sent, 0, 12, estimated_tokens=sent + 12)
 
 
-def test_reasoning_is_counted_where_it_is_asked_for():
+def test_includes_requested_reasoning():
     options = PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT, objects_per_prompt=2)
     [batch] = build_requests([ObjectView(name="a"), ObjectView(name="b")], TBOX, options)
 
@@ -38,7 +38,7 @@ def test_reasoning_is_counted_where_it_is_asked_for():
 
 
 @pytest.mark.parametrize(("width", "height", "tokens"), [(750, 1, 1), (1, 751, 2), (512, 512, 350), (0, 0, 0)])
-def test_an_image_is_counted_by_its_pixels(width: int, height: int, tokens: int):
+def test_estimates_images_by_their_pixels(width: int, height: int, tokens: int):
     png = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", width, height) + b"and so on"
     request = Request("1234", "5678", {})
 

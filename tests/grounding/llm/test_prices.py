@@ -1,4 +1,4 @@
-"""Prices by hand: tokens times dollars for a million of them. List prices are those of the installed genai-prices."""
+"""Prices against values calculated by hand from the list prices of the installed genai-prices."""
 
 import socket
 from decimal import Decimal
@@ -14,7 +14,7 @@ from usd2kg.grounding.llm.prices import find_tariff, parse_price
 @pytest.fixture(autouse=True)
 def no_network(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
-        raise AssertionError("prices are no reason to go to the network")
+        raise AssertionError("prices must not require the network")
 
     monkeypatch.setattr(socket.socket, "connect", refuse)
 
@@ -29,7 +29,7 @@ class TestListPrices:
             ("openai:openai/gpt-4o@https://openrouter.ai/api/v1", "2.50", "1.25", "10"),
         ],
     )
-    def test_input_cached_input_and_output_have_prices_of_their_own(
+    def test_input_cached_input_and_output_have_separate_prices(
         self, model: str, paid_in: str, cached: str, paid_out: str
     ):
         tariff = find_tariff(model)
@@ -41,20 +41,20 @@ class TestListPrices:
         expected = 600 * Decimal(paid_in) + 400 * Decimal(cached) + 50 * Decimal(paid_out)
         assert tariff(Usage(1000, 400, 50)) == expected / 1_000_000
 
-    def test_what_anthropic_writes_into_its_cache_costs_a_quarter_more(self):
+    def test_writing_to_the_cache_of_anthropic_costs_25_percent_more(self):
         tariff = find_tariff("anthropic:claude-haiku-4-5")
 
         assert tariff is not None
         assert tariff(Usage(1000, 0, 0, written_tokens=1000)) == Decimal("0.00125")
 
-    def test_long_prompts_are_priced_one_by_one(self):
-        """Gemini 2.5 Pro costs twice as much a token from 200,000 on."""
+    def test_the_price_per_token_depends_on_the_prompt_length(self):
+        """Gemini 2.5 Pro costs twice as much per token from 200,000 tokens on."""
         tariff = find_tariff("google:gemini-2.5-pro")
 
         assert tariff is not None
         assert tariff(Usage(300_000)) > 2 * tariff(Usage(150_000))
 
-    def test_more_from_the_cache_than_was_sent_counts_as_all_of_it(self):
+    def test_limits_cached_tokens_to_the_input_tokens(self):
         tariff = find_tariff("openai:gpt-4o")
 
         assert tariff is not None
@@ -70,10 +70,10 @@ class TestListPrices:
             "test:model",
         ],
     )
-    def test_servers_and_weights_of_ones_own_have_none(self, model: str):
+    def test_local_servers_and_weights_have_no_list_price(self, model: str):
         assert find_tariff(model) is None
 
-    def test_prices_are_those_of_the_library(self):
+    def test_equals_the_price_of_genai_prices(self):
         listed = genai_prices.calc_price(
             genai_prices.Usage(input_tokens=123, output_tokens=45), "gpt-4o", provider_id="openai"
         )
@@ -84,7 +84,7 @@ class TestListPrices:
 
 
 class TestStatedPrices:
-    def test_input_and_output_are_told_for_a_million_tokens(self):
+    def test_prices_are_per_million_tokens(self):
         tariff = parse_price("0.30/2.50")
 
         assert tariff(Usage(1_000_000, 400_000, 100_000)) == Decimal("0.55")
@@ -92,6 +92,6 @@ class TestStatedPrices:
         assert parse_price("0/0")(Usage(5, 0, 5)) == 0
 
     @pytest.mark.parametrize("text", ["", "1", "1/2/3", "a/b", "-1/2", "nan/1", "1/inf", "0,3/2,5"])
-    def test_other_texts_are_refused(self, text: str):
+    def test_rejects_malformed_prices(self, text: str):
         with pytest.raises(GroundingError, match="expected INPUT/OUTPUT in dollars per million tokens"):
             parse_price(text)

@@ -1,4 +1,4 @@
-"""Completions that come piece by piece, in the three wire formats: whole, looping, endless, broken and refused."""
+"""Streamed completions in the formats of the three providers: complete, degenerate, broken and rejected."""
 
 import itertools
 import logging
@@ -11,16 +11,15 @@ from dataclasses import replace
 import pytest
 
 from tests.grounding.llm import servers
+from tests.grounding.llm.connections import connect
 from tests.grounding.llm.servers import FakeServer, Reply, sse
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
-from usd2kg.grounding.llm.streaming import Watch
+from usd2kg.grounding.llm.streaming import StreamMonitor
 
-KEYS = {"OPENAI_API_KEY": "none", "GOOGLE_API_KEY": "none", "ANTHROPIC_API_KEY": "none"}
 SCHEMA = {"type": "object", "properties": {"class": {"type": "string"}}, "required": ["class"]}
-REQUEST = Request("the classes", "the objects", SCHEMA, most_tokens=4000)
-"""Estimated at (11 + 11) / 4, rounded up: 6 tokens."""
+REQUEST = Request("the classes", "the objects", SCHEMA, max_tokens=4000)
+"""Estimated at (11 + 11) / 4 tokens, rounded up to 6."""
 CUP = '{"class": "Cup"}'
 OPENAI, GOOGLE, ANTHROPIC = "openai:m", "google:gemini-2.5-flash", "anthropic:claude-haiku-4-5"
 REPLIES: dict[str, Callable[..., Reply]] = {
@@ -36,17 +35,13 @@ EVENTS: dict[str, Callable[..., Iterator[str]]] = {
 every_format = pytest.mark.parametrize("model", REPLIES)
 
 
-def connect(server: FakeServer, model: str, **options) -> HttpClient:
-    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 10, "retries": 0} | options))
-
-
 def complete(model: str, *replies: Reply, request: Request = REQUEST, **options) -> tuple[Completion, FakeServer]:
     with servers.serve(*replies) as server, connect(server, model, sleep=lambda _: None, **options) as client:
         return client.complete(request), server
 
 
 def fail(model: str, *replies: Reply, **options) -> tuple[str, int]:
-    """The error's text and the requests sent."""
+    """Return the error message and the number of requests."""
     with servers.serve(*replies) as server, connect(server, model, sleep=lambda _: None, **options) as client:
         with pytest.raises(GroundingError) as caught:
             client.complete(REQUEST)
@@ -58,12 +53,12 @@ def streaming(model: str, texts: Callable[[], Iterable[str]], pause_s: float = 0
 
 
 def la_la_la() -> Iterator[str]:
-    """Eight characters for ever."""
+    """Yield eight characters forever."""
     return itertools.repeat("la la la")
 
 
 def numbers() -> Iterator[str]:
-    """A text that neither ends nor loops."""
+    """Yield an endless text without repetition."""
     return (f"{number * 7919 % 10007} " for number in itertools.count())
 
 
@@ -74,9 +69,9 @@ def wait_until(is_met: Callable[[], bool]) -> bool:
     return is_met()
 
 
-class TestWhole:
+class TestCompleteStreams:
     @every_format
-    def test_pieces_come_together_with_thinking_and_usage(self, model: str):
+    def test_joins_text_thinking_and_usage(self, model: str):
         completion, server = complete(model, REPLIES[model](CUP, thinking="a handle"))
 
         output = 12 if model == GOOGLE else 7
@@ -84,34 +79,22 @@ class TestWhole:
         assert server.received[0].asks_for_stream
         assert server.events_sent > 4
 
-    def test_openai_is_asked_to_count(self):
-        _, server = complete(OPENAI, REPLIES[OPENAI](CUP))
-
-        assert server.received[0].body["stream_options"] == {"include_usage": True}
-
-    def test_the_limit_of_tokens_is_told(self):
+    def test_reports_a_reached_token_limit(self):
         for model, finish in ((OPENAI, "length"), (GOOGLE, "MAX_TOKENS"), (ANTHROPIC, "max_tokens")):
             completion, _ = complete(model, REPLIES[model]('{"cl', finish=finish))
             assert (completion.text, completion.finish) == ('{"cl', Finish.LENGTH)
 
-    def test_tokens_are_collected_from_the_pieces(self):
-        tokens = [('{"class": "', -0.1), ("Cup", -0.3), ('"}', -0.2)]
-
-        completion, _ = complete(OPENAI, servers.openai_reply(CUP, tokens=tokens))
-
-        assert completion.tokens == tuple(tokens)
-
-    def test_a_server_that_never_says_why_it_ended_is_believed_by_its_count(self):
+    def test_usage_marks_a_stream_without_finish_reason_as_complete(self):
         completion, _ = complete(OPENAI, streaming(OPENAI, lambda: [CUP], finish=None))
 
         assert (completion.text, completion.finish) == (CUP, Finish.STOP)
 
-    def test_a_server_that_does_not_count_gets_an_estimate(self):
+    def test_estimates_usage_that_the_server_does_not_report(self):
         completion, _ = complete(OPENAI, streaming(OPENAI, lambda: [CUP], usage=None))
 
         assert completion.usage == Usage(6, 0, 4, estimated_tokens=10)
 
-    def test_a_server_that_tells_the_tokens_has_them_counted(self):
+    def test_counts_returned_tokens_without_reported_usage(self):
         tokens = [('{"class": "', -0.1), ("Cup", -0.3), ('"}', -0.2)]
 
         completion, _ = complete(OPENAI, streaming(OPENAI, lambda: [CUP], usage=None, tokens=tokens))
@@ -119,13 +102,13 @@ class TestWhole:
         assert completion.usage == Usage(6, 0, 3, estimated_tokens=6)
 
     @every_format
-    def test_an_empty_answer_is_an_answer(self, model: str):
+    def test_accepts_an_empty_completion(self, model: str):
         completion, _ = complete(model, REPLIES[model](""))
 
         assert (completion.text, completion.finish) == ("", Finish.STOP)
 
     @every_format
-    def test_connections_are_kept(self, model: str):
+    def test_reuses_connections(self, model: str):
         with servers.serve(REPLIES[model](CUP)) as server, connect(server, model) as client:
             for _ in range(3):
                 client.complete(REQUEST)
@@ -134,9 +117,9 @@ class TestWhole:
             assert server.streams_cut_off == 0
 
 
-class TestCutOff:
+class TestCutoff:
     @every_format
-    def test_a_loop_is_cut_off_and_counted(self, model: str, caplog: pytest.LogCaptureFixture):
+    def test_cuts_off_a_loop_and_counts_its_tokens(self, model: str, caplog: pytest.LogCaptureFixture):
         with (
             servers.serve(streaming(model, la_la_la, pause_s=0.001)) as server,
             connect(server, model) as client,
@@ -145,7 +128,7 @@ class TestCutOff:
             assert wait_until(lambda: server.streams_cut_off == 1)
             sent = server.events_sent
 
-        # Looked at every 500 characters: 63 pieces of eight. Gemini counts pieces as it goes, four bytes elsewhere.
+        # Checked every 500 characters, after 63 pieces of eight. Gemini reports usage; for others it is estimated.
         assert completion.text == "la la la" * 63
         assert completion.finish is Finish.DEGENERATE
         expected = {
@@ -158,20 +141,20 @@ class TestCutOff:
         assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
 
     @every_format
-    def test_a_loop_in_the_thinking_is_cut_off(self, model: str):
+    def test_cuts_off_a_loop_in_the_thinking(self, model: str):
         completion, _ = complete(model, streaming(model, lambda: [CUP], thinking="hm, a cup. " * 400))
 
         assert (completion.text, completion.finish) == ("", Finish.DEGENERATE)
         assert completion.thinking == ("hm, a cup. " * 400)[:500]
 
     @pytest.mark.parametrize("unit", [" ", "\n", "x", '{"1": {"class": "Cup"}}, '])
-    def test_what_never_ends_is_cut_off(self, unit: str):
+    def test_cuts_off_endless_repetitions(self, unit: str):
         completion, _ = complete(OPENAI, streaming(OPENAI, lambda: itertools.repeat(unit * 4)))
 
         assert completion.finish is Finish.DEGENERATE
         assert len(completion.text) < 2000
 
-    def test_rows_for_many_objects_are_no_loop(self):
+    def test_does_not_cut_off_many_equal_rows(self):
         text = "{" + ", ".join(f'"{number}": {{"class": "Cup"}}' for number in range(1, 401)) + "}"
 
         completion, _ = complete(OPENAI, servers.openai_reply(text))
@@ -179,14 +162,14 @@ class TestCutOff:
         assert (completion.text, completion.finish) == (text, Finish.STOP)
 
     @every_format
-    def test_a_server_that_does_not_keep_to_the_limit_is_cut_off(self, model: str):
-        completion, _ = complete(model, streaming(model, numbers), request=replace(REQUEST, most_tokens=100))
+    def test_cuts_off_a_server_that_ignores_the_token_limit(self, model: str):
+        completion, _ = complete(model, streaming(model, numbers), request=replace(REQUEST, max_tokens=100))
 
         assert completion.finish is Finish.LENGTH
         assert 3200 < len(completion.text) < 3300
 
     @every_format
-    def test_the_client_goes_on_after_a_cut(self, model: str):
+    def test_stays_usable_after_a_cutoff(self, model: str):
         with (
             servers.serve(streaming(model, la_la_la), REPLIES[model](CUP)) as server,
             connect(server, model) as client,
@@ -195,32 +178,32 @@ class TestCutOff:
             assert client.complete(REQUEST).text == CUP
 
 
-class TestWatch:
-    def test_a_text_is_looked_at_when_there_is_enough_of_it(self):
-        watch = Watch(most_tokens=1000)
+class TestStreamMonitor:
+    def test_checks_a_text_at_intervals(self):
+        watch = StreamMonitor(max_tokens=1000)
 
         found = [watch.add("la la la ") for _ in range(60)]
 
         # 55 pieces of nine are 495 characters.
         assert found.index(Finish.DEGENERATE) == 55
 
-    def test_another_text_is_looked_at_by_itself(self):
-        watch = Watch(most_tokens=1000)
+    def test_checks_each_text_separately(self):
+        watch = StreamMonitor(max_tokens=1000)
 
         assert {watch.add("la la la ") for _ in range(50)} == {None}
         assert {watch.add("la la la ", is_first=number == 0) for number in range(50)} == {None}
 
     def test_all_texts_count_towards_the_limit(self):
-        watch = Watch(most_tokens=1)
+        watch = StreamMonitor(max_tokens=1)
 
         assert watch.add("x" * 20) is None
         assert watch.add("y" * 12, is_first=True) is None
         assert watch.add("z") is Finish.LENGTH
 
 
-class TestTime:
+class TestDuration:
     @every_format
-    def test_a_server_that_trickles_for_ever_is_bounded_in_all(self, model: str):
+    def test_limits_the_duration_of_a_slow_stream(self, model: str):
         start = time.monotonic()
 
         text, requests = fail(model, streaming(model, numbers, pause_s=0.02), timeout_s=0.4)
@@ -229,14 +212,14 @@ class TestTime:
         assert requests == 1
         assert "timed out after 0.4 seconds; expected a server that is up" in text
 
-    def test_a_huge_stream_is_read_in_little_time(self):
-        """Half a million characters without a loop."""
+    def test_reads_a_long_stream_in_linear_time(self):
+        """Half a million characters without repetition."""
         words = numbers()
         pieces = ["".join(itertools.islice(words, 100)) for _ in range(1000)]
         start = time.monotonic()
 
         completion, _ = complete(
-            OPENAI, streaming(OPENAI, lambda: pieces), request=replace(REQUEST, most_tokens=60_000), timeout_s=60
+            OPENAI, streaming(OPENAI, lambda: pieces), request=replace(REQUEST, max_tokens=60_000), timeout_s=60
         )
 
         assert completion.text == "".join(pieces)
@@ -244,35 +227,27 @@ class TestTime:
         assert time.monotonic() - start < 30
 
 
-class TestTrouble:
+class TestFailures:
     @every_format
     @pytest.mark.parametrize("after", [1, 3])
-    def test_a_stream_that_breaks_off_is_asked_for_again(self, model: str, after: int):
+    def test_retries_a_broken_stream(self, model: str, after: int):
         whole = REPLIES[model](CUP)
 
-        completion, server = complete(model, servers.broken_off(whole, after), whole, retries=1)
+        completion, server = complete(model, servers.broken_off(whole, after), whole, max_retries=1)
 
         assert completion.text == CUP
         assert len(server.received) == 2
 
     @every_format
-    def test_a_stream_that_ends_too_early_is_asked_for_again(self, model: str):
-        """As servers do that fall over behind a proxy: the body is whole, the answer is not."""
+    def test_retries_a_truncated_stream(self, model: str):
+        """The response is complete, but the completion is not, as with a proxy whose server has failed."""
         whole = REPLIES[model](CUP)
         early = replace(servers.broken_off(whole, 4), is_broken=False)
 
-        assert complete(model, early, whole, retries=1)[0].text == CUP
-        text, requests = fail(model, early, retries=1)
+        assert complete(model, early, whole, max_retries=1)[0].text == CUP
+        text, requests = fail(model, early, max_retries=1)
         assert requests == 2
-        assert "no readable answer after 2 tries: the stream broke off; expected a server that is up" in text
-
-    @every_format
-    def test_a_refusal_before_the_stream_is_waited_for(self, model: str):
-        waits: list[float] = []
-        replies = servers.refuse(429, "slow down", Retry_After="7"), REPLIES[model](CUP)
-        with servers.serve(*replies) as server, connect(server, model, retries=1, sleep=waits.append) as client:
-            assert client.complete(REQUEST).text == CUP
-        assert waits == [7.0]
+        assert "no readable answer after 2 attempts: the stream broke off; expected a server that is up" in text
 
     @pytest.mark.parametrize(
         ("model", "error", "status"),
@@ -288,16 +263,16 @@ class TestTrouble:
         ],
     )
     @pytest.mark.parametrize("before", [0, 3])
-    def test_an_error_inside_a_stream_is_tried_again(
+    def test_retries_a_transient_error_inside_a_stream(
         self, model: str, error: str, status: str, before: int, caplog: pytest.LogCaptureFixture
     ):
         whole = REPLIES[model](CUP)
         failing = replace(whole, events=lambda: [*itertools.islice(whole.events(), before), error])
 
-        assert complete(model, failing, whole, retries=1)[0].text == CUP
-        text, requests = fail(model, failing, retries=1)
+        assert complete(model, failing, whole, max_retries=1)[0].text == CUP
+        text, requests = fail(model, failing, max_retries=1)
         assert requests == 2
-        assert f"{status} after 2 tries: overloaded" in text
+        assert f"{status} after 2 attempts: overloaded" in text
         assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
 
     @pytest.mark.parametrize(
@@ -311,8 +286,8 @@ class TestTrouble:
             ),
         ],
     )
-    def test_an_error_that_stays_is_not_tried_again(self, model: str, error: str):
-        text, requests = fail(model, Reply(events=lambda: [error]), retries=3)
+    def test_does_not_retry_a_permanent_error_inside_a_stream(self, model: str, error: str):
+        text, requests = fail(model, Reply(events=lambda: [error]), max_retries=3)
 
         assert requests == 1
         assert "status 400: bad prompt" in text
@@ -328,11 +303,11 @@ class TestTrouble:
         ],
     )
     @pytest.mark.parametrize("before", [0, 2])
-    def test_nonsense_is_told_in_a_line(self, model: str, piece: str, before: int, caplog: pytest.LogCaptureFixture):
+    def test_reports_a_malformed_event(self, model: str, piece: str, before: int, caplog: pytest.LogCaptureFixture):
         whole = REPLIES[model](CUP)
         odd = Reply(events=lambda: [*itertools.islice(whole.events(), before), piece])
 
-        text, requests = fail(model, odd, retries=3)
+        text, requests = fail(model, odd, max_retries=3)
 
         assert requests == 1
         assert "expected an answer in the provider's format" in text
@@ -349,7 +324,7 @@ class TestTrouble:
             assert wait_until(lambda: server.streams_cut_off == 1)
 
 
-class TestRefusals:
+class TestRejections:
     @every_format
     @pytest.mark.parametrize(
         ("status", "message"),
@@ -360,7 +335,7 @@ class TestRefusals:
             (501, "Streaming is not implemented"),
         ],
     )
-    def test_a_refused_stream_is_asked_for_whole_from_then_on(self, model: str, status: int, message: str):
+    def test_stops_streaming_after_a_rejection(self, model: str, status: int, message: str):
         with (
             servers.serve(servers.refuse(status, message), REPLIES[model](CUP)) as server,
             connect(server, model) as client,
@@ -372,14 +347,14 @@ class TestRefusals:
         assert completions[0].usage.input_tokens == 100
 
     @every_format
-    def test_a_server_that_answers_whole_all_the_same_is_understood(self, model: str):
+    def test_accepts_a_response_that_is_not_streamed(self, model: str):
         whole = replace(REPLIES[model](CUP), events=None)
         with servers.serve(whole) as server, connect(server, model) as client:
             completions = [client.complete(REQUEST), client.complete(REQUEST)]
         assert [completion.text for completion in completions] == [CUP, CUP]
         assert completions[0].usage.input_tokens == 100
 
-    def test_several_refusals_are_learnt_one_after_another(self):
+    def test_drops_several_rejected_features(self):
         replies = [
             servers.refuse(400, "logprobs is not supported"),
             servers.refuse(422, "stream_options: extra fields not permitted"),
@@ -395,8 +370,8 @@ class TestRefusals:
         assert "logprobs" not in body
         assert body["response_format"]["type"] == "json_object"
 
-    def test_requests_on_their_way_together_all_get_over_a_refusal(self):
-        """Four are refused before the first of them can tell the others."""
+    def test_concurrent_requests_all_recover_from_a_rejection(self):
+        """Four requests are rejected before the client can drop the feature."""
         refusal = servers.refuse(400, "response_format json_schema is unknown")
         refusal = replace(refusal, together=threading.Barrier(4))
         with (
@@ -407,7 +382,7 @@ class TestRefusals:
             texts = list(pool.map(lambda _: client.complete(REQUEST).text, range(4)))
         assert texts == [CUP] * 4
 
-    def test_an_upstream_failure_is_no_refusal_to_stream(self):
+    def test_an_upstream_failure_does_not_disable_streaming(self):
         text, requests = fail(OPENAI, servers.refuse(500, "upstream connect error"))
 
         assert requests == 1

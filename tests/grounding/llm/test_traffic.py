@@ -1,4 +1,4 @@
-"""Requests keep to a rate over all threads, and everything that is sent or waited for is counted."""
+"""RateLimiter, and the counters of requests and waits."""
 
 import heapq
 import threading
@@ -10,15 +10,15 @@ from tests.grounding.llm import servers
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Request
-from usd2kg.grounding.llm.traffic import Pace, Traffic
+from usd2kg.grounding.llm.traffic import RateLimiter, Traffic
 
 REQUEST = Request("the classes", "the objects", {"type": "object", "properties": {}})
 
 
 class Clock:
-    """Seconds that pass only while somebody sleeps, for any number of threads.
+    """A clock that advances only while all threads sleep.
 
-    Time jumps to the next sleeper's end when all threads of the test sleep.
+    When all threads of the test sleep, time jumps to the end of the shortest sleep.
     """
 
     def __init__(self, threads: int = 1) -> None:
@@ -39,7 +39,7 @@ class Clock:
             self._changed.wait_for(lambda: self._now >= end)
 
     def leave(self) -> None:
-        """A thread is done."""
+        """End a thread."""
         with self._changed:
             self._threads -= 1
             self._advance()
@@ -52,49 +52,49 @@ class Clock:
             self._changed.notify_all()
 
 
-class TestPace:
-    def test_requests_are_spaced_evenly(self):
+class TestRateLimiter:
+    def test_spaces_requests_evenly(self):
         clock = Clock()
-        pace = Pace(30, clock.sleep, clock.now)
+        limiter = RateLimiter(30, clock.sleep, clock.now)
 
         times = []
         for _ in range(5):
-            pace.wait_for_turn()
+            limiter.wait_for_turn()
             times.append(clock.now())
 
         assert times == [0, 2, 4, 6, 8]
 
-    def test_time_that_passed_is_not_made_up_for(self):
+    def test_allows_no_burst_after_a_pause(self):
         clock = Clock()
-        pace = Pace(60, clock.sleep, clock.now)
+        limiter = RateLimiter(60, clock.sleep, clock.now)
 
-        pace.wait_for_turn()
+        limiter.wait_for_turn()
         clock.sleep(10)
         times = []
         for _ in range(3):
-            pace.wait_for_turn()
+            limiter.wait_for_turn()
             times.append(clock.now())
 
         assert times == [10, 11, 12]
 
-    def test_without_a_rate_nobody_waits(self):
+    def test_does_not_wait_without_a_rate(self):
         waits: list[float] = []
-        pace = Pace(None, waits.append, lambda: 0.0)
+        limiter = RateLimiter(None, waits.append, lambda: 0.0)
 
         for _ in range(100):
-            pace.wait_for_turn()
+            limiter.wait_for_turn()
 
         assert waits == []
 
-    def test_threads_share_the_rate(self):
-        """Eight threads send ten requests each, 60 a minute: the last of them in second 79."""
+    def test_limits_the_rate_over_all_threads(self):
+        """Eight threads send ten requests each at 60 per minute, the last one in second 79."""
         clock = Clock(threads=8)
-        pace = Pace(60, clock.sleep, clock.now)
+        limiter = RateLimiter(60, clock.sleep, clock.now)
         times: list[float] = []
 
         def send() -> None:
             for _ in range(10):
-                pace.wait_for_turn()
+                limiter.wait_for_turn()
                 times.append(clock.now())
             clock.leave()
 
@@ -110,7 +110,7 @@ class TestPace:
 
 
 class TestTraffic:
-    def test_sleeping_is_counted(self):
+    def test_counts_waits(self):
         traffic, slept = Traffic(), []
 
         sleep = traffic.counting(slept.append)
@@ -120,7 +120,7 @@ class TestTraffic:
         assert slept == [1.5, 0.25]
         assert traffic == Traffic(waits=2, waited_s=1.75)
 
-    def test_threads_count_together(self):
+    def test_is_thread_safe(self):
         traffic = Traffic()
 
         with ThreadPoolExecutor(8) as pool:
@@ -130,26 +130,26 @@ class TestTraffic:
 
 
 class TestClient:
-    def test_attempts_retries_and_waits_are_counted(self):
+    def test_counts_attempts_retries_and_waits(self):
         replies = servers.refuse(429, "slow", Retry_After="7"), servers.refuse(503, "oops"), servers.openai_reply("{}")
         with (
             servers.serve(*replies) as server,
             make_client(f"openai:m@{server.url}", environment={}, sleep=lambda _: None, random=lambda: 0.5) as client,
         ):
             client.complete(REQUEST)
-            # Seven seconds as asked; half of two for the second failure.
+            # Seven seconds as requested, then half of the two-second bound.
             assert client.traffic == Traffic(attempts=3, retries=2, waits=2, waited_s=8.0)
             client.complete(REQUEST)
             assert client.traffic == Traffic(attempts=4, retries=2, waits=2, waited_s=8.0)
 
-    def test_what_a_server_refuses_is_an_attempt_and_no_retry(self):
+    def test_counts_a_dropped_feature_as_an_attempt_but_not_a_retry(self):
         replies = servers.refuse(400, "logprobs is not supported"), servers.openai_reply("{}")
         with servers.serve(*replies) as server, make_client(f"openai:m@{server.url}", environment={}) as client:
             client.complete(REQUEST)
             assert client.traffic == Traffic(attempts=2)
 
-    def test_every_request_keeps_to_the_rate(self):
-        """A refused request and one sent again, too."""
+    def test_applies_the_rate_limit_to_every_attempt(self):
+        """This includes dropped features and retries."""
         clock = Clock()
         replies = (
             servers.refuse(400, "logprobs is not supported"),
@@ -168,16 +168,16 @@ class TestClient:
             ) as client,
         ):
             client.complete(REQUEST)
-            # Sent in seconds 0, 10 and, after a quarter of a second for the failure, 20.
+            # Sent in seconds 0, 10 and, including a backoff of 0.25 s, 20.
             assert clock.now() == 20
             assert client.traffic == Traffic(attempts=3, retries=1, waits=3, waited_s=20.0)
             client.complete(REQUEST)
             assert clock.now() == 30
 
-    def test_failures_are_counted_too(self):
+    def test_counts_failed_requests(self):
         with (
             servers.serve(servers.refuse(500, "oops")) as server,
-            make_client(f"openai:m@{server.url}", environment={}, retries=2, sleep=lambda _: None) as client,
+            make_client(f"openai:m@{server.url}", environment={}, max_retries=2, sleep=lambda _: None) as client,
         ):
             with pytest.raises(GroundingError):
                 client.complete(REQUEST)

@@ -11,7 +11,7 @@ from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.errors import GroundingError
 
 if TYPE_CHECKING:
-    from usd2kg.grounding.llm.settings import LLMSettings
+    from usd2kg.grounding.llm.factory import LLMSettings
 
 __all__ = ["MODEL_NAMES", "CompletionCacheFile", "ModelOptions"]
 
@@ -115,7 +115,7 @@ class ModelOptions(OptionBundle):
         Raises:
             GroundingError: the name has another form.
         """
-        from usd2kg.grounding.llm.settings import LLMSettings, parse_llm_name  # noqa: PLC0415 - heavy
+        from usd2kg.grounding.llm.factory import LLMSettings, parse_llm_name  # noqa: PLC0415 - heavy
 
         return LLMSettings(
             *parse_llm_name(grounder),

@@ -1,1 +1,1 @@
-"""The study's baselines: dictionary, sentence embedding, volume."""
+"""Baseline grounders of the study: dictionary, sentence embedding and volume."""

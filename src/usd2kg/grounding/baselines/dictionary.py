@@ -1,4 +1,4 @@
-"""The study's dictionary baseline: the prim's name, looked up letter by letter."""
+"""DictionaryGrounder: the dictionary baseline of the study, an exact lookup of the prim name."""
 
 import csv
 from collections.abc import Mapping, Sequence
@@ -14,13 +14,13 @@ __all__ = ["DictionaryGrounder"]
 
 
 class DictionaryGrounder:
-    """Looks the name up, exactly as written, in a table of (name, class)."""
+    """Looks up the exact prim name in a table of (name, class)."""
 
     name = "dictionary"
     is_calibrated = False
 
     def __init__(self, pairs: Mapping[str, str], source: str) -> None:
-        """Make the grounder from name → class (IRI, CURIE or local name); `source` says where they are from."""
+        """Create a grounder from name → class (IRI, CURIE or local name); `source` names the table in `settings`."""
         self._pairs = dict(pairs)
         self._source = source
 
@@ -29,7 +29,7 @@ class DictionaryGrounder:
         """Return a grounder over the columns `name` and `class` of a CSV file.
 
         Raises:
-            GroundingError: the file is missing or has not these columns.
+            GroundingError: the file is missing or lacks a column.
         """
         try:
             text = path.read_text("utf-8-sig")
@@ -41,13 +41,13 @@ class DictionaryGrounder:
 
     @classmethod
     def multiverse(cls) -> "DictionaryGrounder":
-        """Return a grounder over the pairs that Multiverse-Knowledge ships, the study's baseline."""
+        """Return a grounder over the dictionary of Multiverse-Knowledge, the baseline of the study."""
         text = read_text("multiverse_dictionary.csv")
         return cls(_read_pairs(text, "multiverse"), "multiverse")
 
     @property
     def settings(self) -> Mapping[str, str]:
-        """The settings that its answers depend on."""
+        """The settings that affect its predictions."""
         return {"dictionary": self._source}
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
@@ -55,15 +55,15 @@ class DictionaryGrounder:
         return [self._predict(path, view, tbox) for path, view in views]
 
     def _predict(self, path: str, view: ObjectView, tbox: TBox) -> Prediction:
-        named = self._pairs.get(view.name)
-        if named is None:
+        class_name = self._pairs.get(view.name)
+        if class_name is None:
             return Prediction(path, None, None, Status.REFUSED, self.name, f"“{view.name}” is not in the dictionary")
         try:
-            iri = tbox.resolve(named)
+            iri = tbox.resolve(class_name)
         except OntologyError:
-            text = f"the dictionary says {named}, which is no class of the TBox"
+            text = f"the dictionary says {class_name}, which is no class of the TBox"
             return Prediction(path, None, None, Status.UNREADABLE, self.name, text)
-        text = f"“{view.name}” is in the dictionary as {named}"
+        text = f"“{view.name}” is in the dictionary as {class_name}"
         return Prediction(path, iri, 1.0, Status.GROUNDED, self.name, text, ("name",), (Candidate(iri, 1.0),))
 
 

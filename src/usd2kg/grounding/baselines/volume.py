@@ -1,4 +1,4 @@
-"""The study's LV-NN baseline: the class whose common-sense box is nearest in log volume. Names are not looked at."""
+"""VolumeGrounder: the LV-NN baseline of the study, the nearest typical box by log volume. Names are ignored."""
 
 import csv
 import io
@@ -9,34 +9,34 @@ from pathlib import Path
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.model import Candidate, Prediction, Status
+from usd2kg.grounding.settings import BASELINES
 from usd2kg.knowledge import read_text
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.prefixes import expand_curie
 
-__all__ = ["SMALLEST_SIDE", "VolumeGrounder"]
+__all__ = ["VolumeGrounder"]
 
-SMALLEST_SIDE = 0.001
-"""Metres. A thinner side counts as this: a sheet has a box without volume, and zero has no logarithm."""
 _SIDES = ("width_m", "depth_m", "height_m")
 _COLUMNS = ("class", *_SIDES, "origin")
-_CANDIDATES = 8
 _UNITS = (("m³", 1.0), ("l", 1e-3), ("ml", 1e-6), ("mm³", 1e-9))
-"""Unit of volume → cubic metres, largest first."""
+"""Units for explanations with their size in cubic metres, largest first."""
+_UNIT_THRESHOLD = 0.1
+"""Smallest amount in a unit: 0.5 l rather than 500 ml."""
 
 
 class VolumeGrounder:
-    """Compares the volume of an object's box with one typical volume of each class."""
+    """Compares the volume of an object's box with a typical volume of each class."""
 
     name = "volume"
     is_calibrated = False
 
     def __init__(self, volumes: Mapping[str, float] | None = None, source: str = "written by hand") -> None:
-        """Make the grounder.
+        """Create a grounder.
 
         Args:
-            volumes: class (IRI, CURIE or local name) → typical volume of its box in cubic metres; by default what
-                we think typical of the classes of SOMA-HOME.
-            source: where `volumes` are from, for the record.
+            volumes: class (IRI, CURIE or local name) → typical volume of its box in cubic metres; by default the
+                built-in estimates for the classes of SOMA-HOME.
+            source: origin of `volumes`, for `settings` and error messages.
 
         Raises:
             GroundingError: a volume is not positive and finite.
@@ -44,9 +44,9 @@ class VolumeGrounder:
         if volumes is None:
             text = read_text("class_sizes.csv")
             volumes, source = _read_volumes(text, "class_sizes.csv"), "built-in"
-        for named, volume in volumes.items():
+        for class_name, volume in volumes.items():
             if not (math.isfinite(volume) and volume > 0):
-                raise GroundingError(f"{source}: {named} has the volume {volume}; expected cubic metres above 0")
+                raise GroundingError(f"{source}: {class_name} has the volume {volume}; expected cubic metres above 0")
         self._volumes = dict(volumes)
         self._source = source
 
@@ -55,7 +55,7 @@ class VolumeGrounder:
         """Return a grounder over the columns `class,width_m,depth_m,height_m,origin` of a CSV file.
 
         Raises:
-            GroundingError: the file is missing, has not these columns, or a row cannot be read.
+            GroundingError: the file is missing, lacks a column, or a row is invalid.
         """
         try:
             text = path.read_text("utf-8-sig")
@@ -67,8 +67,8 @@ class VolumeGrounder:
 
     @property
     def settings(self) -> Mapping[str, str]:
-        """The settings that its answers depend on."""
-        return {"class_sizes": self._source, "smallest_side_m": str(SMALLEST_SIDE)}
+        """The settings that affect its predictions."""
+        return {"class_sizes": self._source, "smallest_side_m": str(BASELINES.smallest_side_m)}
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view).
@@ -76,59 +76,60 @@ class VolumeGrounder:
         Raises:
             GroundingError: no class of the TBox has a typical volume, or one class has two.
         """
-        priors = self._priors_of(tbox)
-        return [self._predict(path, view, tbox, priors) for path, view in views]
+        typical = self._resolve_volumes(tbox)
+        return [self._predict(path, view, tbox, typical) for path, view in views]
 
-    def _priors_of(self, tbox: TBox) -> dict[ClassIRI, float]:
-        priors: dict[ClassIRI, float] = {}
-        for named, volume in self._volumes.items():
+    def _resolve_volumes(self, tbox: TBox) -> dict[ClassIRI, float]:
+        typical: dict[ClassIRI, float] = {}
+        for class_name, volume in self._volumes.items():
             try:
-                iri = tbox.resolve(named)
+                iri = tbox.resolve(class_name)
             except OntologyError:
-                continue  # sizes may be of more classes than one TBox has
-            if priors.setdefault(iri, volume) != volume:
+                continue  # The table may cover more classes than the TBox has.
+            if typical.setdefault(iri, volume) != volume:
                 raise GroundingError(
-                    f"{self._source}: {named} has the volumes {priors[iri]} and {volume}; expected one for each class"
+                    f"{self._source}: {class_name} has the volumes {typical[iri]} and {volume}; "
+                    "expected one for each class"
                 )
-        if not priors:
+        if not typical:
             raise GroundingError(
                 f"{self._source}: has a size for none of the {len(tbox.classes)} classes of {tbox.source}; "
                 f"give typical sizes of these classes in a CSV file with the columns {','.join(_COLUMNS)}"
             )
-        return priors
+        return typical
 
-    def _predict(self, path: str, view: ObjectView, tbox: TBox, priors: Mapping[ClassIRI, float]) -> Prediction:
+    def _predict(self, path: str, view: ObjectView, tbox: TBox, typical: Mapping[ClassIRI, float]) -> Prediction:
         volume = _box_volume(view)
         if volume is None:
             return Prediction(path, None, None, Status.REFUSED, self.name, "it has no box to measure")
         # The smaller over the larger volume is exp(-|ln v - ln v_c|): nearest in log volume, and 1 where both agree.
-        scored = (Candidate(iri, min(volume, prior) / max(volume, prior)) for iri, prior in priors.items())
-        candidates = tuple(sorted(scored, key=lambda c: (-c.score, c.class_iri))[:_CANDIDATES])
+        scored = (Candidate(iri, min(volume, prior) / max(volume, prior)) for iri, prior in typical.items())
+        candidates = tuple(sorted(scored, key=lambda c: (-c.score, c.class_iri))[: BASELINES.max_candidates])
         best = candidates[0]
         text = (
-            f"its box holds {_in_words(volume)}, nearest is {tbox.by_iri[best.class_iri].readable_name} "
-            f"with {_in_words(priors[best.class_iri])}"
+            f"its box holds {_format_volume(volume)}, nearest is {tbox.by_iri[best.class_iri].readable_name} "
+            f"with {_format_volume(typical[best.class_iri])}"
         )
         return Prediction(path, best.class_iri, best.score, Status.GROUNDED, self.name, text, ("geometry",), candidates)
 
 
 def _box_volume(view: ObjectView) -> float | None:
-    """Return the volume of an object's box in cubic metres, None without a box of finite size."""
+    """Return the volume of an object's box in cubic metres; None if there is no box or it is not finite."""
     if view.size is None:
         return None
-    volume = math.prod(max(side, SMALLEST_SIDE) for side in view.size)
+    volume = math.prod(max(side, BASELINES.smallest_side_m) for side in view.size)
     return volume if math.isfinite(volume) else None
 
 
-def _in_words(volume: float) -> str:
-    # From 0.1 of a unit on: people say 0.5 l, not 500 ml.
-    unit, factor = next(((unit, factor) for unit, factor in _UNITS if volume >= 0.1 * factor), _UNITS[-1])
+def _format_volume(volume: float) -> str:
+    """Return a volume in cubic metres with a readable unit."""
+    unit, factor = next(((unit, factor) for unit, factor in _UNITS if volume >= _UNIT_THRESHOLD * factor), _UNITS[-1])
     amount = volume / factor
     return f"{amount:.2f} {unit}" if amount < 10 else f"{amount:.0f} {unit}"
 
 
 def _read_volumes(text: str, source: str) -> dict[str, float]:
-    # As a stream, so that a quoted line break stays inside its cell.
+    # From a stream: splitting into lines would break cells with line breaks.
     rows = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     volumes: dict[str, float] = {}
     lines: dict[ClassIRI, int] = {}
@@ -143,13 +144,13 @@ def _read_volumes(text: str, source: str) -> dict[str, float]:
             where = f"{source}: line {rows.line_num}"
             if len(row) > len(rows.fieldnames or ()):
                 raise GroundingError(f"{where} has more cells than line 1; expected metres as in 0.08, with a point")
-            named = (row["class"] or "").strip()
-            if not named:
+            class_name = (row["class"] or "").strip()
+            if not class_name:
                 raise GroundingError(f"{where} names no class; expected an IRI, a CURIE or a local name")
-            earlier = lines.setdefault(expand_curie(named), rows.line_num)
+            earlier = lines.setdefault(expand_curie(class_name), rows.line_num)
             if earlier != rows.line_num:
-                raise GroundingError(f"{where}: {named} is already in line {earlier}; expected each class once")
-            volumes[named] = math.prod(_read_side(row, side, where) for side in _SIDES)
+                raise GroundingError(f"{where}: {class_name} is already in line {earlier}; expected each class once")
+            volumes[class_name] = math.prod(_read_side(row, side, where) for side in _SIDES)
     except csv.Error as error:
         raise GroundingError(f"{source}: line {rows.reader.line_num}: {error}; expected a CSV file") from error
     return volumes

@@ -1,1 +1,1 @@
-"""Grounding by large language models: prompts, clients, the cache of completions, the grounder."""
+"""Grounding with large language models: prompts, clients, the completion cache, and the grounder."""

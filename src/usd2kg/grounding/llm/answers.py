@@ -1,82 +1,68 @@
-"""From a model's text to classes: strict about what is a class, tolerant of how it is written."""
+"""parse_answers: completion → one answer per object. Lenient about the form of the JSON, strict about the class."""
 
 import json
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 from usd2kg.errors import OntologyError
+from usd2kg.grounding.llm.answer_rows import AnswerRow, read_answer_rows
 from usd2kg.grounding.llm.completion import Request
+from usd2kg.grounding.llm.limits import LIMITS
+from usd2kg.grounding.llm.prompt_text import fill_template, quote
 from usd2kg.grounding.llm.prompts import Batch
-from usd2kg.grounding.llm.rows import Row, read_rows
-from usd2kg.grounding.llm.text import fill_template, quote
-from usd2kg.grounding.llm.token_sums import TokenSums
+from usd2kg.grounding.llm.token_logprobs import TokenLogprobs
 from usd2kg.grounding.model import Status
 from usd2kg.ontology import ClassIRI, TBox, compact_iri
 
-__all__ = ["Answer", "is_degenerate", "parse_answers", "repair_request"]
+__all__ = ["Answer", "parse_answers", "repair_request"]
 
 _REFUSALS = frozenset({"none", "null", "unknown", "n/a"})
-_MOST_QUOTED = 400
-_SHORTEST_LOOP = 400
-"""Characters at the end that must be of a loop."""
-_TURNS = 4
-"""Times that a fragment stands in a loop at least."""
-_PERIOD_SCALES = (100, 400, 1600)
-_MOST_FRAGMENTS = 3
-_FRAGMENT_ENDS = (r"[\n.!?]+", r"[\n,;]+")
-"""Ends of sentences, and of items."""
-_GROWING = 12
-_WINDOW = 8000
+"""Class names that count as a refusal unless a class is called so."""
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What a model said of one object."""
+    """The model's answer for one object."""
 
     class_iri: ClassIRI | None
     """None unless the status is grounded."""
     status: Status
     """Grounded, refused or unreadable."""
     reasoning: str = ""
-    """What it wrote before the class, empty if nothing."""
+    """Text that the model wrote before the class; empty if none."""
     problem: str = ""
-    """One sentence on what is wrong; empty where nothing is. Texts of the model are quoted in it."""
+    """What is wrong, in one sentence with quotes from the completion; empty if nothing is."""
     logprob: float | None = None
-    """Natural logarithm of the probability that the model gave to the name of its class, letter by letter.
+    """Natural log-probability of the class name.
 
-    That is the sum over the tokens that spell the class in the JSON text, without its quotes: how it is quoted and what
-    follows are choices of form. Tokens that reach over its ends count whole. None where the server tells no token
-    probabilities, they do not join up to the text, or the row has no class.
+    The sum over the tokens that spell the class in the JSON text, without its quotes, since quotation is a matter of
+    format. Tokens that cross its boundaries count in full. None if the server returns no token probabilities, the
+    tokens do not spell the text, or the row has no class.
     """
 
 
 def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[str, float]] = ()) -> list[Answer]:
     """Return one answer for each object of the batch, in order.
 
-    Read are a JSON object, alone, fenced or after prose, and the whole rows of one that breaks off. Of several JSON
-    objects the last of those with most rows counts.
-
     Args:
-        text: what the model said.
-        batch: what it was asked.
+        text: the completion, read by `read_answer_rows`.
+        batch: the request and its objects.
         tbox: the classes.
-        tokens: text and natural logarithm of the probability of each token of the text; empty where nobody told.
+        tokens: text and natural log-probability of each token of the completion; empty if unknown.
     """
-    rows, sums = read_rows(text, batch.numbers), TokenSums(text, tokens)
+    rows, logprobs = read_answer_rows(text, batch.numbers), TokenLogprobs(text, tokens)
     if not rows and not text.strip():
         problem = "the answer was empty"
     else:
         problem = "the answer has no row for it" if rows else "the answer has no readable JSON object"
     missing = Answer(None, Status.UNREADABLE, problem=problem)
-    return [_read_row(rows[number], batch, tbox, sums) if number in rows else missing for number in batch.numbers]
+    return [_read_row(rows[number], batch, tbox, logprobs) if number in rows else missing for number in batch.numbers]
 
 
-def _read_row(row: Row, batch: Batch, tbox: TBox, sums: TokenSums) -> Answer:
+def _read_row(row: AnswerRow, batch: Batch, tbox: TBox, logprobs: TokenLogprobs) -> Answer:
     answer = _read_value(row.value, batch, tbox)
-    return replace(answer, logprob=sums.logprob(row.class_span)) if row.class_span is not None else answer
+    return replace(answer, logprob=logprobs.sum_over(row.class_span)) if row.class_span is not None else answer
 
 
 def _read_value(row: Any, batch: Batch, tbox: TBox) -> Answer:
@@ -97,15 +83,15 @@ def _read_value(row: Any, batch: Batch, tbox: TBox) -> Answer:
 
 
 def _resolve(name: str, batch: Batch, tbox: TBox) -> tuple[ClassIRI | None, str]:
-    """Return the class that goes by a name, else None and why."""
+    """Return the offered class called `name`, else None and the reason."""
     if name in batch.classes:
         return batch.classes[name], ""
     for is_exact in (True, False):
-        meant = _meant(name, batch, tbox, is_exact=is_exact)
-        if len(meant) > 1:
-            return None, f"{quote(name)} may mean {' or '.join(meant)}"
-        if meant:
-            return batch.classes[meant[0]], ""
+        matches = _match_offered(name, batch, tbox, is_exact=is_exact)
+        if len(matches) > 1:
+            return None, f"{quote(name)} may mean {' or '.join(matches)}"
+        if matches:
+            return batch.classes[matches[0]], ""
     try:
         iri = tbox.resolve(name)
     except OntologyError:
@@ -115,79 +101,31 @@ def _resolve(name: str, batch: Batch, tbox: TBox) -> tuple[ClassIRI | None, str]
     return None, f"{quote(name)} is a class, but not one of the list"
 
 
-def _meant(name: str, batch: Batch, tbox: TBox, *, is_exact: bool) -> list[str]:
-    """Return the names, in the prompt, of the offered classes that someone may call so."""
+def _match_offered(name: str, batch: Batch, tbox: TBox, *, is_exact: bool) -> list[str]:
+    """Return the prompt names of the offered classes whose name, label or IRI is `name`."""
     fold = str if is_exact else str.casefold
     wanted = fold(name.removeprefix("<").removesuffix(">"))
-    found = []
+    matches = []
     for offered, iri in batch.classes.items():
         cls = tbox.by_iri[iri]
         if any(fold(known) == wanted for known in (offered, cls.local_name, cls.label, iri, compact_iri(iri))):
-            found.append(offered)
-    return found
+            matches.append(offered)
+    return matches
 
 
 def repair_request(batch: Batch, text: str, answers: Sequence[Answer]) -> Request:
-    """Return the request that asks about the same objects once more and tells what was wrong with the answer.
+    """Return a request that repeats the question and lists what was wrong with the first completion.
 
     Args:
-        batch: what was asked.
-        text: what the model said; its beginning is quoted.
-        answers: what was read from it.
+        batch: the request to repeat.
+        text: the first completion; its beginning is quoted.
+        answers: the answers parsed from it.
     """
     problems = [
         f"object {number}: {answer.problem}"
         for number, answer in zip(batch.numbers, answers, strict=True)
         if answer.problem
     ]
-    told = fill_template("repair", text=quote(text.strip(), _MOST_QUOTED), problems="\n".join(problems))
-    return replace(batch.request, user=batch.request.user + "\n" + told)
-
-
-def is_degenerate(text: str) -> bool:
-    """Return whether a text, maybe not at its end yet, is empty or ends in a loop or in ever longer fragments.
-
-    A loop is one fragment, or a mix of up to three, over 400 characters or more and four times each or more. Rows
-    for many objects are none, as each has another number. A text that is still to start is empty, too.
-    """
-    tail = text[-_WINDOW:]
-    if not text.strip() or _has_period(tail) or _is_growing(tail):
-        return True
-    return any(_has_few_fragments(re.split(ends, tail)) for ends in _FRAGMENT_ENDS)
-
-
-def _has_period(tail: str) -> bool:
-    for scale in _PERIOD_SCALES:
-        # The nearest earlier place of the last characters is one period away, for periods up to their length.
-        period = len(tail) - scale - tail.rfind(tail[-scale:], 0, len(tail) - 1)
-        looped = max(_SHORTEST_LOOP, _TURNS * period)
-        if 0 < period <= scale and len(tail) >= looped and tail[-looped:-period] == tail[period - looped :]:
-            return True
-    return False
-
-
-def _has_few_fragments(pieces: list[str]) -> bool:
-    """Return whether the last whole pieces are a few, over and over, in whatever order."""
-    fragments: set[str] = set()
-    length = count = 0
-    # The first and the last may be cut.
-    for piece in reversed(pieces[1:-1]):
-        fragments.add(piece)
-        if len(fragments) > _MOST_FRAGMENTS:
-            return False
-        length, count = length + len(piece) + 1, count + 1
-        if length >= _SHORTEST_LOOP and count >= _TURNS * len(fragments):
-            return True
-    return False
-
-
-def _is_growing(tail: str) -> bool:
-    """Return whether it ends in words or lines each longer than the one before, or in a word without an end."""
-    if len(tail) >= _SHORTEST_LOOP and re.fullmatch(r"\w+", tail[-_SHORTEST_LOOP:]):
-        return True
-    # The last may be cut.
-    words = re.split(r"[\s,;]+", tail)[-_GROWING - 1 : -1]
-    if len(words) == _GROWING and all(len(one) < len(other) for one, other in pairwise(words)):
-        return True
-    lines = tail.split("\n")[-_GROWING - 1 : -1]
-    return len(lines) == _GROWING and all(other.startswith(one) and one != other for one, other in pairwise(lines))
+    quoted = quote(text.strip(), LIMITS.max_quoted_answer_characters)
+    repair = fill_template("repair", text=quoted, problems="\n".join(problems))
+    return replace(batch.request, user=batch.request.user + "\n" + repair)

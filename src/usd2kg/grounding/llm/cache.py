@@ -1,13 +1,13 @@
-"""Completions kept on disk, so that no prompt is paid for twice and a run can be replayed without keys.
+"""CompletionCache: completions on disk, so that no prompt is paid for twice and runs can be replayed without keys.
 
-The cache is one SQLite file in WAL mode, with `-wal` and `-shm` beside it while it is in use (move them with it).
-A completion is committed before `put` returns: it outlives the process, even one that is killed.
-WAL needs a local disk: where the home folder is a network drive, set USD2KG_CACHE to a file on a local one.
+The cache is a SQLite file in WAL mode. While it is open, `-wal` and `-shm` files lie beside it; move them with it.
+A completion is committed before `put` returns, so it survives if the process is killed. WAL requires a local disk: if
+the home folder is on a network drive, set USD2KG_CACHE to a local file.
 
-Instructions with the TBox, and schemas, are shared by the requests of a run; the cache holds each once.
+System prompts and schemas are shared by the requests of a run and stored once.
 
-A file of format 1 is brought to format 2 when it is opened: all completions stay, without the mean log-probability that
-stood in place of the tokens'. Versions of usd2kg that only know format 1 refuse the file from then on.
+Opening a file of format 1 upgrades it to format 2. Completions are kept without the mean log-probability that format 1
+stored instead of token log-probabilities. Versions of usd2kg that know only format 1 then reject the file.
 """
 
 import json
@@ -25,11 +25,12 @@ from typing import Self
 from usd2kg.errors import GroundingError, OutputError
 from usd2kg.files import write_whole
 from usd2kg.grounding.llm.completion import Completion, Request
+from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.recordings import format_line, read_line
-from usd2kg.grounding.llm.records import (
+from usd2kg.grounding.llm.serialization import (
     UNREADABLE,
-    Row,
-    make_row,
+    CacheEntry,
+    make_entry,
     read_completion,
     request_fields,
     request_key,
@@ -41,7 +42,6 @@ __all__ = ["CompletionCache", "default_cache_path"]
 
 _APPLICATION_ID = int.from_bytes(b"u2kg")
 _FILE_VERSION = 2
-_BUSY_SECONDS = 60.0
 _SCHEMA = (
     "CREATE TABLE IF NOT EXISTS shared (digest TEXT PRIMARY KEY, text TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS completions (key TEXT PRIMARY KEY, system TEXT NOT NULL REFERENCES shared,"
@@ -58,14 +58,13 @@ _creating = Lock()
 
 
 def default_cache_path() -> Path:
-    """Return where completions are kept unless the user says otherwise.
+    """Return the default path of the cache: `$USD2KG_CACHE`, else a file in the user's cache folder.
 
-    That is `$USD2KG_CACHE` where it is set, else `usd2kg/completions.sqlite` in the user's cache folder:
-    `%LOCALAPPDATA%` on Windows, elsewhere `$XDG_CACHE_HOME` or `~/.cache` (XDG Base Directory Specification 0.8,
-    by which a relative `$XDG_CACHE_HOME` counts for nothing).
+    The file is `usd2kg/completions.sqlite` in `%LOCALAPPDATA%` on Windows, elsewhere in `$XDG_CACHE_HOME` or
+    `~/.cache` (XDG Base Directory Specification 0.8, which ignores a relative `$XDG_CACHE_HOME`).
 
     Raises:
-        GroundingError: the user has no home folder.
+        GroundingError: the home folder cannot be determined.
     """
     if chosen := os.environ.get("USD2KG_CACHE"):
         return Path(chosen)
@@ -84,28 +83,28 @@ def default_cache_path() -> Path:
 class CompletionCache:
     """The completions of all runs, by `request_key`.
 
-    Threads may share one; processes open one each on the same path. All methods raise GroundingError where the file
-    is damaged, foreign, or held by another program for longer than a minute.
+    Threads can share an instance; each process opens its own on the same path. All methods raise GroundingError if the
+    file is damaged, belongs to another program, or stays locked for `LIMITS.cache_busy_s`.
     """
 
     path: Path
-    """The file, with links resolved."""
+    """The file, with symbolic links resolved."""
 
     def __init__(self, path: Path) -> None:
-        """Open the cache, with its folders where they are missing, readable by the user alone."""
+        """Open or create the cache, readable only by the user, and its parent folders."""
         self.path = path.resolve()
         self._lock = RLock()
         _create_file(self.path)
         with self._translated(), ExitStack() as unless_ready:
             self._connection = sqlite3.connect(
-                self.path, timeout=_BUSY_SECONDS, isolation_level=None, check_same_thread=False
+                self.path, timeout=LIMITS.cache_busy_s, isolation_level=None, check_same_thread=False
             )
             unless_ready.callback(self._connection.close)
             self._prepare()
             unless_ready.pop_all()
 
     def get(self, model: str, request: Request) -> Completion | None:
-        """Return what the model said to this request, None where it was never asked."""
+        """Return the cached completion of a request; None if there is none."""
         key = request_key(model, request)
         with self._lock, self._translated():
             row = self._connection.execute("SELECT completion FROM completions WHERE key = ?", (key,)).fetchone()
@@ -117,19 +116,19 @@ class CompletionCache:
             raise GroundingError(f"{self.path}: completion {key} is damaged ({error}); {_remedy()}") from error
 
     def put(self, model: str, request: Request, completion: Completion, *, replace: bool = False) -> None:
-        """Keep a completion, degenerate and cut-off ones too: they were paid for.
+        """Store a completion, degenerate and truncated ones included: they were paid for.
 
-        A completion that is there already stays, unless `replace`. Two halves of a surrogate pair come back as the
-        character that they make; all other text comes back as it is.
+        An existing completion is kept unless `replace`. Text is preserved, except that two halves of a surrogate pair
+        become the character they encode.
         """
-        row = make_row(model, request_fields(request), completion)
+        row = make_entry(model, request_fields(request), completion)
         with self._transaction("BEGIN IMMEDIATE"):
             self._insert(row, replace=replace)
 
     def export_recording(self, path: Path) -> int:
-        """Write all completions with their requests as JSON Lines in UTF-8, sorted by key, and return how many.
+        """Write all completions with their requests as JSON Lines in UTF-8, sorted by key, and return their number.
 
-        Two caches with the same content give the same bytes.
+        Caches with equal content produce equal bytes.
 
         Raises:
             OutputError: the file cannot be written.
@@ -142,10 +141,10 @@ class CompletionCache:
         return len(lines)
 
     def import_recording(self, path: Path) -> int:
-        """Add the completions of a recording, and return how many were new; those that are there already stay.
+        """Add the completions of a recording that are not in the cache, and return their number.
 
         Raises:
-            GroundingError: the file or one of its lines cannot be read; then nothing is added.
+            GroundingError: the file or one of its lines cannot be read; nothing is added.
         """
         try:
             with path.open("rb") as file, self._transaction("BEGIN IMMEDIATE"):
@@ -159,7 +158,7 @@ class CompletionCache:
             ) from error
 
     def close(self) -> None:
-        """Close the file; the cache can no longer be used."""
+        """Close the file."""
         with self._lock:
             self._connection.close()
 
@@ -187,7 +186,7 @@ class CompletionCache:
         if not is_new and version not in (1, _FILE_VERSION):
             raise GroundingError(f"{self.path}: has format {version}, expected {_FILE_VERSION}; {_remedy()}")
         self._switch_to_wal()
-        # A killed process loses nothing by this; a power cut may lose the last completions, never the file.
+        # Safe if the process is killed. A power failure may lose the last completions but does not damage the file.
         self._connection.execute("PRAGMA synchronous = NORMAL")
         if is_new:
             with self._transaction("BEGIN IMMEDIATE"):
@@ -197,15 +196,15 @@ class CompletionCache:
             self._upgrade()
 
     def _upgrade(self) -> None:
-        self._connection.create_function("upgraded", 1, _upgraded, deterministic=True)
+        self._connection.create_function("upgraded", 1, _upgrade_text, deterministic=True)
         with self._transaction("BEGIN IMMEDIATE"):
-            # Another process may have been first; what it has brought up to date comes through unchanged.
+            # Another process may have upgraded the file meanwhile; the function leaves upgraded completions unchanged.
             self._connection.execute("UPDATE completions SET completion = upgraded(completion)")
             self._connection.execute(f"PRAGMA user_version = {_FILE_VERSION}")
 
     def _switch_to_wal(self) -> None:
-        # SQLite does not wait here where several processes open a new file at once: it gives up at once.
-        deadline = time.monotonic() + _BUSY_SECONDS
+        # When several processes open a new file, this statement fails without waiting for the busy timeout.
+        deadline = time.monotonic() + LIMITS.cache_busy_s
         while True:
             try:
                 self._connection.execute("PRAGMA journal_mode = WAL")
@@ -213,12 +212,12 @@ class CompletionCache:
             except sqlite3.OperationalError as error:
                 if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or time.monotonic() > deadline:
                     raise
-                time.sleep(0.01)
+                time.sleep(LIMITS.cache_poll_s)
 
-    def _insert(self, row: Row, *, replace: bool = False) -> None:
-        how = "REPLACE" if replace else "IGNORE"
+    def _insert(self, row: CacheEntry, *, replace: bool = False) -> None:
+        conflict = "REPLACE" if replace else "IGNORE"
         self._connection.executemany("INSERT OR IGNORE INTO shared VALUES (?, ?)", row.shared)
-        self._connection.execute(f"INSERT OR {how} INTO completions VALUES (?, ?, ?, ?, ?)", row.values)
+        self._connection.execute(f"INSERT OR {conflict} INTO completions VALUES (?, ?, ?, ?, ?)", row.values)
 
     @contextmanager
     def _transaction(self, begin: str) -> Iterator[None]:
@@ -228,7 +227,7 @@ class CompletionCache:
                 yield
                 self._connection.execute("COMMIT")
             finally:
-                # Still open only where something went wrong.
+                # Still open only after an error.
                 if self._connection.in_transaction:
                     self._connection.execute("ROLLBACK")
 
@@ -240,15 +239,15 @@ class CompletionCache:
             raise
         except sqlite3.OperationalError as error:
             raise GroundingError(
-                f"{self.path}: the cache of completions cannot be used ({error}); end what else holds it, check its"
-                " permissions and the free space, or set USD2KG_CACHE to another file"
+                f"{self.path}: the cache of completions cannot be used ({error}); end other programs that use it, check"
+                " its permissions and the free space, or set USD2KG_CACHE to another file"
             ) from error
         except sqlite3.DatabaseError as error:
             raise GroundingError(f"{self.path}: is damaged or no cache ({error}); {_remedy()}") from error
 
 
 def _create_file(path: Path) -> None:
-    # Never opened where it exists: closing it would drop the locks that this process's other connections hold on it.
+    # `touch` must not open an existing file: closing it would release the POSIX locks of other connections.
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with _creating, suppress(FileExistsError):
@@ -259,11 +258,11 @@ def _create_file(path: Path) -> None:
         ) from error
 
 
-def _upgraded(text: str) -> str:
+def _upgrade_text(text: str) -> str:
     try:
         return to_json(upgrade_completion(json.loads(text)))
     except UNREADABLE:
-        # A damaged one is told of when it is asked for.
+        # `get` reports a damaged completion.
         return text
 
 

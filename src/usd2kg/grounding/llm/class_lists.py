@@ -1,4 +1,4 @@
-"""The classes in a prompt: what they go by there, and how they are listed."""
+"""The class list of a prompt: unique class names, as a flat list or a tree."""
 
 import random
 import re
@@ -7,28 +7,31 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from usd2kg.grounding.llm.options import PromptOptions
-from usd2kg.grounding.llm.text import MOST_CHARACTERS, fill_template, quote
+from usd2kg.grounding.llm.limits import LIMITS
+from usd2kg.grounding.llm.prompt_options import PromptOptions
+from usd2kg.grounding.llm.prompt_text import fill_template, quote
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri
 
-__all__ = ["Offer", "name_classes", "offer_classes"]
+__all__ = ["OfferedClasses", "list_classes", "name_classes"]
 
 
 @dataclass(frozen=True, slots=True)
-class Offer:
-    """The classes of a prompt: their block of text, and name → IRI."""
+class OfferedClasses:
+    """The classes that a prompt offers."""
 
     text: str
+    """Their block of the prompt."""
     classes: Mapping[str, ClassIRI]
+    """Name in the prompt → IRI."""
 
 
 def name_classes(tbox: TBox) -> dict[ClassIRI, str]:
-    """Return IRI → the name of the class in prompts, each of them different.
+    """Return IRI → unique name of the class in prompts.
 
-    That is the local name where no other class has it, else a CURIE with the known prefix or one made of the
-    namespace's last word, numbered if need be. Characters that could be read as markup become `_`.
+    The name is the local name if it is unique, else a CURIE whose prefix is the known one or the last word of the
+    namespace, numbered if necessary. Characters that could be read as markup become `_`.
     """
-    words = {cls.iri: re.sub(r"[^\w.\-]", "_", cls.local_name)[:MOST_CHARACTERS] for cls in tbox.classes}
+    words = {cls.iri: re.sub(r"[^\w.\-]", "_", cls.local_name)[: LIMITS.max_quoted_characters] for cls in tbox.classes}
     counts = Counter(words.values())
     names: dict[ClassIRI, str] = {}
     taken: set[str] = set()
@@ -50,21 +53,21 @@ def _prefix(iri: ClassIRI) -> str:
     return re.sub(r"\W", "_", re.sub(r"\.(owl|ttl|rdf)$", "", namespace)) or "ns"
 
 
-def offer_classes(
+def list_classes(
     tbox: TBox, names: Mapping[ClassIRI, str], offered: Mapping[ClassIRI, Any], options: PromptOptions
-) -> Offer:
-    """Return the block of text that lists the offered classes, as the options say."""
+) -> OfferedClasses:
+    """Return the offered classes as text, alphabetically or in the order and form of `options`."""
     order = sorted(offered, key=lambda iri: names[iri])
     if options.shuffle_seed is not None:
         random.Random(options.shuffle_seed).shuffle(order)
     parents = {iri: _parents(tbox, iri, offered) for iri in order}
     lines = _tree_lines if options.is_tree else _flat_lines
     text = fill_template("classes", classes="\n".join(lines(tbox, names, parents)))
-    return Offer(text, {names[iri]: iri for iri in order})
+    return OfferedClasses(text, {names[iri]: iri for iri in order})
 
 
 def _parents(tbox: TBox, iri: ClassIRI, offered: Mapping[ClassIRI, Any]) -> list[ClassIRI]:
-    """Return the nearest of the offered classes above one."""
+    """Return the most specific offered superclasses of a class."""
     direct = tbox.by_iri[iri].parents
     if all(parent in offered for parent in direct):
         return list(direct)
@@ -76,11 +79,11 @@ def _flat_lines(tbox: TBox, names: Mapping[ClassIRI, str], parents: Mapping[Clas
     for iri, above in parents.items():
         parent_names = ", ".join(sorted(names[parent] for parent in above))
         relation = f" (subClassOf: {parent_names})" if above else ""
-        yield _titled(names[iri], tbox.by_iri[iri]) + relation + _comment(tbox.by_iri[iri])
+        yield _name_and_label(names[iri], tbox.by_iri[iri]) + relation + _comment(tbox.by_iri[iri])
 
 
 def _tree_lines(tbox: TBox, names: Mapping[ClassIRI, str], parents: Mapping[ClassIRI, list[ClassIRI]]) -> Iterator[str]:
-    """Yield classes indented below their superclasses; what is below a repeated class is written once."""
+    """Yield the classes indented below their superclasses; the subclasses of a repeated class are listed once."""
     children: dict[ClassIRI, list[ClassIRI]] = {iri: [] for iri in parents}
     for iri, above in parents.items():
         for parent in above:
@@ -93,12 +96,12 @@ def _tree_lines(tbox: TBox, names: Mapping[ClassIRI, str], parents: Mapping[Clas
             yield "  " * depth + names[iri] + " (see above)"
             continue
         written.add(iri)
-        yield "  " * depth + _titled(names[iri], tbox.by_iri[iri]) + _comment(tbox.by_iri[iri])
+        yield "  " * depth + _name_and_label(names[iri], tbox.by_iri[iri]) + _comment(tbox.by_iri[iri])
         pending.extend((child, depth + 1) for child in reversed(children[iri]))
 
 
-def _titled(name: str, cls: OntologyClass) -> str:
-    """Return the name, with the label where it tells more: `OBO_0001 "coffee cup"`."""
+def _name_and_label(name: str, cls: OntologyClass) -> str:
+    """Return the name, followed by the label if that differs: `OBO_0001 "coffee cup"`."""
     same = re.sub(r"[\W_]", "", cls.label).casefold() == re.sub(r"[\W_]", "", cls.local_name).casefold()
     return name if same or not cls.label else f"{name} {quote(cls.label)}"
 

@@ -1,7 +1,6 @@
-"""Language models behind HTTP: Gemini, Anthropic, OpenAI and every server that speaks OpenAI's chat completions.
+"""HttpClient: language models of Google, Anthropic, OpenAI, and servers compatible with OpenAI's chat completions.
 
-A model is named `google:NAME`, `anthropic:NAME` or `openai:NAME`, each with `@URL` behind it for another address.
-Keys come from the environment, never from the name.
+Model strings are described in `model_reference`. API keys come from the environment only.
 """
 
 import asyncio
@@ -15,22 +14,23 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.abilities import Abilities
-from usd2kg.grounding.llm.addresses import KEY_VARIABLES, Address, find_key, parse_address
-from usd2kg.grounding.llm.background import Background
-from usd2kg.grounding.llm.completion import Completion, Request
-from usd2kg.grounding.llm.providers import closing_responses, open_http, serve_model
-from usd2kg.grounding.llm.retry import Failure, Redactor, Retries, advise, read_failure
-from usd2kg.grounding.llm.streaming import ask_for_stream
-from usd2kg.grounding.llm.traffic import Pace, Traffic
-from usd2kg.grounding.llm.wire import (
-    is_sampled,
+from usd2kg.grounding.llm.adapter import (
+    accepts_temperature,
+    convert_response,
+    json_object_format,
     make_message,
     make_parameters,
     make_settings,
-    older_format,
-    read_completion,
 )
+from usd2kg.grounding.llm.capabilities import Capabilities
+from usd2kg.grounding.llm.completion import Completion, Request
+from usd2kg.grounding.llm.event_loop import EventLoopThread
+from usd2kg.grounding.llm.limits import LIMITS
+from usd2kg.grounding.llm.model_reference import KEY_VARIABLES, ModelReference, find_key, parse_model_reference
+from usd2kg.grounding.llm.providers import closing_responses, make_provider_model, open_http
+from usd2kg.grounding.llm.retry import Failure, Redactor, RetryPolicy, advise, convert_error
+from usd2kg.grounding.llm.streaming import request_stream
+from usd2kg.grounding.llm.traffic import RateLimiter, Traffic
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient
@@ -43,34 +43,34 @@ def make_client(
     model: str,
     *,
     environment: Mapping[str, str] = os.environ,
-    timeout_s: float = 120,
-    retries: int = 4,
+    timeout_s: float = LIMITS.request_timeout_s,
+    max_retries: int = LIMITS.max_retries,
     sleep: Callable[[float], object] = time.sleep,
     random: Callable[[], float] = random_numbers.random,
     requests_per_minute: float | None = None,
     clock: Callable[[], float] = time.monotonic,
 ) -> "HttpClient":
-    """Return a client for the model; nothing is sent yet.
+    """Return a client for the model, without sending a request.
 
     Args:
-        model: `google:NAME`, `anthropic:NAME` or `openai:NAME`, or one of them with `@URL` for another server.
-        environment: where the keys are.
-        timeout_s: seconds that one request may take in all, from the first byte to the last of its stream.
-        retries: how often a request is sent again after 408, 409, 429, 5xx, a timeout or a broken connection.
-        sleep: waits so many seconds between two requests.
-        random: a number from 0 to 1, for the jitter.
-        requests_per_minute: how many requests may be sent, those sent again among them; None for any number.
-        clock: seconds since whenever, for the rate.
+        model: the model string.
+        environment: the environment variables with the API keys.
+        timeout_s: duration of one request, from connecting to the last byte of its stream.
+        max_retries: attempts after the first, for the status 408, 409, 429 or 5xx, a timeout or a broken connection.
+        sleep: waits for a number of seconds.
+        random: returns a number from 0 to 1, for the jitter.
+        requests_per_minute: rate limit, retries included; None for no limit.
+        clock: returns monotonic seconds, for the rate limit.
 
     Raises:
-        GroundingError: the model is malformed, its key is missing, or the extra `llm` is not installed.
+        GroundingError: the model string is malformed, the key is missing, or the extra `llm` is not installed.
     """
-    address = parse_address(model)
-    key = find_key(address, environment)
+    reference = parse_model_reference(model)
+    key = find_key(reference, environment)
     redact = Redactor([key, *(environment.get(name, "").strip() for names in KEY_VARIABLES.values() for name in names)])
     try:
-        http = open_http(address, timeout_s)
-        served = serve_model(address, key, http)
+        http = open_http(reference, timeout_s)
+        provider_model = make_provider_model(reference, key, http)
     except ImportError as error:
         missing = error.name or getattr(error.__cause__, "name", None) or "pydantic_ai"
         raise GroundingError(
@@ -79,40 +79,50 @@ def make_client(
         ) from error
     traffic = Traffic()
     wait = traffic.counting(sleep)
-    pace = Pace(requests_per_minute, wait, clock)
-    return HttpClient(address, served, http, redact, Retries(retries, wait, random), pace, traffic, timeout_s)
+    rate_limiter = RateLimiter(requests_per_minute, wait, clock)
+    return HttpClient(
+        reference,
+        provider_model,
+        http,
+        redact,
+        RetryPolicy(max_retries, wait, random),
+        rate_limiter,
+        traffic,
+        timeout_s,
+    )
 
 
 class HttpClient:
-    """One model behind HTTP, to be used from any number of threads.
+    """One model behind HTTP. Thread-safe.
 
-    Requests run on an event loop of its own, in a thread of its own, so that connections are kept from one to the
-    next, whether or not the caller has an event loop.
+    Requests run in an `EventLoopThread`, so connections are reused between calls.
     """
 
     def __init__(
         self,
-        address: Address,
-        served: "Model[Any]",
+        reference: ModelReference,
+        provider_model: "Model[Any]",
         http: "AsyncClient",
         redact: Redactor,
-        retries: Retries,
-        pace: Pace,
+        retries: RetryPolicy,
+        rate_limiter: RateLimiter,
         traffic: Traffic,
         timeout_s: float,
     ) -> None:
-        self.model = address.model
+        self.model = reference.model
         self.traffic = traffic
-        """What was sent so far."""
-        self._address = address
-        self._served = served
+        """Counters of the requests and waits."""
+        self._reference = reference
+        self._provider_model = provider_model
         self._redact = redact
         self._retries = retries
-        self._pace = pace
+        self._rate_limiter = rate_limiter
         self._timeout_s = timeout_s
-        self._abilities = Abilities(logprobs=address.provider == "openai", json_schemas=address.is_compatible)
-        self._background = Background()
-        self._close = weakref.finalize(self, self._background.stop, http.aclose)
+        self._capabilities = Capabilities(
+            logprobs=reference.provider == "openai", json_schemas=reference.is_openai_compatible
+        )
+        self._event_loop = EventLoopThread()
+        self._close = weakref.finalize(self, self._event_loop.stop, http.aclose)
 
     def __enter__(self) -> Self:
         return self
@@ -127,77 +137,77 @@ class HttpClient:
         self._close()
 
     def complete(self, request: Request) -> Completion:
-        """Return the model's completion, after as many requests as it takes.
+        """Return the model's completion, after retries if necessary.
 
         Raises:
-            GroundingError: the server cannot be reached, refused the request, or kept failing; the message says
-                which server, its status and its words.
+            GroundingError: the server cannot be reached, rejects the request, or keeps failing; the message contains
+                the URL, the status and the server's message.
         """
         if not self._close.alive:
-            raise GroundingError(f"model '{self.model}': the client is closed; expected an open one, make another")
-        tries = 0
+            raise GroundingError(f"model '{self.model}': the client is closed; expected an open one, create another")
+        attempts = 0
 
         def send() -> Completion | Failure:
-            nonlocal tries
-            tries += 1
-            self.traffic.add(retries=1 if tries > 1 else 0)
+            nonlocal attempts
+            attempts += 1
+            self.traffic.add(retries=1 if attempts > 1 else 0)
             return self._send(request)
 
         outcome = self._retries.run(send)
         if isinstance(outcome, Failure):
-            # Raised outside any handler: the library's error, and with it the server's unredacted words, stays behind.
-            raise GroundingError(self._explain(outcome, tries))
+            # Raised outside any handler, so that the library's exception with its unredacted message is not chained.
+            raise GroundingError(self._explain(outcome, attempts))
         return outcome
 
     def _send(self, request: Request) -> Completion | Failure:
-        """Send a request, again without what the server refuses; what it refused once it is not asked for again."""
-        asked = self._abilities
-        if not is_sampled(self._served, request.is_thinking):
-            asked = replace(asked, logprobs=False)
-        outcome = self._send_once(request, asked)
-        while isinstance(outcome, Failure) and (rest := asked.without(outcome)) != asked:
-            # Other threads may have found out more meanwhile.
-            self._abilities = self._abilities.without(outcome)
-            asked = rest
-            outcome = self._send_once(request, asked)
+        """Send a request, again without each feature that the server rejects; it is never requested again."""
+        features = self._capabilities
+        if not accepts_temperature(self._provider_model, request.is_thinking):
+            features = replace(features, logprobs=False)
+        outcome = self._send_once(request, features)
+        while isinstance(outcome, Failure) and (rest := features.without(outcome)) != features:
+            # Start from the current value: other threads may have removed other features meanwhile.
+            self._capabilities = self._capabilities.without(outcome)
+            features = rest
+            outcome = self._send_once(request, features)
         return outcome
 
-    def _send_once(self, request: Request, asked: Abilities) -> Completion | Failure:
-        prompt = self._make_prompt(request, asked)
-        self._pace.wait_for_turn()
+    def _send_once(self, request: Request, features: Capabilities) -> Completion | Failure:
+        prompt = self._make_prompt(request, features)
+        self._rate_limiter.wait_for_turn()
         self.traffic.add(attempts=1)
-        return self._background.run(self._ask(request, prompt, asked))
+        return self._event_loop.run(self._ask(request, prompt, features))
 
-    async def _ask(self, request: Request, prompt: dict[str, Any], asked: Abilities) -> Completion | Failure:
+    async def _ask(self, request: Request, prompt: dict[str, Any], features: Capabilities) -> Completion | Failure:
         from pydantic_ai import direct  # noqa: PLC0415 - the extra may be missing
         from pydantic_ai.exceptions import AgentRunError, UserError  # noqa: PLC0415
 
-        provider = self._address.provider
+        provider = self._reference.provider
         try:
             async with asyncio.timeout(self._timeout_s), closing_responses():
-                if asked.streams:
-                    return await ask_for_stream(self._served, prompt, request, provider)
-                response = await direct.model_request(self._served, **prompt)
+                if features.streams:
+                    return await request_stream(self._provider_model, prompt, request, provider)
+                response = await direct.model_request(self._provider_model, **prompt)
         except TimeoutError:
             return Failure(f"timed out after {self._timeout_s:g} seconds", None, is_transient=True)
         except AgentRunError as error:
-            return read_failure(error, self._redact)
+            return convert_error(error, self._redact)
         except UserError as error:
             return Failure(self._redact(str(error)))
-        return read_completion(response, request, provider)
+        return convert_response(response, request, provider)
 
-    def _make_prompt(self, request: Request, asked: Abilities) -> dict[str, Any]:
-        """The arguments of the library's functions that send a request."""
+    def _make_prompt(self, request: Request, features: Capabilities) -> dict[str, Any]:
+        """Return the arguments of `pydantic_ai.direct.model_request` and `model_request_stream`."""
         from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415 - the extra may be missing
 
-        settings = make_settings(self._address, self._served, request, asked.logprobs)
+        settings = make_settings(self._reference, self._provider_model, request, features.logprobs)
         settings |= {"timeout": self._timeout_s, "max_retries": 0}
-        parameters = make_parameters(self._served, request, self._address.is_compatible)
-        if self._address.is_compatible and not asked.json_schemas:
+        parameters = make_parameters(self._provider_model, request, self._reference.is_openai_compatible)
+        if self._reference.is_openai_compatible and not features.json_schemas:
             parameters = ModelRequestParameters()
-            # llama-cpp-python's server would sort its whole vocabulary for each token, longer than that takes to come.
+            # llama-cpp-python's server would sort its vocabulary for each token, which takes longer than decoding it.
             settings.pop("openai_top_logprobs", None)
-            body = {**settings.get("extra_body", {}), "response_format": older_format(request)}
+            body = {**settings.get("extra_body", {}), "response_format": json_object_format(request)}
             settings |= {"extra_body": body}
         return {
             "messages": [make_message(request)],
@@ -206,11 +216,11 @@ class HttpClient:
             "instrument": False,
         }
 
-    def _explain(self, failure: Failure, tries: int) -> str:
+    def _explain(self, failure: Failure, attempts: int) -> str:
         status = "no readable answer" if failure.status is None else f"status {failure.status}"
-        after = "" if tries == 1 else f" after {tries} tries"
-        key_variable = KEY_VARIABLES[self._address.provider][0]
+        after = "" if attempts == 1 else f" after {attempts} attempts"
+        key_variable = KEY_VARIABLES[self._reference.provider][0]
         return (
-            f"model '{self.model}': {self._address.url}: {status}{after}: {failure.message}; "
+            f"model '{self.model}': {self._reference.url}: {status}{after}: {failure.message}; "
             f"{advise(failure, key_variable)}"
         )

@@ -1,10 +1,11 @@
-"""What goes to a language model and what comes back, whoever serves it."""
+"""Requests to a language model and their completions, independent of the provider."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from statistics import fmean
 from typing import Any, Protocol
+
+from usd2kg.grounding.llm.limits import LIMITS
 
 __all__ = ["Client", "Completion", "Finish", "Request", "Usage"]
 
@@ -13,46 +14,46 @@ class Finish(StrEnum):
     """Why a completion ended."""
 
     STOP = "stop"
-    """The model was done."""
+    """The model ended it."""
     LENGTH = "length"
-    """It ran into the limit of output tokens."""
+    """It reached the limit of output tokens."""
     DEGENERATE = "degenerate"
-    """It looped or said nothing, and was cut off."""
+    """It was cut off because it repeated itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """One prompt, with all that its completion depends on beside the model."""
+    """One prompt with everything that determines its completion, apart from the model."""
 
     system: str
-    """Instructions and TBox: what requests of one run share, so that servers can keep it."""
+    """Instructions and TBox. Requests of a run share it, so servers can cache it."""
     user: str
-    """The objects that are asked about."""
+    """Descriptions of the objects."""
     schema: Mapping[str, Any]
     """JSON Schema of the answer."""
-    most_tokens: int = 4096
-    """Output tokens after which the model is cut off."""
+    max_tokens: int = LIMITS.max_output_tokens
+    """Limit of output tokens."""
     temperature: float = 0.0
     is_thinking: bool = False
-    """Whether a model that can reason before it answers does."""
+    """Whether a reasoning model reasons before it answers."""
     sample: int = 0
-    """Which of several completions of one prompt this is."""
+    """Number of the sample, if a prompt is completed several times."""
     images: tuple[bytes, ...] = ()
-    """PNG files that are shown after the text."""
+    """PNG files shown after the text."""
 
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """Tokens, as the server counts them where it does."""
+    """Token counts, as reported by the server or estimated."""
 
     input_tokens: int = 0
     cached_tokens: int = 0
-    """Those of the input that the server had already read."""
+    """Input tokens that the server read from its cache."""
     output_tokens: int = 0
     estimated_tokens: int = 0
-    """Those of input and output that we estimate, as the server did not count them: about one for four bytes."""
+    """Input and output tokens that the server did not report and that are estimated."""
     written_tokens: int = 0
-    """Those of the input that the server wrote into its cache, which costs more at Anthropic's."""
+    """Input tokens that the server wrote to its cache; Anthropic charges more for them."""
 
     def __add__(self, other: "Usage") -> "Usage":
         return Usage(
@@ -66,36 +67,31 @@ class Usage:
 
 @dataclass(frozen=True, slots=True)
 class Completion:
-    """What a model said."""
+    """The output of a model."""
 
     text: str
     finish: Finish = Finish.STOP
     usage: Usage = field(default_factory=Usage)
     tokens: tuple[tuple[str, float], ...] = ()
-    """Text and natural logarithm of the probability of each token, in order; empty where the server does not tell.
+    """Text and natural log-probability of each token, in order; empty if the server does not return them.
 
-    Joined, the texts hold `text`, maybe with reasoning before and a mark of the end behind. A token that ends within a
-    character has none of it; the one that completes it has all.
+    Joined, the texts contain `text`, possibly after reasoning and before an end token. If a character consists of
+    several tokens, the last of them has its text and the others are empty.
     """
     thinking: str = ""
-    """What it reasoned before, where the server tells."""
-
-    @property
-    def mean_logprob(self) -> float | None:
-        """Mean natural logarithm of the tokens' probabilities; None where the server does not tell."""
-        return fmean(logprob for _, logprob in self.tokens) if self.tokens else None
+    """The model's reasoning before the answer, if the server returns it."""
 
 
 class Client(Protocol):
     """Completes prompts with one model."""
 
     model: str
-    """The model as the user named it; part of what answers depend on."""
+    """The model string; part of the cache key."""
 
     def complete(self, request: Request) -> Completion:
         """Return the model's completion.
 
         Raises:
-            GroundingError: the model cannot be asked: no key, no server, refused, out of quota.
+            GroundingError: the request failed: no key, no server, rejected, quota exceeded.
         """
         ...

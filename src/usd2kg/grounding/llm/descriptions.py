@@ -1,27 +1,27 @@
-"""What a prompt tells of the objects."""
+"""describe_object: the lines about one object in a prompt."""
 
 from collections.abc import Iterator
 from itertools import islice
 
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
-from usd2kg.grounding.llm.text import quote
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_text import quote
 
-__all__ = ["describe"]
+__all__ = ["describe_object"]
 
 
-def describe(view: ObjectView, options: PromptOptions) -> Iterator[str]:
-    """Yield the lines that tell of an object; none if nothing is known."""
+def describe_object(view: ObjectView, options: PromptOptions) -> Iterator[str]:
+    """Yield one line per known property of an object, as far as the strategy includes it."""
     return (f"{key}: {value}" for key, value in _evidence(view, options) if value)
 
 
 def _evidence(view: ObjectView, options: PromptOptions) -> Iterator[tuple[str, str]]:
-    """Yield (key, value) of all that the strategy tells; the value is empty where it is unknown."""
+    """Yield (key, value) of the properties that the strategy includes; unknown values are empty."""
     yield "name", quote(view.name) if view.name else ""
     if options.strategy is Strategy.NAME_ONLY:
         return
     if view.size is not None:
-        # The world is z-up: the second axis is the depth.
+        # World coordinates are z-up, so the second axis is the depth.
         width, depth, height = view.size
         yield "box (w, h, d) in metres", " x ".join(map(_number, (width, height, depth)))
     if view.mass_kg is not None:
@@ -29,9 +29,9 @@ def _evidence(view: ObjectView, options: PromptOptions) -> Iterator[tuple[str, s
     if view.position is not None:
         yield "position (x, y, z) in metres", ", ".join(map(_number, view.position))
     yield "parent path, outermost first", " / ".join(map(quote, view.parents))
-    left_out = len(view.siblings) - options.most_siblings
-    more = f" and {left_out} more" if left_out > 0 else ""
-    yield "siblings", ", ".join(map(quote, islice(view.siblings, options.most_siblings))) + more
+    omitted = len(view.siblings) - options.max_siblings
+    more = f" and {omitted} more" if omitted > 0 else ""
+    yield "siblings", ", ".join(map(quote, islice(view.siblings, options.max_siblings))) + more
     if options.has_more_evidence:
         yield from _more_evidence(view)
 
@@ -46,7 +46,7 @@ def _more_evidence(view: ObjectView) -> Iterator[tuple[str, str]]:
 
 
 def _number(value: float) -> str:
-    """Return millimetres or grams exactly, and what is small to a hundredth of them.
+    """Return a length in metres or mass in kilograms to three decimals, below 0.1 to five.
 
     >>> [_number(value) for value in (1.9, 0.08125, 12.00049, -0.000001)]
     ['1.9', '0.08125', '12', '0']

@@ -1,28 +1,27 @@
-"""Which objects are asked about once, and which classes each is offered."""
+"""Groups of similar objects that share one answer, and shortlists of classes from the lexical grounder."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.grounding.llm.options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["distinct_views", "shortlists"]
+__all__ = ["group_similar_views", "make_shortlists"]
 
 
-def shortlists(views: Sequence[ObjectView], tbox: TBox, most: int) -> list[list[ClassIRI]]:
-    """Return for each view the classes that the lexical grounder thinks of first, all above them, and the roots."""
-    first = LexicalGrounder().ground_views([("", view) for view in views], tbox)
-    likely = [[candidate.class_iri for candidate in found.candidates[:most]] for found in first]
+def make_shortlists(views: Sequence[ObjectView], tbox: TBox, size: int) -> list[list[ClassIRI]]:
+    """Return for each view the best `size` candidates of the lexical grounder, their superclasses, and the roots."""
+    predictions = LexicalGrounder().ground_views([("", view) for view in views], tbox)
+    likely = [[candidate.class_iri for candidate in prediction.candidates[:size]] for prediction in predictions]
     return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
 
 
-def distinct_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
-    """Return the indices of views in groups that one answer serves: they differ in numbers and in where they stand.
+def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
+    """Return the indices of views in groups that share one answer: they differ only in a number and in position.
 
-    By strategy A only the name counts; by B and C also the names above and the size, to the centimetre. A masked view
-    is always alone: that it looks like another may be the mask's doing.
+    For strategy A the name alone counts; for B and C also the names of the parents and the size, to the centimetre.
+    A masked view is a group by itself, since masking can make different objects look alike.
     """
     groups: dict[object, list[int]] = {}
     for index, view in enumerate(views):
@@ -33,12 +32,12 @@ def distinct_views(views: Sequence[ObjectView], options: PromptOptions) -> list[
 
 
 def _signature(view: ObjectView, strategy: Strategy) -> object:
-    bare = replace(view, name=_stem(view.name), position=None, siblings=(), neighbourhood=None)
+    name = _without_number(view.name)
     if strategy is Strategy.NAME_ONLY:
-        return bare.name
+        return name
     size = tuple(round(side, 2) for side in sorted(view.own_size)) if view.own_size else None
-    return bare.name, tuple(map(_stem, view.parents)), size, view.mass_kg, view.asset
+    return name, tuple(map(_without_number, view.parents)), size, view.mass_kg, view.asset
 
 
-def _stem(name: str) -> str:
+def _without_number(name: str) -> str:
     return name.rstrip("0123456789_")

@@ -1,7 +1,6 @@
-"""What tokens cost, in US dollars: by the list prices that come with genai-prices, or as the user states it.
+"""Tariffs: the price of tokens in US dollars, from the list prices in genai-prices or as the user states them.
 
-The list is the library's own, as it was installed: nothing is fetched. Prices are exact decimals and are rounded only
-where they are shown.
+The list is that of the installed library; nothing is fetched. Prices are exact decimals, rounded only for display.
 """
 
 from collections.abc import Callable
@@ -9,40 +8,46 @@ from decimal import Decimal, InvalidOperation
 from typing import Any
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.addresses import ADDRESSES, Address, parse_address
 from usd2kg.grounding.llm.completion import Usage
+from usd2kg.grounding.llm.model_reference import PROVIDER_URLS, ModelReference, parse_model_reference
 
 __all__ = ["Tariff", "find_tariff", "format_price", "parse_price"]
 
 Tariff = Callable[[Usage], Decimal]
-"""Returns the price in US dollars of one completion's tokens; long prompts may be dearer a token than short ones."""
+"""Function that returns the price of one completion in US dollars. The price per token may depend on its length."""
+
+_MILLION = 1_000_000
+_SMALLEST_SHOWN = Decimal("0.0001")
+"""US dollars."""
 
 
 def find_tariff(model: str) -> Tariff | None:
-    """Return the tariff of a model by its name, None where none is known: for servers and weights of one's own.
+    """Return the list price of a model; None if it is not listed, as for local servers and weights.
 
-    Where the user names the server it goes by that one's address: OpenRouter has prices of its own.
+    If the model string has a URL, the provider is found by it: OpenRouter, for example, has its own prices.
 
     Raises:
-        GroundingError: the model names a provider, but is malformed.
+        GroundingError: the model string has a known provider but is malformed.
     """
-    if model.partition(":")[0] not in ADDRESSES:
+    if model.partition(":")[0] not in PROVIDER_URLS:
         return None
     try:
-        tariff = _listed(parse_address(model))
+        tariff = _list_price(parse_model_reference(model))
         tariff(Usage())
     except (ImportError, LookupError):
         return None
     return tariff
 
 
-def _listed(address: Address) -> Tariff:
+def _list_price(reference: ModelReference) -> Tariff:
     import genai_prices  # noqa: PLC0415 - the extra may be missing
 
-    where: Any = {"provider_api_url": address.url} if address.is_own_server else {"provider_id": address.provider}
+    where: Any = (
+        {"provider_api_url": reference.url} if reference.has_custom_url else {"provider_id": reference.provider}
+    )
 
     def price(usage: Usage) -> Decimal:
-        # A server that claims to have read more from its cache than was sent is not believed.
+        # Some servers report more cached tokens than input tokens.
         cached = min(usage.cached_tokens, usage.input_tokens)
         counts = genai_prices.Usage(
             input_tokens=usage.input_tokens,
@@ -50,18 +55,16 @@ def _listed(address: Address) -> Tariff:
             cache_write_tokens=min(usage.written_tokens, usage.input_tokens - cached),
             output_tokens=usage.output_tokens,
         )
-        return genai_prices.calc_price(counts, address.name, **where).total_price
+        return genai_prices.calc_price(counts, reference.name, **where).total_price
 
     return price
 
 
 def parse_price(text: str) -> Tariff:
-    """Return the tariff that the user states as `INPUT/OUTPUT`, in dollars for a million tokens each.
-
-    Cached input costs as much as other input.
+    """Return the tariff `INPUT/OUTPUT` in dollars per million tokens. Cached input has the price of other input.
 
     Raises:
-        GroundingError: it is no such text.
+        GroundingError: the text is not two prices.
     """
     try:
         rates = [Decimal(part) for part in text.split("/")]
@@ -73,17 +76,17 @@ def parse_price(text: str) -> Tariff:
             "expected INPUT/OUTPUT in dollars per million tokens, like 0.30/2.50"
         )
     paid_in, paid_out = rates
-    return lambda usage: (usage.input_tokens * paid_in + usage.output_tokens * paid_out) / 1_000_000
+    return lambda usage: (usage.input_tokens * paid_in + usage.output_tokens * paid_out) / _MILLION
 
 
 def format_price(price: Decimal) -> str:
-    """Return a price for people: to the cent, and below a dollar to the hundredth of a cent.
+    """Return a price for display, to the cent and below a dollar to the hundredth of a cent.
 
     >>> [format_price(Decimal(text)) for text in ("1234.567", "0.98764", "0.00001", "0")]
     ['$1,234.57', '$0.9876', 'less than $0.0001', '$0']
     """
-    if 0 < price < Decimal("0.0001"):
-        return "less than $0.0001"
+    if 0 < price < _SMALLEST_SHOWN:
+        return f"less than ${_SMALLEST_SHOWN}"
     if price >= 1:
         return f"${price:,.2f}"
     return f"${price:.4f}" if price else "$0"

@@ -1,25 +1,24 @@
-"""The library's models of each provider, at the user's address and with the user's key."""
+"""Provider models of pydantic-ai, and the HTTP client that they share."""
 
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
-from usd2kg.grounding.llm.addresses import Address
+from usd2kg.grounding.llm.limits import LIMITS
+from usd2kg.grounding.llm.model_reference import ModelReference
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient, Response
     from pydantic_ai.models import Model
 
-__all__ = ["closing_responses", "open_http", "serve_model"]
-
-_LONGEST_CONNECT_S = 10.0
+__all__ = ["closing_responses", "make_provider_model", "open_http"]
 
 _opened: ContextVar["list[Response]"] = ContextVar("opened")
 
 
-def open_http(address: Address, timeout_s: float) -> "AsyncClient":
-    """Return the connections to a server.
+def open_http(reference: ModelReference, timeout_s: float) -> "AsyncClient":
+    """Return an HTTP client for a server.
 
     Raises:
         ImportError: the extra `llm` is not installed.
@@ -27,23 +26,23 @@ def open_http(address: Address, timeout_s: float) -> "AsyncClient":
     import httpx2  # noqa: PLC0415 - the extra may be missing
     from pydantic_ai.models import create_async_httpx2_client  # noqa: PLC0415
 
-    timeout = httpx2.Timeout(timeout_s, connect=min(timeout_s, _LONGEST_CONNECT_S), pool=None)
-    # A transport of one's own keeps requests to this machine from going through a proxy.
-    transport = httpx2.AsyncHTTPTransport() if address.is_loopback else None
+    timeout = httpx2.Timeout(timeout_s, connect=min(timeout_s, LIMITS.connect_timeout_s), pool=None)
+    # An explicit transport bypasses the proxies of the environment.
+    transport = httpx2.AsyncHTTPTransport() if reference.is_loopback else None
     http = create_async_httpx2_client(timeout=timeout, transport=transport)
-    http.event_hooks = {"response": [_remember]}
+    http.event_hooks = {"response": [_record_response]}
     return http
 
 
-async def _remember(response: "Response") -> None:
+async def _record_response(response: "Response") -> None:
     _opened.get().append(response)
 
 
 @asynccontextmanager
 async def closing_responses() -> AsyncIterator[None]:
-    """Close the responses to all that is sent inside, with their connections where they are not read to their ends.
+    """Close all responses received inside the block; a response that is not read to its end loses its connection.
 
-    Google's library leaves those to the garbage collector.
+    Google's library leaves this to the garbage collector.
     """
     opened: list[Response] = []
     token = _opened.set(opened)
@@ -55,37 +54,37 @@ async def closing_responses() -> AsyncIterator[None]:
             await response.aclose()
 
 
-def serve_model(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
-    """Return the library's model of that name at that address.
+def make_provider_model(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
+    """Return the pydantic-ai model for a model reference.
 
     Raises:
         ImportError: the extra `llm` is not installed.
     """
-    return _SERVED[address.provider](address, key, http)
+    return _MODEL_FACTORIES[reference.provider](reference, key, http)
 
 
-def _serve_google(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _make_google(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     from pydantic_ai.models.google import GoogleModel  # noqa: PLC0415
     from pydantic_ai.providers.google import GoogleProvider  # noqa: PLC0415
 
-    return GoogleModel(address.name, provider=GoogleProvider(api_key=key, base_url=address.url, http_client=http))
+    return GoogleModel(reference.name, provider=GoogleProvider(api_key=key, base_url=reference.url, http_client=http))
 
 
-def _serve_anthropic(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _make_anthropic(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     from anthropic import AsyncAnthropic  # noqa: PLC0415
     from pydantic_ai.models.anthropic import AnthropicModel  # noqa: PLC0415
     from pydantic_ai.providers.anthropic import AnthropicProvider  # noqa: PLC0415
 
-    client = AsyncAnthropic(api_key=key, base_url=address.url, http_client=http, max_retries=0)
-    return AnthropicModel(address.name, provider=AnthropicProvider(anthropic_client=client))
+    client = AsyncAnthropic(api_key=key, base_url=reference.url, http_client=http, max_retries=0)
+    return AnthropicModel(reference.name, provider=AnthropicProvider(anthropic_client=client))
 
 
-def _serve_openai(address: Address, key: str, http: "AsyncClient") -> "Model[Any]":
+def _make_openai(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
     from pydantic_ai.models.openai import OpenAIChatModel  # noqa: PLC0415
     from pydantic_ai.profiles.openai import OpenAIModelProfile  # noqa: PLC0415
     from pydantic_ai.providers.openai import OpenAIProvider  # noqa: PLC0415
 
-    # What the library knows by a model's name holds at OpenAI; other servers get the plain protocol.
+    # The library infers features from OpenAI's model names. For other servers, use the basic protocol only.
     plain = OpenAIModelProfile(
         json_schema_transformer=None,
         supports_json_schema_output=True,
@@ -95,12 +94,12 @@ def _serve_openai(address: Address, key: str, http: "AsyncClient") -> "Model[Any
         openai_system_prompt_role="system",
         openai_chat_supports_max_completion_tokens=False,
     )
-    provider = OpenAIProvider(base_url=address.url, api_key=key, http_client=http)
-    return OpenAIChatModel(address.name, provider=provider, profile=plain if address.is_compatible else None)
+    provider = OpenAIProvider(base_url=reference.url, api_key=key, http_client=http)
+    return OpenAIChatModel(reference.name, provider=provider, profile=plain if reference.is_openai_compatible else None)
 
 
-_SERVED: dict[str, Callable[[Address, str, "AsyncClient"], "Model[Any]"]] = {
-    "google": _serve_google,
-    "anthropic": _serve_anthropic,
-    "openai": _serve_openai,
+_MODEL_FACTORIES: dict[str, Callable[[ModelReference, str, "AsyncClient"], "Model[Any]"]] = {
+    "google": _make_google,
+    "anthropic": _make_anthropic,
+    "openai": _make_openai,
 }

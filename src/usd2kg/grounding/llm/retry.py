@@ -1,4 +1,4 @@
-"""When a request that failed is sent again, and how a failure is told without its credentials."""
+"""Failures of requests, the retry policy, and redaction of credentials in error messages."""
 
 import random
 import re
@@ -7,56 +7,49 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
+from usd2kg.grounding.llm.limits import LIMITS
+
 if TYPE_CHECKING:
     from pydantic_ai.exceptions import AgentRunError
 
-__all__ = ["Failure", "Redactor", "Retries", "advise", "read_failure"]
+__all__ = ["Failure", "Redactor", "RetryPolicy", "advise", "convert_error"]
 
 _Answer = TypeVar("_Answer")
 
-_FIRST_WAIT_S = 1.0
-_LONGEST_WAIT_S = 60.0
-_LONGEST_ASKED_WAIT_S = 120.0
-"""A server that asks for more has run out of a quota: the user should know at once."""
-
-_MOST_CHARACTERS = 300
-_LEAST_KEY_CHARACTERS = 6
-"""What is shorter is no secret, and blotting it out would make every message unreadable."""
-
 _KEY_SHAPES = re.compile(r"\b(?:sk-|AIza)[\w*-]{6,}|(?<=://)[^/\s@]+(?=@)")
-"""How keys of the known providers begin, and the user part of an address."""
+"""API keys of the known providers, recognised by their prefixes, and the user part of a URL."""
 
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """A request that brought no completion."""
+    """The failure of a request."""
 
     message: str
     """One line, redacted."""
     status: int | None = None
-    """HTTP status; None where no answer came."""
+    """HTTP status; None if there was no response."""
     is_transient: bool = False
-    """Whether the same request may work later."""
-    asked_wait_s: float | None = None
-    """Seconds that the server asks to wait before the next request; None where it does not say."""
+    """Whether the same request may succeed later."""
+    retry_after_s: float | None = None
+    """Seconds to wait before the next request, as the server asks; None if it does not."""
 
 
 @dataclass(frozen=True, slots=True)
-class Retries:
+class RetryPolicy:
     """Exponential backoff with full jitter: a wait is uniform between 0 and a bound that doubles.
 
-    A server that names the wait is obeyed to the second, unless it asks for more than two minutes.
+    A wait that the server asks for takes precedence; if it exceeds `LIMITS.max_retry_after_s`, there is no retry.
     """
 
-    most: int = 4
-    """Requests after the first."""
+    max_retries: int = LIMITS.max_retries
+    """Attempts after the first."""
     sleep: Callable[[float], object] = time.sleep
     random: Callable[[], float] = random.random
 
     def run(self, send: Callable[[], _Answer | Failure]) -> _Answer | Failure:
-        """Return what the first request brings that is no transient failure, or the last failure."""
+        """Return the first outcome that is not a transient failure, or the last failure."""
         outcome = send()
-        for done in range(self.most):
+        for done in range(self.max_retries):
             if not isinstance(outcome, Failure) or not _may_wait(outcome):
                 return outcome
             self.sleep(self._wait_s(done, outcome))
@@ -64,29 +57,29 @@ class Retries:
         return outcome
 
     def _wait_s(self, done: int, failure: Failure) -> float:
-        if failure.asked_wait_s is not None:
-            return max(failure.asked_wait_s, 0.0)
-        return self.random() * min(_FIRST_WAIT_S * 2.0**done, _LONGEST_WAIT_S)
+        if failure.retry_after_s is not None:
+            return max(failure.retry_after_s, 0.0)
+        return self.random() * min(LIMITS.first_backoff_s * 2.0**done, LIMITS.max_backoff_s)
 
 
 class Redactor:
-    """Makes texts of servers and libraries fit to be shown."""
+    """Removes credentials from messages of servers and libraries."""
 
     def __init__(self, secrets: Iterable[str]) -> None:
-        """Remember the secrets; longer ones first, as one may begin another."""
-        known = {secret for secret in secrets if len(secret) >= _LEAST_KEY_CHARACTERS}
+        """Create a redactor. Longer secrets are replaced first, since one may be the prefix of another."""
+        known = {secret for secret in secrets if len(secret) >= LIMITS.min_secret_characters}
         self._secrets = sorted(known, key=lambda secret: (-len(secret), secret))
 
     def __call__(self, text: str) -> str:
-        """Return the text without secrets, on one line, of at most 300 characters."""
+        """Return the text without secrets, on one line of at most `LIMITS.max_error_characters`."""
         for secret in self._secrets:
             text = text.replace(secret, "[key]")
         line = " ".join(_KEY_SHAPES.sub("[key]", text).split())
-        return line if len(line) <= _MOST_CHARACTERS else line[: _MOST_CHARACTERS - 1] + "…"
+        return line if len(line) <= LIMITS.max_error_characters else line[: LIMITS.max_error_characters - 1] + "…"
 
 
-def read_failure(error: "AgentRunError", redact: Redactor) -> Failure:
-    """Return what the library's error says, without the library's words around it."""
+def convert_error(error: "AgentRunError", redact: Redactor) -> Failure:
+    """Return the failure that an exception of pydantic-ai reports, with the server's message alone."""
     from pydantic_ai.exceptions import (  # noqa: PLC0415 - the extra may be missing
         ModelAPIError,
         ModelConnectionError,
@@ -99,19 +92,19 @@ def read_failure(error: "AgentRunError", redact: Redactor) -> Failure:
     if isinstance(error, ModelHTTPError):
         status = error.status_code
         message = redact(_find_message(error.body)) or "no message"
-        if (error.retry_after or 0.0) > _LONGEST_ASKED_WAIT_S:
+        if (error.retry_after or 0.0) > LIMITS.max_retry_after_s:
             message += f" (asks to wait {error.retry_after:.0f} s)"
         return Failure(message, status, _is_transient(status), error.retry_after)
-    # Inside a stream the server had taken the request already: it is not to blame.
+    # An error inside a stream follows an accepted request, so the request itself is valid.
     is_transient = error.in_stream or isinstance(error, ModelConnectionError | ModelRequestTimeout)
     return Failure(redact(str(error)), None, is_transient)
 
 
 def advise(failure: Failure, key_variable: str) -> str:
-    """Return what was expected instead of the failure and what the user can do."""
+    """Return what was expected and what the user can do."""
     match failure.status:
         case 401 | 403:
-            return f"expected a key that may use the model, check {key_variable}"
+            return f"expected a key with access to the model, check {key_variable}"
         case 404:
             return "expected a model that the server knows, check its name and the address"
         case None if not failure.is_transient:
@@ -128,7 +121,7 @@ def _is_transient(status: int) -> bool:
 
 
 def _find_message(body: object) -> str:
-    """The server's words in the body of an error; every provider wraps them another way."""
+    """Return the message in the body of an error response, whose structure depends on the provider."""
     if isinstance(body, list) and body:
         return _find_message(body[0])
     if isinstance(body, Mapping):
@@ -138,4 +131,4 @@ def _find_message(body: object) -> str:
 
 
 def _may_wait(failure: Failure) -> bool:
-    return failure.is_transient and (failure.asked_wait_s or 0.0) <= _LONGEST_ASKED_WAIT_S
+    return failure.is_transient and (failure.retry_after_s or 0.0) <= LIMITS.max_retry_after_s

@@ -1,32 +1,32 @@
-"""How many requests go over the wire, and when."""
+"""Traffic and RateLimiter: counters of HTTP requests and waits, and the spacing of requests."""
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from threading import Lock
 
-__all__ = ["Pace", "Traffic"]
+__all__ = ["RateLimiter", "Traffic"]
 
 Sleep = Callable[[float], object]
-"""Waits so many seconds."""
+"""Function that waits for a number of seconds."""
 
 
 @dataclass(slots=True)
 class Traffic:
-    """What was sent to a model and waited for, by all threads; it grows while a run goes on."""
+    """Counters of HTTP requests and waits over all threads, updated while a run is in progress."""
 
     attempts: int = 0
-    """HTTP requests, failed ones among them."""
+    """HTTP requests, including failed ones."""
     retries: int = 0
-    """Those of them that were sent again after a failure that may pass."""
+    """Attempts that repeat a request after a failure that may pass."""
     waits: int = 0
-    """Pauses before a request: after a failure, or to keep to the rate."""
+    """Waits before a request: backoff after a failure, or the rate limit."""
     waited_s: float = 0.0
-    """Seconds of all pauses; those of threads that wait side by side add up."""
+    """Total duration of the waits, summed over threads."""
     _lock: Lock = field(default_factory=Lock, repr=False, compare=False)
 
     def add(self, *, attempts: int = 0, retries: int = 0, waits: int = 0, waited_s: float = 0.0) -> None:
-        """Count what has happened."""
+        """Increment the counters."""
         with self._lock:
             self.attempts += attempts
             self.retries += retries
@@ -34,7 +34,7 @@ class Traffic:
             self.waited_s += waited_s
 
     def counting(self, sleep: Sleep) -> Sleep:
-        """Return what sleeps and counts it."""
+        """Return a version of `sleep` that counts its waits."""
 
         def wait(seconds: float) -> None:
             self.add(waits=1, waited_s=seconds)
@@ -43,21 +43,21 @@ class Traffic:
         return wait
 
 
-class Pace:
-    """Spaces requests evenly over all threads, so that no minute has more of them than allowed.
+class RateLimiter:
+    """Spaces requests evenly over all threads.
 
-    There are no bursts, not even after a pause: servers may count by the second what they allow by the minute.
+    There are no bursts, not even after a pause: servers may enforce a limit per minute by the second.
     """
 
     def __init__(
         self, requests_per_minute: float | None, sleep: Sleep = time.sleep, clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """Start now; None lets every request go at once.
+        """Create a rate limiter.
 
         Args:
-            requests_per_minute: how many, above 0.
-            sleep: waits so many seconds.
-            clock: seconds since whenever.
+            requests_per_minute: above 0; None for no limit.
+            sleep: waits for a number of seconds.
+            clock: returns monotonic seconds.
         """
         self._interval_s = 60.0 / requests_per_minute if requests_per_minute is not None else 0.0
         self._sleep, self._clock = sleep, clock
@@ -65,11 +65,11 @@ class Pace:
         self._next_s = clock()
 
     def wait_for_turn(self) -> None:
-        """Return when the next request may be sent; threads come in the order in which they call."""
+        """Wait until the next request may be sent. Threads proceed in the order of their calls."""
         with self._lock:
             now = self._clock()
             turn = max(now, self._next_s)
             self._next_s = turn + self._interval_s
-        # Outside of the lock, so that others can queue up meanwhile.
+        # Outside the lock, so that other threads can take their turns meanwhile.
         if turn > now:
             self._sleep(turn - now)

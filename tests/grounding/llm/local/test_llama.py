@@ -1,4 +1,4 @@
-"""The cache of what was read, against a library that keeps tokens in a list: what is kept, dropped, and fits."""
+"""LlamaModel with a fake llama.cpp that keeps its KV cache as a list of tokens."""
 
 import ctypes
 from pathlib import Path
@@ -16,7 +16,7 @@ WINDOW = 4096
 
 
 class FakeLibrary:
-    """What llama.cpp does with tokens and memory; the output behind some tokens tells which they are."""
+    """A fake llama.cpp, whose first logit is a hash of the cached tokens."""
 
     __version__ = "0.0"
     llama_token = ctypes.c_int32
@@ -25,9 +25,9 @@ class FakeLibrary:
         self.is_readable, self.is_recurrent, self.has_memory = is_readable, is_recurrent, has_memory
         self.held: list[int] = []
         self.decoded: list[list[int]] = []
-        """What was read at once."""
+        """The batches that were read."""
         self.contexts: list[int] = []
-        """Sizes."""
+        """Sizes of the contexts."""
         self.alive: set[str] = set()
 
     def llama_backend_init(self) -> None: ...
@@ -113,109 +113,109 @@ def open_model(**how: bool) -> tuple[LlamaModel, FakeLibrary]:
 
 
 def tokens(*counts: int) -> tuple[int, ...]:
-    """As many of each token: 3 of 1, 2 of 2, …"""
+    """Return `counts[0]` times token 1, `counts[1]` times token 2, and so on."""
     return tuple(token for token, count in enumerate(counts, start=1) for _ in range(count))
 
 
 class TestReading:
-    def test_the_second_prompt_reads_its_own_part_alone(self):
+    def test_reads_only_the_user_prompt_of_a_second_prompt(self):
         model, library = open_model()
-        assert model.begin(Prompt(tokens(600), tokens(0, 5)), 10) == 0
+        assert model.read_prompt(Prompt(tokens(600), tokens(0, 5)), 10) == 0
         assert [len(piece) for piece in library.decoded] == [512, 88, 5]
         model.logits([1, 2])
-        assert model.begin(Prompt(tokens(600), tokens(0, 0, 7)), 10) == 600
+        assert model.read_prompt(Prompt(tokens(600), tokens(0, 0, 7)), 10) == 600
         assert library.decoded[-1] == [3] * 7
         assert library.held == [*tokens(600, 0, 7)]
 
-    def test_pieces_are_kept_whole(self):
+    def test_keeps_whole_batches(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(600), tokens(0, 600)), 10)
-        # The same for 600 + 550 tokens, of which one whole piece of the question.
-        assert model.begin(Prompt(tokens(600), tokens(0, 550, 50)), 10) == 600 + 512
+        model.read_prompt(Prompt(tokens(600), tokens(0, 600)), 10)
+        # Equal up to token 600 + 550, which includes one whole batch of the user prompt.
+        assert model.read_prompt(Prompt(tokens(600), tokens(0, 550, 50)), 10) == 600 + 512
         assert library.decoded[-1] == [*tokens(0, 38, 50)]
 
-    def test_nothing_is_kept_of_other_instructions(self):
+    def test_keeps_nothing_of_another_system_prompt(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(100), tokens(0, 5)), 10)
-        assert model.begin(Prompt(tokens(99, 1), tokens(0, 5)), 10) == 0
+        model.read_prompt(Prompt(tokens(100), tokens(0, 5)), 10)
+        assert model.read_prompt(Prompt(tokens(99, 1), tokens(0, 5)), 10) == 0
         assert library.held == [*tokens(99, 1), *tokens(0, 5)]
 
-    def test_the_same_prompt_is_kept_and_what_was_said_to_it_dropped(self):
+    def test_keeps_an_equal_prompt_without_its_completion(self):
         model, library = open_model()
         prompt = Prompt(tokens(10), tokens(0, 5))
-        model.begin(prompt, 10)
+        model.read_prompt(prompt, 10)
         model.logits([7, 7, 7])
-        assert model.begin(prompt, 10) == 15
+        assert model.read_prompt(prompt, 10) == 15
         assert library.held == [*prompt.tokens]
 
-    def test_what_a_model_says_does_not_depend_on_the_prompt_before(self):
+    def test_logits_do_not_depend_on_the_previous_prompt(self):
         prompt = Prompt(tokens(700), tokens(0, 700))
         model, library = open_model()
-        model.begin(Prompt(tokens(700), tokens(0, 600, 50)), 10)
-        model.begin(prompt, 10)
+        model.read_prompt(Prompt(tokens(700), tokens(0, 600, 50)), 10)
+        model.read_prompt(prompt, 10)
         other, fresh = open_model()
-        other.begin(prompt, 10)
+        other.read_prompt(prompt, 10)
         assert model.logits([1]).tolist() == other.logits([1]).tolist()
         assert library.decoded[-2:] == fresh.decoded[-2:]
 
 
 class TestLogits:
-    def test_are_those_behind_what_was_said_whatever_was_tried_before(self):
+    def test_depend_only_on_prompt_and_generated_tokens(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(3), ()), 10)
-        for said in ([1], [1, 2], [1, 2, 3], [1, 4], [1], [1]):
-            assert model.logits(said)[0] == hash((1, 1, 1, *said)) % 9973
-            assert library.held == [1, 1, 1, *said]
+        model.read_prompt(Prompt(tokens(3), ()), 10)
+        for generated in ([1], [1, 2], [1, 2, 3], [1, 4], [1], [1]):
+            assert model.logits(generated)[0] == hash((1, 1, 1, *generated)) % 9973
+            assert library.held == [1, 1, 1, *generated]
 
-    def test_read_only_what_is_new(self):
+    def test_read_only_new_tokens(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(3), ()), 10)
+        model.read_prompt(Prompt(tokens(3), ()), 10)
         library.decoded.clear()
-        for said in ([1, 2], [1, 2, 3], [1, 2, 4], [1, 2, 4]):
-            model.logits(said)
+        for generated in ([1, 2], [1, 2, 3], [1, 2, 4], [1, 2, 4]):
+            model.logits(generated)
         assert library.decoded == [[1, 2], [3], [4], [4]]
 
 
 class TestContext:
-    def test_grows_with_the_prompts_to_the_next_power_of_two_and_never_beyond_the_window(self):
+    def test_grows_in_powers_of_two_up_to_the_window(self):
         model, library = open_model()
         for size in (10, 2000, 2100, 100, 4000):
-            model.begin(Prompt((), tokens(size)), 10)
+            model.read_prompt(Prompt((), tokens(size)), 10)
         assert library.contexts == [2048, 4096]
-        assert model.begin(Prompt((), tokens(4000)), 90) == 4000
+        assert model.read_prompt(Prompt((), tokens(4000)), 90) == 4000
 
-    def test_a_new_one_is_empty(self):
+    def test_a_new_context_is_empty(self):
         model, library = open_model()
-        model.begin(Prompt(tokens(1000), ()), 10)
-        assert model.begin(Prompt(tokens(1000), tokens(0, 2000)), 10) == 0
+        model.read_prompt(Prompt(tokens(1000), ()), 10)
+        assert model.read_prompt(Prompt(tokens(1000), tokens(0, 2000)), 10) == 0
         assert len(library.held) == 3000
 
-    def test_without_memory_for_it_says_what_helps(self):
+    def test_reports_insufficient_memory(self):
         model, _ = open_model(has_memory=False)
         with pytest.raises(GroundingError, match=r"^model\.gguf: no memory for a context of 4096 tokens;"):
-            model.begin(Prompt((), tokens(3000)), 10)
+            model.read_prompt(Prompt((), tokens(3000)), 10)
 
-    def test_that_is_full_is_an_error(self):
+    def test_reports_a_full_context(self):
         model, _ = open_model()
-        model.begin(Prompt((), tokens(2000)), 48)
-        with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp gave up with status 1 after 2000 tokens$"):
+        model.read_prompt(Prompt((), tokens(2000)), 48)
+        with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp failed with status 1 after 2000 tokens$"):
             model.logits(tokens(49))
 
 
 class TestLoading:
-    def test_what_llama_cpp_cannot_load_is_named(self):
+    def test_reports_weights_that_cannot_be_loaded(self):
         with pytest.raises(GroundingError, match=r"^model\.gguf: llama\.cpp \(llama-cpp-python 0\.0\) cannot load it"):
             open_model(is_readable=False)
 
-    def test_models_with_states_are_refused_and_freed(self):
+    def test_rejects_and_frees_recurrent_models(self):
         library = FakeLibrary(is_recurrent=True)
-        with pytest.raises(GroundingError, match="expected a decoder with attention alone"):
+        with pytest.raises(GroundingError, match="expected a pure attention decoder"):
             LlamaModel(library, Path("model.gguf"), 1)  # type: ignore[arg-type]
         assert library.alive == set()
 
     def test_closing_frees_the_context_before_the_model(self):
         model, library = open_model()
-        model.begin(Prompt((), tokens(10)), 10)
+        model.read_prompt(Prompt((), tokens(10)), 10)
         model.close()
         model.close()
         assert library.alive == set()

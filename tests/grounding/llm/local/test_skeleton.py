@@ -1,10 +1,10 @@
-"""Schemas of answers as what is certain and what is chosen."""
+"""read_schema: fixed text, choices and free texts; and the tokens inside a JSON string."""
 
 import pytest
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.local.json_tokens import classify_tokens
 from usd2kg.grounding.llm.local.skeleton import Choice, Fixed, FreeText, read_schema
-from usd2kg.grounding.llm.local.vocabulary import read_vocabulary
 
 CLASS = {"type": "string", "enum": ["Cup", "Knife"]}
 REASONING = {"type": "string"}
@@ -14,7 +14,7 @@ def record(**properties: object) -> dict[str, object]:
     return {"type": "object", "properties": properties, "required": [*properties], "additionalProperties": False}
 
 
-def test_each_property_is_a_row_with_what_stands_before_it():
+def test_each_property_is_a_row_with_the_preceding_text():
     rows = read_schema(record(**{"1": record(**{"class": CLASS}), "2": record(**{"class": CLASS})}))
     assert rows == [
         (Fixed('{"1": {"class": "'), Choice(("Cup", "Knife")), Fixed('"}')),
@@ -22,7 +22,7 @@ def test_each_property_is_a_row_with_what_stands_before_it():
     ]
 
 
-def test_properties_keep_their_order_and_strings_without_a_list_are_free():
+def test_keeps_the_order_and_treats_plain_strings_as_free_text():
     (row,) = read_schema(record(**{"1": record(reasoning=REASONING, **{"class": CLASS})}))
     assert row == (
         Fixed('{"1": {"reasoning": "'),
@@ -33,13 +33,13 @@ def test_properties_keep_their_order_and_strings_without_a_list_are_free():
     )
 
 
-def test_objects_may_stand_at_any_depth_and_strings_at_the_top():
+def test_accepts_nested_objects_and_top_level_strings():
     (first, second) = read_schema(record(a=CLASS, b=record(c=record(d=REASONING))))
     assert first == (Fixed('{"a": "'), Choice(("Cup", "Knife")), Fixed('"'))
     assert second == (Fixed(', "b": {"c": {"d": "'), FreeText(), Fixed('"}}'))
 
 
-def test_keys_and_names_are_written_as_json_has_them():
+def test_escapes_keys_and_names_for_json():
     (row,) = read_schema(record(**{'a"b': {"type": "string", "enum": ['5" pipe', "Tür"]}}))
     assert row[:2] == (Fixed('{"a\\"b": "'), Choice(('5\\" pipe', "Tür")))
 
@@ -47,15 +47,15 @@ def test_keys_and_names_are_written_as_json_has_them():
 @pytest.mark.parametrize(
     "schema", [{"type": "array"}, {"type": "object"}, record(a={"type": "number"}), record(a={"$ref": "#/b"})]
 )
-def test_what_else_a_schema_may_hold_is_refused(schema: dict[str, object]):
+def test_rejects_other_schema_types(schema: dict[str, object]):
     with pytest.raises(GroundingError, match=r"^schema of the answer: found .*; expected an object with properties"):
         read_schema(schema)
 
 
-def test_tokens_inside_a_string_are_told_apart():
+def test_classifies_tokens_by_their_role_in_a_string():
     pieces = [b"", b"cup", b'"', b'",', b'. "', b'\\"', b"\\", b"a\nb", b"\xc3", b"\x00", b'\\u"', b"\\n"]
-    vocabulary = read_vocabulary(pieces, [0])
+    vocabulary = classify_tokens(pieces, [0])
     assert vocabulary.closers.tolist() == [2, 3]
     assert vocabulary.heads == {0: b"", 2: b"", 3: b"", 4: b". "}
-    # Not: a backslash that would change the quote behind it, control characters, an escape cut short.
+    # Excluded: a backslash that escapes the closing quote, control characters, an incomplete escape.
     assert vocabulary.texts.tolist() == [0, 1, 2, 3, 4, 5, 8, 11]

@@ -1,4 +1,4 @@
-"""Names scored by hand-worked probabilities: the likeliest one is found, and its tokens explain it."""
+"""score_names against probabilities calculated by hand."""
 
 import math
 from collections.abc import Mapping
@@ -6,44 +6,44 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from usd2kg.grounding.llm.local.trie import FloatArray, Path, add_logprobs, build_trie, normalize, score_names
+from usd2kg.grounding.llm.local.trie import FloatArray, TokenPath, add_logprobs, build_trie, normalize, score_names
 
 QUOTE = 0
 CLOSERS = np.array([QUOTE])
 
 
 class Model:
-    """Probabilities of the next token behind a path; what is left is for texts that are not offered."""
+    """Probabilities of the next token after a path; the remainder belongs to texts that are not offered."""
 
-    def __init__(self, table: Mapping[Path, Mapping[int, float]]) -> None:
+    def __init__(self, table: Mapping[TokenPath, Mapping[int, float]]) -> None:
         self.table = table
-        self.asked: list[Path] = []
+        self.paths: list[TokenPath] = []
 
-    def __call__(self, path: Path) -> FloatArray:
-        self.asked.append(path)
+    def __call__(self, path: TokenPath) -> FloatArray:
+        self.paths.append(path)
         found = np.full(100, 1e-12)
         for token, probability in self.table.get(path, {}).items():
             found[token] = probability
         return np.log(found)
 
 
-class TestTheLikeliestName:
-    def test_is_found_where_a_likelier_first_token_leads_to_texts_that_are_not_offered(self):
-        # Offered: "Sp|oon" and "Fork". The model would say "Sponge": after "Sp", "oon" is unlikely.
+class TestMostProbableName:
+    def test_is_found_despite_a_more_probable_first_token(self):
+        # Offered: "Sp|oon" and "Fork". The model prefers "Sponge": after "Sp", "oon" is improbable.
         model = Model({(): {1: 0.7, 3: 0.3}, (1,): {2: 0.1, 9: 0.9}, (1, 2): {QUOTE: 1.0}, (3,): {QUOTE: 1.0}})
         scores = score_names(build_trie({"Spoon": (1, 2), "Fork": (3,)}), model, CLOSERS)
         assert [(name, path) for name, path, _ in scores.found] == [("Fork", (3,)), ("Spoon", (1, 2))]
         assert [logprob for _, _, logprob in scores.found] == pytest.approx([math.log(0.3), math.log(0.07)])
 
-    def test_may_be_the_beginning_of_another(self):
-        # "Cup" ends with 0.6, "Cup|board" goes on with 0.4.
+    def test_may_be_a_prefix_of_another(self):
+        # "Cup" has 0.6, "Cup|board" has 0.4.
         model = Model({(): {1: 1.0}, (1,): {QUOTE: 0.6, 2: 0.4}, (1, 2): {QUOTE: 1.0}})
         scores = score_names(build_trie({"Cup": (1,), "Cupboard": (1, 2)}), model, CLOSERS)
         assert scores.found[0][0] == "Cup"
-        assert scores.explain((1,)) == pytest.approx([math.log(0.6)])
-        assert scores.explain((1, 2)) == pytest.approx([0.0, math.log(0.4)])
+        assert scores.token_logprobs((1,)) == pytest.approx([math.log(0.6)])
+        assert scores.token_logprobs((1, 2)) == pytest.approx([0.0, math.log(0.4)])
 
-    def test_is_the_first_by_its_tokens_where_two_are_as_likely(self):
+    def test_is_the_first_by_its_tokens_on_a_tie(self):
         model = Model({(): {1: 0.5, 2: 0.5}, (1,): {QUOTE: 1.0}, (2,): {QUOTE: 1.0}})
         assert score_names(build_trie({"B": (2,), "A": (1,)}), model, CLOSERS).found[0][0] == "A"
 
@@ -51,11 +51,11 @@ class TestTheLikeliestName:
         model = Model({(): {1: 1.0}, (1,): {QUOTE: 0.2, 7: 0.3, 2: 0.5}, (1, 2): {QUOTE: 1.0}})
         trie = build_trie({"Cup": (1,), "Cupboard": (1, 2)})
         scores = score_names(trie, model, np.array([QUOTE, 7]))
-        assert scores.explain((1,)) == pytest.approx([math.log(0.5)])
+        assert scores.token_logprobs((1,)) == pytest.approx([math.log(0.5)])
 
 
-class TestTokensOfAName:
-    def test_multiply_to_the_probability_of_the_name_among_the_offered_ones(self):
+class TestTokenLogprobs:
+    def test_sum_to_the_logprob_among_the_offered_names(self):
         # P(Chair) = .5 · .8, P(Chest) = .5 · .1, P(Table) = .2; the rest is not offered.
         model = Model(
             {
@@ -67,26 +67,26 @@ class TestTokensOfAName:
             }
         )
         scores = score_names(build_trie({"Chair": (1, 2), "Chest": (1, 3), "Table": (4,)}), model, CLOSERS)
-        assert scores.explain((1, 2)) == pytest.approx([math.log(0.45 / 0.65), math.log(0.40 / 0.45)])
-        assert math.exp(sum(scores.explain((1, 2)))) == pytest.approx(0.40 / 0.65)
-        assert math.exp(sum(scores.explain((4,)))) == pytest.approx(0.20 / 0.65)
+        assert scores.token_logprobs((1, 2)) == pytest.approx([math.log(0.45 / 0.65), math.log(0.40 / 0.45)])
+        assert math.exp(sum(scores.token_logprobs((1, 2)))) == pytest.approx(0.40 / 0.65)
+        assert math.exp(sum(scores.token_logprobs((4,)))) == pytest.approx(0.20 / 0.65)
 
-    def test_count_what_was_not_read_with_the_most_that_it_can_have(self):
-        # After "Fork" with 0.99 nothing else is read; the two other names together have 0.005 at most.
+    def test_count_unread_names_with_their_upper_bound(self):
+        # After "Fork" with 0.99 the search ends; the two other names together have at most 0.005.
         model = Model({(): {1: 0.99, 2: 0.005}, (1,): {QUOTE: 1.0}})
         scores = score_names(build_trie({"Fork": (1,), "Spoon": (2, 3), "Spade": (2, 4)}), model, CLOSERS)
-        assert model.asked == [(), (1,)]
+        assert model.paths == [(), (1,)]
         assert scores.unread == (((2,), pytest.approx(math.log(0.005))),)
-        assert math.exp(sum(scores.explain((1,)))) == pytest.approx(0.99 / 0.995)
+        assert math.exp(sum(scores.token_logprobs((1,)))) == pytest.approx(0.99 / 0.995)
 
-    def test_are_none_for_the_empty_name(self):
+    def test_are_empty_for_the_empty_name(self):
         scores = score_names(build_trie({"": ()}), Model({(): {QUOTE: 1.0}}), CLOSERS)
         assert scores.found == (("", (), pytest.approx(0.0, abs=1e-9)),)
-        assert scores.explain(()) == []
+        assert scores.token_logprobs(()) == []
 
 
-class TestReading:
-    def test_asks_no_place_twice_and_all_names_where_none_stands_out(self):
+class TestSearch:
+    def test_reads_each_node_once_if_all_names_are_equally_probable(self):
         names = {str(token): (token, token) for token in range(1, 6)}
         model = Model(
             {(): dict.fromkeys(range(1, 6), 0.2)}
@@ -94,31 +94,31 @@ class TestReading:
             | {(token, token): {QUOTE: 1.0} for token in range(1, 6)}
         )
         scores = score_names(build_trie(names), model, CLOSERS)
-        assert len(model.asked) == len({*model.asked}) == 11
+        assert len(model.paths) == len({*model.paths}) == 11
         assert len(scores.found) == 5 and scores.unread == ()
 
-    def test_ends_after_64_places_once_a_name_is_found(self):
+    def test_ends_after_64_predictions_once_a_name_is_found(self):
         model = Model({(): dict.fromkeys(range(1, 100), 0.01)} | {(token,): {QUOTE: 1.0} for token in range(1, 100)})
         scores = score_names(build_trie({str(token): (token,) for token in range(1, 100)}), model, CLOSERS)
-        assert len(model.asked) == 64
+        assert len(model.paths) == 64
         assert (len(scores.found), len(scores.unread)) == (63, 36)
-        assert math.exp(sum(scores.explain((1,)))) == pytest.approx(1 / 99)
+        assert math.exp(sum(scores.token_logprobs((1,)))) == pytest.approx(1 / 99)
 
-    def test_goes_straight_down_after_64_places_without_a_name(self):
-        # 70 beginnings, all likelier than the ends of the names behind them.
+    def test_descends_to_one_name_after_64_predictions(self):
+        # 70 first tokens, all more probable than the names that they begin.
         names = {str(token): (token, 80, 81) for token in range(1, 71)}
         model = Model({(): dict.fromkeys(range(1, 71), 0.01)} | {(token,): {80: 0.001} for token in range(1, 71)})
         scores = score_names(build_trie(names), model, CLOSERS)
-        assert model.asked[63:] == [(63,), (63, 80), (63, 80, 81)]
+        assert model.paths[63:] == [(63,), (63, 80), (63, 80, 81)]
         assert [name for name, _, _ in scores.found] == ["63"]
 
 
-def test_probabilities_are_added_without_underflow():
+def test_adds_probabilities_without_underflow():
     assert add_logprobs([-2000.0, -2000.0]) == pytest.approx(-2000 + math.log(2))
     assert add_logprobs([]) == -math.inf
     assert add_logprobs([-math.inf]) == -math.inf
 
 
-def test_output_is_normalised():
+def test_normalises_logits():
     found = normalize(np.array([1000.0, 1000.0 + math.log(3)], np.float32))
     assert np.exp(found) == pytest.approx([0.25, 0.75], abs=1e-4)

@@ -1,1 +1,1 @@
-"""The study's S-BERT baseline: sentence embeddings of names, compared by their cosine."""
+"""The S-BERT baseline of the study: sentence embeddings of names, compared by cosine similarity."""

@@ -8,6 +8,6 @@ __all__ = ["load_pieces"]
 
 
 def load_pieces() -> list[str]:
-    """Return words and pieces of words (`##ing`) in the order of their numbers, marks and single letters among them."""
+    """Return the word pieces in the order of their ids, including special tokens (`[CLS]`) and suffixes (`##ing`)."""
     packed = read_bytes("bert_vocab.txt.gz")
     return gzip.decompress(packed).decode().split("\n")[:-1]

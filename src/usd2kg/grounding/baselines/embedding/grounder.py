@@ -1,4 +1,4 @@
-"""The study's S-BERT baseline: the class whose name is nearest to the prim's name."""
+"""EmbeddingGrounder: the class whose name is most similar to the prim name by sentence embedding."""
 
 from collections.abc import Mapping, Sequence
 
@@ -7,16 +7,15 @@ import numpy as np
 from usd2kg.grounding.baselines.embedding.encoder import MiniLMEncoder, Vectors
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.model import Candidate, Prediction, Status
+from usd2kg.grounding.settings import BASELINES
 from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier
 
 __all__ = ["EmbeddingGrounder"]
 
-_CANDIDATES = 8
-
 
 class EmbeddingGrounder:
-    """Compares names as sentence embeddings; it always answers, however far the nearest class is."""
+    """Compares names by their sentence embeddings. It always chooses a class, however dissimilar."""
 
     name = "embedding"
     is_calibrated = False
@@ -25,9 +24,9 @@ class EmbeddingGrounder:
         """Load the model.
 
         Args:
-            split_names: embed `CoffeeMug_01` and `CoffeeTable` as the words "coffee mug 01" and "coffee table";
-                else as they are written.
-            threads: how many compute one name; 0 takes all cores.
+            split_names: embed `CoffeeMug_01` and `CoffeeTable` as "coffee mug 01" and "coffee table" instead of
+                as written.
+            threads: number of threads for one name; 0 uses all cores.
 
         Raises:
             GroundingError: the extra `embedding` is not installed.
@@ -38,11 +37,11 @@ class EmbeddingGrounder:
 
     @property
     def settings(self) -> Mapping[str, str]:
-        """The settings that its answers depend on."""
+        """The settings that affect its predictions."""
         return {"model": self._encoder.versions, "split_names": str(self._split_names).lower()}
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
-        """Return one prediction for each (prim path, view); only the name is looked at."""
+        """Return one prediction for each (prim path, view), by the name alone."""
         classes = self._encode_classes(tbox)
         texts = dict.fromkeys(self._text(view.name) for _, view in views if view.name.strip())
         ranked = {text: self._rank(text, tbox, classes) for text in texts}
@@ -55,18 +54,19 @@ class EmbeddingGrounder:
         return self._class_vectors[1]
 
     def _text(self, name: str) -> str:
-        """Return what is embedded of a name; one without letters and digits stays as it is."""
+        """Return the text to embed for a name; a name without letters and digits is unchanged."""
         words = split_identifier(name) if self._split_names else ()
         return " ".join(words).lower() or name
 
     def _rank(self, text: str, tbox: TBox, classes: Vectors) -> tuple[Candidate, ...]:
         (vector,) = self._encoder.encode([text])
-        # Not `@`: a BLAS may sum rows in different orders, and classes of the same name must tie.
+        # Not `@`: BLAS may sum rows in different orders, and classes with equal names must have equal scores.
         cosines = np.einsum("ij,j->i", classes, vector)
         candidates = (
             Candidate(cls.iri, min(1.0, float(cosine))) for cls, cosine in zip(tbox.classes, cosines, strict=True)
         )
-        return tuple(sorted(candidates, key=lambda candidate: (-candidate.score, candidate.class_iri))[:_CANDIDATES])
+        ranked = sorted(candidates, key=lambda candidate: (-candidate.score, candidate.class_iri))
+        return tuple(ranked[: BASELINES.max_candidates])
 
     def _predict(
         self, path: str, view: ObjectView, tbox: TBox, ranked: Mapping[str, tuple[Candidate, ...]]
@@ -83,7 +83,7 @@ class EmbeddingGrounder:
         )
 
     def _explain(self, text: str, candidates: Sequence[Candidate], tbox: TBox) -> str:
-        said = [
+        nearest = [
             f"“{self._text(tbox.by_iri[c.class_iri].readable_name)}” (cosine {c.score:.2f})" for c in candidates[:2]
         ]
-        return f"of all class names, “{text}” is nearest to {', then '.join(said)}"
+        return f"of all class names, “{text}” is nearest to {', then '.join(nearest)}"

@@ -1,8 +1,8 @@
-"""BERT's tokenizer for lower-case English: text to numbers of word pieces.
+"""BERT's WordPiece tokenizer for lower-case English.
 
-After Devlin et al., "BERT" (2018), and the code they published with it (`tokenization.py` of google-research/bert):
-clean, lower-case, strip accents, split at blanks, punctuation and CJK characters, then cut each word greedily into
-the longest pieces that the vocabulary has.
+Follows Devlin et al., "BERT" (2018), and its published code (`tokenization.py` of google-research/bert): clean,
+lower-case, strip accents, split at white space, punctuation and CJK characters, then split each word greedily into the
+longest word pieces of the vocabulary.
 """
 
 import unicodedata
@@ -14,12 +14,12 @@ from usd2kg.grounding.baselines.embedding.bert_vocabulary import load_pieces
 __all__ = ["WordPieceTokenizer", "load_tokenizer", "split_words"]
 
 _UNKNOWN, _START, _END = "[UNK]", "[CLS]", "[SEP]"
-_LONGEST_WORD = 100
-"""Characters; a longer word is unknown as a whole."""
+_MAX_WORD_CHARACTERS = 100
+"""A longer word becomes one unknown token, as in the published code."""
 _MAX_TOKENS = 256
-"""What all-MiniLM-L6-v2 was published to read of a text, start and end included; the rest is cut off."""
+"""The published sequence length of all-MiniLM-L6-v2, start and end included; longer texts are truncated."""
 _REMOVED = frozenset(["Cc", "Cf", "Co", "Cs"])
-"""Unicode categories: control, format, private use, surrogate. What is not yet assigned stays, and is unknown."""
+"""Unicode categories that are removed: control, format, private use, surrogate. Unassigned characters stay."""
 _CJK = (
     (0x4E00, 0x9FFF),
     (0x3400, 0x4DBF),
@@ -30,26 +30,26 @@ _CJK = (
     (0xF900, 0xFAFF),
     (0x2F800, 0x2FA1F),
 )
-"""First and last code point of the blocks whose characters stand alone; kana and hangul do not."""
+"""First and last code point of the blocks whose characters are words; kana and hangul are not among them."""
 
 
 class WordPieceTokenizer:
-    """Cuts texts into pieces of a vocabulary."""
+    """Splits texts into word pieces of a vocabulary."""
 
     def __init__(self, vocabulary: Sequence[str]) -> None:
-        """Make the tokenizer from pieces in order of their ids; pieces inside a word begin with `##`."""
+        """Create a tokenizer from word pieces in the order of their ids; suffixes begin with `##`."""
         self._ids = {piece: number for number, piece in enumerate(vocabulary)}
 
     def encode(self, text: str) -> list[int]:
-        """Return the ids of the text's pieces between those of `[CLS]` and `[SEP]`, 256 at most.
+        """Return the token ids of a text, from `[CLS]` to `[SEP]`, at most 256.
 
-        The text is never read as markup: a name `[SEP]` is a word in brackets.
+        Special tokens in the text are plain text: the name `[SEP]` is a word in brackets.
         """
-        pieces = [piece for word in split_words(text) for piece in self._cut(word)]
+        pieces = [piece for word in split_words(text) for piece in self._split_word(word)]
         return [self._ids[piece] for piece in (_START, *pieces[: _MAX_TOKENS - 2], _END)]
 
-    def _cut(self, word: str) -> list[str]:
-        if len(word) > _LONGEST_WORD:
+    def _split_word(self, word: str) -> list[str]:
+        if len(word) > _MAX_WORD_CHARACTERS:
             return [_UNKNOWN]
         pieces: list[str] = []
         start = 0
@@ -74,13 +74,13 @@ def load_tokenizer() -> WordPieceTokenizer:
 
 
 def split_words(text: str) -> list[str]:
-    """Return the words of a text, lower case and without accents; punctuation and CJK characters stand alone.
+    """Return the lower-case words of a text without accents; punctuation and CJK characters are words.
 
     >>> split_words("Küchentisch_2 (Café)")
     ['kuchentisch', '_', '2', '(', 'cafe', ')']
     """
     decomposed = unicodedata.normalize("NFD", "".join(_clean(text)))
-    # Letter by letter, as BERT's vocabulary was made: str.lower() would give a final sigma its other form.
+    # Character by character, like the published code: str.lower() on the text would change a final sigma.
     plain = "".join(c.lower() for c in decomposed if unicodedata.category(c) != "Mn")
     return "".join(f" {c} " if _is_punctuation(c) else c for c in plain).split()
 
@@ -102,7 +102,7 @@ def _is_cjk(c: str) -> bool:
 
 
 def _is_punctuation(c: str) -> bool:
-    # ASCII symbols such as $ and + count too, though Unicode does not call them punctuation.
+    # ASCII symbols such as $ and + count as punctuation here, but not in Unicode.
     return unicodedata.category(c).startswith("P") or (
         c.isascii() and c.isprintable() and not (c.isalnum() or c == " ")
     )

@@ -1,1 +1,1 @@
-"""Language models in this process: weights in a GGUF file, read by llama.cpp, answers held to the schema."""
+"""Language models in this process: GGUF weights, run by llama.cpp, with decoding constrained by the schema."""

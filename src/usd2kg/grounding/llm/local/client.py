@@ -1,4 +1,4 @@
-"""The client of a model in this process, by the name `gguf:FILE`."""
+"""LocalClient: a model in this process, from the model string `gguf:FILE`."""
 
 from collections.abc import Callable
 from functools import partial
@@ -9,46 +9,46 @@ from typing import Protocol, Self
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Completion, Request, Usage
+from usd2kg.grounding.llm.local.decoding import DecodingPlan, TextTokenizer, TokenModel, decode_answer
+from usd2kg.grounding.llm.local.json_tokens import JsonStringTokens, classify_tokens
 from usd2kg.grounding.llm.local.library import check_weights, import_llama_cpp
 from usd2kg.grounding.llm.local.llama import LlamaModel
 from usd2kg.grounding.llm.local.skeleton import read_schema
 from usd2kg.grounding.llm.local.tokenizer import Prompt
-from usd2kg.grounding.llm.local.vocabulary import Vocabulary, read_vocabulary
-from usd2kg.grounding.llm.local.writing import Plan, TokenModel, Tokens, write_answer
 
-__all__ = ["ChatTokens", "LocalClient", "LocalModel", "is_local_model", "open_local"]
+__all__ = ["ChatTokenizer", "LocalClient", "LocalModel", "is_local_model", "open_local"]
 
 _SCHEME = "gguf:"
 
 
-class ChatTokens(Tokens, Protocol):
-    """A vocabulary with a chat template."""
+class ChatTokenizer(TextTokenizer, Protocol):
+    """A tokenizer with a chat template."""
 
     @property
     def ends(self) -> frozenset[int]:
-        """The tokens by which the model says that it is done."""
+        """The end-of-generation tokens."""
         ...
 
-    def frame(self, system: str, user: str) -> Prompt:
-        """Return instructions and question inside the template."""
+    def encode_prompt(self, system: str, user: str) -> Prompt:
+        """Return system and user prompt in the chat template."""
         ...
 
 
 class LocalModel(TokenModel, Protocol):
-    """A model in memory."""
+    """A loaded model."""
 
     @property
     def window(self) -> int:
-        """Tokens that it can read at once."""
+        """Size of the context window in tokens."""
         ...
 
     @property
-    def tokenizer(self) -> ChatTokens:
-        """Its vocabulary."""
+    def tokenizer(self) -> ChatTokenizer:
+        """Its tokenizer."""
         ...
 
-    def begin(self, prompt: Prompt, room: int) -> int:
-        """Read a prompt with room for so many tokens behind it; return how many were still there from the last one."""
+    def read_prompt(self, prompt: Prompt, max_tokens: int) -> int:
+        """Read a prompt, reserve space for `max_tokens` more, and return the number of cached prompt tokens."""
         ...
 
     def close(self) -> None:
@@ -57,19 +57,19 @@ class LocalModel(TokenModel, Protocol):
 
 
 def is_local_model(model: str) -> bool:
-    """Return whether a model string names a file of weights."""
+    """Return whether a model string names a weights file."""
     return model.startswith(_SCHEME)
 
 
 def open_local(model: str, *, threads: int = 1) -> "LocalClient":
-    """Return a client for `gguf:FILE`; the weights are loaded when it is asked first.
+    """Return a client for `gguf:FILE`, which loads the weights at the first request.
 
     Args:
-        model: the model string; a `~` at the beginning of the path is the user's home folder.
-        threads: processor threads that compute.
+        model: the model string; a leading `~` of the path is the user's home folder.
+        threads: number of CPU threads.
 
     Raises:
-        GroundingError: the extra `local` is not installed, or the file is missing or no GGUF.
+        GroundingError: the extra `local` is not installed, or the file is missing or not GGUF.
     """
     library = import_llama_cpp(model)
     path = Path(model.removeprefix(_SCHEME)).expanduser()
@@ -78,16 +78,16 @@ def open_local(model: str, *, threads: int = 1) -> "LocalClient":
 
 
 class LocalClient:
-    """One model in this process, to be used from any number of threads: it serves one request at a time.
+    """One model in this process. Thread-safe; it serves one request at a time.
 
-    Answers fit the schema always. Its system part is kept from one request to the next.
+    Answers always conform to the schema. The system prompt stays in the model's cache between requests.
     """
 
     def __init__(self, model: str, load: Callable[[], LocalModel]) -> None:
-        """Make the client of a model that `load` loads."""
+        """Create a client for the model that `load` returns."""
         self.model = model
         self._load = load
-        self._loaded: tuple[LocalModel, Vocabulary] | None = None
+        self._loaded: tuple[LocalModel, JsonStringTokens] | None = None
         self._lock = Lock()
 
     def __enter__(self) -> Self:
@@ -99,18 +99,18 @@ class LocalClient:
         self.close()
 
     def close(self) -> None:
-        """Free the weights; the next request would load them again."""
+        """Free the weights. The next request loads them again."""
         with self._lock:
             if self._loaded is not None:
                 self._loaded[0].close()
             self._loaded = None
 
     def complete(self, request: Request) -> Completion:
-        """Return the model's completion, JSON by the schema always; without room for all rows, the rest is left out.
+        """Return the model's completion. It conforms to the schema, but rows beyond the token limit are omitted.
 
         Raises:
-            GroundingError: the weights cannot be loaded, the prompt leaves no room in the context window, or the
-                request asks for reasoning before the answer.
+            GroundingError: the weights cannot be loaded, the prompt does not fit the context window, or the request
+                asks for thinking.
         """
         if request.is_thinking:
             raise GroundingError(
@@ -123,23 +123,25 @@ class LocalClient:
     def _answer(self, request: Request) -> Completion:
         if self._loaded is None:
             model = self._load()
-            self._loaded = model, read_vocabulary(model.tokenizer.pieces, model.tokenizer.ends)
-        model, vocabulary = self._loaded
-        plan = Plan(read_schema(request.schema), model.tokenizer)
-        prompt = model.tokenizer.frame(request.system, request.user)
-        room = min(request.most_tokens, plan.most_answer, self._check_room(prompt, plan, model.window))
-        cached = model.begin(prompt, room)
-        written = write_answer(plan, model, vocabulary, room=room, temperature=request.temperature, seed=request.sample)
-        usage = Usage(len(prompt.tokens), cached, len(written.tokens))
-        return Completion(written.text, written.finish, usage, tokens=written.tokens)
+            self._loaded = model, classify_tokens(model.tokenizer.pieces, model.tokenizer.ends)
+        model, string_tokens = self._loaded
+        plan = DecodingPlan(read_schema(request.schema), model.tokenizer)
+        prompt = model.tokenizer.encode_prompt(request.system, request.user)
+        max_tokens = min(request.max_tokens, plan.max_answer_tokens, self._remaining_tokens(prompt, plan, model.window))
+        cached = model.read_prompt(prompt, max_tokens)
+        decoded = decode_answer(
+            plan, model, string_tokens, max_tokens=max_tokens, temperature=request.temperature, seed=request.sample
+        )
+        usage = Usage(len(prompt.tokens), cached, len(decoded.tokens))
+        return Completion(decoded.text, decoded.finish, usage, tokens=decoded.tokens)
 
-    def _check_room(self, prompt: Prompt, plan: Plan, window: int) -> int:
-        """Return how many tokens may follow a prompt."""
-        size, room = len(prompt.tokens), window - len(prompt.tokens)
-        if room < plan.least_answer:
+    def _remaining_tokens(self, prompt: Prompt, plan: DecodingPlan, window: int) -> int:
+        """Return how many tokens fit the context window after a prompt."""
+        size, remaining = len(prompt.tokens), window - len(prompt.tokens)
+        if remaining < plan.min_answer_tokens:
             raise GroundingError(
-                f"model '{self.model}': the prompt has {size} tokens and its answer {plan.least_answer} or more, but "
-                f"the model reads {window} at most; offer fewer classes with --shortlist, or ask about fewer objects "
-                "a prompt with --objects-per-prompt"
+                f"model '{self.model}': the prompt has {size} tokens and its answer {plan.min_answer_tokens} or more, "
+                f"but the model reads {window} at most; offer fewer classes with --shortlist, or ask about fewer "
+                "objects a prompt with --objects-per-prompt"
             )
-        return room
+        return remaining

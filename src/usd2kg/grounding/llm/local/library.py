@@ -1,4 +1,4 @@
-"""llama.cpp and a file of weights, as far as both can be checked before anything is loaded."""
+"""Import of llama-cpp-python, and a check of the weights file before loading."""
 
 import logging
 from pathlib import Path
@@ -12,7 +12,7 @@ _MAGIC = b"GGUF"
 
 
 def import_llama_cpp(model: str) -> ModuleType:
-    """Return the library.
+    """Return the module `llama_cpp`, with llama.cpp's log messages off.
 
     Raises:
         GroundingError: the extra `local` is not installed.
@@ -24,15 +24,15 @@ def import_llama_cpp(model: str) -> ModuleType:
             f"model '{model}': the module {error.name} is not installed; "
             "expected the extra `local`, run pip install 'usd2kg[local]'"
         ) from error
-    # The library prints what llama.cpp says unless its logger has a level.
-    if (said := logging.getLogger("llama-cpp-python")).level == logging.NOTSET:
-        said.setLevel(logging.CRITICAL)
+    # The library prints llama.cpp's messages unless its logger has a level.
+    if (logger := logging.getLogger("llama-cpp-python")).level == logging.NOTSET:
+        logger.setLevel(logging.CRITICAL)
     module: ModuleType = llama_cpp
     return module
 
 
 def check_weights(path: Path) -> None:
-    """Raise GroundingError unless a file is there that begins like GGUF."""
+    """Raise GroundingError unless the file exists and begins with the magic number of GGUF."""
     try:
         with path.open("rb") as file:
             start = file.read(len(_MAGIC))
@@ -42,5 +42,5 @@ def check_weights(path: Path) -> None:
         ) from error
     if start != _MAGIC:
         raise GroundingError(
-            f"{path}: is no GGUF file, it begins with {start!r}; expected weights in the format of llama.cpp"
+            f"{path}: is not a GGUF file, it begins with {start!r}; expected weights in the format of llama.cpp"
         )

@@ -1,4 +1,4 @@
-"""An answer's schema as a skeleton: the text that is certain, and the places that a model fills in."""
+"""read_schema: answer schema → skeleton, the fixed text of an answer and the gaps that a model fills."""
 
 import json
 from collections.abc import Mapping
@@ -7,43 +7,43 @@ from typing import Any
 
 from usd2kg.errors import GroundingError
 
-__all__ = ["CLOSING", "OPENING", "Choice", "Fixed", "FreeText", "Row", "read_schema"]
+__all__ = ["CLOSING", "OPENING", "Choice", "Fixed", "FreeText", "SkeletonRow", "read_schema"]
 
 OPENING = "{"
-"""What an answer without rows begins with; the first row has it inside."""
+"""Beginning of an answer, which is part of the first row."""
 CLOSING = "}"
-"""What follows the last row, however many there are."""
+"""End of an answer, after the last row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fixed:
-    """Text that the schema leaves no choice about."""
+    """Text that the schema determines."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """One of a few strings, inside quotes that stand in the text around it."""
+    """One of several strings; its quotes are in the fixed text around it."""
 
     names: tuple[str, ...]
-    """As they are written in JSON."""
+    """The strings, escaped for JSON."""
 
 
 @dataclass(frozen=True, slots=True)
 class FreeText:
-    """Any string, inside quotes that stand in the text around it."""
+    """Any string; its quotes are in the fixed text around it."""
 
 
-Row = tuple[Fixed | Choice | FreeText, ...]
-"""One property of the answer, with the brace or comma before it."""
+SkeletonRow = tuple[Fixed | Choice | FreeText, ...]
+"""One property of the answer, with the preceding brace or comma."""
 
 
-def read_schema(schema: Mapping[str, Any]) -> list[Row]:
-    """Return the rows of an answer by a schema of objects and strings, in the order of its properties.
+def read_schema(schema: Mapping[str, Any]) -> list[SkeletonRow]:
+    """Return the rows of an answer from a schema of objects and strings, in the order of its properties.
 
     Raises:
-        GroundingError: the schema holds something else.
+        GroundingError: the schema contains another type.
     """
     rows = []
     opening = OPENING
@@ -74,8 +74,8 @@ def _properties(schema: Mapping[str, Any]) -> Mapping[str, Mapping[str, Any]]:
     return dict(properties)
 
 
-def _join(steps: list[Fixed | Choice | FreeText]) -> Row:
-    """Return the steps with texts that follow each other made one."""
+def _join(steps: list[Fixed | Choice | FreeText]) -> SkeletonRow:
+    """Return the steps with adjacent fixed texts merged."""
     joined: list[Fixed | Choice | FreeText] = []
     for step in steps:
         last = joined[-1] if joined else None

@@ -1,4 +1,4 @@
-"""What is kept of a request and of its completion, as JSON."""
+"""Requests and completions as JSON, for the cache and recordings."""
 
 import hashlib
 import json
@@ -11,9 +11,9 @@ from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 
 __all__ = [
     "UNREADABLE",
-    "Row",
+    "CacheEntry",
     "checked",
-    "make_row",
+    "make_entry",
     "order_request_fields",
     "read_completion",
     "read_request_fields",
@@ -24,7 +24,7 @@ __all__ = [
 ]
 
 _Kinds = dict[str, tuple[type, ...]]
-"""Name → types, one of which its value has."""
+"""Name → allowed types of the value."""
 
 _KEY_FORMAT = "usd2kg-request/1"
 _REQUEST: _Kinds = {
@@ -36,7 +36,7 @@ _REQUEST: _Kinds = {
     "is_thinking": (bool,),
     "sample": (int,),
 }
-"""The fields of a request, in the order in which they are kept. One with images has `images` behind them."""
+"""The fields of a request in their stored order, followed by `images` if it has any."""
 _IMAGES: _Kinds = {"images": (list,)}
 _COMPLETION = {
     "text": (str,),
@@ -54,22 +54,22 @@ _USAGE = {
 }
 _DIGEST = re.compile("[0-9a-f]{64}")
 UNREADABLE = (ValueError, OverflowError, RecursionError)
-"""What reading JSON raises that is not what was written."""
+"""Exceptions of reading damaged JSON."""
 
 
-class Row(NamedTuple):
-    """A request and its completion."""
+class CacheEntry(NamedTuple):
+    """The columns of a request and its completion in the cache."""
 
     shared: tuple[tuple[str, str], ...]
-    """Digest and text of what other requests may hold too."""
+    """Digest and text of the system prompt and of the schema, which requests share."""
     values: tuple[str, str, str, str, str]
-    """Key, digests of instructions and schema, the rest of the request, and the completion."""
+    """Key, digests of system prompt and schema, the rest of the request, and the completion."""
 
 
 def request_key(model: str, request: Request) -> str:
-    """Return the address of a completion: `sha256:` and the hex digest of the model and every field of the request.
+    """Return the cache key of a request: `sha256:` and the hex digest of the model and all fields.
 
-    The order of the schema's properties counts: models answer in it.
+    The order of the schema's properties counts, since models answer in this order.
     """
     return _key(model, request_fields(request))
 
@@ -80,17 +80,25 @@ def _key(model: str, values: Mapping[str, Any]) -> str:
 
 
 def request_fields(request: Request) -> dict[str, Any]:
-    """Return what is kept of a request: all of it, but of images the digests alone, and nothing where it has none."""
-    values = {name: getattr(request, name) for name in _REQUEST} | {"temperature": float(request.temperature)}
+    """Return the stored fields of a request: all fields, with images replaced by their digests."""
+    values = {
+        "system": request.system,
+        "user": request.user,
+        "schema": request.schema,
+        "most_tokens": request.max_tokens,
+        "temperature": float(request.temperature),
+        "is_thinking": request.is_thinking,
+        "sample": request.sample,
+    }
     images = [hashlib.sha256(image).hexdigest() for image in request.images]
     return values | ({"images": images} if images else {})
 
 
 def read_request_fields(data: Any) -> dict[str, Any]:
-    """Return what was kept of a request.
+    """Return the stored fields of a request after checking them.
 
     Raises:
-        ValueError: it was not kept so.
+        ValueError: a field is missing, unknown, or has the wrong type.
     """
     has_images = isinstance(data, dict) and "images" in data
     values = checked(data, {**_REQUEST, **(_IMAGES if has_images else {})}, "request")
@@ -101,17 +109,17 @@ def read_request_fields(data: Any) -> dict[str, Any]:
 
 
 def order_request_fields(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the fields of a request, out of more, in the order in which they are kept."""
+    """Return the fields of a request among `values`, in their stored order."""
     return {name: values[name] for name in (*_REQUEST, *_IMAGES) if name in values}
 
 
-def make_row(model: str, values: Mapping[str, Any], completion: Completion) -> Row:
-    """Return what is kept of a request, given as its fields, and of its completion."""
+def make_entry(model: str, values: Mapping[str, Any], completion: Completion) -> CacheEntry:
+    """Return the cache entry of a request, given as its stored fields, and its completion."""
     rest = {"model": model, **values}
     system, schema = (to_json(rest.pop(name)) for name in ("system", "schema"))
     shared = ((_digest(system), system), (_digest(schema), schema))
-    said = to_json(_completion_fields(completion))
-    return Row(shared, (_key(model, values), shared[0][0], shared[1][0], to_json(rest), said))
+    completed = to_json(_completion_fields(completion))
+    return CacheEntry(shared, (_key(model, values), shared[0][0], shared[1][0], to_json(rest), completed))
 
 
 def _completion_fields(completion: Completion) -> dict[str, Any]:
@@ -121,10 +129,10 @@ def _completion_fields(completion: Completion) -> dict[str, Any]:
 
 
 def read_completion(data: Any) -> Completion:
-    """Return a completion as it was kept.
+    """Return a completion from its stored fields.
 
     Raises:
-        ValueError: it was not kept so.
+        ValueError: a field is missing, unknown, or has the wrong type.
     """
     values = dict(checked(data, _COMPLETION, "completion"))
     usage = Usage(**checked(values.pop("usage"), _USAGE, "usage"))
@@ -140,10 +148,10 @@ def _read_token(data: Any) -> tuple[str, float]:
 
 
 def upgrade_completion(data: Any) -> Any:
-    """Return a completion that was kept in format 1 in today's.
+    """Return the stored fields of a completion, converted from format 1 if they are in it.
 
-    That format kept the mean of the tokens' log-probabilities alone. It is dropped, as no class's own can be told from
-    it: the completion stays, without token probabilities. What is in no such format comes back as it is.
+    Format 1 stored only the mean log-probability of the tokens. It is dropped, since the log-probability of a class
+    cannot be derived from it; the completion then has no tokens. Data in another format are returned unchanged.
     """
     if not isinstance(data, dict) or not isinstance(data.get("usage"), dict):
         return data
@@ -154,10 +162,10 @@ def upgrade_completion(data: Any) -> Any:
 
 
 def checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict[str, Any]:
-    """Return the data if it is an object with just these fields of these types.
+    """Return the data if it is an object with exactly these fields of these types.
 
     Raises:
-        ValueError: it is not; the message says what it is and what was expected.
+        ValueError: it is not; the message states what was found and expected.
     """
     if not isinstance(data, dict) or data.keys() != kinds.keys():
         raise ValueError(f"{what} should be an object with {', '.join(kinds)}")
@@ -168,9 +176,9 @@ def checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict
 
 
 def to_json(value: object) -> str:
-    """Return the value as JSON on one line that can be written as UTF-8."""
+    """Return the value as JSON on one line that can be encoded as UTF-8."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), default=_as_dict)
-    # Lone surrogates stand in strings only, where what this makes of them is JSON's own escape.
+    # Lone surrogates occur only in strings, where the backslash replacement is a JSON escape.
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 

@@ -1,4 +1,4 @@
-"""Groundings as files: a CSV mapping for other tools, JSON that can be read back, and lists of paths."""
+"""Files of groundings: CSV for other tools, JSON for reading back, and lists of prim paths."""
 
 import csv
 import io
@@ -21,11 +21,11 @@ _FORMAT = "usd2kg-grounding/1"
 def format_mapping(grounding: Grounding, tbox: TBox, file_format: str) -> str:
     """Return the mapping of prims to classes as `csv` or `json`.
 
-    CSV has the columns path, class (IRI), label, confidence, status and grounder; what is unknown is empty.
-    JSON holds everything and is read back by `read_grounding`.
+    CSV has the columns path, class (IRI), label, confidence, status and grounder; unknown cells are empty.
+    JSON holds the whole grounding; `read_grounding` reads it.
 
     Raises:
-        GroundingError: the format is neither.
+        GroundingError: the format is unknown.
     """
     check_format(file_format)
     if file_format == "csv":
@@ -34,7 +34,7 @@ def format_mapping(grounding: Grounding, tbox: TBox, file_format: str) -> str:
 
 
 def check_format(file_format: str) -> None:
-    """Raise GroundingError if a mapping cannot be written in that format."""
+    """Raise GroundingError if the format of a mapping is unknown."""
     if file_format not in MAPPING_FORMATS:
         known = ", ".join(MAPPING_FORMATS)
         raise GroundingError(f"format {file_format!r} is unknown; expected one of {known}, or sssom with usd2kg ground")
@@ -55,7 +55,7 @@ def read_grounding(path: Path) -> Grounding:
     """Return the grounding in a JSON file that `format_mapping` wrote.
 
     Raises:
-        GroundingError: the file is missing or is no such JSON.
+        GroundingError: the file is missing or has another format.
     """
     try:
         data = json.loads(path.read_text("utf-8"))
@@ -73,7 +73,7 @@ def _read_prediction(item: dict[str, Any]) -> Prediction:
     item["status"] = Status(item["status"])
     item["evidence"] = tuple(item["evidence"])
     item["candidates"] = tuple(Candidate(**candidate) for candidate in item["candidates"])
-    # Files that were written before there were reviews have none.
+    # Older files have no key `review`.
     if item.get("review") is not None:
         review = item["review"]
         item["review"] = Review(**{**review, "predicted_status": Status(review["predicted_status"])})
@@ -81,7 +81,7 @@ def _read_prediction(item: dict[str, Any]) -> Prediction:
 
 
 def read_paths(path: Path) -> list[str]:
-    """Return the prim paths in the column `path` of a CSV file, in order, without repeats.
+    """Return the prim paths in the column `path` of a CSV file, in order, without duplicates.
 
     Raises:
         GroundingError: the file cannot be read or has no such column.

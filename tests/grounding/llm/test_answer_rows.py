@@ -1,4 +1,4 @@
-"""Rows of answers and the places of their classes, which are checked by cutting them out of the text."""
+"""read_answer_rows: rows of completions and the spans of their classes."""
 
 import json
 
@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from usd2kg.grounding.llm.rows import read_rows
+from usd2kg.grounding.llm.answer_rows import read_answer_rows
 
 
 def spans(text: str, *numbers: str) -> dict[str, str | None]:
-    """The text that stands where each row's class is."""
-    rows = read_rows(text, numbers)
+    """Return number → text in the class span of the row."""
+    rows = read_answer_rows(text, numbers)
     return {number: text[slice(*row.class_span)] if row.class_span else None for number, row in rows.items()}
 
 
@@ -33,11 +33,11 @@ def spans(text: str, *numbers: str) -> dict[str, str | None]:
         ("no rows", {}),
     ],
 )
-def test_the_class_of_each_row_is_found_in_the_text(text: str, expected: dict[str, str | None]):
+def test_finds_the_class_span_of_each_row(text: str, expected: dict[str, str | None]):
     assert spans(text, "1", "2") == expected
 
 
-def test_a_single_object_needs_no_number():
+def test_accepts_a_row_without_number_for_a_single_object():
     assert spans('{"reasoning": "Cup?", "class": "Cup"}', "1") == {"1": "Cup"}
     assert spans('{"class": "Cup"}', "1", "2") == {}
 
@@ -52,9 +52,9 @@ JSON = st.recursive(
 @given(
     rows=st.dictionaries(st.sampled_from("123"), JSON), indent=st.none() | st.integers(0, 2), before=st.text(max_size=9)
 )
-def test_places_agree_with_the_decoder(rows: dict, indent: int | None, before: str):
+def test_spans_contain_the_decoded_classes(rows: dict, indent: int | None, before: str):
     text = before.replace("{", "") + json.dumps(rows, indent=indent)
-    found = read_rows(text, ("1", "2", "3"))
+    found = read_answer_rows(text, ("1", "2", "3"))
     assert {number: row.value for number, row in found.items()} == rows
     for number, row in found.items():
         value = rows[number]

@@ -1,30 +1,30 @@
-"""The rows of a model's answer, read from its text with the places where their classes stand."""
+"""read_answer_rows: the JSON rows of a completion, with the position of each class in the text."""
 
 import json
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-__all__ = ["Row", "read_rows"]
+from usd2kg.grounding.llm.limits import LIMITS
 
-_MOST_STARTS = 200
-"""Braces that are tried as the start of a JSON object, from the front."""
+__all__ = ["AnswerRow", "read_answer_rows"]
 
 
-class Row(NamedTuple):
-    """What an answer says of one object."""
+class AnswerRow(NamedTuple):
+    """The JSON value about one object."""
 
     value: Any
-    """The JSON value: an object with the class and maybe more, or the class alone."""
+    """An object with the key `class`, or the class alone."""
     class_span: tuple[int, int] | None
-    """Where in the text the class's JSON value starts and ends, without its quotes; None where the row has none."""
+    """Start and end of the class value in the text, without its quotes; None if the row has no class."""
 
 
-def read_rows(text: str, numbers: Sequence[str]) -> dict[str, Row]:
-    """Return number → row for the objects of these numbers that the text has rows for.
+def read_answer_rows(text: str, numbers: Sequence[str]) -> dict[str, AnswerRow]:
+    """Return number → row for the objects that the text has a row for.
 
-    Read are a JSON object, alone, fenced or after prose, and the whole rows of one that breaks off. Of several JSON
-    objects the last of those with most rows counts. An object with a class in it is the row of a single number.
+    The rows are the members of a JSON object, which may be fenced, surrounded by prose, or truncated after complete
+    rows. If there are several JSON objects, the last one with the most rows counts. If a single number is requested,
+    an object with the key `class` is its row.
     """
     best: dict[str, int] = {}
     for start, found in _json_objects(text):
@@ -34,13 +34,13 @@ def read_rows(text: str, numbers: Sequence[str]) -> dict[str, Row]:
             starts = {numbers[0]: start}
         if starts and len(starts) >= len(best):
             best = starts
-    return {number: _read_row(text, start) for number, start in (best or _whole_rows(text, numbers)).items()}
+    return {number: _read_row(text, start) for number, start in (best or _complete_rows(text, numbers)).items()}
 
 
 def _json_objects(text: str) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Yield the JSON objects in a text that stand in no other, in order, with their starts."""
+    """Yield the outermost JSON objects of a text with their start positions."""
     start = text.find("{")
-    for _ in range(_MOST_STARTS):
+    for _ in range(LIMITS.max_json_starts):
         if start < 0:
             return
         found, end = _decode(text, start)
@@ -49,8 +49,8 @@ def _json_objects(text: str) -> Iterator[tuple[int, dict[str, Any]]]:
         start = text.find("{", max(end, start + 1))
 
 
-def _whole_rows(text: str, numbers: Sequence[str]) -> dict[str, int]:
-    """Return the starts of the rows that were written out before the text broke off."""
+def _complete_rows(text: str, numbers: Sequence[str]) -> dict[str, int]:
+    """Return the start positions of the complete rows in a truncated text."""
     return {
         match[1]: match.end()
         for match in re.finditer(r'(?<!\\)"([0-9]{1,9})"\s*:\s*(?=[{"])', text)
@@ -58,14 +58,14 @@ def _whole_rows(text: str, numbers: Sequence[str]) -> dict[str, int]:
     }
 
 
-def _read_row(text: str, start: int) -> Row:
+def _read_row(text: str, start: int) -> AnswerRow:
     value, end = _decode(text, start)
     if not isinstance(value, dict):
-        return Row(value, _without_quotes(text, start, end))
+        return AnswerRow(value, _without_quotes(text, start, end))
     if "class" not in value:
-        return Row(value, None)
+        return AnswerRow(value, None)
     start = _members(text, start)["class"]
-    return Row(value, _without_quotes(text, start, _decode(text, start)[1]))
+    return AnswerRow(value, _without_quotes(text, start, _decode(text, start)[1]))
 
 
 def _without_quotes(text: str, start: int, end: int) -> tuple[int, int]:
@@ -73,9 +73,9 @@ def _without_quotes(text: str, start: int, end: int) -> tuple[int, int]:
 
 
 def _members(text: str, start: int) -> dict[str, int]:
-    """Return name → start of the value for the members of the JSON object that starts there.
+    """Return name → start of the value for the members of the JSON object at `start`.
 
-    Of members of one name the last counts, as for the decoder.
+    As in the decoder, the last of several members with the same name counts.
     """
     found = {}
     at = _skip_space(text, start + 1)
@@ -95,7 +95,7 @@ def _skip_space(text: str, start: int) -> int:
 
 
 def _decode(text: str, start: int) -> tuple[Any, int]:
-    """Return the JSON value that starts there and where it ends; that is `start` if there is none."""
+    """Return the JSON value at `start` and its end; the end is `start` if there is none."""
     try:
         return json.JSONDecoder(strict=False).raw_decode(text, start)
     except (ValueError, RecursionError):

@@ -1,0 +1,55 @@
+"""Operational limits of requests, the cache, prompts and local models."""
+
+from dataclasses import dataclass
+
+__all__ = ["LIMITS", "OperationalLimits"]
+
+
+@dataclass(frozen=True, slots=True)
+class OperationalLimits:
+    """Timeouts, retries and sizes."""
+
+    request_timeout_s: float = 120.0
+    """Duration of one request, from connecting to the last byte of its stream."""
+    connect_timeout_s: float = 10.0
+    max_retries: int = 4
+    """Attempts after the first, for failures that may pass."""
+    first_backoff_s: float = 1.0
+    """Upper bound of the first wait; it doubles with each retry."""
+    max_backoff_s: float = 60.0
+    max_retry_after_s: float = 120.0
+    """A server that asks for a longer wait has exhausted a quota; the request fails at once."""
+    max_consecutive_failures: int = 3
+    """Failed prompts in a row after which the model is not asked again."""
+    max_output_tokens: int = 4096
+    max_characters_per_token: int = 32
+    """A stream with more characters per allowed token is cut off: the server ignores its token limit."""
+    concurrency: int = 4
+    """Prompts in flight at the same time."""
+    max_json_starts: int = 200
+    """Opening braces of a completion that are tried as the start of a JSON object."""
+    max_siblings: int = 48
+    """Sibling names in the description of an object; the others are counted."""
+    max_quoted_characters: int = 200
+    """Characters of a name, label or comment in a prompt."""
+    max_quoted_answer_characters: int = 400
+    """Characters of a rejected completion that a repair prompt quotes."""
+    max_error_characters: int = 300
+    """Characters of a server's error message."""
+    min_secret_characters: int = 6
+    """Shorter keys are not redacted, since that would make error messages unreadable."""
+    cache_busy_s: float = 60.0
+    """Wait for a cache that another process has locked."""
+    cache_poll_s: float = 0.01
+    """Interval between attempts to switch a new cache to WAL mode."""
+    decode_batch_tokens: int = 512
+    """Tokens that llama.cpp reads in one call."""
+    min_context_tokens: int = 2048
+    """Smallest context that is allocated for a local model."""
+    max_token_bytes: int = 1024
+    """Buffer for the text of one token of a local model."""
+    max_added_tokens: int = 8
+    """Special tokens that a tokenizer may add to a text."""
+
+
+LIMITS = OperationalLimits()

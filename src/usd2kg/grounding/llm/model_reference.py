@@ -1,0 +1,110 @@
+"""ModelReference: provider, model name and URL from a model string, and the API key from the environment.
+
+A model string is `google:NAME`, `anthropic:NAME` or `openai:NAME`, optionally followed by `@URL` for another server.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from ipaddress import ip_address
+from urllib.parse import urlsplit
+
+from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.retry import Redactor
+
+__all__ = ["KEY_VARIABLES", "PROVIDER_URLS", "ModelReference", "find_key", "parse_model_reference"]
+
+KEY_VARIABLES = {
+    "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
+    "anthropic": ("ANTHROPIC_API_KEY",),
+    "openai": ("OPENAI_API_KEY",),
+}
+"""Provider → environment variables of its API key, in order of precedence."""
+PROVIDER_URLS = {
+    "google": "https://generativelanguage.googleapis.com",
+    "anthropic": "https://api.anthropic.com",
+    "openai": "https://api.openai.com/v1",
+}
+"""Provider → base URL of its own service."""
+_EXPECTED = "expected google:NAME, anthropic:NAME or openai:NAME, optionally followed by @http://HOST:PORT/v1"
+_NO_KEY = "none"
+"""Placeholder for loopback servers without a key, since the client libraries require one."""
+
+
+@dataclass(frozen=True, slots=True)
+class ModelReference:
+    """A parsed model string."""
+
+    model: str
+    """The model string itself."""
+    provider: str
+    name: str
+    url: str
+    has_custom_url: bool
+    """Whether the URL is in the model string."""
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether the server runs on this machine."""
+        host = urlsplit(self.url).hostname or ""
+        try:
+            return ip_address(host).is_loopback
+        except ValueError:
+            return host == "localhost" or host.endswith(".localhost")
+
+    @property
+    def is_openai_compatible(self) -> bool:
+        """Whether the server implements OpenAI's API but is not OpenAI's own."""
+        return self.provider == "openai" and self.has_custom_url
+
+
+def parse_model_reference(model: str) -> ModelReference:
+    """Return the parts of a model string.
+
+    Raises:
+        GroundingError: the provider is unknown, the name is missing, or the URL is malformed or contains credentials.
+    """
+    provider, _, rest = model.partition(":")
+    # A model name may contain an @; a URL begins with its scheme.
+    at = max(rest.find("@http://"), rest.find("@https://"))
+    name, url = (rest, None) if at < 0 else (rest[:at], rest[at + 1 :].rstrip("/"))
+    if provider not in PROVIDER_URLS or not name or any(map(str.isspace, model)):
+        raise GroundingError(f"model '{Redactor([])(model)}': no known provider and name; {_EXPECTED}")
+    if url is not None:
+        _check_url(provider, name, url)
+    return ModelReference(model, provider, name, url or PROVIDER_URLS[provider], url is not None)
+
+
+def _check_url(provider: str, name: str, url: str) -> None:
+    try:
+        parts = urlsplit(url)
+        is_valid = bool(parts.hostname) and parts.port != 0
+    except ValueError:
+        is_valid = False
+    # The messages omit the URL, since it may contain a password.
+    if not is_valid:
+        raise GroundingError(f"model '{provider}:{name}@…': no host and port in its URL; {_EXPECTED}")
+    if parts.username is not None or parts.query or parts.fragment:
+        raise GroundingError(
+            f"model '{provider}:{name}@…': its URL contains a user, a query or a fragment; "
+            f"expected only scheme, host, port and path, put the key into {KEY_VARIABLES[provider][0]}"
+        )
+
+
+def find_key(reference: ModelReference, environment: Mapping[str, str]) -> str:
+    """Return the API key of a model from the environment, or a placeholder for servers on this machine.
+
+    Raises:
+        GroundingError: the key is missing or is not printable ASCII.
+    """
+    names = KEY_VARIABLES[reference.provider]
+    key = next((key for name in names if (key := environment.get(name, "").strip())), "")
+    if not key and not reference.is_loopback:
+        raise GroundingError(
+            f"model '{reference.model}': no key in the environment; expected one, set {' or '.join(names)}"
+        )
+    if not (key.isascii() and key.isprintable()):
+        raise GroundingError(
+            f"model '{reference.model}': the key contains characters that an HTTP header cannot; "
+            f"expected printable ASCII, correct {' or '.join(names)}"
+        )
+    return key or _NO_KEY
