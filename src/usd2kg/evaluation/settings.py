@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["BOOTSTRAP", "CONFIDENCE", "PLATT_FIT", "REPORT"]
+__all__ = [
+    "BOOTSTRAP",
+    "CONFIDENCE",
+    "PLATT_FIT",
+    "REPORT",
+    "BootstrapSettings",
+    "ConfidenceSettings",
+    "PlattFitSettings",
+    "ReportSettings",
+]
 
 
 @dataclass(frozen=True, slots=True)

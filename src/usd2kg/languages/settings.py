@@ -4,7 +4,14 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["COMPOUNDS", "PHRASES", "SPELLING"]
+__all__ = [
+    "COMPOUNDS",
+    "PHRASES",
+    "SPELLING",
+    "CompoundSettings",
+    "PhraseSettings",
+    "SpellingSettings",
+]
 
 
 @dataclass(frozen=True, slots=True)
