@@ -16,14 +16,13 @@ from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
+from usd2kg.ontology.limits import DOWNLOAD
 from usd2kg.ontology.registry import CATALOG, KnownDocument, KnownOntology
 from usd2kg.ontology.sniff import sniff_syntax
 
 __all__ = ["fetch_ontology", "shown_address"]
 
 _ACCEPT = "text/turtle, application/rdf+xml, text/owl-functional, application/owl+xml, */*;q=0.5"
-_TIMEOUT_S = 60.0
-_MOST_BYTES = 200_000_000
 _SCHEMES = {"http", "https"}
 
 
@@ -126,8 +125,8 @@ def _download(address: str) -> bytes:
         raise OntologyError(f"{shown}: is not a web address; expected https://… or http://…")
     try:
         request = urllib.request.Request(address, headers={"Accept": _ACCEPT, "User-Agent": "usd2kg"})
-        with _opener().open(request, timeout=_TIMEOUT_S) as answer:
-            data: bytes = answer.read(_MOST_BYTES + 1)
+        with _opener().open(request, timeout=DOWNLOAD.timeout_s) as answer:
+            data: bytes = answer.read(DOWNLOAD.document_bytes + 1)
             promised = answer.headers.get("Content-Length", "")
     except urllib.error.HTTPError as error:
         error.close()
@@ -141,8 +140,8 @@ def _download(address: str) -> bytes:
     except OSError as error:
         reason = getattr(error, "reason", error)
         raise OntologyError(f"{shown}: cannot be reached ({reason}); is this machine online?") from error
-    if len(data) > _MOST_BYTES:
-        raise OntologyError(f"{shown}: is longer than {_MOST_BYTES:,} bytes; expected an ontology")
+    if len(data) > DOWNLOAD.document_bytes:
+        raise OntologyError(f"{shown}: is longer than {DOWNLOAD.document_bytes:,} bytes; expected an ontology")
     # A sized read does not report a connection that ended early.
     if promised.isascii() and promised.isdigit() and len(data) < int(promised):
         raise OntologyError(f"{shown}: ended after {len(data):,} of {int(promised):,} bytes; try again")

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox, expand_curie
+from usd2kg.relations.settings import FOOTPRINT
 from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
 from usd2kg.scene import Box, SceneObject
 
@@ -16,11 +17,6 @@ __all__ = ["BoxedObjects", "ClassMembership", "corners_of", "overlap_areas"]
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
-
-_UPRIGHT = 0.9999
-"""Minimal z component of the vertical axis of an object rotated about z only."""
-_FITS = 0.01
-"""Relative tolerance between the measured AABB and that of the rotated footprint."""
 
 
 class ClassMembership:
@@ -137,13 +133,13 @@ def _turned_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
         ]
     )
     upright = int(np.abs(axes[:, 2]).argmax())
-    if abs(axes[upright, 2]) < _UPRIGHT:
+    if abs(axes[upright, 2]) < FOOTPRINT.min_upright:
         return None
     first, second = (axis for axis in range(3) if axis != upright)
     sides = np.array([obj.oriented_size[first], obj.oriented_size[second]])
     along = axes[first, :2] / np.hypot(*axes[first, :2])
     around = np.abs(along) * sides[0] + np.abs(along[::-1]) * sides[1]
-    fits = np.abs(around - obj.own_box.size[:2]).max() <= _FITS * sides.max()
+    fits = np.abs(around - obj.own_box.size[:2]).max() <= FOOTPRINT.max_misfit * sides.max()
     return (sides / 2, along) if fits else None
 
 

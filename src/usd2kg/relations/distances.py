@@ -4,15 +4,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.relations.boxed_objects import BoxedObjects
+from usd2kg.relations.settings import DISTANCE
 
 __all__ = ["box_gaps", "distances"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_MAX_PART_PAIRS = 256
-"""Pairs of objects with more pairs of parts are compared by their boxes."""
 _BATCH = 1 << 20
+"""Pairs of parts that are compared at a time."""
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
@@ -46,9 +46,9 @@ def _between_parts(boxed: BoxedObjects, one: Indices, other: Indices, box_distan
     starts, lower, upper = boxed.parts
     count = np.diff(starts)
     pair_count = count[one] * count[other]
-    some = np.flatnonzero((pair_count > 1) & (pair_count <= _MAX_PART_PAIRS))
+    some = np.flatnonzero((pair_count > 1) & (pair_count <= DISTANCE.max_part_pairs))
     found = box_distance.copy()
-    for portion in np.array_split(some, len(some) * _MAX_PART_PAIRS // _BATCH + 1):
+    for portion in np.array_split(some, len(some) * DISTANCE.max_part_pairs // _BATCH + 1):
         pair = np.repeat(portion, pair_count[portion])
         nth = np.arange(len(pair)) - np.repeat(
             np.cumsum(pair_count[portion]) - pair_count[portion], pair_count[portion]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import first_of_each_group
+from usd2kg.relations.array_records import first_of_each_group, rounded
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps
 from usd2kg.relations.model import Links, margin_below, margin_score
@@ -137,7 +137,7 @@ def _best_fit(boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask
     """Return the best-fitting whole of each part; fronts take precedence for handles."""
     gaps = box_gaps(boxed, part, whole)
     met = np.clip((rule.max_gap - gaps) / (boxed.size[part] + rule.max_gap), 0, 1).prod(axis=1)
-    best = first_of_each_group(part, (boxed.rank[whole], -met.round(6), ~is_front[whole]))
+    best = first_of_each_group(part, (boxed.rank[whole], -rounded(met), ~is_front[whole]))
     gap = np.clip(gaps[best].max(axis=1, initial=0), 0, None)
     links = Links(
         "part-of",
