@@ -4,31 +4,31 @@ import pytest
 
 from tests.evaluation.report_records import FIRST, GOLD, SECOND, tiny
 from usd2kg.evaluation.matrix import STUDY_ABLATION
-from usd2kg.evaluation.report import error_tables, tables
+from usd2kg.evaluation.report import error_tables, result_tables
 from usd2kg.evaluation.report.published import AS_PUBLISHED, published_ablation, published_main
 
 
 class TestMainTable:
     def test_uses_the_studys_format(self):
         # HF1 of the first: (1 + .8 + 2/3 + 1) / 4 = .867; of the second: 1 / 4.
-        table = tables.main_table(tiny())
+        table = result_tables.main_table(tiny())
         assert table.title == "Tiny (n = 4 objects, 3 distinct names): EMA % / HF1 by naming regime"
         assert table.columns == ("method", "semantic", "abbreviated", "opaque", "opaque-anonymous")
         assert table.rows == (("first", "50 / .87", "–", "–", "–"), ("second", "25 / .25", "–", "–", "–"))
 
     def test_formats_a_perfect_run(self):
         right = {path: (cls, 1.0) for path, cls in GOLD.items()}
-        assert tables.main_table(tiny({("first", "opaque"): right})).rows[0][3] == "100 / 1.00"
+        assert result_tables.main_table(tiny({("first", "opaque"): right})).rows[0][3] == "100 / 1.00"
 
     def test_formats_repeats_as_mean_and_deviation(self):
         # EMA 50 and 25: mean 37.5, deviation 17.7; HF1 .867 and .25: mean .558, deviation .436.
-        table = tables.main_table(tiny(repeats=(SECOND,)))
+        table = result_tables.main_table(tiny(repeats=(SECOND,)))
         assert table.rows[0][1] == "38 ± 18 / .56 ± .44"
         assert table.note == "Mean ± standard deviation of 2 repeats; intervals are those of the first repeat."
 
 
 def test_detail_table():
-    first, second = tables.detail_table(tiny()).rows
+    first, second = result_tables.detail_table(tiny()).rows
     assert (first[0], first[1], first[2]) == ("first", "semantic", "50.0")
     assert first[5] == "50.0"  # cup ½, bowl 0, desk 1
     assert first[6] == "75.0"
@@ -41,26 +41,26 @@ def test_detail_table():
 
 
 def test_intervals_contain_the_mean():
-    row = tables.detail_table(tiny()).rows[0]
+    row = result_tables.detail_table(tiny()).rows[0]
     for cell in (row[3], row[4]):
         lower, upper = map(float, cell.split(" to "))
         assert 0 <= lower <= 50 <= upper <= 100
 
 
 def test_scenes_table_omits_folders():
-    assert tables.scenes_table([tiny()]).rows == (
+    assert result_tables.scenes_table([tiny()]).rows == (
         ("Tiny", "tiny.usda", "4", "3", "3 of 6", "0", "home.owl", "made up"),
     )
 
 
 def test_timing_table_without_exponents():
-    assert tables.timing_table([tiny()]).rows[0] == ("Tiny", "first", "4", "0.1", "–", "–", "–")
-    assert tables.timing_table([tiny(seconds=0.00004)]).rows[0][3] == "0.00001"
+    assert result_tables.timing_table([tiny()]).rows[0] == ("Tiny", "first", "4", "0.1", "–", "–", "–")
+    assert result_tables.timing_table([tiny(seconds=0.00004)]).rows[0][3] == "0.00001"
 
 
 class TestPublished:
     def test_title_names_the_source(self):
-        table = tables.published_table()
+        table = result_tables.published_table()
         rows = {row[0]: row[1:] for row in table.rows}
         assert "as published, another scene (Kitchen Set, n = 125)" in table.title
         assert len(rows) == 15
@@ -80,7 +80,7 @@ class TestPublished:
 
 class TestAblation:
     def test_studys_conditions_include_published_results(self):
-        table = tables.ablation_table(tiny({("first", "hierarchy only"): FIRST}))
+        table = result_tables.ablation_table(tiny({("first", "hierarchy only"): FIRST}))
         assert table is not None
         assert table.columns[:3] == ("condition", "first", "Gemini 2.5 Flash B (published)")
         assert table.rows[0] == ("geometry only", "–", "17", "17", "11", "4")
@@ -88,28 +88,28 @@ class TestAblation:
         assert AS_PUBLISHED in table.note
 
     def test_our_conditions_have_a_separate_table(self):
-        table = tables.own_ablation_table(tiny({("first", "name only"): SECOND}))
+        table = result_tables.own_ablation_table(tiny({("first", "name only"): SECOND}))
         assert table is not None
         assert table.rows[0] == ("name only", "25")
         assert "Gemini" not in " ".join(table.columns)
 
     def test_no_tables_without_an_ablation(self):
-        assert tables.ablation_table(tiny()) is None
-        assert tables.own_ablation_table(tiny()) is None
+        assert result_tables.ablation_table(tiny()) is None
+        assert result_tables.own_ablation_table(tiny()) is None
 
 
 class TestSelection:
     def test_recall_and_precision(self):
-        assert tables.selection_table([tiny(missed=("/W/Desk_1",))]).rows == (
+        assert result_tables.selection_table([tiny(missed=("/W/Desk_1",))]).rows == (
             ("Tiny", "4", "0.750", "0.500", "1", "1"),
         )
 
     def test_no_table_if_nothing_was_missed(self):
-        assert tables.missed_table(tiny()) is None
+        assert result_tables.missed_table(tiny()) is None
 
     @pytest.mark.parametrize(("count", "last"), [(10, "/W/9"), (11, "and 1 more"), (15, "and 5 more")])
     def test_truncates_the_list_of_missed_prims(self, count: int, last: str):
-        table = tables.missed_table(tiny(missed=tuple(f"/W/{i}" for i in range(count))))
+        table = result_tables.missed_table(tiny(missed=tuple(f"/W/{i}" for i in range(count))))
         assert table is not None
         assert len(table.rows) == min(count, 11)
         assert table.rows[-1] == (last,)

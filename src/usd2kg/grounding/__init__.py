@@ -11,9 +11,9 @@ from usd2kg.grounding.context import (
     view_objects,
 )
 from usd2kg.grounding.decisions import PERSON, Carried, format_queue, read_decisions, unsure_of
-from usd2kg.grounding.files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.ground import ground as ground
 from usd2kg.grounding.ground import parse_evidence, parse_regime
+from usd2kg.grounding.mapping_files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
 from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
 from usd2kg.grounding.platt_scaling import PlattScaling, read_scaling
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pyoxigraph as ox
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology.axioms import ClassAxioms
+from usd2kg.ontology.class_axioms import ClassAxioms
 from usd2kg.ontology.entities import refuse_entity_bomb
 from usd2kg.ontology.model import OntologyNote
 from usd2kg.ontology.owl_syntax import owl_as_rdf, read_owl_axioms

@@ -3,7 +3,7 @@
 The representative takes over the labels and synonyms of the others, and their IRIs resolve to it.
 """
 
-from usd2kg.ontology.axioms import LABELS, ClassAxioms
+from usd2kg.ontology.class_axioms import LABELS, ClassAxioms
 from usd2kg.ontology.scope import ancestors
 
 __all__ = ["all_equivalents", "choose_representatives"]

@@ -16,8 +16,8 @@ from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
+from usd2kg.ontology.known_ontologies import CATALOG, KnownDocument, KnownOntology
 from usd2kg.ontology.limits import DOWNLOAD
-from usd2kg.ontology.registry import CATALOG, KnownDocument, KnownOntology
 from usd2kg.ontology.sniff import sniff_syntax
 
 __all__ = ["fetch_ontology", "shown_address"]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
-from usd2kg.ontology.axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
+from usd2kg.ontology.class_axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.components import Components, find_components, reachable
 from usd2kg.ontology.documents import Document, close_imports, parse_document
 from usd2kg.ontology.equivalence import all_equivalents, choose_representatives

@@ -10,7 +10,7 @@ from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
+from usd2kg.ontology.class_axioms import HAS_DISPOSITION, ClassAxioms
 from usd2kg.ontology.entities import refuse_entity_bomb
 
 __all__ = ["parse_rdf", "read_rdf_axioms"]

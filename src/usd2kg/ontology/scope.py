@@ -9,7 +9,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology.axioms import TOP_CLASSES, ClassAxioms
+from usd2kg.ontology.class_axioms import TOP_CLASSES, ClassAxioms
 from usd2kg.ontology.components import find_components, reachable
 
 __all__ = ["ancestors", "default_scope", "isolated_classes", "nearest_parents", "rooted_scope"]

@@ -20,7 +20,7 @@ from usd2kg.evaluation.report.analysis import (
 )
 from usd2kg.evaluation.report.blocks import Table
 from usd2kg.evaluation.report.cell_text import ABSENT, class_text, number_text, p_value_text
-from usd2kg.evaluation.report.tables import size_title
+from usd2kg.evaluation.report.result_tables import size_title
 from usd2kg.evaluation.run_matrix import SceneResult
 from usd2kg.evaluation.score import Score, distinct_name
 from usd2kg.evaluation.settings import REPORT

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from usd2kg.errors import EvaluationError, OutputError
-from usd2kg.evaluation.report import error_tables, plots, tables
+from usd2kg.evaluation.report import error_tables, plots, result_tables
 from usd2kg.evaluation.report.blocks import Figure, Section, Table
 from usd2kg.evaluation.report.canvas import check_matplotlib
 from usd2kg.evaluation.report.confusion_plot import plot_confusion
@@ -101,14 +101,16 @@ def _draw(results: Sequence[SceneResult]) -> tuple[_Figures, str]:
 
 
 def _sections(results: Sequence[SceneResult], figures: _Figures, remark: str) -> Iterator[Section]:
-    yield _section("Scenes and metrics", [_HOW_TO_READ, remark, tables.scenes_table(results)])
+    yield _section("Scenes and metrics", [_HOW_TO_READ, remark, result_tables.scenes_table(results)])
     yield _section("Accuracy by naming regime", _accuracy(results, figures))
     yield _section("Ablation", _ablation(results, figures))
-    yield _section("Object selection", [tables.selection_table(results), *map(tables.missed_table, results)])
+    yield _section(
+        "Object selection", [result_tables.selection_table(results), *map(result_tables.missed_table, results)]
+    )
     yield _section("Errors", _errors(results, figures))
     yield _section("Name quality", _name_quality(results))
     yield _section("Confidence", _confidence(results, figures))
-    yield _section("Cost", [tables.timing_table(results), figures.get(("cost", 0))])
+    yield _section("Cost", [result_tables.timing_table(results), figures.get(("cost", 0))])
 
 
 def _section(title: str, blocks: Iterable[_Block]) -> Section:
@@ -117,17 +119,17 @@ def _section(title: str, blocks: Iterable[_Block]) -> Section:
 
 def _accuracy(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Block]:
     for index, result in enumerate(results):
-        yield tables.main_table(result)
+        yield result_tables.main_table(result)
         yield figures.get(("accuracy", index))
-    yield tables.published_table()
-    yield from map(tables.detail_table, results)
+    yield result_tables.published_table()
+    yield from map(result_tables.detail_table, results)
     yield from map(error_tables.mcnemar_table, results)
 
 
 def _ablation(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Block]:
     for index, result in enumerate(results):
-        yield tables.ablation_table(result) or f"{result.spec.name}: no ablation was run."
-        yield tables.own_ablation_table(result)
+        yield result_tables.ablation_table(result) or f"{result.spec.name}: no ablation was run."
+        yield result_tables.own_ablation_table(result)
         yield figures.get(("ablation", index))
 
 
