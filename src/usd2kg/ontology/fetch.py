@@ -7,16 +7,16 @@ import hashlib
 import re
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from http.client import HTTPException, InvalidURL
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
-from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
-from usd2kg.ontology.known_ontologies import CATALOG, KnownDocument, KnownOntology
+from usd2kg.ontology.catalog import CATALOG, format_catalog
+from usd2kg.ontology.known_ontologies import KnownDocument, KnownOntology
 from usd2kg.ontology.limits import DOWNLOAD
 from usd2kg.ontology.sniff import sniff_syntax
 
@@ -63,7 +63,8 @@ def fetch_ontology(
         raise OutputError(f"{folder}: cannot be created ({error.strerror}); choose another folder") from error
     for path, data in fetched.items():
         write_whole(path, data)
-    write_whole(folder / CATALOG, _catalog(ontology.documents).encode())
+    catalog = format_catalog({document.iri: document.file for document in ontology.documents})
+    write_whole(folder / CATALOG, catalog.encode())
     return folder / ontology.documents[0].file
 
 
@@ -150,16 +151,3 @@ def _download(address: str) -> bytes:
 
 def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
-
-
-def _catalog(documents: Sequence[KnownDocument]) -> str:
-    """Return an OASIS XML catalog that maps IRIs to files in its folder."""
-    lines = [f"  <uri name={quoteattr(document.iri)} uri={quoteattr(document.file)}/>" for document in documents]
-    return "\n".join(
-        [
-            '<?xml version="1.0" encoding="UTF-8"?>',
-            '<catalog prefer="public" xmlns="urn:oasis:names:tc:entity:xmlns:xml:catalog">',
-            *lines,
-            "</catalog>\n",
-        ]
-    )

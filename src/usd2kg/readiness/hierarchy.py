@@ -3,13 +3,14 @@
 from collections.abc import Iterator
 
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri, local_name
+from usd2kg.ontology.namespaces import OWL
 from usd2kg.readiness.labels import class_finding
 from usd2kg.readiness.settings import HIERARCHY
 from usd2kg.validation import AxiomIndex, Finding, Severity
 
 __all__ = ["find_hierarchy_faults"]
 
-_NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
+_NOTHING = f"{OWL}Nothing"
 
 
 def find_hierarchy_faults(tbox: TBox, axioms: AxiomIndex, default: ClassIRI | None) -> Iterator[Finding]:
