@@ -16,7 +16,7 @@ from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 from usd2kg.ontology import local_name
-from usd2kg.ontology.entities import refuse_entity_bomb_in_file
+from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
 from usd2kg.relations import SYMMETRIC_KINDS
 
 __all__ = ["GraphStyle", "detect_graph_style", "objects_of_graph", "read_statements"]

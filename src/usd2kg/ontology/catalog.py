@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology.entities import refuse_entity_bomb
 from usd2kg.ontology.source_files import ENDINGS, decode_text, read_source
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
 
 __all__ = ["CATALOG", "find_document", "format_catalog"]
 

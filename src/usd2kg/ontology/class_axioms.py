@@ -52,14 +52,14 @@ class Annotations:
     """Property IRI → Wikidata items."""
     is_deprecated: bool = False
 
-    def pick(self, properties: Iterable[str]) -> str:
+    def preferred_text(self, properties: Iterable[str]) -> str:
         """Return the text of the first property that has one: English first, then untagged, then any language."""
         for name in properties:
             if self.texts.get(name):
                 return min(self.texts[name], key=_language_rank)[1]
         return ""
 
-    def all(self, properties: Iterable[str]) -> set[str]:
+    def all_texts(self, properties: Iterable[str]) -> set[str]:
         """Return the texts of the properties in all languages."""
         return {text for name in properties for _, text in self.texts.get(name, ())}
 

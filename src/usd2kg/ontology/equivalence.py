@@ -31,7 +31,7 @@ def choose_representatives(scope: set[str], ontology_iri: str, own: ClassAxioms,
     linked = own.linked()
 
     def rank(iri: str) -> tuple[bool, bool, bool, bool, str]:
-        has_label = bool(closure.annotations[iri].pick(LABELS))
+        has_label = bool(closure.annotations[iri].preferred_text(LABELS))
         return (not iri.startswith(namespaces), iri not in own.declared, iri not in linked, not has_label, iri)
 
     return {min({iri, *all_equivalents(iri, closure)} & scope, key=rank) for iri in scope}

@@ -11,8 +11,8 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.ontology.class_axioms import HAS_DISPOSITION, ClassAxioms
-from usd2kg.ontology.entities import refuse_entity_bomb
 from usd2kg.ontology.namespaces import OWL, RDF, RDFS, XSD
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
 
 __all__ = ["parse_rdf", "read_rdf_axioms"]
 

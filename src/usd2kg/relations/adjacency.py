@@ -60,7 +60,7 @@ def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules
 
 def _limits(boxed: BoxedObjects, rule: NearRule | NextToRule) -> Array:
     """Return the distance limit of each object by its size; the smaller object of a pair decides."""
-    _, half, _ = boxed.turned
+    half = boxed.footprints.half_sides
     size = 2 * half.mean(axis=1) if isinstance(rule, NextToRule) else (2 * half.sum(axis=1) + boxed.size[:, 2]) / 3
     return np.asarray(np.clip(rule.gap_share * size, rule.min_gap, rule.max_gap))
 
@@ -118,8 +118,8 @@ def find_next_to(
     beside = height_overlaps(boxed, pairs)
     # With a larger overlap of footprints, one object is over or in the other.
     smaller = np.minimum(boxed.size[pairs.one], boxed.size[pairs.other])
-    is_turned = boxed.turned[0][pairs.one] | boxed.turned[0][pairs.other]
-    is_apart = (is_turned & (pairs.distance > 0)) | (gaps >= -rule.max_overlap_ratio * smaller)[:, :2].any(axis=1)
+    is_rotated = boxed.footprints.is_rotated[pairs.one] | boxed.footprints.is_rotated[pairs.other]
+    is_apart = (is_rotated & (pairs.distance > 0)) | (gaps >= -rule.max_overlap_ratio * smaller)[:, :2].any(axis=1)
     is_good = (pairs.distance <= limit) & (beside >= rule.min_height_share) & is_apart
     is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around, rules.blocking)
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)

@@ -48,11 +48,11 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
         wholes: index of the whole of each object, -1 for none.
         rules: the thresholds.
     """
-    can_contain = classes.can_contain[boxed.number]
-    is_drawer = classes.are_in("not_laid")[boxed.number]
-    may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[boxed.number]
+    can_contain = classes.can_contain[boxed.scene_index]
+    is_drawer = classes.are_in("not_laid")[boxed.scene_index]
+    may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[boxed.scene_index]
     has_parts = bool((wholes >= 0).any())
-    is_open = can_contain & ~classes.are_in("closed")[boxed.number]
+    is_open = can_contain & ~classes.are_in("closed")[boxed.scene_index]
     found = [_no_pairs()]
     for i, j in overlapping_pairs(boxed.lower[:, :2], boxed.upper[:, :2]):
         for target, anchor in ((i, j), (j, i)):

@@ -31,12 +31,12 @@ def distances(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
     """
     gaps = np.clip(box_gaps(boxed, one, other), 0, None)
     level = np.hypot(gaps[:, 0], gaps[:, 1])
-    is_turned = boxed.turned[0][one] | boxed.turned[0][other]
-    some = np.flatnonzero(is_turned)
+    is_rotated = boxed.footprints.is_rotated[one] | boxed.footprints.is_rotated[other]
+    some = np.flatnonzero(is_rotated)
     if len(some):
         level[some] = _between_rectangles(boxed, one[some], other[some])
     found = np.hypot(level, gaps[:, 2])
-    some = np.flatnonzero(~is_turned)
+    some = np.flatnonzero(~is_rotated)
     found[some] = _between_parts(boxed, one[some], other[some], found[some])
     return np.asarray(found)
 
@@ -71,7 +71,7 @@ def _between_rectangles(boxed: BoxedObjects, one: Indices, other: Indices) -> Ar
 
 def _to_rectangle(boxed: BoxedObjects, one: Indices, other: Indices) -> tuple[Array, NDArray[np.bool_]]:
     """Return the distances from the corners of `one` to `other`, and whether an axis of `other` separates them."""
-    _, half, along = boxed.turned
+    _, half, along = boxed.footprints
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     corners = (
         boxed.middle[one, None, :2]

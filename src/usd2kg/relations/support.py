@@ -65,12 +65,12 @@ def find_support(
         container: index of the container of each object, -1 for none.
         rules: the thresholds.
     """
-    may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.number]
-    surfaces = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.number], rules)
+    may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.scene_index]
+    surfaces = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.scene_index], rules)
     near = _find_contacts(boxed, np.flatnonzero(may_rest), surfaces, container, rules)
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
     single = _on_single(boxed, surfaces, contacts, rules.on)
-    bears = ~classes.are_in("not_bearing")[boxed.number]
+    bears = ~classes.are_in("not_bearing")[boxed.scene_index]
     is_left = np.ones(len(boxed), np.bool_)
     is_left[single.target] = False
     several = _on_several(
@@ -82,7 +82,7 @@ def find_support(
     is_left[several.target] = False
     is_left &= container < 0
     # The box around all walls of a house says nothing about their places.
-    is_wall = classes.are_in("walls")[boxed.number] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
+    is_wall = classes.are_in("walls")[boxed.scene_index] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
     is_left[_near_walls(boxed, np.flatnonzero(is_left), is_wall, rules)] = False
     return [single, several, _hovering(boxed, surfaces, select_rows(near, is_left[near.target]), rules)]
 
@@ -217,8 +217,7 @@ def _hovering(boxed: BoxedObjects, surfaces: _Surfaces, near: _Contacts, rules: 
 
 def _thickness(boxed: BoxedObjects) -> Array:
     """Return the shorter side of each footprint in metres."""
-    _, half, _ = boxed.turned
-    return np.asarray(2 * half.min(axis=1))
+    return np.asarray(2 * boxed.footprints.half_sides.min(axis=1))
 
 
 def _near_walls(boxed: BoxedObjects, chosen: Indices, is_wall: Mask, rules: RelationRules) -> Indices:

@@ -6,7 +6,7 @@ from usd2kg.diff.graph_objects import read_statements
 from usd2kg.errors import GraphError, OntologyError
 from usd2kg.graph.rdf_document import read_document
 from usd2kg.ontology import load_tbox
-from usd2kg.ontology.entities import refuse_entity_bomb
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
 from usd2kg.query import load_graph
 
 OWL = 'xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:owl="http://www.w3.org/2002/07/owl#"'
