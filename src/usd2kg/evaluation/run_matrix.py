@@ -142,6 +142,6 @@ def _code_digest() -> str:
 
 
 def _sources(root: Path) -> Iterator[Path]:
-    for package in ("data", "grounding", "languages", "ontology", "scene"):
+    for package in ("data", "grounding", "languages", "ontology", "render", "scene", "shapes"):
         yield from sorted(path for path in (root / package).rglob("*") if path.is_file() and path.suffix != ".pyc")
     yield from (root / name for name in ("knowledge.py", "words.py"))
