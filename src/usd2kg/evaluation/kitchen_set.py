@@ -58,7 +58,7 @@ def check_kitchen_set(folder: Path) -> KitchenSet:
     root = next((place / name for place in places for name in _ROOT_LAYERS if (place / name).is_file()), None)
     if root is None:
         raise EvaluationError(
-            f"{folder}: contains no {_ROOT_LAYERS[0]}; expected the unpacked Kitchen Set, "
+            f"{folder}: no {_ROOT_LAYERS[0]} in it; expected the unpacked Kitchen Set, "
             "download it from OpenUSD's page of downloads and sample assets"
         )
     layers = list(_layers(root.parent))
