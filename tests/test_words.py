@@ -88,7 +88,7 @@ def test_words_of(identifier, words):
 @pytest.mark.parametrize(
     ("word", "expected"), [("cup", True), ("tv", True), ("sm", False), ("c", False), ("12", False), ("ü", True)]
 )
-def test_is_telling(word, expected):
+def test_is_content_word(word, expected):
     assert is_content_word(word) is expected
 
 

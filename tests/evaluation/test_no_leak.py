@@ -12,7 +12,7 @@ from tests.conftest import shared_file
 from tests.grounding.records import words_written
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ObjectView, make_grounder, view_objects
-from usd2kg.grounding.context import Neighbour, Neighbour
+from usd2kg.grounding.context import Neighbour
 from usd2kg.ontology import TBox
 from usd2kg.scene import Label, Scene, SceneObject, read_scene
 from usd2kg.words import words_of
@@ -150,7 +150,7 @@ def test_renaming_the_target_changes_nothing(scene: Scene, regime: NamingRegime,
         assert list(before.siblings) == list(after.siblings)
         assert _neighbours(before) == _neighbours(after)
         assert before.appearance == after.appearance
-        ignored = {"neighbourhood": None, "siblings": (), "standing": None}
+        ignored = {"neighbourhood": None, "siblings": (), "placement": None}
         assert replace(before, **ignored) == replace(after, **ignored)
         one, two = (grounder.ground_views([("/x", view)], home_tbox) for view in (before, after))
         assert one == two
