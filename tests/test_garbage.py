@@ -1,4 +1,4 @@
-"""Python does not look for garbage while many things are made that stay, and not among them first afterwards."""
+"""`paused_collection` disables cyclic garbage collection and ages what was allocated."""
 
 import gc
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ from usd2kg.garbage import paused_collection
 
 
 @pytest.fixture
-def thawed() -> Iterator[None]:
+def collector_state() -> Iterator[None]:
     was_enabled = gc.isenabled()
     gc.enable()
     gc.unfreeze()
@@ -18,12 +18,12 @@ def thawed() -> Iterator[None]:
     (gc.enable if was_enabled else gc.disable)()
 
 
-def is_old(thing: object) -> bool:
-    return any(one is thing for one in gc.get_objects(generation=2))
+def is_old(allocated: object) -> bool:
+    return any(one is allocated for one in gc.get_objects(generation=2))
 
 
-@pytest.mark.usefixtures("thawed")
-def test_nothing_is_collected_meanwhile_and_what_was_made_is_old_afterwards():
+@pytest.mark.usefixtures("collector_state")
+def test_disables_collection_and_ages_new_objects():
     with paused_collection():
         assert not gc.isenabled()
         made = [[number] for number in range(10)]
@@ -33,8 +33,8 @@ def test_nothing_is_collected_meanwhile_and_what_was_made_is_old_afterwards():
     assert gc.get_freeze_count() == 0
 
 
-@pytest.mark.usefixtures("thawed")
-def test_what_somebody_froze_stays_so():
+@pytest.mark.usefixtures("collector_state")
+def test_keeps_frozen_objects_frozen():
     kept = [["a", "b"]]
     gc.freeze()
     with paused_collection():
@@ -44,8 +44,8 @@ def test_what_somebody_froze_stays_so():
     assert not is_old(made)
 
 
-@pytest.mark.usefixtures("thawed")
-def test_one_who_looks_for_no_garbage_is_left_alone():
+@pytest.mark.usefixtures("collector_state")
+def test_keeps_collection_disabled_if_it_was():
     gc.disable()
     with pytest.raises(ZeroDivisionError), paused_collection():
         made = [[]]

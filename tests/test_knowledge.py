@@ -1,8 +1,16 @@
 """`usd2kg.knowledge` reads the package data."""
 
+from dataclasses import dataclass
+
 import pytest
 
-from usd2kg.knowledge import read_bytes, read_rows, read_text, word_map, word_set
+from usd2kg.knowledge import read_bytes, read_rows, read_settings, read_text, word_map, word_set
+
+
+@dataclass(frozen=True)
+class BootstrapSettings:
+    resamples: int
+    seed: int
 
 
 def test_reads_a_file_as_text_bytes_and_rows():
@@ -10,17 +18,50 @@ def test_reads_a_file_as_text_bytes_and_rows():
     assert {"short": "btl", "word": "bottle"} in read_rows("abbreviations.csv")
 
 
-def test_word_set_is_read_once():
+def test_caches_word_sets():
     words = word_set("identifiers", "production_tokens")
     assert {"sm", "lod", "geo"} <= words
     assert word_set("identifiers", "production_tokens") is words
 
 
-def test_an_unknown_list_raises():
+def test_reads_a_word_map():
+    assert word_map("languages", "es_noun_replacements") == {"z": "ces"}
+
+
+def test_rejects_an_unknown_word_list():
     with pytest.raises(KeyError, match="colours"):
         word_set("identifiers", "colours")
 
 
-def test_a_list_is_no_map():
+def test_rejects_a_word_list_as_a_map():
     with pytest.raises(TypeError, match=r"production_tokens in knowledge/words/identifiers.toml is a list"):
         word_map("identifiers", "production_tokens")
+
+
+def test_reads_settings_as_a_dataclass():
+    settings = read_settings("evaluation", "bootstrap", BootstrapSettings)
+    assert settings == BootstrapSettings(resamples=2000, seed=20240229)
+
+
+def test_reads_lists_in_settings_as_tuples(monkeypatch: pytest.MonkeyPatch):
+    @dataclass
+    class Limits:
+        sizes: tuple[float, ...]
+
+    monkeypatch.setattr("usd2kg.knowledge._read_settings_file", lambda _: {"limits": {"sizes": [0.5, 2.0]}})
+    assert read_settings("shapes", "limits", Limits) == Limits((0.5, 2.0))
+
+
+def test_rejects_an_unknown_settings_section():
+    with pytest.raises(KeyError, match="colours"):
+        read_settings("evaluation", "colours", BootstrapSettings)
+
+
+def test_rejects_a_dataclass_with_other_keys_than_the_section():
+    @dataclass
+    class OtherSettings:
+        resamples: int
+
+    message = r"seed is only in \[bootstrap\] in knowledge/settings/evaluation.toml or only in OtherSettings"
+    with pytest.raises(TypeError, match=message):
+        read_settings("evaluation", "bootstrap", OtherSettings)

@@ -11,7 +11,7 @@ from tools.source_schema import Column, Schema, Source, read_schema, validate_so
 from tools.word_lists import convert_word_lists
 
 
-def test_committed_data_is_what_the_sources_give():
+def test_committed_data_matches_the_sources():
     schema = read_schema(KNOWLEDGE / "schema.toml")
     assert find_differences([*convert_files(), *build_files(schema)], schema.data) == []
 

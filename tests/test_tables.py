@@ -1,4 +1,4 @@
-"""Tables hold what the build found, number for number, in pandas and in Polars."""
+"""Data frames of a build result, in pandas and Polars."""
 
 import math
 import sys
@@ -32,7 +32,7 @@ HINGE = Joint(
 
 @pytest.fixture(scope="module")
 def result() -> BuildResult:
-    """A cup on a table, and a thing without geometry."""
+    """A cup on a table, and an object without geometry."""
     return build(
         make_scene(
             make_object("/Room/Table", box=TABLE, own_box=TABLE, mass_kg=20.0, orientation=(0.0, 0.0, 0.0, 1.0)),
@@ -44,7 +44,7 @@ def result() -> BuildResult:
 
 
 @pytest.mark.parametrize("library", ["pandas", "polars"])
-def test_each_object_has_a_row(result: BuildResult, library: Any):
+def test_objects_have_one_row_each(result: BuildResult, library: Any):
     objects = to_tables(result, library).objects
     assert list(objects["path"]) == ["/Room/Table", "/Room/Cup", "/Room/Fork"]
     assert list(objects["class_name"]) == ["Table", "Cup", "Fork"]
@@ -57,14 +57,14 @@ def test_each_object_has_a_row(result: BuildResult, library: Any):
     assert list(objects["confidence"]) == [p.confidence for p in result.grounding.predictions]
 
 
-def test_what_is_unknown_is_nan_in_pandas_and_null_in_polars(result: BuildResult):
+def test_unknown_values_are_nan_in_pandas_and_null_in_polars(result: BuildResult):
     assert math.isnan(to_tables(result).objects["size_x"][2])
     assert to_tables(result).objects["parent"].isna().tolist() == [True, True, False]
     assert to_tables(result, "polars").objects["size_x"].to_list()[2] is None
 
 
 @pytest.mark.parametrize("library", ["pandas", "polars"])
-def test_each_relation_has_a_row_with_its_numbers(result: BuildResult, library: Any):
+def test_relations_have_one_row_each_with_measurements(result: BuildResult, library: Any):
     relations = to_tables(result, library).relations
     rows = list(zip(relations["kind"], relations["target"], relations["anchor"], strict=True))
     assert rows == [(r.kind, r.target, r.anchor) for r in result.graph.relations]
@@ -74,26 +74,26 @@ def test_each_relation_has_a_row_with_its_numbers(result: BuildResult, library: 
 
 
 @pytest.mark.parametrize("library", ["pandas", "polars"])
-def test_candidates_are_ranked_and_joints_are_told(result: BuildResult, library: Any):
+def test_candidates_are_ranked_and_joints_have_limits(result: BuildResult, library: Any):
     _, _, candidates, joints = to_tables(result, library)
     first = [name for name, rank in zip(candidates["class_name"], candidates["rank"], strict=True) if rank == 1]
     assert first == ["Table", "Cup", "Fork"]
     assert (joints["path"][0], joints["lower"][0]) == ("/Room/Table/hinge", -1.5)
 
 
-def test_an_empty_table_keeps_its_columns():
+def test_empty_tables_keep_their_columns():
     tables = to_tables(build(make_scene(make_object("/Cup"))))
     assert list(tables.joints.columns)[:2] == ["path", "type"]
     assert len(tables.joints) == 0
 
 
-def test_another_library_is_refused(result: BuildResult):
+def test_rejects_an_unknown_library(result: BuildResult):
     with pytest.raises(GraphError, match="expected pandas or polars"):
         to_tables(result, "numpy")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("library", "install"), [("pandas", r"usd2kg\[tables\]"), ("polars", "polars")])
-def test_a_library_that_is_absent_is_told(
+def test_names_the_install_command_of_a_missing_library(
     result: BuildResult, library: Any, install: str, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setitem(sys.modules, library, None)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usd2kg.words import is_telling, split_identifier, words_of
+from usd2kg.words import is_content_word, split_identifier, words_of
 
 
 @pytest.mark.parametrize(
@@ -88,8 +88,8 @@ def test_words_of(identifier, words):
 @pytest.mark.parametrize(
     ("word", "expected"), [("cup", True), ("tv", True), ("sm", False), ("c", False), ("12", False), ("ü", True)]
 )
-def test_is_telling(word, expected):
-    assert is_telling(word) is expected
+def test_is_content_word(word, expected):
+    assert is_content_word(word) is expected
 
 
 @settings(max_examples=100, deadline=None)
@@ -97,4 +97,4 @@ def test_is_telling(word, expected):
 def test_words_are_lower_case_and_telling(text):
     for word in words_of(text):
         assert word == word.lower()
-        assert is_telling(word)
+        assert is_content_word(word)

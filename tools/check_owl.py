@@ -19,7 +19,8 @@ import pyoxigraph as ox
 
 from usd2kg.errors import Usd2kgError
 from usd2kg.graph.vocabulary import OWL
-from usd2kg.ontology.documents import find_document, parse_document
+from usd2kg.ontology.catalog import find_document
+from usd2kg.ontology.documents import parse_document
 
 __all__ = ["Report", "check_owl", "missing_tools"]
 

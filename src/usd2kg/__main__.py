@@ -1,4 +1,4 @@
-"""The command line without its script: `python -m usd2kg`."""
+"""Run the command line as `python -m usd2kg`."""
 
 from usd2kg.cli.app import main
 

@@ -5,14 +5,14 @@
     Usd2kgError
     ├── SceneError        the stage cannot be read, or has no objects
     ├── OntologyError     the ontology cannot be read, or no class is in scope
-    ├── GroundingError    the grounder is unknown or its settings are wrong
-    ├── EvaluationError   gold labels, a matrix or stored results cannot be used
+    ├── GroundingError    the grounder is unknown, or its settings are invalid
+    ├── EvaluationError   gold labels, a run matrix or stored results cannot be used
     ├── GraphError        the graph cannot be read, or a question cannot be answered
     ├── StoreError        a graph store is unreachable, refuses a request, or is locked by another process
     └── OutputError       a result cannot be written
 
-Each message says where, what was found, what was expected and what to do, in one line.
-Other exceptions are bugs, and are never wrapped.
+Each message is one line: where, what was found, what was expected, what to do.
+Other exceptions are bugs and are never wrapped.
 """
 
 __all__ = [

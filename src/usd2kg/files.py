@@ -1,4 +1,4 @@
-"""Writing results: whole or not at all."""
+"""Output files: checked before work starts, and written atomically."""
 
 import os
 import tempfile
@@ -11,14 +11,14 @@ __all__ = ["check_apart", "check_writable", "is_same_file", "write_whole"]
 
 
 def check_apart(outputs: Iterable[Path | None], inputs: Iterable[Path | str | None]) -> None:
-    """Raise OutputError now if an output is the file of an input, or of another output; None stands for no file.
+    """Raise OutputError if an output would overwrite an input or another output.
 
-    Inputs may be texts that name no file, such as the address of a store.
+    None is ignored, as are inputs that are not files, such as the URL of a store.
     """
     read = [Path(path) for path in inputs if path is not None]
     written: list[Path] = []
     for output in outputs:
-        # Devices take whatever is written.
+        # Several outputs may share a device such as /dev/null.
         if output is None or (output.exists() and not output.is_file()):
             continue
         if any(is_same_file(output, other) for other in read):
@@ -29,14 +29,14 @@ def check_apart(outputs: Iterable[Path | None], inputs: Iterable[Path | str | No
 
 
 def is_same_file(path: Path, other: Path) -> bool:
-    """Return whether two paths lead to one file, through links too; where there is none yet, whether they are alike."""
+    """Return whether two paths lead to the same file; links are followed, and the files need not exist."""
     if path.exists() and other.exists():
         return path.samefile(other)
     return path.resolve() == other.resolve()
 
 
 def check_writable(path: Path) -> None:
-    """Raise OutputError now if `path` could not be written later, before any work is spent."""
+    """Raise OutputError if `path` cannot be written, before time is spent on its content."""
     if path.is_dir():
         raise OutputError(f"{path}: is a folder, expected a file name to write to")
     folder = path.parent
@@ -47,33 +47,40 @@ def check_writable(path: Path) -> None:
 
 
 def write_whole(path: Path, data: bytes | Iterable[bytes | memoryview]) -> None:
-    """Write `data`, maybe in pieces, to `path`, so that a reader sees the old file or the whole new one, never a part.
+    """Write bytes, or chunks of bytes, atomically: readers see the old file or the complete new one.
 
-    A link stays a link: what it points to is written. Devices and pipes are written to as they are.
+    The target of a symbolic link is replaced, not the link. Devices and pipes are written in place.
+
+    Raises:
+        OutputError: the file cannot be written; an existing file is unchanged.
     """
     check_writable(path)
     path = path.resolve()
-    pieces = (data,) if isinstance(data, bytes) else data
+    chunks = (data,) if isinstance(data, bytes) else data
     try:
         if path.exists() and not path.is_file():
             with path.open("wb") as device:
-                device.writelines(pieces)
-            return
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.writelines(pieces)
-            Path(temporary).chmod(_usual_mode())
-            Path(temporary).replace(path)
-        finally:
-            # Still there only where something went wrong.
-            Path(temporary).unlink(missing_ok=True)
+                device.writelines(chunks)
+        else:
+            _replace(path, chunks)
     except OSError as error:
         raise OutputError(f"{path}: could not be written ({error.strerror}); choose another output") from error
 
 
-def _usual_mode() -> int:
-    # mkstemp makes files for the owner alone; a result should be as readable as any other file.
+def _replace(path: Path, chunks: Iterable[bytes | memoryview]) -> None:
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.writelines(chunks)
+        Path(temporary).chmod(_default_mode())
+        Path(temporary).replace(path)
+    finally:
+        # Exists only if an error occurred.
+        Path(temporary).unlink(missing_ok=True)
+
+
+def _default_mode() -> int:
+    # mkstemp restricts files to the owner; a result has the permissions of an ordinary new file.
     umask = os.umask(0)
     os.umask(umask)
     return 0o666 & ~umask

@@ -15,17 +15,17 @@ __all__ = ["data_file", "read_bytes", "read_rows", "read_settings", "read_text",
 
 
 def data_file(name: str) -> Traversable:
-    """Return the data file called `name`, for readers that need a stream or a path (`importlib.resources.as_file`)."""
+    """Return the data file `name`, for readers that need a stream or a path (`importlib.resources.as_file`)."""
     return files("usd2kg") / "data" / name
 
 
 def read_text(name: str) -> str:
-    """Return the text of the data file called `name`."""
+    """Return the text of the data file `name`."""
     return data_file(name).read_text("utf-8")
 
 
 def read_bytes(name: str) -> bytes:
-    """Return the bytes of the data file called `name`."""
+    """Return the bytes of the data file `name`."""
     return data_file(name).read_bytes()
 
 
@@ -39,6 +39,9 @@ def read_rows(name: str) -> list[dict[str, str]]:
 def word_set(component: str, name: str) -> frozenset[str]:
     """Return the words of the list `name` in `knowledge/words/<component>.toml`.
 
+    Raises:
+        KeyError: the list is unknown.
+
     >>> "lod" in word_set("identifiers", "production_tokens")
     True
     """
@@ -47,7 +50,12 @@ def word_set(component: str, name: str) -> frozenset[str]:
 
 @lru_cache(maxsize=256)
 def word_map(component: str, name: str) -> Mapping[str, str]:
-    """Return the map from word to word called `name` in `knowledge/words/<component>.toml`."""
+    """Return the map `name` from word to word in `knowledge/words/<component>.toml`.
+
+    Raises:
+        KeyError: the map is unknown.
+        TypeError: it is a list of words.
+    """
     words = _read_word_lists(component)[name]
     if not isinstance(words, dict):
         raise TypeError(f"{name} in knowledge/words/{component}.toml is a list; read it with word_set")
@@ -64,9 +72,9 @@ _Record = TypeVar("_Record")
 
 
 def read_settings(component: str, section: str, record: type[_Record]) -> _Record:
-    """Return a section of `knowledge/settings/<component>.toml`, which documents each value, as a dataclass.
+    """Return a section of `knowledge/settings/<component>.toml` as a dataclass; lists become tuples.
 
-    Lists become tuples.
+    The TOML file documents each value.
 
     Raises:
         KeyError: the section is unknown.

@@ -1,4 +1,4 @@
-"""to_tables: a build result as pandas or Polars data frames."""
+"""Build results as pandas or Polars data frames."""
 
 import importlib
 from collections.abc import Mapping, Sequence
@@ -34,9 +34,9 @@ class Tables(NamedTuple):
     relations: Any
     """`kind`, `target`, `anchor`, `other_anchor`, `rule`, `confidence`, and one column per measured number."""
     candidates: Any
-    """`path`, `rank` from 1, `class_iri`, `class_name`, `score`."""
+    """`path`, `rank` (from 1), `class_iri`, `class_name`, `score`."""
     joints: Any
-    """`path`, `type`, `body0`, `body1`, `axis`, `lower`, `upper`, `value`: radians, metres for sliding joints."""
+    """`path`, `type`, `body0`, `body1`, `axis`, `lower`, `upper`, `value`: radians, or metres for prismatic joints."""
 
 
 def to_tables(result: BuildResult, library: Literal["pandas", "polars"] = "pandas") -> Tables:
@@ -69,24 +69,24 @@ def to_columns(result: BuildResult) -> tuple[Columns, Columns, Columns, Columns]
 
 def _objects(result: BuildResult) -> Columns:
     objects, by_path = result.scene.objects, result.grounding.by_path
-    answers = [by_path.get(obj.prim_path) for obj in objects]
-    texts: dict[str, Sequence[Any] | Floats] = {
+    predictions = [by_path.get(obj.prim_path) for obj in objects]
+    columns: dict[str, Sequence[Any] | Floats] = {
         "path": [obj.prim_path for obj in objects],
         "iri": [individual_iri(result.graph.base, obj.prim_path) for obj in objects],
         "name": [obj.display_name or obj.name for obj in objects],
-        "class_iri": [answer.class_iri if answer else None for answer in answers],
-        "class_name": [_class_name(answer, result.tbox) for answer in answers],
-        "confidence": _numbers([answer.confidence if answer else None for answer in answers]),
-        "status": [answer.status.value if answer else None for answer in answers],
-        "grounder": [answer.grounder if answer else None for answer in answers],
-        "explanation": [answer.explanation if answer else None for answer in answers],
+        "class_iri": [p.class_iri if p else None for p in predictions],
+        "class_name": [_class_name(p, result.tbox) for p in predictions],
+        "confidence": _numbers([p.confidence if p else None for p in predictions]),
+        "status": [p.status.value if p else None for p in predictions],
+        "grounder": [p.grounder if p else None for p in predictions],
+        "explanation": [p.explanation if p else None for p in predictions],
         "parent": [obj.parent_path for obj in objects],
     }
-    return texts | _geometry(objects)
+    return columns | _geometry(objects)
 
 
-def _class_name(answer: Prediction | None, tbox: TBox) -> str | None:
-    return tbox.by_iri[answer.class_iri].local_name if answer and answer.class_iri else None
+def _class_name(prediction: Prediction | None, tbox: TBox) -> str | None:
+    return tbox.by_iri[prediction.class_iri].local_name if prediction and prediction.class_iri else None
 
 
 def _geometry(objects: Sequence[SceneObject]) -> dict[str, Sequence[Any] | Floats]:
@@ -100,8 +100,8 @@ def _geometry(objects: Sequence[SceneObject]) -> dict[str, Sequence[Any] | Float
         for name, values in vectors.items()
         for i, axis in enumerate(_AXES)
     }
-    turns = [obj.orientation for obj in objects]
-    columns |= {f"q{axis}": _numbers([turn[i] if turn else None for turn in turns]) for i, axis in enumerate("xyzw")}
+    quaternions = [obj.orientation for obj in objects]
+    columns |= {f"q{axis}": _numbers([q[i] if q else None for q in quaternions]) for i, axis in enumerate("xyzw")}
     return {**columns, "mass_kg": _numbers([obj.mass_kg for obj in objects])}
 
 
@@ -121,9 +121,9 @@ def _relations(result: BuildResult) -> Columns:
 
 def _candidates(result: BuildResult) -> Columns:
     rows = [
-        (answer.prim_path, rank, candidate)
-        for answer in result.grounding.predictions
-        for rank, candidate in enumerate(answer.candidates, start=1)
+        (prediction.prim_path, rank, candidate)
+        for prediction in result.grounding.predictions
+        for rank, candidate in enumerate(prediction.candidates, start=1)
     ]
     return {
         "path": [path for path, _, _ in rows],

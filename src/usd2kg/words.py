@@ -1,4 +1,4 @@
-"""Reading identifiers as words: `SM_CupCBlue_01` is "cup c blue"."""
+"""Split identifiers into words: `SM_CupCBlue_01` is "cup blue"."""
 
 import re
 import unicodedata
@@ -6,20 +6,19 @@ from functools import lru_cache
 
 from usd2kg.knowledge import word_set
 
-__all__ = ["is_telling", "split_identifier", "words_of"]
+__all__ = ["is_content_word", "split_identifier", "words_of"]
 
 _PRODUCTION_TOKENS = word_set("identifiers", "production_tokens")
 
 _ASCII_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+")
-"""The same rule as `_is_border`, many times faster: most names are ASCII."""
+"""The rule of `_is_border` for ASCII, the common case, many times faster."""
 
 
 def split_identifier(identifier: str) -> tuple[str, ...]:
-    """Return the parts of an identifier in order, as written: words, letters and digit runs.
+    """Return the parts of an identifier in order, with their case: words, single letters and runs of digits.
 
-    Splits at case changes, at letter-digit borders and at anything that is neither letter nor digit.
-    Identifiers that an exporter had to escape (`tn__knob1_f5`, USD's transcoding of "knob 1") lose
-    the escape's prefix and code.
+    Splits at case changes, between letters and digits, and at all other characters. The prefix and suffix that USD's
+    transcoding adds are removed: `tn__knob1_f5` encodes "knob 1".
 
     >>> split_identifier("SM_CupCBlue_01")
     ('SM', 'Cup', 'C', 'Blue', '01')
@@ -56,16 +55,15 @@ def _is_border(text: str, at: int) -> bool:
 
 
 def _is_word_character(c: str) -> bool:
-    # Vowel signs (Devanagari, Thai…) are marks that belong to the letter before.
+    # Vowel signs (Devanagari, Thai…) are marks that combine with the preceding letter.
     return c.isalnum() or unicodedata.category(c) in {"Mn", "Mc"}
 
 
 @lru_cache(maxsize=65536)
 def words_of(identifier: str) -> tuple[str, ...]:
-    """Return the telling words of an identifier, lower case, in order.
+    """Return the content words of an identifier, lower case, in order.
 
-    Numbers, single letters and the tokens of production pipelines (`SM_`, `_LOW`, `_geo`) are left out;
-    a name of nothing else has no words.
+    Numbers, single Latin letters and tokens of asset pipelines (`SM_`, `_LOW`, `_geo`) are omitted.
 
     >>> words_of("SM_CupCBlue_01")
     ('cup', 'blue')
@@ -75,9 +73,9 @@ def words_of(identifier: str) -> tuple[str, ...]:
     ()
     """
     parts = [part.lower() for part in split_identifier(identifier)]
-    return tuple(part for part in parts if is_telling(part))
+    return tuple(part for part in parts if is_content_word(part))
 
 
-def is_telling(word: str) -> bool:
-    """Return whether a lower-case word may say what a thing is: no number, no letter, no pipeline token."""
+def is_content_word(word: str) -> bool:
+    """Return whether a lower-case word may describe an object: no number, single Latin letter or pipeline token."""
     return (len(word) > 1 or not word.isascii()) and not word.isdigit() and word not in _PRODUCTION_TOKENS

@@ -1,16 +1,16 @@
-"""A small TBox and scores over it, for values that can be worked by hand.
+"""A small TBox and scores over it, for results computed by hand.
 
-The hierarchy, with a class of two parents::
+The hierarchy; Cup has two superclasses::
 
     Thing ─ Container ─ Cup
           │           └ Bowl
           └ Tableware ┬ Cup
                       └ Spoon
-    Wall (a root of its own)
+    Wall (a second root)
 """
 
 from usd2kg.evaluation.gold import GoldLabel
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
 from usd2kg.grounding import Candidate, Grounding, Prediction, Status
 from usd2kg.ontology import OntologyClass, TBox
 

@@ -1,4 +1,4 @@
-"""Fitting how likely answers are right."""
+"""Platt scaling fitted to answers with known correctness."""
 
 import math
 import random
@@ -19,7 +19,7 @@ def scores(confidences: list[float], right: list[bool]) -> list[Score]:
     ]
 
 
-def test_the_scaling_is_the_one_the_answers_came_from():
+def test_recovers_the_scaling_that_generated_the_answers():
     drawn = random.Random(4)
     confidences = [drawn.uniform(0.02, 0.98) for _ in range(20000)]
     truth = PlattScaling(-1.0, 0.5, "", 0)
@@ -29,8 +29,8 @@ def test_the_scaling_is_the_one_the_answers_came_from():
     assert (fitted.grounder, fitted.answers) == ("model", 20000)
 
 
-def test_two_confidences_get_their_shares_with_platts_targets():
-    # 8 of 10 right at 0.9, 3 of 10 at 0.2: two unknowns fit two groups exactly.
+def test_fits_two_groups_exactly_with_platts_targets():
+    # 8 of 10 are right at 0.9, 3 of 10 at 0.2: two parameters fit two groups exactly.
     known = scores([0.9] * 10 + [0.2] * 10, [True] * 8 + [False] * 2 + [True] * 3 + [False] * 7)
     fitted = fit_scaling(known, "model")
     high, low = 12 / 13, 1 / 11
@@ -41,12 +41,12 @@ def test_two_confidences_get_their_shares_with_platts_targets():
 
 
 @pytest.mark.parametrize("right", [[True] * 30, [False] * 30, [True, False] * 5])
-def test_too_little_to_learn_from(right: list[bool]):
+def test_rejects_too_few_or_one_sided_answers(right: list[bool]):
     with pytest.raises(EvaluationError, match="label more objects"):
         fit_scaling(scores([0.5] * len(right), right), "model")
 
 
-def test_files_are_read_back_and_bad_ones_named(tmp_path: Path):
+def test_reads_scaling_files_and_rejects_malformed_ones(tmp_path: Path):
     path = tmp_path / "calibration.json"
     scaling = PlattScaling(-0.25, 1.5, "llm, semantic names", 200)
     path.write_text(scaling.as_json(), "utf-8")

@@ -1,4 +1,4 @@
-"""Gold files, joining them with answers, the figures of a run, and runs kept in files."""
+"""Gold files, joining them with predictions, the summary of a run, and result files."""
 
 import json
 from pathlib import Path
@@ -9,7 +9,7 @@ from tests.evaluation.records import E, grounding_of, label, small_tbox
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import evaluation_json, join_scores, read_gold
 from usd2kg.evaluation.run import score_grounding
-from usd2kg.evaluation.sample import distinct_name
+from usd2kg.evaluation.score import distinct_name
 from usd2kg.evaluation.stored import read_run
 from usd2kg.grounding import Status
 
@@ -22,12 +22,12 @@ def _write(tmp_path: Path, text: str) -> Path:
     return path
 
 
-def test_gold_names_classes_by_iri_or_local_name(tmp_path: Path) -> None:
+def test_reads_gold_with_iris_or_local_names(tmp_path: Path) -> None:
     path = _write(tmp_path, f"path,class,also\n/a,Cup,Bowl|{E}Spoon\n/b,<{E}Wall>,\n\n")
     assert read_gold(path, TBOX) == (label("/a", "Cup", "Bowl|Spoon"), label("/b", "Wall"))
 
 
-def test_gold_reads_what_spreadsheets_write(tmp_path: Path) -> None:
+def test_reads_gold_written_by_spreadsheets(tmp_path: Path) -> None:
     path = tmp_path / "gold.csv"
     path.write_bytes(b'\xef\xbb\xbfpath,class,also,words\r\n/a, Cup ,"Cup|Bowl",a cup\r\n')
     assert read_gold(path, TBOX) == (label("/a", "Cup", "Bowl"),)
@@ -37,25 +37,25 @@ def test_gold_reads_what_spreadsheets_write(tmp_path: Path) -> None:
     ("text", "said"),
     [
         ("prim,class\n/a,Cup\n", r"line 1 has the columns prim, class; expected path,class,also"),
-        ("", r"line 1 has the columns nothing"),
+        ("", r"line 1 has no columns"),
         ("path,class\n/a,Cup\n/b,Mug\n", r"line 3: .*'Mug' names no class of the 7 in scope"),
         ("path,class\n/a,\n", r"line 2: /a has no class"),
-        ("path,class\n/a,Cup\n/a,Bowl\n", r"/a stands twice"),
-        ("path,class\n", r"holds no label"),
+        ("path,class\n/a,Cup\n/a,Bowl\n", r"/a has more than one row"),
+        ("path,class\n", r"contains no label"),
         ("path,class,also\n/a,Cup,Bowl|Nope\n", r"line 2: .*'Nope'"),
     ],
 )
-def test_bad_gold_says_where_and_what(tmp_path: Path, text: str, said: str) -> None:
+def test_rejects_malformed_gold_with_its_line(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(EvaluationError, match=said):
         read_gold(_write(tmp_path, text), TBOX)
 
 
-def test_missing_gold_is_one_line(tmp_path: Path) -> None:
+def test_rejects_a_missing_gold_file(tmp_path: Path) -> None:
     with pytest.raises(EvaluationError, match="cannot be read as gold labels"):
         read_gold(tmp_path / "none.csv", TBOX)
 
 
-def test_what_was_not_answered_stays_as_a_miss() -> None:
+def test_objects_without_a_prediction_keep_a_score() -> None:
     gold = [label("/a", "Cup"), label("/b", "Bowl"), label("/c", "Wall")]
     scores = join_scores(gold, grounding_of({"/a": "Cup", "/b": None}))
     assert [score.answer for score in scores] == [E + "Cup", None, None]
@@ -65,10 +65,10 @@ def test_what_was_not_answered_stays_as_a_miss() -> None:
 def test_copies_share_a_distinct_name() -> None:
     assert distinct_name("SM_Chair_01") == distinct_name("chair_17_LOW")
     assert distinct_name("chairA") != distinct_name("stoolA")
-    assert distinct_name("042") == "042", "a name without words is its own"
+    assert distinct_name("042") == "042", "a name without words is kept"
 
 
-def test_the_figures_are_in_the_units_of_the_study() -> None:
+def test_summary_uses_the_units_of_the_study() -> None:
     gold = [
         label("/cup_1", "Cup"),
         label("/cup_2", "Cup"),
@@ -80,16 +80,16 @@ def test_the_figures_are_in_the_units_of_the_study() -> None:
     assert (data["n"], data["names"], data["answered"]) == (4, 3, 3)
     assert data["ema"] == 50.0
     assert data["ema_also"] == 75.0
-    # Names: cup right, wall and spoon wrong.
+    # By name: cup is right, wall and spoon are wrong.
     assert data["ema_by_name"] == pytest.approx(100 / 3)
-    # Two of four are wholly right, the others have nothing in common with the truth.
+    # Two of four are right; the others share no superclass with the target.
     assert data["hf1"] == 0.5
     assert data["ema_interval"][0] <= 50.0 <= data["ema_interval"][1]
     assert data["misses"]["unanswered"] == 1
     json.dumps(data)
 
 
-def test_a_run_kept_in_a_file_reads_back_with_every_score(tmp_path: Path) -> None:
+def test_reads_back_every_score_of_a_result_file(tmp_path: Path) -> None:
     gold = [label("/a", "Cup", also="Bowl"), label("/b", "Bowl")]
     evaluation = score_grounding(grounding_of({"/a": "Bowl", "/b": None}), gold, TBOX, 0.1)
     data = evaluation_json(evaluation)
@@ -102,7 +102,7 @@ def test_a_run_kept_in_a_file_reads_back_with_every_score(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"scores": []}', "not json"])
-def test_a_file_that_is_no_run_is_refused(tmp_path: Path, text: str) -> None:
+def test_rejects_a_malformed_result_file(tmp_path: Path, text: str) -> None:
     path = tmp_path / "run.json"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(EvaluationError, match="cannot be read as a run"):

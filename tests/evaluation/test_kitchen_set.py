@@ -1,4 +1,4 @@
-"""The user's own Kitchen Set: found, refused with a way out, or run."""
+"""Checking a download of the Kitchen Set."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ def _crate(path: Path) -> Path:
     return path
 
 
-def test_version_is_read_from_the_header(tmp_path: Path) -> None:
+def test_reads_the_crate_version_from_the_header(tmp_path: Path) -> None:
     path = _crate(tmp_path / "a.usdc")
     version = crate_version(path)
     assert version is not None
@@ -27,25 +27,25 @@ def test_version_is_read_from_the_header(tmp_path: Path) -> None:
     assert crate_version(text) is None
 
 
-def test_obsolete_crates_are_named_with_the_way_to_convert_them(tmp_path: Path) -> None:
+def test_rejects_obsolete_crates_with_a_conversion_command(tmp_path: Path) -> None:
     root = tmp_path / "Kitchen_set" / "Kitchen_set.usd"
     root.parent.mkdir()
     root.write_text("#usda 1.0\n")
     old = _crate(root.parent / "assets" / "Cup.usdc")
     data = bytearray(old.read_bytes())
-    # The version of the Kitchen Set's own layers: 0.0.1.
+    # Version 0.0.1, as in the Kitchen Set.
     data[8:11] = bytes((0, 0, 1))
     old.write_bytes(bytes(data))
-    with pytest.raises(EvaluationError, match=r"1 of 2 layers are crates of version 0\.0\.1.*usd-core==24\.11"):
+    with pytest.raises(EvaluationError, match=r"1 of 2 layers are crate files of version 0\.0\.1.*usd-core==24\.11"):
         check_kitchen_set(tmp_path)
 
 
-def test_a_folder_without_it_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(EvaluationError, match=r"no Kitchen_set\.usd in it"):
+def test_rejects_a_folder_without_the_kitchen_set(tmp_path: Path) -> None:
+    with pytest.raises(EvaluationError, match=r"no Kitchen_set\.usd"):
         check_kitchen_set(tmp_path)
 
 
-def test_a_readable_download_gives_the_study_s_matrix(tmp_path: Path) -> None:
+def test_plans_the_studys_matrix_for_a_readable_download(tmp_path: Path) -> None:
     root = tmp_path / "Kitchen_set" / "Kitchen_set.usd"
     _crate(root.parent / "asset.usdc")
     root.write_text("#usda 1.0\n")

@@ -1,4 +1,4 @@
-"""Matrices: what they may say, what they run, and that nothing is asked twice."""
+"""Run matrices: reading, running, and resuming from stored answers."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -38,13 +38,13 @@ def matrix(tmp_path: Path, write_stage: Callable[..., Path]) -> Path:
     return path
 
 
-def test_cells_are_the_product_of_what_is_named(matrix: Path) -> None:
+def test_cells_are_the_product_of_conditions_and_repeats(matrix: Path) -> None:
     plan = read_matrix(matrix)
     cells = [cell for cell in plan.cells() if cell.scene.name == "room"]
     assert [(c.condition, c.repeat) for c in cells] == [("semantic", 1), ("semantic", 2), ("opaque", 1), ("opaque", 2)]
 
 
-def test_the_ablation_is_the_study_s_six_conditions_and_our_own(matrix: Path) -> None:
+def test_ablation_adds_the_studys_conditions_and_ours(matrix: Path) -> None:
     matrix.write_text(matrix.read_text().replace("repeats = 2", "ablation = true"))
     cells = [cell for cell in read_matrix(matrix).cells() if cell.scene.name == "room"]
     assert [c.condition for c in cells][2:] == [*STUDY_ABLATION, *OWN_ABLATION]
@@ -55,9 +55,7 @@ def test_the_ablation_is_the_study_s_six_conditions_and_our_own(matrix: Path) ->
     assert by_name["hierarchy only, anonymised"].regime is NamingRegime.OPAQUE_ANONYMOUS
 
 
-def test_answers_are_stored_and_never_asked_for_twice(
-    matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_reuses_stored_answers_unless_refreshed(matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[int] = []
     original = LexicalGrounder.ground_views
 
@@ -78,7 +76,7 @@ def test_answers_are_stored_and_never_asked_for_twice(
     assert len(asked) == 8
 
 
-def test_an_interrupted_run_goes_on_where_it_stopped(matrix: Path, tmp_path: Path) -> None:
+def test_resumes_an_interrupted_run(matrix: Path, tmp_path: Path) -> None:
     plan = read_matrix(matrix)
     seen = []
 
@@ -93,7 +91,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(matrix: Path, tmp_path: Pat
     assert [cell.was_stored for cell in result.cells] == [True, True, False, False]
 
 
-def test_another_gold_class_scores_the_stored_answers_anew(matrix: Path, tmp_path: Path) -> None:
+def test_rescores_stored_answers_when_gold_changes(matrix: Path, tmp_path: Path) -> None:
     plan = read_matrix(matrix)
     run_matrix(plan, tmp_path / "out")
     (tmp_path / "gold.csv").write_text("path,class\n/World/Chair_1,Sofa\n/World/Table_1,Table\n")
@@ -106,22 +104,22 @@ def test_another_gold_class_scores_the_stored_answers_anew(matrix: Path, tmp_pat
     ("old", "new", "said"),
     [
         ('grounders = ["lexical"]', 'grounders = ["oracle"]', "grounder 'oracle' is unknown"),
-        ('"opaque"', '"foggy"', "expected regimes of semantic"),
-        ("repeats = 2", "repeat = 2", "the matrix has the key 'repeat'; expected"),
-        ('gold = "gold.csv"', 'golden = "gold.csv"', "scene 'room' has the key 'golden'"),
+        ('"opaque"', '"foggy"', "expected one of semantic"),
+        ("repeats = 2", "repeat = 2", "matrix has the unknown key 'repeat'; expected"),
+        ('gold = "gold.csv"', 'golden = "gold.csv"', "scene 'room' has the unknown key 'golden'"),
         ('gold = "gold.csv"', "", "scene 'room' has no gold"),
         ('"scene.usda"', '"other.usda"', "other.usda does not exist"),
         ("[[scene]]", "[[scene", "cannot be read as a matrix"),
     ],
 )
-def test_a_bad_matrix_says_what_is_wrong(matrix: Path, old: str, new: str, said: str) -> None:
+def test_rejects_a_malformed_matrix(matrix: Path, old: str, new: str, said: str) -> None:
     matrix.write_text(matrix.read_text().replace(old, new, 1))
     with pytest.raises(EvaluationError, match=said):
         read_matrix(matrix)
 
 
-def test_a_matrix_without_scenes_is_refused(tmp_path: Path) -> None:
+def test_rejects_a_matrix_without_scenes(tmp_path: Path) -> None:
     path = tmp_path / "m.toml"
     path.write_text('title = "x"\n')
-    with pytest.raises(EvaluationError, match="names no scene"):
+    with pytest.raises(EvaluationError, match="has no scene"):
         read_matrix(path)

@@ -1,4 +1,4 @@
-"""Every formula against values worked by hand, with near misses."""
+"""Metrics against values computed by hand, including near misses."""
 
 import math
 
@@ -11,28 +11,33 @@ from sklearn.metrics import f1_score
 from tests.evaluation.records import PARENTS, E, label, score, small_tbox
 from usd2kg.evaluation.metrics.accuracy import accept_also, exact_match
 from usd2kg.evaluation.metrics.agreement import agreement
-from usd2kg.evaluation.metrics.calibration import accuracy_at_coverage, calibration_error, reliability, risk_coverage
+from usd2kg.evaluation.metrics.calibration import (
+    accuracy_at_coverage,
+    calibration_error,
+    reliability_bins,
+    risk_coverage_curve,
+)
 from usd2kg.evaluation.metrics.confusion import class_reports, confusion
-from usd2kg.evaluation.metrics.hierarchical import hierarchical, hierarchical_f1, hierarchical_one
-from usd2kg.evaluation.metrics.intervals import bootstrap_interval, mcnemar, mean_spread
-from usd2kg.evaluation.metrics.misses import Miss, count_misses, kind_of_miss
-from usd2kg.evaluation.metrics.selection import score_selection
+from usd2kg.evaluation.metrics.hierarchical import hierarchical_f1, hierarchical_score, mean_hierarchical_score
+from usd2kg.evaluation.metrics.intervals import bootstrap_interval, mcnemar, mean_and_deviation
+from usd2kg.evaluation.metrics.misses import Miss, classify_miss, count_misses
+from usd2kg.evaluation.metrics.object_selection import score_selection
 
 TBOX = small_tbox()
 CLASSES = sorted(PARENTS)
 
 
-def test_exact_match_keeps_the_unanswered_in_the_denominator() -> None:
+def test_exact_match_counts_missing_answers_as_wrong() -> None:
     scores = [score("Cup", "Cup"), score("Cup", "Bowl"), score("Wall", None), score("Spoon", "Spoon")]
     assert exact_match(scores) == 2 / 4
 
 
-def test_exact_match_of_nothing_is_an_error_and_not_zero() -> None:
+def test_exact_match_of_no_scores_raises() -> None:
     with pytest.raises(ValueError, match="no samples"):
         exact_match([])
 
 
-def test_accept_also_takes_second_labels_but_not_other_classes() -> None:
+def test_accept_also_counts_second_labels_only() -> None:
     scores = [
         score("Cup", "Bowl", also="Bowl|Spoon"),
         score("Cup", "Wall", also="Bowl"),
@@ -42,23 +47,23 @@ def test_accept_also_takes_second_labels_but_not_other_classes() -> None:
     assert accept_also(scores) == 1 / 3
 
 
-def test_hierarchical_values_worked_by_hand() -> None:
+def test_hierarchical_score_by_closure_overlap() -> None:
     # ↑Cup = {Cup, Container, Tableware, Thing}; ↑Bowl = {Bowl, Container, Thing}; common: Container, Thing.
-    one = hierarchical_one(E + "Bowl", E + "Cup", TBOX)
+    one = hierarchical_score(E + "Bowl", E + "Cup", TBOX)
     assert one.precision == 2 / 3
     assert one.recall == 2 / 4
     assert one.f1 == pytest.approx(2 * (2 / 3) * (1 / 2) / (2 / 3 + 1 / 2))
-    # A superclass: ↑Container = {Container, Thing}, both common: precision 1, recall 1/2, F1 2/3.
-    assert hierarchical_one(E + "Container", E + "Cup", TBOX) == pytest.approx((1.0, 0.5, 2 / 3))
-    assert hierarchical_one(E + "Cup", E + "Cup", TBOX) == (1.0, 1.0, 1.0)
-    assert hierarchical_one(E + "Wall", E + "Cup", TBOX) == (0.0, 0.0, 0.0), "another root has nothing in common"
-    assert hierarchical_one(None, E + "Cup", TBOX) == (0.0, 0.0, 0.0)
+    # ↑Container = {Container, Thing}, both common: precision 1, recall 1/2, F1 2/3.
+    assert hierarchical_score(E + "Container", E + "Cup", TBOX) == pytest.approx((1.0, 0.5, 2 / 3))
+    assert hierarchical_score(E + "Cup", E + "Cup", TBOX) == (1.0, 1.0, 1.0)
+    assert hierarchical_score(E + "Wall", E + "Cup", TBOX) == (0.0, 0.0, 0.0), "no common superclass"
+    assert hierarchical_score(None, E + "Cup", TBOX) == (0.0, 0.0, 0.0)
 
 
-def test_hierarchical_f1_is_the_mean_over_objects_and_not_the_f1_of_the_means() -> None:
+def test_hierarchical_f1_is_the_mean_over_objects() -> None:
     scores = [score("Cup", "Container"), score("Wall", "Cup")]
     assert hierarchical_f1(scores, TBOX) == pytest.approx((2 / 3 + 0) / 2)
-    means = hierarchical(scores, TBOX)
+    means = mean_hierarchical_score(scores, TBOX)
     assert (means.precision, means.recall) == (0.5, 0.25)
 
 
@@ -90,11 +95,11 @@ def test_hierarchical_f1_agrees_with_sklearn_on_closure_vectors(pairs: list[tupl
         ("Cup", "Wall", Miss.FAR_OFF),
     ],
 )
-def test_kinds_of_misses(target: str, answer: str | None, kind: Miss | None) -> None:
-    assert kind_of_miss(score(target, answer), TBOX) is kind
+def test_classifies_misses(target: str, answer: str | None, kind: Miss | None) -> None:
+    assert classify_miss(score(target, answer), TBOX) is kind
 
 
-def test_counts_of_misses_add_up_to_the_wrong_answers() -> None:
+def test_miss_counts_sum_to_the_wrong_answers() -> None:
     scores = [score("Cup", "Container"), score("Cup", "Cup"), score("Bowl", None), score("Cup", "Bowl")]
     counts = count_misses(scores, TBOX)
     assert counts[Miss.SUPERCLASS_COLLAPSE] == counts[Miss.UNANSWERED] == counts[Miss.SIBLING] == 1
@@ -102,7 +107,7 @@ def test_counts_of_misses_add_up_to_the_wrong_answers() -> None:
     assert counts[Miss.FAR_OFF] == 0
 
 
-def test_class_reports_and_confusion() -> None:
+def test_class_reports_and_confusions() -> None:
     scores = [
         score("Cup", "Cup"),
         score("Cup", "Bowl"),
@@ -111,28 +116,28 @@ def test_class_reports_and_confusion() -> None:
         score("Wall", None),
     ]
     reports = {report.class_iri.removeprefix(E): report for report in class_reports(scores)}
-    # Cup: 3 true, answered once and rightly. Bowl: answered 3 times, once rightly. Wall: never answered.
+    # Cup: 3 objects, answered once, correctly. Bowl: answered 3 times, once correctly. Wall: never answered.
     assert (reports["Cup"].precision, reports["Cup"].recall) == (1.0, 1 / 3)
     assert (reports["Bowl"].precision, reports["Bowl"].recall) == (1 / 3, 1.0)
     assert (reports["Wall"].precision, reports["Wall"].recall) == (None, 0.0)
     assert confusion(scores) == ((E + "Cup", E + "Bowl", 2), (E + "Wall", None, 1))
 
 
-def test_calibration_error_worked_by_hand() -> None:
+def test_calibration_error_by_bins() -> None:
     # Bin [0.9, 1]: confidences 0.95 and 0.91, one right: |0.5 - 0.93| = 0.43, weight 2/3.
-    # Bin [0.2, 0.3): confidence 0.25, wrong: 0.25, weight 1/3. The unanswered object has no confidence.
+    # Bin [0.2, 0.3): confidence 0.25, wrong: 0.25, weight 1/3. The object without an answer has no confidence.
     scores = [score("Cup", "Cup", 0.95), score("Cup", "Bowl", 0.91), score("Cup", "Bowl", 0.25), score("Cup", None)]
-    assert [b.count for b in reliability(scores)] == [1, 2]
+    assert [b.count for b in reliability_bins(scores)] == [1, 2]
     assert calibration_error(scores) == pytest.approx((2 * 0.43 + 1 * 0.25) / 3)
     assert calibration_error([score("Cup", None)]) is None
 
 
-def test_a_confidence_of_one_is_in_the_last_bin() -> None:
-    (only,) = reliability([score("Cup", "Cup", 1.0)])
+def test_confidence_one_is_in_the_last_bin() -> None:
+    (only,) = reliability_bins([score("Cup", "Cup", 1.0)])
     assert (only.lower, only.upper, only.accuracy) == (0.9, 1.0, 1.0)
 
 
-def test_risk_coverage_worked_by_hand() -> None:
+def test_risk_coverage_curve_groups_equal_confidences() -> None:
     scores = [
         score("Cup", "Cup", 0.9),
         score("Cup", "Bowl", 0.7),
@@ -140,21 +145,21 @@ def test_risk_coverage_worked_by_hand() -> None:
         score("Cup", "Bowl", 0.1),
         score("Cup", None),
     ]
-    # Taken at 0.9: 1 of 5, no risk; at 0.7 two more together: 3 of 5, 1 of 3 wrong; at 0.1: 4 of 5, 2 of 4 wrong.
-    assert risk_coverage(scores) == ((1 / 5, 0.0), (3 / 5, 1 / 3), (4 / 5, 2 / 4))
+    # Threshold 0.9: 1 of 5 covered, 0 wrong; 0.7: 3 of 5, 1 of 3 wrong; 0.1: 4 of 5, 2 of 4 wrong.
+    assert risk_coverage_curve(scores) == ((1 / 5, 0.0), (3 / 5, 1 / 3), (4 / 5, 2 / 4))
     assert accuracy_at_coverage(scores, 0.6) == pytest.approx(2 / 3)
     assert accuracy_at_coverage(scores, 0.61) == pytest.approx(1 / 2)
-    assert accuracy_at_coverage(scores, 0.9) is None, "the unanswered object is never taken"
+    assert accuracy_at_coverage(scores, 0.9) is None, "an object without an answer is never covered"
 
 
-def test_second_labels_are_right_where_they_are_accepted() -> None:
+def test_accepting_second_labels_reduces_the_risk() -> None:
     scores = [score("Cup", "Bowl", 0.9, also="Bowl"), score("Cup", "Bowl", 0.7)]
-    assert risk_coverage(scores) == ((1 / 2, 1.0), (1.0, 1.0))
-    assert risk_coverage(scores, accepting=True) == ((1 / 2, 0.0), (1.0, 1 / 2))
+    assert risk_coverage_curve(scores) == ((1 / 2, 1.0), (1.0, 1.0))
+    assert risk_coverage_curve(scores, accepting=True) == ((1 / 2, 0.0), (1.0, 1 / 2))
     assert accuracy_at_coverage(scores, 0.5, accepting=True) == 1.0
 
 
-def test_bootstrap_is_deterministic_and_holds_the_mean() -> None:
+def test_bootstrap_interval_matches_the_normal_approximation() -> None:
     values = [1.0] * 70 + [0.0] * 30
     first, again = bootstrap_interval(values), bootstrap_interval(values)
     assert first == again
@@ -164,53 +169,53 @@ def test_bootstrap_is_deterministic_and_holds_the_mean() -> None:
     assert first.upper == pytest.approx(0.790, abs=0.02)
 
 
-def test_copies_are_one_observation() -> None:
+def test_clustered_copies_widen_the_interval() -> None:
     values = [1.0] * 90 + [0.0] * 10
     clusters = ["cup"] * 90 + [f"thing {i}" for i in range(10)]
     by_object, by_name = bootstrap_interval(values), bootstrap_interval(values, clusters)
     assert by_name.upper - by_name.lower > 3 * (by_object.upper - by_object.lower)
 
 
-def test_clusters_of_one_give_the_interval_over_objects() -> None:
+def test_singleton_clusters_give_the_interval_over_objects() -> None:
     values = [1.0, 0.0, 1.0, 1.0, 0.0, 1.0]
     assert bootstrap_interval(values, list("abcdef")) == bootstrap_interval(values)
 
 
-def test_interval_of_nothing_is_an_error() -> None:
+def test_interval_of_no_values_raises() -> None:
     with pytest.raises(ValueError, match="no samples"):
         bootstrap_interval([])
 
 
-def test_mcnemar_worked_by_hand() -> None:
+def test_mcnemar_exact_p_value() -> None:
     first = [score("Cup", "Cup", name=str(i)) for i in range(8)]
     second = [score("Cup", "Cup" if i >= 5 else "Bowl", name=str(i)) for i in range(8)]
     test = mcnemar(first, second)
     assert (test.only_first, test.only_second) == (5, 0)
-    # Five discordant pairs, all one way: 2 * C(5, 0) / 2**5.
+    # Five discordant pairs, all for the first: 2 * C(5, 0) / 2**5.
     assert test.p_value == 2 / 32
     assert mcnemar(first, first).p_value == 1.0
 
 
-def test_mcnemar_pairs_by_object_and_not_by_place() -> None:
+def test_mcnemar_pairs_scores_by_id() -> None:
     first = [score("Cup", "Cup", name="a"), score("Cup", "Bowl", name="b")]
     assert mcnemar(first, first[::-1]) == (0, 0, 1.0)
     with pytest.raises(ValueError, match="no object in common"):
         mcnemar(first, [score("Cup", "Cup", name="z")])
 
 
-def test_mean_and_spread_of_repeats() -> None:
-    assert mean_spread([90.0, 94.0]) == (92.0, pytest.approx(math.sqrt(8)))
-    assert mean_spread([90.0]) == (90.0, None)
+def test_mean_and_deviation_of_repeats() -> None:
+    assert mean_and_deviation([90.0, 94.0]) == (92.0, pytest.approx(math.sqrt(8)))
+    assert mean_and_deviation([90.0]) == (90.0, None)
 
 
-def test_selection_is_scored_apart() -> None:
+def test_scores_object_selection() -> None:
     found = score_selection(["/a", "/b", "/x"], ["/a", "/b", "/c", "/d"])
     assert (found.recall, found.precision) == (2 / 4, 2 / 3)
     assert (found.missed, found.unlabelled) == (("/c", "/d"), ("/x",))
     assert score_selection([], ["/a"]).precision is None
 
 
-def test_agreement_worked_by_hand() -> None:
+def test_agreement_of_two_annotators() -> None:
     first = [
         label("/a", "Cup"),
         label("/b", "Cup"),
@@ -222,16 +227,16 @@ def test_agreement_worked_by_hand() -> None:
     found = agreement(first, second, TBOX)
     assert found.n == 4
     assert found.exact == 2 / 4
-    # By chance: Cup 2/4 * 2/4, Bowl 1/4 * 1/4, Wall 1/4 * 1/4 = 6/16; kappa = (8/16 - 6/16) / (10/16).
+    # Chance agreement: Cup 2/4 * 2/4, Bowl 1/4 * 1/4, Wall 1/4 * 1/4 = 6/16; kappa = (8/16 - 6/16) / (10/16).
     assert found.kappa == pytest.approx(2 / 10)
-    assert found.accepted == 3 / 4, "/c accepts Cup; /b accepts nothing else"
+    assert found.accepted == 3 / 4, "only /c has Cup as a second label"
     bowl_for_cup = 2 * (2 / 3) * (1 / 2) / (2 / 3 + 1 / 2)
     assert found.hierarchical_f1 == pytest.approx((1 + bowl_for_cup + bowl_for_cup + 1) / 4)
     assert [a.prim_path for a, _ in found.disagreements] == ["/b", "/c"]
     assert (found.only_first, found.only_second) == (("/e",), ("/z",))
 
 
-def test_agreement_by_chance_alone_has_no_kappa() -> None:
+def test_kappa_is_undefined_if_chance_agreement_is_one() -> None:
     same = [label("/a", "Cup"), label("/b", "Cup")]
     assert agreement(same, same, TBOX).kappa is None
     with pytest.raises(ValueError, match="no prim in common"):

@@ -1,4 +1,4 @@
-"""Under a masked regime nothing that a grounder is given tells the target's own name."""
+"""Masked naming regimes hide the target's name from grounders."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from tests.conftest import shared_file
 from tests.grounding.records import words_written
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ObjectView, make_grounder, view_objects
-from usd2kg.grounding.context import Neighbour, Neighbour
+from usd2kg.grounding.context import Neighbour
 from usd2kg.ontology import TBox
 from usd2kg.scene import Label, Scene, SceneObject, read_scene
 from usd2kg.words import words_of
@@ -62,12 +62,12 @@ def _path_of(companion: Neighbour) -> str:
 
 
 def _in_full(word: str) -> list[tuple[str, float]]:
-    """The only way to write a word: in full."""
+    """Return the only spelling of a word: unabbreviated."""
     return [(word, 0.0)]
 
 
 def _renamed(scene: Scene, obj: SceneObject) -> Scene:
-    """Return the scene with another name for one object; whatever lies below it moves with it."""
+    """Return the scene with one object renamed, along with the paths below it."""
     path = obj.prim_path.rpartition("/")[0] + "/Zebra_77"
     changed = []
     for other in scene.objects:
@@ -80,11 +80,11 @@ def _renamed(scene: Scene, obj: SceneObject) -> Scene:
 
 
 @pytest.mark.parametrize("regime", MASKED)
-def test_no_text_of_a_view_is_the_target_s_name(scene: Scene, regime: NamingRegime) -> None:
+def test_texts_do_not_contain_the_targets_name(scene: Scene, regime: NamingRegime) -> None:
     for obj, view in view_objects(scene, regime):
         assert obj.name not in _texts(view)
         assert obj.prim_path not in _texts(view)
-        # An ancestor may bear the same name as the target (`oven/oven`): that is its own name, which it keeps.
+        # An ancestor with the target's name (`oven/oven`) keeps it.
         above = obj.prim_path.split("/")[1:-1]
         assert view.parents.count(obj.name) <= above.count(obj.name)
         assert not (view.asset or view.materials or view.parts or view.display_name or view.documentation)
@@ -92,33 +92,33 @@ def test_no_text_of_a_view_is_the_target_s_name(scene: Scene, regime: NamingRegi
 
 
 @pytest.mark.parametrize("regime", MASKED)
-def test_richer_evidence_stays_hidden_where_it_is_there_and_asked_for(scene: Scene, regime: NamingRegime) -> None:
+def test_labels_stay_hidden_even_if_requested(scene: Scene, regime: NamingRegime) -> None:
     labelled = [
         replace(obj, labels=obj.labels._replace(own=(Label(obj.prim_path, "UsdSemantics", "class", obj.name),)))
         for obj in scene.objects
     ]
-    told = replace(scene, objects=tuple(labelled))
-    assert all(view.labels == (obj.name,) for obj, view in view_objects(told))
-    for obj, view in view_objects(told, regime, EVIDENCE_GROUPS):
+    labelled_scene = replace(scene, objects=tuple(labelled))
+    assert all(view.labels == (obj.name,) for obj, view in view_objects(labelled_scene))
+    for obj, view in view_objects(labelled_scene, regime, EVIDENCE_GROUPS):
         assert view.labels == ()
         assert obj.name not in _texts(view)
 
 
 @pytest.mark.parametrize("regime", MASKED)
-def test_no_companion_is_the_target(scene: Scene, regime: NamingRegime) -> None:
+def test_companions_exclude_the_target_and_its_descendants(scene: Scene, regime: NamingRegime) -> None:
     paths = {obj.prim_path for obj in scene.objects}
     for obj, view in view_objects(scene, regime):
         assert (view.neighbourhood is None) == (regime is NamingRegime.OPAQUE_ANONYMOUS)
         found = [_path_of(companion) for companion in _companions(view)]
         assert obj.prim_path not in found
-        # What lies below the target has the target's name among its parents.
+        # Descendants contain the target's name in their paths.
         assert not any(path.startswith(obj.prim_path + "/") for path in found)
         assert set(found) <= paths
         assert len(set(found)) == len(found)
 
 
 @pytest.mark.parametrize("regime", MASKED)
-def test_no_neighbour_is_the_target_or_bears_its_name_above(scene: Scene, regime: NamingRegime) -> None:
+def test_neighbours_exclude_the_target_and_its_descendants(scene: Scene, regime: NamingRegime) -> None:
     for obj, view in view_objects(scene, regime):
         found = ["/".join(("", *near.parents, near.name)) for near in _neighbours(view)]
         if regime is NamingRegime.OPAQUE_ANONYMOUS:
@@ -129,7 +129,7 @@ def test_no_neighbour_is_the_target_or_bears_its_name_above(scene: Scene, regime
 
 
 @pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
-def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, regime: NamingRegime) -> None:
+def test_word_counts_exclude_the_target(scene: Scene, regime: NamingRegime) -> None:
     bearers = Counter(word for obj in scene.objects for word in set(words_of(obj.name)))
     for obj, view in view_objects(scene, regime):
         assert view.neighbourhood is not None
@@ -140,7 +140,7 @@ def test_the_company_tells_no_word_that_the_target_alone_bears(scene: Scene, reg
 
 
 @pytest.mark.parametrize("regime", [NamingRegime.OPAQUE, NamingRegime.OPAQUE_ANONYMOUS])
-def test_another_name_of_the_target_makes_no_difference(scene: Scene, regime: NamingRegime, home_tbox: TBox) -> None:
+def test_renaming_the_target_changes_nothing(scene: Scene, regime: NamingRegime, home_tbox: TBox) -> None:
     grounder = make_grounder("lexical")
     for at in range(0, len(scene.objects), max(1, len(scene.objects) // 8)):
         renamed = _renamed(scene, scene.objects[at])
@@ -150,14 +150,14 @@ def test_another_name_of_the_target_makes_no_difference(scene: Scene, regime: Na
         assert list(before.siblings) == list(after.siblings)
         assert _neighbours(before) == _neighbours(after)
         assert before.appearance == after.appearance
-        unlike = {"neighbours": None, "siblings": (), "standing": None}
-        assert replace(before, **unlike) == replace(after, **unlike)
+        ignored = {"neighbourhood": None, "siblings": (), "placement": None}
+        assert replace(before, **ignored) == replace(after, **ignored)
         one, two = (grounder.ground_views([("/x", view)], home_tbox) for view in (before, after))
         assert one == two
 
 
 @pytest.mark.parametrize("regime", MASKED)
-def test_siblings_are_the_others_and_all_the_others(scene: Scene, regime: NamingRegime) -> None:
+def test_siblings_are_all_other_children_of_the_parent(scene: Scene, regime: NamingRegime) -> None:
     families: dict[str, list[str]] = {}
     for obj in scene.objects:
         families.setdefault(obj.prim_path.rpartition("/")[0], []).append(obj.name)
@@ -172,7 +172,7 @@ def test_siblings_are_the_others_and_all_the_others(scene: Scene, regime: Naming
             assert list(view.siblings) == others
 
 
-def test_anonymous_parents_tell_nothing(scene: Scene) -> None:
+def test_anonymous_ancestors_hide_all_names(scene: Scene) -> None:
     names = {part for obj in scene.objects for part in obj.prim_path.split("/") if part}
     for _, view in view_objects(scene, NamingRegime.OPAQUE_ANONYMOUS):
         assert not names & {*view.parents, *view.groups, *view.siblings, view.name}
@@ -180,16 +180,14 @@ def test_anonymous_parents_tell_nothing(scene: Scene) -> None:
 
 @pytest.mark.parametrize("regime", MASKED)
 @pytest.mark.parametrize("name", ["lexical", "dictionary"])
-def test_a_batch_gives_nothing_that_one_target_alone_does_not(
-    scene: Scene, regime: NamingRegime, name: str, home_tbox: TBox
-) -> None:
-    """The union of all siblings' lists holds every name: a grounder that remembers across targets would cheat."""
+def test_predictions_do_not_depend_on_the_batch(scene: Scene, regime: NamingRegime, name: str, home_tbox: TBox) -> None:
+    """The sibling lists together contain every name, so a grounder must not carry state between targets."""
     views = [(obj.prim_path, view) for obj, view in view_objects(scene, regime)][:60]
     together = make_grounder(name).ground_views(views, home_tbox)
     grounder = make_grounder(name)
     alone = [grounder.ground_views([pair], home_tbox)[0] for pair in views[::12]]
     assert alone == together[::12]
     assert make_grounder(name).ground_views(views[::-1], home_tbox)[::-1] == together
-    # Nor does it matter whether the views share one stage's company or each is made anew.
+    # Views that share one stage context and views built separately are equivalent.
     anew = [(obj.prim_path, view) for obj, view in view_objects(scene, regime)][:60:12]
     assert make_grounder(name).ground_views(anew, home_tbox) == alone

@@ -1,4 +1,4 @@
-"""Labels against ontologies other than the one that ships: `benchmarks/gold` can be read and names real objects."""
+"""Gold labels in `benchmarks/gold` for ontologies other than the built-in TBox."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -22,7 +22,7 @@ COUNTS = {
     "small_house.multiverse": (87, 35),
     "franka_kitchen.multiverse": (28, 17),
 }
-"""Rows and distinct classes of each file, as its README says."""
+"""Numbers of rows and distinct classes, as in the README of each file."""
 DFL = "http://www.ease-crc.org/ont/SOMA_DFL.owl#"
 
 
@@ -41,13 +41,13 @@ def labelled(request: pytest.FixtureRequest) -> _Labelled:
     return _Labelled(name, shared_file(SCENES[scene]), tbox, read_gold(GOLD / f"{name}.csv", tbox))
 
 
-def test_every_class_is_in_scope_and_the_counts_are_those_written(labelled: _Labelled) -> None:
+def test_classes_are_in_scope_and_counts_match_the_readme(labelled: _Labelled) -> None:
     used = {label.target for label in labelled.labels}
     assert (len(labelled.labels), len(used)) == COUNTS[labelled.name]
     assert used | {other for label in labelled.labels for other in label.also} <= set(labelled.tbox.by_iri)
 
 
-def test_every_path_is_an_object_of_the_scene(labelled: _Labelled) -> None:
+def test_paths_are_objects_of_the_scene(labelled: _Labelled) -> None:
     paths = {label.prim_path for label in labelled.labels}
     found = {obj.prim_path for obj in read_scene(labelled.scene).objects}
     assert paths <= found
@@ -55,7 +55,7 @@ def test_every_path_is_an_object_of_the_scene(labelled: _Labelled) -> None:
     assert {obj.prim_path for obj in read_scene(labelled.scene, options=options).objects} == paths
 
 
-def test_classes_that_the_hierarchy_leaves_out_of_scope_are_those_the_readme_names() -> None:
+def test_classes_out_of_scope_match_the_readme() -> None:
     tbox = load_tbox(shared_file(ONTOLOGIES["multiverse"]))
     for name in ("sink", "lid", "kitchen"):
         assert not any(iri.startswith(f"{DFL}{name}.n.wn.artifact") for iri in tbox.by_iri)

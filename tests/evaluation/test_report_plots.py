@@ -1,13 +1,14 @@
-"""The plots: valid, deterministic, and robust against what a name may hold."""
+"""Plots are valid SVG, deterministic, and robust against any name."""
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
 
-from tests.evaluation.test_report_records import FIRST, SECOND, tiny
+from tests.evaluation.report_records import FIRST, SECOND, tiny
 from usd2kg.evaluation import SceneResult
 from usd2kg.evaluation.report import plots, write_report
+from usd2kg.evaluation.report.confusion_plot import plot_confusion
 
 pytest.importorskip("matplotlib")
 
@@ -33,73 +34,73 @@ def test_all_plots_are_valid_svg(tmp_path: Path):
     for path in (tmp_path / "plots").iterdir():
         root = ET.parse(path).getroot()
         assert root.tag == f"{SVG}svg"
-        assert not list(root.iter(f"{SVG}image")), "drawn, not an image"
+        assert not list(root.iter(f"{SVG}image")), "vector graphics only"
         assert not list(root.iter(f"{SVG}script"))
 
 
-def test_a_plot_has_no_date_and_is_always_the_same():
+def test_plots_are_deterministic_without_a_date():
     first, second = (plots.plot_accuracy(full(), "a.svg").svg for _ in range(2))
     assert first == second
     assert "metadata" not in first
 
 
-def test_accuracy_shows_the_table_s_figures():
+def test_accuracy_plot_shows_the_values_of_the_table():
     shown = texts(plots.plot_accuracy(tiny(), "a.svg").svg)
     assert {"50", "25", "semantic", "first", "second"} <= set(shown)
 
 
-def test_what_was_not_run_is_absent_and_not_nought():
+def test_conditions_that_were_not_run_have_no_bar():
     result = tiny({("first", "semantic"): FIRST, ("second", "geometry only"): FIRST, ("first", "name only"): SECOND})
     accuracy, ablation = plots.plot_accuracy(result, "a.svg"), plots.plot_ablation(result, "a.svg")
     assert ablation is not None
     assert "second" not in texts(accuracy.svg)
     assert texts(ablation.svg).count("first") == texts(ablation.svg).count("second") == 1
-    assert texts(ablation.svg).count("0") == 2, "at the left end of each axis, and on no bar"
+    assert texts(ablation.svg).count("0") == 2, "only as the first tick of each axis"
 
 
-def test_confusion_shows_the_classes_that_occur_in_the_order_of_the_hierarchy():
-    figure = plots.plot_confusion(tiny(), "a.svg")
+def test_confusion_plot_sorts_classes_by_hierarchy():
+    figure = plot_confusion(tiny(), "a.svg")
     assert figure is not None
     classes = [text for text in texts(figure.svg) if text in {"Artifact", "Container", "Bowl", "Cup", "Table"}]
     assert classes == ["Container", "Bowl", "Cup", "Table"] * 2
     assert "no answer" not in texts(figure.svg)
 
 
-def test_confusion_leaves_out_classes_without_confusion_only_where_there_are_many():
+def test_confusion_plot_omits_unconfused_classes_if_there_are_many():
     many = {f"Class{i}": "Artifact" for i in range(60)}
     gold = {f"/W/c{i}": f"Class{i}" for i in range(60)}
     answers = {path: (cls, 0.5) for path, cls in gold.items()} | {"/W/c0": ("Class1", 0.5)}
     result = tiny({("first", "semantic"): answers}, gold=gold, hierarchy={"Artifact": None} | many)
-    figure = plots.plot_confusion(result, "a.svg")
+    figure = plot_confusion(result, "a.svg")
     assert figure is not None
-    assert "58 classes that are never confused are left out" in figure.caption
+    assert "58 classes that are never confused are omitted" in figure.caption
 
 
-def test_many_classes_and_no_confusion():
+def test_no_confusion_plot_for_many_classes_without_confusion():
     many = {f"Class{i}": "Artifact" for i in range(60)}
     gold = {f"/W/c{i}": f"Class{i}" for i in range(60)}
     answers = {path: (cls, 0.5) for path, cls in gold.items()}
     result = tiny({("first", "semantic"): answers}, gold=gold, hierarchy={"Artifact": None} | many)
-    assert plots.plot_confusion(result, "a.svg") is None
+    assert plot_confusion(result, "a.svg") is None
 
 
-def test_no_answer_at_all():
+def test_plots_without_any_answer():
     result = tiny({("first", "semantic"): {}})
     assert plots.plot_reliability(result, "a.svg") is None
     assert plots.plot_risk_coverage(result, "a.svg") is None
-    confusion = plots.plot_confusion(result, "a.svg")
+    confusion = plot_confusion(result, "a.svg")
     assert confusion is not None
     assert "no answer" in texts(confusion.svg)
 
 
-def test_nothing_was_run_under_authored_names():
+def test_no_plots_without_runs_under_authored_names():
     result = tiny({("first", "opaque"): SECOND})
-    assert plots.plot_confusion(result, "a.svg") is None
+    assert plot_confusion(result, "a.svg") is None
     assert plots.plot_cost([result], "a.svg") is None
     assert plots.plot_ablation(result, "a.svg") is None
 
 
-def test_cost_has_whole_decades_without_formulas():
+def test_cost_plot_has_decimal_tick_labels():
     figure = plots.plot_cost([tiny(seconds=0.0004)], "a.svg")
     assert figure is not None
     shown = texts(figure.svg)
@@ -108,7 +109,7 @@ def test_cost_has_whole_decades_without_formulas():
 
 
 @pytest.mark.parametrize("name", ["$\\frac$", "_hidden", "台所\x00", "a" * 300, "</text><script>"])
-def test_any_name_can_be_drawn(name: str):
+def test_draws_any_name(name: str):
     result = tiny({(name, "semantic"): FIRST}, name=name)
     for figure in (plots.plot_accuracy(result, "a.svg"), plots.plot_cost([result], "a.svg")):
         assert figure is not None
@@ -116,7 +117,7 @@ def test_any_name_can_be_drawn(name: str):
         assert any(text.strip(" …") and text.strip(" …")[:2] in name for text in texts(figure.svg))
 
 
-def test_the_users_own_settings_do_not_show():
+def test_ignores_the_users_matplotlib_settings():
     import matplotlib as mpl  # noqa: PLC0415
 
     plain = plots.plot_accuracy(tiny(), "a.svg").svg

@@ -1,66 +1,66 @@
-"""The tables, against values worked by hand."""
+"""Report tables against values computed by hand."""
 
 import pytest
 
-from tests.evaluation.test_report_records import FIRST, GOLD, SECOND, tiny
+from tests.evaluation.report_records import FIRST, GOLD, SECOND, tiny
 from usd2kg.evaluation.matrix import STUDY_ABLATION
-from usd2kg.evaluation.report import error_tables, tables
-from usd2kg.evaluation.report.study import AS_PUBLISHED, study_ablation, study_main
+from usd2kg.evaluation.report import error_tables, result_tables
+from usd2kg.evaluation.report.published import AS_PUBLISHED, published_ablation, published_main
 
 
 class TestMainTable:
-    def test_the_studys_format(self):
+    def test_uses_the_studys_format(self):
         # HF1 of the first: (1 + .8 + 2/3 + 1) / 4 = .867; of the second: 1 / 4.
-        table = tables.main_table(tiny())
+        table = result_tables.main_table(tiny())
         assert table.title == "Tiny (n = 4 objects, 3 distinct names): EMA % / HF1 by naming regime"
         assert table.columns == ("method", "semantic", "abbreviated", "opaque", "opaque-anonymous")
         assert table.rows == (("first", "50 / .87", "–", "–", "–"), ("second", "25 / .25", "–", "–", "–"))
 
-    def test_a_perfect_run(self):
+    def test_formats_a_perfect_run(self):
         right = {path: (cls, 1.0) for path, cls in GOLD.items()}
-        assert tables.main_table(tiny({("first", "opaque"): right})).rows[0][3] == "100 / 1.00"
+        assert result_tables.main_table(tiny({("first", "opaque"): right})).rows[0][3] == "100 / 1.00"
 
-    def test_repeats_have_mean_and_spread(self):
-        # EMA 50 and 25: mean 37.5, spread 17.7; HF1 .867 and .25: mean .558, spread .436.
-        table = tables.main_table(tiny(repeats=(SECOND,)))
+    def test_formats_repeats_as_mean_and_deviation(self):
+        # EMA 50 and 25: mean 37.5, deviation 17.7; HF1 .867 and .25: mean .558, deviation .436.
+        table = result_tables.main_table(tiny(repeats=(SECOND,)))
         assert table.rows[0][1] == "38 ± 18 / .56 ± .44"
-        assert table.note == "Mean ± standard deviation of 2 repeats; intervals are the first repeat's."
+        assert table.note == "Mean ± standard deviation of 2 repeats; intervals are those of the first repeat."
 
 
-def test_details():
-    first, second = tables.detail_table(tiny()).rows
+def test_detail_table():
+    first, second = result_tables.detail_table(tiny()).rows
     assert (first[0], first[1], first[2]) == ("first", "semantic", "50.0")
     assert first[5] == "50.0"  # cup ½, bowl 0, desk 1
     assert first[6] == "75.0"
     # Bins .9 (right), .8 (right), .6 (two wrong): (.1 + .2 + 2 × .6) / 4.
     assert first[8] == "0.375"
-    # The two answers of confidence .6 are taken together, so that 80 % is reached with all four.
+    # The two answers with confidence .6 enter together, so 80 % coverage takes all four.
     assert first[9] == "50.0"
     assert second[8] == "0.000"
     assert second[9] == "–"
 
 
-def test_intervals_lie_around_the_mean():
-    row = tables.detail_table(tiny()).rows[0]
+def test_intervals_contain_the_mean():
+    row = result_tables.detail_table(tiny()).rows[0]
     for cell in (row[3], row[4]):
         lower, upper = map(float, cell.split(" to "))
         assert 0 <= lower <= 50 <= upper <= 100
 
 
-def test_scenes_are_described_without_their_folders():
-    assert tables.scenes_table([tiny()]).rows == (
+def test_scenes_table_omits_folders():
+    assert result_tables.scenes_table([tiny()]).rows == (
         ("Tiny", "tiny.usda", "4", "3", "3 of 6", "0", "home.owl", "made up"),
     )
 
 
-def test_seconds_per_object():
-    assert tables.timing_table([tiny()]).rows[0] == ("Tiny", "first", "4", "0.1", "–", "–", "–")
-    assert tables.timing_table([tiny(seconds=0.00004)]).rows[0][3] == "0.00001"
+def test_timing_table_without_exponents():
+    assert result_tables.timing_table([tiny()]).rows[0] == ("Tiny", "first", "4", "0.1", "–", "–", "–")
+    assert result_tables.timing_table([tiny(seconds=0.00004)]).rows[0][3] == "0.00001"
 
 
 class TestPublished:
-    def test_main_results_are_headed_as_published(self):
-        table = tables.published_table()
+    def test_title_names_the_source(self):
+        table = result_tables.published_table()
         rows = {row[0]: row[1:] for row in table.rows}
         assert "as published, another scene (Kitchen Set, n = 125)" in table.title
         assert len(rows) == 15
@@ -68,63 +68,63 @@ class TestPublished:
         assert rows["Qwen 3.5-27B thinking A"] == ("94 / .98", "75 / .90", "fail", "–")
         assert rows["Multiverse"] == ("9 / .09", "0 / .00", "0 / .00", "–")
 
-    def test_every_condition_of_the_ablation_is_published_for_four_models(self):
-        assert len(study_ablation()) == 4
-        for figures in study_ablation().values():
+    def test_ablation_has_all_conditions_of_four_models(self):
+        assert len(published_ablation()) == 4
+        for figures in published_ablation().values():
             assert list(figures) == list(STUDY_ABLATION)
 
-    def test_a_failed_run_has_no_figure(self):
-        failed = study_main()["Qwen 3.5-27B thinking A"]["opaque"]
+    def test_failed_runs_have_no_numbers(self):
+        failed = published_main()["Qwen 3.5-27B thinking A"]["opaque"]
         assert (failed.ema, failed.hf1, failed.note) == (None, None, "fail")
 
 
 class TestAblation:
-    def test_the_studys_conditions_beside_its_figures(self):
-        table = tables.ablation_table(tiny({("first", "hierarchy only"): FIRST}))
+    def test_studys_conditions_include_published_results(self):
+        table = result_tables.ablation_table(tiny({("first", "hierarchy only"): FIRST}))
         assert table is not None
         assert table.columns[:3] == ("condition", "first", "Gemini 2.5 Flash B (published)")
         assert table.rows[0] == ("geometry only", "–", "17", "17", "11", "4")
         assert table.rows[1] == ("hierarchy only", "50", "28", "54", "21", "22")
         assert AS_PUBLISHED in table.note
 
-    def test_our_conditions_are_apart(self):
-        table = tables.own_ablation_table(tiny({("first", "name only"): SECOND}))
+    def test_our_conditions_have_a_separate_table(self):
+        table = result_tables.own_ablation_table(tiny({("first", "name only"): SECOND}))
         assert table is not None
         assert table.rows[0] == ("name only", "25")
         assert "Gemini" not in " ".join(table.columns)
 
-    def test_no_ablation_has_no_table(self):
-        assert tables.ablation_table(tiny()) is None
-        assert tables.own_ablation_table(tiny()) is None
+    def test_no_tables_without_an_ablation(self):
+        assert result_tables.ablation_table(tiny()) is None
+        assert result_tables.own_ablation_table(tiny()) is None
 
 
 class TestSelection:
     def test_recall_and_precision(self):
-        assert tables.selection_table([tiny(missed=("/W/Desk_1",))]).rows == (
+        assert result_tables.selection_table([tiny(missed=("/W/Desk_1",))]).rows == (
             ("Tiny", "4", "0.750", "0.500", "1", "1"),
         )
 
-    def test_nothing_missed(self):
-        assert tables.missed_table(tiny()) is None
+    def test_no_table_if_nothing_was_missed(self):
+        assert result_tables.missed_table(tiny()) is None
 
     @pytest.mark.parametrize(("count", "last"), [(10, "/W/9"), (11, "and 1 more"), (15, "and 5 more")])
-    def test_at_most_ten_missed_prims_then_a_count(self, count: int, last: str):
-        table = tables.missed_table(tiny(missed=tuple(f"/W/{i}" for i in range(count))))
+    def test_truncates_the_list_of_missed_prims(self, count: int, last: str):
+        table = result_tables.missed_table(tiny(missed=tuple(f"/W/{i}" for i in range(count))))
         assert table is not None
         assert len(table.rows) == min(count, 11)
         assert table.rows[-1] == (last,)
 
 
 class TestErrors:
-    def test_objects_all_methods_agree_on(self):
-        assert error_tables.agreed_table(tiny()).rows == (
+    def test_unanimous_objects(self):
+        assert error_tables.unanimous_table(tiny()).rows == (
             ("semantic", "all right", "1", "cup"),
             ("semantic", "all wrong", "2", "bowl, cup"),
         )
 
-    def test_many_names_are_counted(self):
+    def test_truncates_long_lists_of_names(self):
         gold = {f"/W/thing{chr(97 + i // 26)}{chr(97 + i % 26)}x": "Cup" for i in range(33)}
-        row = error_tables.agreed_table(tiny({("first", "semantic"): {}}, gold=gold)).rows[1]
+        row = error_tables.unanimous_table(tiny({("first", "semantic"): {}}, gold=gold)).rows[1]
         assert row[2] == "33"
         assert row[3].endswith(", and 3 more")
 
@@ -139,7 +139,7 @@ class TestErrors:
         )
         assert (second["right"], second["unanswered"]) == ("1", "3")
 
-    def test_precision_and_recall_of_classes_in_the_order_of_the_hierarchy(self):
+    def test_classes_are_in_hierarchy_order(self):
         table = error_tables.classes_table(tiny())
         assert table.columns[2:] == ("first precision", "first recall", "second precision", "second recall")
         assert table.rows == (
@@ -159,20 +159,20 @@ class TestErrors:
         table = error_tables.size_table(result)
         assert table is not None
         assert table.rows == (("desk", "Table", "1.60 × 0.80 × 0.70"),)
-        assert error_tables.size_text(result) == "Tiny: 1 of 4 objects are found by their size alone."
+        assert error_tables.size_text(result) == "Tiny: 1 of 4 objects are recognised by size alone."
 
     def test_no_method_limited_to_geometry(self):
         assert error_tables.size_table(tiny()) is None
         assert error_tables.size_text(tiny()) is None
 
-    def test_quality_of_names(self):
+    def test_name_quality(self):
         assert error_tables.name_quality_text(tiny()) == (
-            "Tiny: 3 of 4 names (75 %) contain the head word of their class; 2 of 3 distinct names."
+            "Tiny: 3 of 4 names (75 %) contain the head noun of their class; 2 of 3 distinct names."
         )
         table = error_tables.name_quality_table(tiny())
         assert table.columns[2:] == (
-            "EMA % where the name names its class (n = 3)",
-            "EMA % where it does not (n = 1)",
+            "EMA % with head noun in name (n = 3)",
+            "EMA % without (n = 1)",
         )
         assert table.rows == (("first", "semantic", "33.3", "100.0"), ("second", "semantic", "33.3", "0.0"))
 

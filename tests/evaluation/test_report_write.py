@@ -1,4 +1,4 @@
-"""The files of a report: complete, escaped, self-contained and the same every time."""
+"""Report files are complete, escaped, self-contained and deterministic."""
 
 import csv
 import io
@@ -11,15 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from tests.evaluation.test_report_records import FIRST, NS, SECOND, tiny
+from tests.evaluation.report_records import FIRST, NS, SECOND, tiny
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import SceneResult
 from usd2kg.evaluation.report import write_report
-from usd2kg.evaluation.report.document import Section, Table, printable
+from usd2kg.evaluation.report.blocks import Section, Table, printable
+from usd2kg.evaluation.report.canvas import check_matplotlib
 from usd2kg.evaluation.report.html import format_html
 from usd2kg.evaluation.report.latex import escape_latex, format_latex
 from usd2kg.evaluation.report.markdown import escape_markdown, format_markdown
-from usd2kg.evaluation.report.plots import check_matplotlib
 
 EVIL = "<script>alert(1)</script>|\n"
 EVIL_CLASS = "a|`b`$x$<b>&amp;\\_%[c](d)\x1b"
@@ -34,7 +34,7 @@ def evil() -> SceneResult:
 
 
 def markdown_tables(text: str) -> list[list[list[str]]]:
-    """Return tables as a reader of Markdown sees them: cells between pipes that are not escaped."""
+    """Return the tables as lists of rows, split at unescaped pipes."""
     found: list[list[list[str]]] = [[]]
     for line in text.split("\n"):
         if line.startswith("|"):
@@ -46,7 +46,7 @@ def markdown_tables(text: str) -> list[list[list[str]]]:
 
 
 class Page(HTMLParser):
-    """Collects what a browser would act on."""
+    """Collects tags, attributes, ids and text."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -72,20 +72,20 @@ def read_page(text: str) -> Page:
 
 
 class TestFiles:
-    def test_all_are_written_and_returned(self, tmp_path: Path):
+    def test_writes_and_returns_all_files(self, tmp_path: Path):
         paths = write_report([tiny()], "A title", tmp_path / "new" / "folder")
         names = {path.name for path in paths}
         assert names >= {"report.md", "report.html", "report.tex", "results.csv", "results.json"}
         assert all(path.is_file() for path in paths)
         assert {p for p in (tmp_path / "new" / "folder").rglob("*") if p.is_file()} == set(paths)
 
-    def test_the_same_results_give_the_same_bytes(self, tmp_path: Path):
+    def test_output_is_deterministic(self, tmp_path: Path):
         runs = {("first", "semantic"): FIRST, ("first", "geometry only"): SECOND, ("first", "name only"): SECOND}
         first = write_report([tiny(runs), tiny()], "A title", tmp_path / "a")
         second = write_report([tiny(runs), tiny()], "A title", tmp_path / "b")
         assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
 
-    def test_seconds_appear_only_where_they_are_the_matter(self, tmp_path: Path):
+    def test_run_times_only_affect_the_timing_table(self, tmp_path: Path):
         first = write_report([tiny(seconds=0.4)], "A title", tmp_path / "a")
         second = write_report([tiny(seconds=44.0)], "A title", tmp_path / "b")
         differing = {a.name for a, b in zip(first, second, strict=True) if a.read_bytes() != b.read_bytes()}
@@ -96,11 +96,11 @@ class TestFiles:
             "| Tiny | second | 4 | 0.1 | – | – | – |",
         ]
 
-    def test_no_results(self, tmp_path: Path):
+    def test_rejects_empty_results(self, tmp_path: Path):
         with pytest.raises(EvaluationError, match="no results to report"):
             write_report([], "A title", tmp_path)
 
-    def test_without_matplotlib_everything_else_is_there(
+    def test_writes_everything_but_plots_without_matplotlib(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
     ):
         monkeypatch.setitem(sys.modules, "matplotlib", None)
@@ -116,22 +116,22 @@ class TestFiles:
             "results.csv",
             "results.json",
         }
-        assert "the report has no plots" in caplog.text
+        assert "report without plots" in caplog.text
         for name in ("report.md", "report.html"):
             text = (tmp_path / name).read_text("utf-8")
-            assert "Plots are left out" in text
+            assert "Plots are omitted" in text
             assert "usd2kg" in text
             assert ".svg" not in text
 
 
 class TestMarkdown:
-    def test_it_reads_back(self, tmp_path: Path):
+    def test_tables_read_back(self, tmp_path: Path):
         write_report([tiny()], "A title", tmp_path)
         main = markdown_tables((tmp_path / "report.md").read_text("utf-8"))[1]
         assert main[0] == ["method", "semantic", "abbreviated", "opaque", "opaque-anonymous"]
         assert main[2] == ["first", "50 / .87", "–", "–", "–"]
 
-    def test_hostile_names_stay_in_their_cells(self, tmp_path: Path):
+    def test_escapes_hostile_names(self, tmp_path: Path):
         write_report([evil()], EVIL, tmp_path)
         text = (tmp_path / "report.md").read_text("utf-8")
         assert "<script" not in text
@@ -139,22 +139,22 @@ class TestMarkdown:
         for table in markdown_tables(text):
             assert {len(row) for row in table} == {len(table[0])}
 
-    def test_a_cell_reads_back_as_it_was(self):
+    def test_cells_read_back_unchanged(self):
         text = format_markdown("t", [Section("s", (Table("t", ("a|b", "c"), (("`x` | \\", "*y*_z_"),)),))])
         assert markdown_tables(text)[0][2] == ["`x` | \\", "*y*_z_"]
 
-    def test_backslash_before_a_pipe(self):
+    def test_escapes_a_backslash_before_a_pipe(self):
         assert escape_markdown("\\|") == "\\\\\\|"
 
 
 class TestLatex:
-    def test_it_reads_back(self, tmp_path: Path):
+    def test_tables_read_back(self, tmp_path: Path):
         write_report([tiny()], "A title", tmp_path)
         text = (tmp_path / "report.tex").read_text("utf-8")
         assert "\nfirst & 50 / .87 & -- & -- & -- \\\\\n" in text
         assert text.count(r"\begin{tabular}") == text.count(r"\end{tabular}")
 
-    def test_hostile_names_stay_in_their_cells(self, tmp_path: Path):
+    def test_escapes_hostile_names(self, tmp_path: Path):
         write_report([evil()], EVIL, tmp_path)
         text = (tmp_path / "report.tex").read_text("utf-8")
         for columns, body in re.findall(r"\\begin\{tabular\}\{([^\n]*)\}\n(.*?)\\end\{tabular\}", text, re.DOTALL):
@@ -162,7 +162,7 @@ class TestLatex:
             rows = [line for line in body.split("\n") if line not in {"", r"\hline"}]
             assert {len(re.findall(r"(?<!\\)&", row)) for row in rows} == {len(wanted) - 1}
             assert all(row.removesuffix(r" \hline").endswith(r" \\") for row in rows)
-        assert not re.search(r"(?<!\\)%(?! )", text), "a bare percent sign would hide the rest of the line"
+        assert not re.search(r"(?<!\\)%(?! )", text), "an unescaped percent sign starts a comment"
 
     @pytest.mark.parametrize(
         ("text", "escaped"),
@@ -174,10 +174,10 @@ class TestLatex:
             ("a\nb", "a b"),
         ],
     )
-    def test_special_characters(self, text: str, escaped: str):
+    def test_escapes_special_characters(self, text: str, escaped: str):
         assert escape_latex(text) == escaped
 
-    def test_long_tables_are_parted(self):
+    def test_splits_long_tables(self):
         rows = tuple((str(i),) for i in range(90))
         text = format_latex("t", [Section("s", (Table("t", ("n",), rows),))])
         assert text.count(r"\begin{tabular}") == 3
@@ -186,7 +186,7 @@ class TestLatex:
 
 class TestHtml:
     @pytest.mark.parametrize("results", [[tiny()], [evil()]])
-    def test_it_needs_nothing_else(self, results: list[SceneResult], tmp_path: Path):
+    def test_page_is_self_contained(self, results: list[SceneResult], tmp_path: Path):
         write_report(results, EVIL, tmp_path)
         text = (tmp_path / "report.html").read_text("utf-8")
         page = read_page(text)
@@ -199,13 +199,13 @@ class TestHtml:
         assert "@import" not in text
         assert not re.search(r"url\((?!#)", text)
 
-    def test_hostile_names_are_shown_as_they_are(self, tmp_path: Path):
+    def test_shows_hostile_names_as_text(self, tmp_path: Path):
         write_report([evil()], EVIL, tmp_path)
         page = read_page((tmp_path / "report.html").read_text("utf-8"))
         assert printable(f"/W/{EVIL}") in page.text
         assert "b" not in page.tags
 
-    def test_plots_do_not_share_ids(self, tmp_path: Path):
+    def test_plots_have_unique_ids(self, tmp_path: Path):
         pytest.importorskip("matplotlib")
         write_report([tiny(), tiny()], "A title", tmp_path)
         page = read_page((tmp_path / "report.html").read_text("utf-8"))
@@ -213,18 +213,18 @@ class TestHtml:
         targets = {value[1:] for key, value in page.attributes if key.endswith("href") and value}
         assert targets <= set(page.ids)
 
-    def test_figures_are_set_flush_right_and_words_are_not(self):
+    def test_aligns_numeric_columns_right(self):
         table = Table("t", ("method", "EMA"), (("first", "50 / .87"), ("second", "fail")))
         text = format_html("t", [Section("s", (table,))])
         assert '<td>first</td><td class="number">50 / .87</td>' in text
 
-    def test_long_tables_are_folded(self):
+    def test_folds_long_tables(self):
         text = format_html("t", [Section("s", (Table("long", ("a",), (("1",),), is_long=True),))])
         assert "<summary>long, 1 rows</summary>" in text
 
 
 class TestData:
-    def test_csv_has_a_row_for_each_run(self, tmp_path: Path):
+    def test_csv_has_one_row_per_run(self, tmp_path: Path):
         write_report([tiny({("first", "semantic"): FIRST, ("first", "hierarchy only"): SECOND})], "t", tmp_path)
         rows = list(csv.DictReader(io.StringIO((tmp_path / "results.csv").read_text("utf-8"))))
         assert [(row["method"], row["condition"], row["regime"], row["evidence"]) for row in rows] == [
@@ -237,14 +237,14 @@ class TestData:
         assert float(rows[0]["seconds_per_object"]) == 0.1
         assert rows[1]["accuracy_at_80"] == ""
 
-    def test_csv_holds_no_formula(self, tmp_path: Path):
+    def test_csv_contains_no_formula(self, tmp_path: Path):
         write_report([evil()], "t", tmp_path)
         text = (tmp_path / "results.csv").read_text("utf-8")
         rows = list(csv.DictReader(io.StringIO(text, newline="")))
         assert rows[0]["scene"] == '\'=HYPERLINK("x")' + EVIL
         assert not any(cell.startswith(("=", "+", "-", "@")) for row in rows for cell in row.values())
 
-    def test_json_holds_everything_but_folders(self, tmp_path: Path):
+    def test_json_omits_folders(self, tmp_path: Path):
         write_report([tiny()], "t", tmp_path)
         text = (tmp_path / "results.json").read_text("utf-8")
         [scene] = json.loads(text)["scenes"]

@@ -1,4 +1,4 @@
-"""Scenes of boxes with given classes, to test graphs without a stage or a grounder."""
+"""Scenes of boxes with given classes, to test graphs without stage and grounder."""
 
 import io
 from collections.abc import Iterable, Sequence
@@ -50,7 +50,7 @@ def ground_as(tbox: TBox, scene: Scene, classes: dict[str, str], **changes: Any)
 
 def predict(tbox: TBox, path: str, name: str | None) -> Prediction:
     if name is None:
-        return Prediction(path, None, None, Status.REFUSED, "by-hand", "nobody said")
+        return Prediction(path, None, None, Status.REFUSED, "by-hand", "not labelled")
     iri = tbox.resolve(name)
     return Prediction(
         path, iri, 0.75, Status.GROUNDED, "by-hand", f"it is a {name}", ("name",), (Candidate(iri, 0.75),)

@@ -35,7 +35,7 @@ def lab(tmp_path: Path) -> TBox:
     return load_tbox(path)
 
 
-def test_it_holds_ontology_and_vocabulary_and_imports_nothing(lab: TBox):
+def test_merges_ontology_and_vocabulary_without_imports(lab: TBox):
     graph = merged(lab)
     store = reread(graph)
     assert not ask(store, "?o owl:imports ?i")
@@ -53,25 +53,25 @@ def test_the_header_lists_merged_documents(lab: TBox):
     ]
 
 
-def test_no_statement_is_there_twice_and_an_owl_parser_reads_it(lab: TBox):
+def test_merged_graph_has_no_duplicates_and_parses(lab: TBox):
     graph = merged(lab)
     assert len(graph.triples) == len(set(graph.triples)) == len(reread(graph))
     kinds = {type(item.component).__name__ for item in parse_as_owl(graph)}
     assert {"ClassAssertion", "DisjointClasses", "SymmetricObjectProperty"} <= kinds
 
 
-def test_the_built_in_ontology_names_its_source(home_tbox: TBox):
+def test_built_in_tbox_is_listed_as_a_source(home_tbox: TBox):
     graph = merged(home_tbox)
     assert graph.missing_imports == ("http://www.ease-crc.org/ont/SOMA-HOME.owl", "https://ease-crc.org/ont/USD.owl")
     assert ask(reread(graph), "soma:Refrigerator a owl:Class")
 
 
-def test_the_same_input_gives_the_same_bytes(lab: TBox):
+def test_output_is_deterministic(lab: TBox):
     first, second = (serialize_graph(merged(lab), ox.RdfFormat.TURTLE) for _ in range(2))
     assert first == second
 
 
-def test_soma_home_comes_whole():
+def test_merges_all_documents_of_soma_home():
     tbox = load_tbox(shared_file("ontologies/soma/SOMA-HOME.owl"))
     graph = merged(tbox)
     assert graph.missing_imports == ()

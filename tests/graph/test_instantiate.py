@@ -61,23 +61,23 @@ class TestObjects:
         ]
         assert ask(store, 'k:Room.Cup_3 rdfs:label "Cup_3" ; u2k:primPath "/Room/Cup_3"')
 
-    def test_every_object_is_a_member_of_the_stage_and_never_a_part(self, store: ox.Store):
+    def test_objects_are_members_of_the_stage(self, store: ox.Store):
         members = select(store, "SELECT ?o { ?s a usd:Stage ; dul:hasMember ?o }")
         assert members == [(f"{BASE}Room.{name}",) for name in ("Apple", "Bowl", "Cup_3", "Ghost", "Table_1")]
         assert not ask(store, "?s dul:hasPart ?o")
         assert not ask(store, "?s a usd:Stage, dul:PhysicalObject")
 
-    def test_the_display_name_is_the_label_where_there_is_one(self, home_tbox: TBox):
+    def test_display_name_is_the_label(self, home_tbox: TBox):
         named = make_object("/a/obj_1", display_name="Omas Tasse")
         found = reread(build_graph(home_tbox, [(named, "Cup")]))
         assert ask(found, 'k:a.obj_1 rdfs:label "Omas Tasse" ; u2k:primPath "/a/obj_1"')
 
-    def test_the_class_comes_with_all_above_it(self, store: ox.Store):
+    def test_includes_the_superclasses(self, store: ox.Store):
         above = select(store, "SELECT ?c { soma:Cup rdfs:subClassOf* ?c }")
         names = {iri.rpartition("#")[2] for (iri,) in above}
         assert {"Cup", "Crockery", "Tableware", "DesignedContainer", "DesignedArtifact"} <= names
         assert ask(store, 'soma:Cup a owl:Class ; rdfs:label "cup"')
-        assert not ask(store, "soma:Refrigerator ?p ?o"), "nothing here is a refrigerator"
+        assert not ask(store, "soma:Refrigerator ?p ?o"), "classes without instances are omitted"
 
     def test_an_object_without_a_class_has_status_and_explanation_only(self, store: ox.Store):
         assert select(store, "SELECT ?p ?v { k:Room.Ghost ?p ?v }") == sorted(
@@ -87,7 +87,7 @@ class TestObjects:
                 ("http://www.w3.org/2000/01/rdf-schema#label", "Ghost"),
                 ("https://w3id.org/usd2kg#primPath", "/Room/Ghost"),
                 ("https://w3id.org/usd2kg#status", "refused"),
-                ("https://w3id.org/usd2kg#explanation", "nobody said"),
+                ("https://w3id.org/usd2kg#explanation", "not labelled"),
             ],
             key=str,
         )
@@ -104,7 +104,7 @@ class TestObjects:
 
 
 class TestShape:
-    def test_the_box_of_the_soma_pattern(self, store: ox.Store):
+    def test_soma_box_pattern(self, store: ox.Store):
         found = store.query(
             "SELECT ?w ?l ?d ?h { k:Room.Cup_3 soma:hasShape ?s . ?s a soma:Shape ; dul:hasRegion ?b ."
             " ?b a soma:BoxShape ; soma:hasWidth ?w ; soma:hasLength ?l ; soma:hasDepth ?d ; soma:hasHeight ?h }",
@@ -116,24 +116,24 @@ class TestShape:
         xsd_float = "http://www.w3.org/2001/XMLSchema#float"
         assert {node.datatype.value for node in (width, length, depth, height)} == {xsd_float}
 
-    def test_each_thing_with_a_box_has_one_shape_of_its_own(self, store: ox.Store):
+    def test_each_object_with_a_box_has_its_own_shape(self, store: ox.Store):
         pairs = select(store, "SELECT ?o ?s { ?o soma:hasShape ?s }")
         assert [o.rpartition(".")[2] for o, _ in pairs] == ["Apple", "Bowl", "Cup_3", "Table_1"]
         assert all(shape == f"{owner}-shape" for owner, shape in pairs)
         regions = select(store, "SELECT ?s ?b { ?s a soma:Shape ; dul:hasRegion ?b }")
         assert len({shape for shape, _ in regions}) == len({box for _, box in regions}) == len(regions) == 4
 
-    def test_each_size_is_given_exactly_once(self, store: ox.Store):
+    def test_each_extent_is_written_once(self, store: ox.Store):
         for name in ("hasWidth", "hasLength", "hasDepth", "hasHeight"):
             counts = Counter(box for box, _ in select(store, f"SELECT ?b ?v {{ ?b soma:{name} ?v }}"))
             assert set(counts.values()) == {1}
             assert len(counts) == 4
 
-    def test_the_middle_of_the_box(self, store: ox.Store):
+    def test_box_centre(self, store: ox.Store):
         # 1 + 0.09/2, 0.4 + 0.12/2, 0.7 + 0.1/2
         assert ask(store, 'k:Room.Cup_3-box u2k:boxCenter "1.045 0.46 0.75"')
 
-    def test_a_flat_thing_has_a_height_of_zero(self, home_tbox: TBox):
+    def test_flat_object_has_height_zero(self, home_tbox: TBox):
         rug = thing("/rug", (0, 0, 0), (2, 1.5, 0))
         found = reread(build_graph(home_tbox, [(rug, "DesignedFurniture")]))
         assert ask(found, 'k:rug-box soma:hasHeight "0"^^xsd:float')
@@ -147,7 +147,7 @@ class TestPoseAndMass:
             " ?r a soma:6DPose ; soma:hasPositionData ?d ; soma:hasReferenceFrame ?f }",
         ) == [("1 0.4 0.81 0 0 0 1", "world")]
 
-    def test_without_a_rotation_there_is_no_pose(self, home_tbox: TBox):
+    def test_pose_needs_an_orientation(self, home_tbox: TBox):
         sheared = thing("/a", (0, 0, 0), (1, 1, 1), position=(0.0, 0.0, 0.0))
         found = reread(build_graph(home_tbox, [(sheared, "Cup")]))
         assert not ask(found, "?o soma:hasLocalization ?p")
@@ -171,7 +171,7 @@ class TestJustification:
         " owl:annotatedTarget {2} ; ?p ?v . FILTER(!STRSTARTS(STR(?p), STR(owl:)) && ?p != rdf:type) }}"
     )
 
-    def test_the_type_says_how_sure_why_by_whom_and_when_asked(self, store: ox.Store):
+    def test_type_assertions_are_annotated(self, store: ox.Store):
         found = dict(select(store, self.QUERY.format("Cup_3", "rdf:type", "soma:Cup")))
         assert found == {
             "https://w3id.org/sssom/confidence": "0.75",
@@ -183,11 +183,11 @@ class TestJustification:
             "https://w3id.org/usd2kg#run": f"{BASE}-run",
         }
 
-    def test_every_type_that_was_grounded_is_justified_once(self, store: ox.Store):
+    def test_each_grounded_type_is_justified_once(self, store: ox.Store):
         rows = select(store, "SELECT ?o ?x { ?x owl:annotatedProperty rdf:type ; owl:annotatedSource ?o }")
         assert [o.rpartition(".")[2] for o, _ in rows] == ["Apple", "Bowl", "Cup_3", "Table_1"]
 
-    def test_other_candidates_are_kept_at_most_three(self, home_tbox: TBox):
+    def test_keeps_three_alternatives(self, home_tbox: TBox):
         scene = make_scene(CUP)
         names = ["Cup", "Glass", "Bowl", "Plate", "Pot"]
         iris = [home_tbox.resolve(name) for name in names]
@@ -199,7 +199,7 @@ class TestJustification:
         others = select(found, "SELECT ?c { ?x u2k:alternative ?c }")
         assert {iri.rpartition("#")[2] for (iri,) in others} == {"Glass", "Bowl", "Plate"}
 
-    def test_relations_bear_their_rule_and_numbers(self, store: ox.Store):
+    def test_relations_are_annotated_with_rule_and_measurements(self, store: ox.Store):
         on = dict(select(store, self.QUERY.format("Cup_3", "soma:isOntopOf", "k:Room.Table_1")))
         assert on == {
             "https://w3id.org/usd2kg#rule": "on/1",
@@ -214,27 +214,27 @@ class TestJustification:
             "https://w3id.org/sssom/confidence": "1",
         }
 
-    def test_nothing_bears_a_time(self, graph: KnowledgeGraph):
+    def test_graph_has_no_time_stamp(self, graph: KnowledgeGraph):
         assert not any("dateTime" in str(triple) for triple in graph.triples)
 
 
 class TestRelations:
-    def test_on_is_written_with_its_support(self, store: ox.Store):
+    def test_on_includes_supported_by(self, store: ox.Store):
         on = select(store, "SELECT ?t ?a { ?t soma:isOntopOf ?a }")
         assert on == [(f"{BASE}Room.{t}", f"{BASE}Room.Table_1") for t in ("Bowl", "Cup_3")]
         assert select(store, "SELECT ?t ?a { ?t soma:isSupportedBy ?a }") == on
 
-    def test_inside(self, store: ox.Store):
+    def test_inside_is_written(self, store: ox.Store):
         assert select(store, "SELECT ?t ?a { ?t soma:isInsideOf ?a }") == [(f"{BASE}Room.Apple", f"{BASE}Room.Bowl")]
 
 
-class TestTraps:
-    def test_no_term_that_makes_a_reasoner_fail_or_lie(self, graph: KnowledgeGraph):
+class TestConsistency:
+    def test_avoids_inconsistent_terms(self, graph: KnowledgeGraph):
         used = {node.value for triple in graph.triples for node in triple if isinstance(node, ox.NamedNode)}
         local = {iri.rpartition("#")[2] for iri in used}
         assert not local & {"Color", "hasColor", "isPhysicallyContainedIn", "hasPart", "matrix4d", "vector3f"}
 
-    def test_every_property_is_declared_once_and_as_one_kind(self, home_tbox: TBox):
+    def test_properties_have_one_declaration(self, home_tbox: TBox):
         kinds = ("owl:ObjectProperty", "owl:DatatypeProperty", "owl:AnnotationProperty")
         for profile in ("soma", "plain"):
             found = reread(build_graph(home_tbox, ROOM, profile=profile))
@@ -253,7 +253,7 @@ class TestTraps:
                 "?i a owl:NamedIndividual, ?c . FILTER NOT EXISTS { ?c a owl:Class } FILTER(?c != owl:NamedIndividual)",
             )
 
-    def test_parts_never_take_the_iri_of_a_prim(self, home_tbox: TBox):
+    def test_aspect_iris_do_not_clash_with_prim_iris(self, home_tbox: TBox):
         # A cup with a child prim called `box`, both objects.
         child = thing("/Room/Cup_3/box", (1, 0.4, 0.7), (0.01, 0.01, 0.01))
         found = reread(build_graph(home_tbox, [(CUP, "Cup"), (child, "Box")]))
@@ -264,17 +264,17 @@ class TestTraps:
 
 class TestOwl:
     @pytest.mark.parametrize("profile", ["soma", "plain"])
-    def test_an_owl_parser_reads_it_whole(self, home_tbox: TBox, profile: str):
+    def test_owl_parser_reads_all_axioms(self, home_tbox: TBox, profile: str):
         graph = build_graph(home_tbox, ROOM, profile=profile)
         components = parse_as_owl(graph)
         kinds = Counter(type(item.component).__name__ for item in components)
-        # One assertion of a class for each object that has one, at least.
+        # At least one class assertion per grounded object.
         assert kinds["ClassAssertion"] >= 4
         assert kinds["ObjectPropertyAssertion"] >= 3
         assert kinds["DataPropertyAssertion"] >= 4
         assert kinds["SubClassOf"] >= 4
 
-    def test_the_parser_finds_the_annotations_on_the_axioms(self, graph: KnowledgeGraph):
+    def test_owl_parser_reads_axiom_annotations(self, graph: KnowledgeGraph):
         annotated = [
             item
             for item in parse_as_owl(graph)
@@ -285,7 +285,7 @@ class TestOwl:
 
 
 class TestProfiles:
-    def test_plain_writes_numbers_on_the_object(self, plain: ox.Store):
+    def test_plain_profile_writes_data_properties(self, plain: ox.Store):
         assert ask(
             plain,
             'k:Room.Cup_3 a u2k:Object, soma:Cup ; u2k:width "0.09"^^xsd:double ; u2k:depth "0.12"^^xsd:double ;'
@@ -295,17 +295,17 @@ class TestProfiles:
         assert ask(plain, "k:Room.Apple u2k:inside k:Room.Bowl")
         assert len(select(plain, "SELECT ?o { ?s a u2k:Stage ; u2k:hasObject ?o }")) == 5
 
-    def test_plain_uses_no_property_of_soma_dul_or_usd(self, plain: ox.Store):
+    def test_plain_profile_uses_no_external_properties(self, plain: ox.Store):
         used = select(plain, "SELECT DISTINCT ?p { ?s ?p ?o }")
         assert not [p for (p,) in used if "ease-crc" in p or "ontologydesignpatterns" in p]
 
-    def test_auto_goes_by_the_classes(self, home_tbox: TBox):
+    def test_auto_profile_depends_on_the_classes(self, home_tbox: TBox):
         lab = make_tbox(make_class("Cup"))
         assert build_graph(home_tbox, [(CUP, "Cup")]).profile == "soma"
         assert build_graph(lab, [(CUP, "Cup")]).profile == "plain"
         assert build_graph(lab, [(CUP, "Cup")], profile="soma").profile == "soma"
 
-    def test_the_ontology_is_imported_by_its_iri_and_never_by_a_file(self, home_tbox: TBox, store: ox.Store):
+    def test_imports_ontologies_by_iri(self, home_tbox: TBox, store: ox.Store):
         assert select(store, "SELECT ?i { ?o owl:imports ?i }") == [
             ("http://www.ease-crc.org/ont/SOMA-HOME.owl",),
             ("https://ease-crc.org/ont/USD.owl",),
@@ -313,15 +313,15 @@ class TestProfiles:
         nameless = replace(make_tbox(make_class("Cup")), ontology_iri="file:///somewhere/lab.ttl")
         assert not ask(reread(build_graph(nameless, [(CUP, "Cup")])), "?o owl:imports ?i")
 
-    def test_an_unknown_profile_is_an_error(self, home_tbox: TBox):
+    def test_rejects_an_unknown_profile(self, home_tbox: TBox):
         with pytest.raises(GraphError, match="profile 'owl' is unknown; expected one of auto, soma, plain"):
             build_graph(home_tbox, ROOM, profile="owl")
 
-    def test_a_bad_base_is_an_error(self, home_tbox: TBox):
+    def test_rejects_an_invalid_base(self, home_tbox: TBox):
         with pytest.raises(GraphError, match="base 'kitchen'"):
             build_graph(home_tbox, ROOM, base="kitchen")
 
-    def test_the_default_base_comes_from_the_files_name(self, home_tbox: TBox):
+    def test_default_base_is_derived_from_the_file_name(self, home_tbox: TBox):
         assert build_graph(home_tbox, ROOM, base=None).base == "https://example.org/room%20one/"
 
 
@@ -341,7 +341,7 @@ HOSTILE = [
 class TestHostileText:
     @pytest.mark.parametrize("label", HOSTILE)
     @pytest.mark.parametrize("ending", [".ttl", ".nt"])
-    def test_a_label_survives_the_file(self, home_tbox: TBox, label: str, ending: str):
+    def test_labels_round_trip(self, home_tbox: TBox, label: str, ending: str):
         cup = make_object("/Room/Cup", display_name=label)
         found = reread(build_graph(home_tbox, [(cup, "Cup")]), ending)
         assert select(found, "SELECT ?l { k:Room.Cup rdfs:label ?l }") == [(label or "Cup",)]
@@ -354,21 +354,21 @@ class TestHostileText:
         assert parse_as_owl(graph)
 
     @pytest.mark.parametrize("code", [0xD800, 0xDFFF])
-    def test_a_lone_surrogate_becomes_a_replacement_character(self, home_tbox: TBox, code: int):
+    def test_lone_surrogates_become_the_replacement_character(self, home_tbox: TBox, code: int):
         cup = make_object("/Room/Cup", display_name=f"a{chr(code)}b")
         found = reread(build_graph(home_tbox, [(cup, "Cup")]))
         assert select(found, "SELECT ?l { k:Room.Cup rdfs:label ?l }") == [("a\ufffdb",)]
 
     @settings(deadline=None, max_examples=40)
     @given(st.text(st.characters(exclude_categories=["Cs", "Cc"], exclude_characters="\ufffe\uffff"), min_size=1))
-    def test_any_printable_text_survives(self, label: str):
+    def test_printable_text_round_trips(self, label: str):
         lab = make_tbox(make_class("Cup"))
         cup = make_object("/Room/Cup", display_name=label)
         for ending in (".ttl", ".nt"):
             found = reread(build_graph(lab, [(cup, "Cup")]), ending)
             assert select(found, "SELECT ?l { k:Room.Cup rdfs:label ?l }") == [(label,)]
 
-    def test_unicode_paths_and_odd_file_names(self, home_tbox: TBox):
+    def test_unicode_paths_and_file_names(self, home_tbox: TBox):
         scene = make_scene(make_object("/Küche/杯子"), source='a "b" <c>\n.usda')
         graph = instantiate(scene, home_tbox, ground_as(home_tbox, scene, {"/Küche/杯子": "Cup"}))
         found = reread(graph)
@@ -386,13 +386,13 @@ def one_triple_each(graph: KnowledgeGraph, ending: str) -> set[str]:
 
 
 class TestFormats:
-    def test_turtle_and_n_triples_hold_the_same(self, graph: KnowledgeGraph):
+    def test_turtle_and_n_triples_are_equivalent(self, graph: KnowledgeGraph):
         turtle, n_triples = (one_triple_each(graph, ending) for ending in (".ttl", ".nt"))
         assert turtle == n_triples
         assert len(reread(graph, ".ttl")) == len(reread(graph, ".nt")) == len(graph.triples)
 
 
-def test_an_empty_grounding_still_gives_the_objects():
+def test_empty_grounding_writes_the_objects():
     tbox = load_home_tbox()
     scene: Scene = make_scene(CUP, TABLE)
     grounding = replace(ground_as(tbox, scene, {}), predictions=())

@@ -40,41 +40,41 @@ ANY_PATHS = st.one_of(PATHS, COPIES, st.text(min_size=1).map(lambda text: "/" + 
         ("/", "https://my.lab/k/"),
     ],
 )
-def test_the_iri_of_a_prim(path: str, iri: str):
+def test_iri_of_a_prim(path: str, iri: str):
     assert individual_iri(BASE, path) == iri
     assert prim_path_of(BASE, iri) == path
 
 
-def test_the_iri_of_a_part_leads_back_to_its_prim():
+def test_iri_of_an_aspect_maps_to_its_prim():
     iri = individual_iri(BASE, "/World/Cup", "shape")
     assert iri == "https://my.lab/k/World.Cup-shape"
     assert prim_path_of(BASE, iri) == "/World/Cup"
 
 
-def test_a_child_called_like_a_part_is_another_individual():
+def test_child_named_like_an_aspect_is_distinct():
     assert individual_iri(BASE, "/Cup/box") != individual_iri(BASE, "/Cup", "box")
     assert individual_iri(BASE, "/Cup_box") != individual_iri(BASE, "/Cup", "box")
 
 
-def test_hash_and_urn_bases():
+def test_accepts_hash_and_urn_bases():
     assert individual_iri("https://my.lab/k#", "/World/Cup") == "https://my.lab/k#World.Cup"
     assert prim_path_of("urn:lab:", individual_iri("urn:lab:", "/World/Cup")) == "/World/Cup"
 
 
 @settings(deadline=None, max_examples=500)
 @given(ANY_PATHS, PARTS)
-def test_reversible(path: str, part: str):
+def test_iris_are_reversible(path: str, part: str):
     assert prim_path_of(BASE, individual_iri(BASE, path)) == path
     assert prim_path_of(BASE, individual_iri(BASE, path, part)) == path
 
 
-def test_half_a_surrogate_pair_has_an_iri_of_its_own():
+def test_lone_surrogates_have_distinct_iris():
     # Strategies of text leave surrogates out; a record read from JSON can hold one.
     path = "/a\ud800b"
     assert prim_path_of(BASE, individual_iri(BASE, path)) == path
 
 
-def test_stage_level_nodes_do_not_clash_with_objects():
+def test_stage_nodes_do_not_clash_with_objects():
     reserved = {individual_iri(BASE, "/", part) for part in ("stage", "run", "ontology", "software")}
     assert individual_iri(BASE, "/-stage") not in reserved
     assert individual_iri(BASE, "/", "stage") == "https://my.lab/k/-stage"
@@ -93,7 +93,7 @@ def test_iris_are_injective(first: str, second: str, part: str, other: str):
 
 @settings(deadline=None, max_examples=300)
 @given(ANY_PATHS, PARTS)
-def test_every_iri_is_legal_and_survives_a_file(path: str, part: str):
+def test_iris_are_valid_and_round_trip(path: str, part: str):
     for iri in (individual_iri(BASE, path), individual_iri(BASE, path, part)):
         triple = ox.Triple(ox.NamedNode(iri), ox.NamedNode("urn:p"), ox.Literal("x"))
         data = ox.serialize([triple], format=ox.RdfFormat.TURTLE, prefixes={"": BASE})
@@ -101,7 +101,7 @@ def test_every_iri_is_legal_and_survives_a_file(path: str, part: str):
         assert quad.subject.value == iri
 
 
-def test_names_that_differ_in_unicode_form_only_stay_apart():
+def test_unicode_normal_forms_have_distinct_iris():
     composed, decomposed = "/K\u00fcche", "/Ku\u0308che"
     assert individual_iri(BASE, composed) != individual_iri(BASE, decomposed)
     assert prim_path_of(BASE, individual_iri(BASE, decomposed)) == decomposed
@@ -116,14 +116,14 @@ def test_names_that_differ_in_unicode_form_only_stay_apart():
         ("a<b>.usda", "https://example.org/a%3Cb%3E/"),
     ],
 )
-def test_the_default_base_is_made_from_the_files_name(source: str, base: str):
+def test_default_base_is_derived_from_the_file_name(source: str, base: str):
     assert default_base(source) == base
     assert check_base(base) == base
     ox.NamedNode(base)
 
 
 @pytest.mark.parametrize("base", ["https://my.lab/k/", "https://my.lab/k#", "urn:lab:", "http://müller.example/küche/"])
-def test_a_base_that_is_fine(base: str):
+def test_accepts_a_valid_base(base: str):
     assert check_base(base) == base
     ox.NamedNode(individual_iri(base, "/World/Cup"))
 
@@ -153,7 +153,7 @@ def test_a_base_that_is_fine(base: str):
         "https://[my.lab/",
     ],
 )
-def test_a_base_that_is_no_iri_is_an_error(base: str):
+def test_rejects_an_invalid_base(base: str):
     with pytest.raises(GraphError) as error:
         check_base(base)
     assert repr(base) in str(error.value)

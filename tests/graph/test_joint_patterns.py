@@ -1,4 +1,4 @@
-"""Joints in the graph: types, axes, limits in radians and metres, the objects they belong to."""
+"""Joints in the graph: classes, axes, limits and connected objects."""
 
 import math
 from typing import Any
@@ -16,14 +16,14 @@ from usd2kg.scene import Joint, read_scene
 CABINET = thing("/Kitchen/Cabinet", (0, 0, 0), (1, 0.5, 1))
 DOOR = thing("/Kitchen/Cabinet/Door", (0, 0, 0), (1, 0.02, 1))
 PLACED = [(CABINET, "Cupboard"), (DOOR, "Door")]
-# SPARQL's parser here takes no prefixed names with several dots.
+# Oxigraph's SPARQL parser rejects prefixed names with several dots.
 JOINT = f"<{BASE}Kitchen.Cabinet.hinge-joint>"
 CABINET_NODE = f"<{BASE}Kitchen.Cabinet>"
 DOOR_NODE = f"<{BASE}Kitchen.Cabinet.Door>"
 
 
 def make_joint(**changes: Any) -> Joint:
-    """Return the hinge of the door, a quarter turn wide, an eighth open."""
+    """Return the hinge of the door, with a range of 90° and at 45°."""
     known: dict[str, Any] = {
         "prim_path": "/Kitchen/Cabinet/hinge",
         "type": "revolute",
@@ -51,7 +51,7 @@ def classes_of(store: ox.Store, node: str = JOINT) -> set[str]:
     return {iri.rpartition("#")[2] if "SOMA" in iri else "u2k:" + iri.rpartition("#")[2] for (iri,) in rows if iri}
 
 
-def test_a_hinge_in_somas_terms(home_tbox: TBox):
+def test_hinge_in_soma_terms(home_tbox: TBox):
     store = graph_of(home_tbox, "soma")
     assert ask(
         store,
@@ -68,7 +68,7 @@ def test_a_hinge_in_somas_terms(home_tbox: TBox):
     )
 
 
-def test_a_hinge_in_our_terms(home_tbox: TBox):
+def test_hinge_in_u2k_terms(home_tbox: TBox):
     store = graph_of(home_tbox, "plain")
     assert ask(
         store,
@@ -83,7 +83,7 @@ def test_a_hinge_in_our_terms(home_tbox: TBox):
     ("changes", "soma", "plain"),
     [
         ({}, {"RevoluteJoint"}, "u2k:RevoluteJoint"),
-        # SOMA's revolute and prismatic joints have limits by definition, a lower and an upper one.
+        # SOMA requires both limits of revolute and prismatic joints.
         ({"lower": None}, {"HingeJoint"}, "u2k:RevoluteJoint"),
         ({"lower": None, "upper": None}, {"ContinuousJoint"}, "u2k:RevoluteJoint"),
         ({"type": "prismatic"}, {"PrismaticJoint"}, "u2k:PrismaticJoint"),
@@ -94,12 +94,12 @@ def test_a_hinge_in_our_terms(home_tbox: TBox):
         ({"type": "other"}, {"Joint"}, "u2k:Joint"),
     ],
 )
-def test_types(home_tbox: TBox, changes: dict[str, Any], soma: set[str], plain: str):
+def test_joint_classes(home_tbox: TBox, changes: dict[str, Any], soma: set[str], plain: str):
     assert classes_of(graph_of(home_tbox, "soma", **changes)) == soma
     assert classes_of(graph_of(home_tbox, "plain", **changes)) == {plain}
 
 
-def test_one_limit_is_written_alone_and_no_limit_not_at_all(home_tbox: TBox):
+def test_writes_only_authored_limits(home_tbox: TBox):
     above = graph_of(home_tbox, "soma", upper=None)
     assert select(above, "SELECT ?p ?v { ?l a soma:JointLimit ; ?p ?v . FILTER(isLiteral(?v)) }") == [
         ("http://www.ease-crc.org/ont/SOMA.owl#hasJointPositionMin", "0")
@@ -110,14 +110,14 @@ def test_one_limit_is_written_alone_and_no_limit_not_at_all(home_tbox: TBox):
 
 
 @pytest.mark.parametrize(("profile", "has"), [("soma", "soma:hasPhysicalComponent"), ("plain", "u2k:hasJoint")])
-def test_a_joint_inside_an_object_is_the_objects(home_tbox: TBox, profile: str, has: str):
+def test_joint_within_an_object_belongs_to_it(home_tbox: TBox, profile: str, has: str):
     store = graph_of(home_tbox, profile, body0="/Kitchen/Cabinet/shelf", body1="/Kitchen/Cabinet/lamp/arm")
     assert ask(store, f"{CABINET_NODE} {has} {JOINT}")
     assert not ask(store, f"{JOINT} soma:hasParentLink|soma:hasChildLink|u2k:parentObject|u2k:childObject ?o")
     assert ask(store, f'{JOINT} u2k:parentPrim "/Kitchen/Cabinet/shelf" ; u2k:childPrim "/Kitchen/Cabinet/lamp/arm"')
 
 
-def test_a_joint_to_the_world_or_a_non_object_has_one_object(home_tbox: TBox):
+def test_joint_to_the_world_has_one_object(home_tbox: TBox):
     world = graph_of(home_tbox, "plain", body0=None)
     assert ask(world, f"{JOINT} u2k:childObject {DOOR_NODE}")
     assert not ask(world, f"{JOINT} u2k:parentObject|u2k:parentPrim ?o")
@@ -126,7 +126,7 @@ def test_a_joint_to_the_world_or_a_non_object_has_one_object(home_tbox: TBox):
     assert ask(group, f'{JOINT} u2k:parentPrim "/Kitchen"')
 
 
-def test_switches_are_written_where_they_are_unusual(home_tbox: TBox):
+def test_writes_flags_that_differ_from_the_default(home_tbox: TBox):
     usual = graph_of(home_tbox, "plain")
     assert not ask(usual, f"{JOINT} u2k:isEnabled|u2k:closesLoop ?v")
     unusual = graph_of(home_tbox, "plain", is_enabled=False, is_excluded_from_articulation=True)
@@ -138,15 +138,15 @@ def test_unknown_joint_values_are_omitted(home_tbox: TBox):
     assert not ask(store, f"{JOINT} u2k:jointAxis|u2k:jointOrigin|u2k:jointPosition ?v")
 
 
-def test_a_joint_never_takes_the_iri_of_an_object(home_tbox: TBox):
-    # A user may ask for any prim as an object, a joint's too.
+def test_joint_iris_do_not_clash_with_object_iris(home_tbox: TBox):
+    # A user may select any prim as an object, including a joint.
     hinge = thing("/Kitchen/Cabinet/hinge", (0, 0, 0), (0.1, 0.1, 0.1))
     store = reread(build_graph(home_tbox, [*PLACED, (hinge, "Cup")], joints=[make_joint()]))
     assert ask(store, f"<{BASE}Kitchen.Cabinet.hinge> a soma:Cup")
     assert classes_of(store) == {"RevoluteJoint"}
 
 
-def test_the_microwave_of_the_franka_kitchen(home_tbox: TBox):
+def test_microwave_of_the_franka_kitchen(home_tbox: TBox):
     scene = read_scene(shared_file("scenes/franka_kitchen/franka_kitchen.usdc"))
     store = reread(instantiate(scene, home_tbox, ground(scene, home_tbox, "dictionary"), base=BASE))
     microwave = f"{BASE}franka_kitchen.Geometry.desk.microwave"
@@ -157,18 +157,18 @@ def test_the_microwave_of_the_franka_kitchen(home_tbox: TBox):
         ' a soma:RevoluteJoint ; u2k:jointAxis "0 0 1" ; soma:hasJointLimit ?l .'
         ' ?l soma:hasJointPositionMin "-2.094001"^^xsd:double ; soma:hasJointPositionMax "0"^^xsd:double',
     )
-    # Seven turning joints and two fingers of the arm.
+    # The arm has seven revolute joints and two fingers.
     arm = f"<{BASE}franka_kitchen.Geometry.Body> soma:hasPhysicalComponent ?j . ?j a"
     assert len(select(store, f"SELECT ?j {{ {arm} soma:RevoluteJoint }}")) == 7
     assert len(select(store, f"SELECT ?j {{ {arm} soma:PrismaticJoint }}")) == 2
 
 
-def test_the_drawers_of_the_apartment(home_tbox: TBox):
+def test_drawers_of_the_apartment(home_tbox: TBox):
     scene = read_scene(shared_file("scenes/iai_apartment/apartment.usdc"))
     store = reread(instantiate(scene, home_tbox, ground(scene, home_tbox, "dictionary"), base=BASE, profile="plain"))
     ends = "?j a u2k:PrismaticJoint ; u2k:parentObject ?p ; u2k:childObject ?c ; u2k:upperLimit ?u"
     slides = select(store, f"SELECT ?p ?c ?u {{ {ends} }}")
     assert slides
-    # Furniture: nothing slides further than a metre and a half.
+    # Drawers slide at most 1.5 m.
     assert all(0 < float(str(upper)) < 1.5 for _, _, upper in slides)
     assert all(parent != child for parent, child, _ in slides)

@@ -1,4 +1,4 @@
-"""Graphs as the OWL API and HermiT see them: OWL 2 DL, and consistent with SOMA-HOME, DUL and USD.owl."""
+"""Graphs are OWL 2 DL (OWL API) and consistent with SOMA-HOME, DUL and USD.owl (HermiT)."""
 
 from pathlib import Path
 
@@ -44,7 +44,7 @@ def ontologies() -> Path:
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_the_demo_kitchen_is_owl_2_dl(tmp_path: Path, profile: str):
+def test_demo_kitchen_is_owl_2_dl(tmp_path: Path, profile: str):
     graph = usd2kg.build(demo_scene(), profile=profile, relations=EVERY_RELATION).graph
     assert {relation.kind for relation in graph.relations} == set(ALL_KINDS)
     write_graph(graph, tmp_path / "demo.ttl")
@@ -54,33 +54,33 @@ def test_the_demo_kitchen_is_owl_2_dl(tmp_path: Path, profile: str):
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_every_kind_of_statement_is_owl_2_dl_and_consistent(tmp_path: Path, profile: str):
+def test_all_statement_kinds_are_owl_2_dl_and_consistent(tmp_path: Path, profile: str):
     write_graph(WRITTEN[profile], tmp_path / "rich.ttl")
     report = check_owl(tmp_path / "rich.ttl", ontologies(), reasons=True)
     assert (report.violations, report.verdict) == ((), "consistent")
 
 
-def test_our_own_terms_are_owl_2_dl_and_consistent(tmp_path: Path):
+def test_u2k_vocabulary_is_owl_2_dl_and_consistent(tmp_path: Path):
     (tmp_path / "u2k.ttl").write_text(vocabulary_text(), encoding="utf-8")
     report = check_owl(tmp_path / "u2k.ttl", reasons=True)
     assert (report.violations, report.missing, report.verdict) == ((), (), "consistent")
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_the_franka_kitchen_is_owl_2_dl_and_consistent_with_its_ontologies(tmp_path: Path, profile: str):
+def test_franka_kitchen_is_consistent_with_its_ontologies(tmp_path: Path, profile: str):
     report = check_owl(franka(tmp_path, profile), ontologies(), reasons=True)
     assert (report.violations, report.missing, report.verdict) == ((), (), "consistent")
 
 
-def test_the_check_can_fail(tmp_path: Path):
-    # A stage is a collection, a social object; what it has as parts would be social, too.
+def test_check_detects_an_inconsistency(tmp_path: Path):
+    # A stage is a collection, thus a social object, whose parts are social objects, too.
     path = franka(tmp_path)
     declared = f"<{DUL}hasPart> a <http://www.w3.org/2002/07/owl#ObjectProperty> ."
     path.write_text(path.read_text("utf-8") + declared + PART.format(dul=DUL, part=KETTLE), encoding="utf-8")
     assert check_owl(path, ontologies(), reasons=True).verdict == "inconsistent"
 
 
-def test_a_property_that_is_not_declared_is_a_violation(tmp_path: Path):
+def test_check_detects_an_undeclared_property(tmp_path: Path):
     path = franka(tmp_path, "plain")
     text = path.read_text("utf-8").replace("u2k:lowerLimit a owl:DatatypeProperty .\n", "")
     path.write_text(text, encoding="utf-8")
@@ -93,15 +93,15 @@ def test_knowrob_colours_are_inconsistent(tmp_path: Path):
     assert (report.violations, report.verdict) == ((), "inconsistent")
 
 
-def test_a_merged_graph_is_consistent_by_itself(tmp_path: Path):
+def test_merged_graph_is_consistent(tmp_path: Path):
     report = check_owl(franka(tmp_path, merges=True), reasons=True)
     assert (report.missing, report.verdict) == ((), "consistent")
-    # DUL's own: a cardinality on isLocationOf, whose inverse is part of a chain.
+    # The violation is DUL's: a cardinality on isLocationOf, whose inverse occurs in a property chain.
     assert all("DUL.owl#isLocationOf" in violation for violation in report.violations)
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_the_owl_api_reads_the_same_axioms_in_every_format_of_owl(tmp_path: Path, profile: str):
+def test_owl_api_reads_the_same_axioms_in_all_owl_formats(tmp_path: Path, profile: str):
     turtle = franka(tmp_path, profile)
     expected = check_owl(turtle)
     assert expected.axioms > 500

@@ -22,7 +22,7 @@ SEMAPV = "https://w3id.org/semapv/vocab/"
 
 
 def build(tbox: TBox, options: GraphOptions | None = None, **changes: object) -> KnowledgeGraph:
-    """Return the graph of a cup on a table; `changes` are the cup's prediction's."""
+    """Return the graph of a cup on a table, with `changes` to the prediction of the cup."""
     scene = make_scene(TABLE, CUP)
     grounding = ground_as(tbox, scene, {"/Cup": "Cup", "/Table": "Table"})
     table, cup = grounding.predictions
@@ -31,7 +31,7 @@ def build(tbox: TBox, options: GraphOptions | None = None, **changes: object) ->
 
 
 class TestRun:
-    def test_the_activity_used_scene_and_ontology_with_its_software_and_settings(self, home_tbox: TBox):
+    def test_run_is_an_activity_with_inputs_software_and_settings(self, home_tbox: TBox):
         store = reread(build(home_tbox))
         assert ask(
             store,
@@ -45,27 +45,27 @@ class TestRun:
             ' ?software a prov:SoftwareAgent ; rdfs:label "usd2kg" ; u2k:version "0.1.0"',
         )
 
-    def test_the_ontologys_version_where_it_has_one(self):
+    def test_writes_the_version_iri_of_the_ontology(self):
         tbox = replace(make_tbox(make_class("Cup"), make_class("Table")), version_iri="https://lab.example/onto/2")
         assert ask(reread(build(tbox)), "?o u2k:ontologyVersionIri <https://lab.example/onto/2>")
 
-    def test_an_ontology_without_an_iri_has_none(self):
+    def test_ontology_without_an_iri(self):
         tbox = replace(make_tbox(make_class("Cup"), make_class("Table")), ontology_iri="file:///somewhere/lab.ttl")
         store = reread(build(tbox))
         assert not ask(store, "?o u2k:ontologyIri ?i")
         assert not ask(store, "?o rdfs:label ?l FILTER(CONTAINS(?l, 'somewhere'))")
 
-    def test_the_time_code_that_was_read(self, home_tbox: TBox):
+    def test_writes_the_time_code(self, home_tbox: TBox):
         scene = replace(make_scene(CUP), time=24.0)
         store = reread(instantiate(scene, home_tbox, ground_as(home_tbox, scene, {}), base=BASE))
         assert ask(store, '?s a usd:Stage ; u2k:timeCode "24"^^xsd:double')
 
 
 class TestTime:
-    def test_no_time_unless_one_is_given(self, home_tbox: TBox):
+    def test_time_is_omitted_by_default(self, home_tbox: TBox):
         assert not ask(reread(build(home_tbox)), "?r prov:endedAtTime ?t")
 
-    def test_the_time_is_written_in_utc(self, home_tbox: TBox):
+    def test_time_is_written_in_utc(self, home_tbox: TBox):
         options = GraphOptions(time=read_time("2026-07-15T14:00:00+02:00"))
         store = reread(build(home_tbox, options))
         assert ask(store, '?r a prov:Activity ; prov:endedAtTime "2026-07-15T12:00:00Z"^^xsd:dateTime')
@@ -73,17 +73,17 @@ class TestTime:
     def test_source_date_epoch_is_seconds_since_1970(self):
         assert read_epoch("86400") == datetime(1970, 1, 2, tzinfo=UTC)
 
-    def test_now_is_now(self):
+    def test_now_is_the_current_time(self):
         before = datetime.now(UTC).replace(microsecond=0)
         assert before <= read_time("now") <= datetime.now(UTC)
 
     @pytest.mark.parametrize("text", ["yesterday", "2026-07-15T12:00:00", "2026-07-15", "", "12:00Z"])
-    def test_a_time_that_is_none_is_an_error(self, text: str):
+    def test_rejects_an_invalid_time(self, text: str):
         with pytest.raises(GraphError, match="expected now, or one like 2026-07-15T12:00:00Z"):
             read_time(text)
 
     @pytest.mark.parametrize("text", ["soon", "1e9", "", "9" * 40])
-    def test_an_epoch_that_is_none_is_an_error(self, text: str):
+    def test_rejects_an_invalid_epoch(self, text: str):
         with pytest.raises(GraphError, match="expected whole seconds since 1970"):
             read_epoch(text)
 
@@ -100,7 +100,7 @@ class TestJustification:
             ("by-hand", "UnspecifiedMatching"),
         ],
     )
-    def test_the_process_of_semapv(self, home_tbox: TBox, grounder: str, process: str):
+    def test_matching_process_depends_on_the_grounder(self, home_tbox: TBox, grounder: str, process: str):
         said = said_of(reread(build(home_tbox, grounder=grounder)), "k:Cup rdf:type soma:Cup")
         assert said[SSSOM + "mapping_justification"] == SEMAPV + process
         assert said[U2K + "grounder"] == grounder
@@ -144,15 +144,15 @@ class TestReview:
         assert said[U2K + "predictedConfidence"] == "0.75"
         assert (said[U2K + "grounder"], said[U2K + "explanation"]) == ("lexical", "“cup” is the label")
 
-    def test_a_confirmation_keeps_how_the_class_was_found(self, home_tbox: TBox):
+    def test_confirmation_keeps_the_matching_process(self, home_tbox: TBox):
         said = said_of(reviewed(home_tbox, "Cup", "Ada Lovelace"), "k:Cup rdf:type soma:Cup")
         assert said[SSSOM + "mapping_justification"] == SEMAPV + "CompositeMatching"
         assert said[SSSOM + "reviewer_label"] == "Ada Lovelace"
-        assert SSSOM + "confidence" not in said, "the reviewer did not say how sure"
+        assert SSSOM + "confidence" not in said, "reviews have no confidence"
         assert said[U2K + "predictedConfidence"] == "0.75"
         assert U2K + "predictedClass" not in said
 
-    def test_no_class_fits(self, home_tbox: TBox):
+    def test_review_without_a_class(self, home_tbox: TBox):
         store = reviewed(home_tbox, None, comment="a sculpture")
         assert not ask(store, "k:Cup a soma:Cup")
         assert ask(
@@ -177,11 +177,11 @@ class TestRdf12:
                 prefixes={**PREFIXES, "k": BASE},
             )
             assert [row["v"].value for row in rules] == ["on/1"]
-            assert ask(store, "k:Cup a soma:Cup ; soma:isOntopOf k:Table"), "a reified triple is not yet said"
+            assert ask(store, "k:Cup a soma:Cup ; soma:isOntopOf k:Table"), "a reified triple is not asserted by itself"
             assert not ask(store, "?x a owl:Axiom")
 
-    def test_both_ways_say_the_same(self, home_tbox: TBox):
-        """Every annotation of an axiom is one of a reifier of the same triple, and the other way round."""
+    def test_both_annotation_styles_are_equivalent(self, home_tbox: TBox):
+        """Axioms and reifiers of the same triple have the same annotations."""
         owl, rdf12 = (reread(build(home_tbox, GraphOptions(annotations=name))) for name in ("owl", "rdf12"))
         others = "FILTER(!STRSTARTS(STR(?n), STR(owl:)) && ?n NOT IN (rdf:type, rdf:reifies))"
         query = "SELECT ?s ?p ?o ?n ?v {{ {} ; ?n ?v . " + others + " }}"
@@ -196,6 +196,6 @@ class TestRdf12:
         first, second = (serialize_graph(build(home_tbox, options), ox.RdfFormat.TURTLE) for _ in range(2))
         assert first == second
 
-    def test_an_unknown_way_is_an_error(self):
+    def test_rejects_an_unknown_annotation_style(self):
         with pytest.raises(GraphError, match="annotations 'rdfstar' is unknown; expected one of owl, rdf12"):
             GraphOptions(annotations="rdfstar")

@@ -33,13 +33,13 @@ def test_renaming_one_prim_changes_its_own_statements_only(home_tbox: TBox):
     before = room(home_tbox, *cups)
     after = room(home_tbox, cups[0], cup("Mug", 1), cups[2])
     renamed = {line.replace("Cup_2", "Mug") for line in before - after}
-    # Its annotated axioms have other names, since what they are about has.
+    # Blank nodes of its axioms change, since their labels hash the statements.
     named = {line for line in after - before if not line.startswith("_:axiom")}
     assert named == {line for line in renamed if not line.startswith("_:axiom")}
     assert len(before) == len(after)
     for line in before - after:
         assert "Cup_2" in line or line.startswith("_:axiom")
-    # Why it is a cup, and why it is on the table.
+    # Axioms of its type and of its support.
     axioms = {line.split()[0] for line in before - after if line.startswith("_:axiom")}
     assert len(axioms) == 2
 
@@ -62,7 +62,7 @@ def test_statements_of_one_object_are_contiguous(home_tbox: TBox):
     placed = [(TABLE, "Table"), (cup("Cup_1", 0), "Cup"), (labelled, "Cup"), (cup("Cup_3", 2), "Cup")]
     turtle = serialize_graph(build_graph(home_tbox, placed), ox.RdfFormat.TURTLE).decode()
     for name in NAMES:
-        assert turtle.count(f"\n:Room.{name} a ") == 1, "its own statements are one block"
+        assert turtle.count(f"\n:Room.{name} a ") == 1, "its statements are one block"
     start, end = turtle.index("\n:Room.Cup_2 a "), turtle.index("\n:Room.Cup_3 a ")
     block = turtle[start:end]
     (members,) = [line for line in turtle.splitlines() if line.startswith("\tdul:hasMember")]

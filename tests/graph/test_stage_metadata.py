@@ -28,12 +28,12 @@ def values(store: ox.Store, name: str, node: str = "k:Cup") -> list[str | None]:
 
 
 class TestNames:
-    def test_the_display_name_is_the_label_and_the_prims_name_stands_beside(self, home_tbox: TBox):
+    def test_display_name_is_the_label_and_prim_name_a_synonym(self, home_tbox: TBox):
         store = graph_of(home_tbox, display_name="Omas Tasse")
         assert (values(store, "rdfs:label"), values(store, "skos:altLabel")) == (["Omas Tasse"], ["Cup"])
 
     @pytest.mark.parametrize("display_name", ["", "Cup"])
-    def test_one_name_is_written_once(self, home_tbox: TBox, display_name: str):
+    def test_equal_names_are_written_once(self, home_tbox: TBox, display_name: str):
         store = graph_of(home_tbox, display_name=display_name)
         assert (values(store, "rdfs:label"), values(store, "skos:altLabel")) == (["Cup"], [])
 
@@ -43,7 +43,7 @@ class TestNames:
 
 class TestOrigin:
     @pytest.mark.parametrize("profile", PROFILES)
-    def test_assets_variants_and_copies(self, home_tbox: TBox, profile: str):
+    def test_writes_assets_variants_and_copies(self, home_tbox: TBox, profile: str):
         store = graph_of(
             home_tbox,
             profile,
@@ -55,7 +55,7 @@ class TestOrigin:
         assert values(store, "u2k:variant") == ["color=red", "lod=high"]
         assert ask(store, "k:Cup u2k:copies 12")
 
-    def test_the_mesh_file_is_a_second_region_of_the_shape(self, home_tbox: TBox):
+    def test_mesh_file_is_a_second_region_of_the_shape(self, home_tbox: TBox):
         store = graph_of(home_tbox, "soma", box=BOX, geometry_file="props/cup.usda")
         assert ask(
             store,
@@ -64,11 +64,11 @@ class TestOrigin:
         )
         assert values(store, "soma:hasShape") == ["https://my.lab/k/Cup-shape"]
 
-    def test_a_mesh_file_without_a_box_is_a_shape_too(self, home_tbox: TBox):
+    def test_mesh_file_without_a_box_has_a_shape(self, home_tbox: TBox):
         store = graph_of(home_tbox, "soma", geometry_file="cup.obj")
         assert select(store, "SELECT ?r { k:Cup soma:hasShape/dul:hasRegion ?r }") == [("https://my.lab/k/Cup-mesh",)]
 
-    def test_the_mesh_file_in_plain(self, home_tbox: TBox):
+    def test_mesh_file_in_the_plain_profile(self, home_tbox: TBox):
         assert values(graph_of(home_tbox, geometry_file="cup.obj"), "u2k:meshFile") == ["cup.obj"]
 
 
@@ -88,31 +88,29 @@ TEXTURED = MaterialDetails("Wood", "/Looks/Wood")
 
 class TestColour:
     @pytest.mark.parametrize("profile", PROFILES)
-    def test_materials_by_name(self, home_tbox: TBox, profile: str):
+    def test_writes_materials_by_name(self, home_tbox: TBox, profile: str):
         assert values(graph_of(home_tbox, profile, materials=("Wood", "Enamel")), "u2k:material") == ["Enamel", "Wood"]
 
     @pytest.mark.parametrize(
         ("known", "color", "source"),
         [
             ({"material_details": (RED, BLUE)}, "0.8 0.1 0.05", "Enamel"),
-            # A texture decides for the wood; the next material has a constant.
+            # The wood has a texture; the next material has a constant colour.
             ({"material_details": (TEXTURED, BLUE)}, "0 0 1", "Paint"),
             ({"material_details": (RED,), "display_color": (0.5, 0.5, 0.5)}, "0.8 0.1 0.05", "Enamel"),
             ({"display_color": (0.5, 0.5, 0.5)}, "0.5 0.5 0.5", "displayColor"),
         ],
     )
-    def test_the_first_constant_base_colour_else_the_display_colour(
-        self, home_tbox: TBox, known: dict[str, Any], color: str, source: str
-    ):
+    def test_base_colour_precedes_display_colour(self, home_tbox: TBox, known: dict[str, Any], color: str, source: str):
         store = graph_of(home_tbox, **known)
         assert (values(store, "u2k:color"), values(store, "u2k:colorSource")) == ([color], [source])
 
-    def test_a_texture_alone_is_no_colour(self, home_tbox: TBox):
+    def test_textures_have_no_colour(self, home_tbox: TBox):
         for profile in PROFILES:
             store = graph_of(home_tbox, profile, material_details=(TEXTURED,))
             assert not ask(store, "k:Cup usd:hasColor|u2k:color|soma:hasColor ?c")
 
-    def test_the_form_that_is_consistent_with_soma(self, home_tbox: TBox):
+    def test_default_colours_are_consistent_with_soma(self, home_tbox: TBox):
         store = graph_of(home_tbox, "soma", material_details=(RED,))
         assert ask(
             store,
@@ -121,7 +119,7 @@ class TestColour:
         )
         assert not ask(store, "?c a soma:Color")
 
-    def test_knowrobs_form_on_request(self, home_tbox: TBox):
+    def test_knowrob_colours(self, home_tbox: TBox):
         store = graph_of(home_tbox, "soma", GraphOptions(colors="knowrob"), material_details=(RED,))
         assert ask(
             store,
@@ -130,7 +128,7 @@ class TestColour:
         )
         assert not ask(store, "?c a usd:Color")
 
-    def test_no_quality_is_there_twice_or_shared(self, home_tbox: TBox):
+    def test_qualities_are_not_shared(self, home_tbox: TBox):
         known: dict[str, Any] = {
             "box": BOX,
             "own_box": BOX,
@@ -154,7 +152,7 @@ class TestColour:
                 assert Counter(owner for owner, _ in pairs) == {f"https://my.lab/k/Cup_{i}": 1 for i in range(3)}
                 assert len({quality for _, quality in pairs}) == 3
 
-    def test_an_unknown_form_is_an_error(self):
+    def test_rejects_an_unknown_colour_form(self):
         with pytest.raises(GraphError, match="colors 'rgb' is unknown; expected one of usd, knowrob"):
             GraphOptions(colors="rgb")
 
@@ -164,7 +162,7 @@ def label(value: str, taxonomy: str = "class", path: str = "/Cup", **changes: An
 
 
 class TestLabels:
-    def test_a_label_with_how_it_is_written(self, home_tbox: TBox):
+    def test_label_with_encoding_and_taxonomy(self, home_tbox: TBox):
         store = graph_of(home_tbox, labels=ObjectLabels((label("mug"),), (), ()))
         assert values(store, "u2k:sceneLabel") == ["mug"]
         assert said_of(store, 'k:Cup u2k:sceneLabel "mug"') == {
@@ -172,7 +170,7 @@ class TestLabels:
             "https://w3id.org/usd2kg#labelTaxonomy": "class",
         }
 
-    def test_a_label_from_above_and_one_of_a_part_say_where_they_stand(self, home_tbox: TBox):
+    def test_inherited_and_part_labels_name_their_prim(self, home_tbox: TBox):
         labels = ObjectLabels(
             (), (label("crockery", path="/Room", is_inherited=True),), (label("handle", path="/Cup/h"),)
         )
@@ -191,7 +189,7 @@ class TestLabels:
             (label("Cup", "https://lab.example/onto#", encoding="Multiverse"), "https://lab.example/onto#Cup"),
         ],
     )
-    def test_a_label_that_names_a_class_by_iri(self, home_tbox: TBox, found: Label, iri: str):
+    def test_label_with_an_iri(self, home_tbox: TBox, found: Label, iri: str):
         store = graph_of(home_tbox, labels=ObjectLabels((found,), (), ()))
         assert (values(store, "u2k:sceneLabel"), values(store, "u2k:sceneLabelIri")) == ([found.value], [iri])
 
@@ -201,12 +199,12 @@ class TestLabels:
         store = graph_of(home_tbox, labels=labels)
         assert (values(store, "u2k:sceneLabel"), values(store, "u2k:sceneLabelIri")) == ([value], [])
 
-    def test_reports_are_guesses_and_left_out(self, home_tbox: TBox):
+    def test_omits_labels_reported_by_tools(self, home_tbox: TBox):
         report = label("Bowl", "lab", encoding="Multiverse", strength="report")
         assert values(graph_of(home_tbox, labels=ObjectLabels((report,), (), ())), "u2k:sceneLabel") == []
 
 
-def test_texts_with_the_property_that_holds_them(home_tbox: TBox):
+def test_texts_name_their_property(home_tbox: TBox):
     store = graph_of(home_tbox, texts=(("userProperties:note", "from grandmother"), ("customData:room", "kitchen")))
     assert values(store, "u2k:text") == ["from grandmother", "kitchen"]
     assert said_of(store, 'k:Cup u2k:text "kitchen"') == {"https://w3id.org/usd2kg#property": "customData:room"}

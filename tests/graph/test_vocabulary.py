@@ -1,4 +1,4 @@
-"""The u2k vocabulary: terms in use and defined terms are the same, and OWL tools read it."""
+"""The u2k vocabulary defines exactly the terms in use, and OWL tools read it."""
 
 from dataclasses import replace
 
@@ -107,14 +107,14 @@ def test_terms_are_declared_with_their_defined_entity_type(profile: str):
             assert triple.object == defined()[triple.subject.value.removeprefix(U2K.iri)]
 
 
-def test_every_term_that_is_defined_is_written_by_a_profile():
+def test_all_defined_terms_are_used():
     written = set().union(*(local_names(graph.triples) for graph in WRITTEN.values()))
     assert set(defined()) - written <= SPATIAL
     assert set(defined()) >= SPATIAL
 
 
 @pytest.mark.parametrize("profile", WRITTEN)
-def test_every_property_and_class_that_is_used_is_declared_and_no_other(profile: str):
+def test_declares_exactly_the_terms_in_use(profile: str):
     triples = WRITTEN[profile].triples
     declared = {t.subject for t in triples if t.predicate == RDF.type and t.object in KINDS}
     built_in = (RDF.iri, RDFS.iri, OWL.iri)
@@ -133,7 +133,7 @@ def test_every_term_has_label_comment_and_subject():
     assert [name for name, properties in said.items() if not needed <= properties] == []
 
 
-def test_every_length_and_mass_bears_its_unit():
+def test_lengths_and_masses_have_a_unit():
     units = {
         t.subject.value.removeprefix(U2K.iri): t.object.value
         for t in vocabulary_triples()
@@ -150,7 +150,7 @@ def test_every_length_and_mass_bears_its_unit():
             assert name in units or "radians" in triple.object.value, name
 
 
-def test_relations_that_hold_both_ways_say_so():
+def test_symmetric_relations_are_symmetric_properties():
     facts = {(t.subject, t.predicate, t.object) for t in vocabulary_triples()}
     for name in ("near", "nextTo", "touching"):
         assert (U2K[name], RDF.type, OWL.SymmetricProperty) in facts
@@ -159,7 +159,7 @@ def test_relations_that_hold_both_ways_say_so():
         assert not [fact for fact in facts if fact[0] == U2K[name] and fact[1] == OWL.inverseOf], "it has a viewpoint"
 
 
-def test_it_is_an_ontology_that_an_owl_parser_reads_whole():
+def test_owl_parser_reads_the_vocabulary():
     data = ox.serialize(vocabulary_triples(), format=ox.RdfFormat.RDF_XML)
     assert data is not None
     found = list(pyhornedowl.open_ontology_from_string(data.decode(), serialization="rdf").get_components())
@@ -170,6 +170,6 @@ def test_it_is_an_ontology_that_an_owl_parser_reads_whole():
     assert vocabulary_text().isascii()
 
 
-def test_a_term_that_nobody_defined_is_no_declaration():
+def test_undefined_terms_raise():
     with pytest.raises(KeyError, match="hasNothing"):
         list(declare_terms([SOMA.hasNothing], []))

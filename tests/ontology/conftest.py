@@ -19,7 +19,7 @@ PREFIXES = """\
 
 @pytest.fixture
 def write_turtle(tmp_path) -> Callable[..., Path]:
-    """A function that writes statements as Turtle, the usual prefixes added, and returns the path."""
+    """Return a function that writes statements as Turtle with the usual prefixes and returns the path."""
 
     def write(text: str, name: str = "home.ttl") -> Path:
         path = tmp_path / name
@@ -32,7 +32,7 @@ def write_turtle(tmp_path) -> Callable[..., Path]:
 
 @pytest.fixture
 def load(write_turtle) -> Callable[..., TBox]:
-    """A function that writes statements as Turtle and loads them as a TBox."""
+    """Return a function that writes statements as Turtle and loads them as a TBox."""
 
     def run(text: str, **options) -> TBox:
         return load_tbox(write_turtle(text), **options)

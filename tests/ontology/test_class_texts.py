@@ -8,7 +8,7 @@ SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 
 
 def cup(load, text):
-    """Return the class :Cup of an ontology that says `text` about it."""
+    """Return the class :Cup of an ontology with the statements `text`."""
     return load(f":Cup rdfs:subClassOf :Crockery . {text}").by_iri["http://example.com/home#Cup"]
 
 
@@ -18,7 +18,7 @@ def cup(load, text):
         ('"Tasse"@de, "cup"@en, "plain"', "cup"),
         ('"Tasse"@de, "teacup"@en-GB', "teacup"),
         ('"Tasse"@de, "plain"', "plain"),
-        ('"Tasse"@de, "aaa"@fr', "Tasse"),  # neither English nor untagged: the first language by name
+        ('"Tasse"@de, "aaa"@fr', "Tasse"),  # neither English nor untagged: first language code
         ('"zebra"@en, "cup"@en', "cup"),
     ],
 )
@@ -26,17 +26,17 @@ def test_english_labels_come_first_then_untagged_then_others(load, labels, label
     assert cup(load, f":Cup rdfs:label {labels} .").label == label
 
 
-def test_preferred_label_beats_the_label_which_becomes_a_synonym(load):
+def test_preferred_label_precedes_the_label(load):
     cls = cup(load, ':Cup rdfs:label "cup"@en ; skos:prefLabel "drinking cup"@en .')
     assert (cls.label, cls.alt_labels) == ("drinking cup", ("cup",))
 
 
-def test_local_name_stands_in_for_a_label(load):
+def test_local_name_is_the_fallback_label(load):
     cls = cup(load, "")
     assert (cls.label, cls.local_name, cls.alt_labels, cls.comment) == ("Cup", "Cup", (), "")
 
 
-def test_synonyms_of_all_languages_and_vocabularies_are_kept_sorted(load):
+def test_synonyms_of_all_languages_are_sorted(load):
     cls = cup(
         load,
         """
@@ -46,7 +46,7 @@ def test_synonyms_of_all_languages_and_vocabularies_are_kept_sorted(load):
             <http://www.geneontology.org/formats/oboInOwl#hasBroadSynonym> "vessel" .
         """,
     )
-    assert cls.alt_labels == ("Tasse", "beaker", "chalice", "cupp", "teacup")  # a vessel is more than a cup
+    assert cls.alt_labels == ("Tasse", "beaker", "chalice", "cupp", "teacup")  # broader synonyms are omitted
 
 
 @pytest.mark.parametrize(
@@ -60,11 +60,11 @@ def test_synonyms_of_all_languages_and_vocabularies_are_kept_sorted(load):
         ("rdfs:comment :Other", ""),
     ],
 )
-def test_definition_beats_description_beats_comment(load, properties, comment):
+def test_definition_precedes_description_and_comment(load, properties, comment):
     assert cup(load, f":Cup {properties} .").comment == comment
 
 
-def test_texts_of_imports_count(write_turtle):
+def test_reads_texts_of_imports(write_turtle):
     write_turtle(':Cup rdfs:label "cup"@en .', "labels.ttl")
     path = write_turtle("<http://x> a owl:Ontology ; owl:imports <http://x/labels> . :Cup rdfs:subClassOf :Crockery .")
     assert load_tbox(path).by_iri["http://example.com/home#Cup"].label == "cup"
@@ -93,11 +93,11 @@ def test_dispositions_are_inherited_with_their_superclasses(load):
         "owl:onProperty [ owl:inverseOf soma:hasDisposition ] ; owl:someValuesFrom soma:Containment",
     ],
 )
-def test_other_restrictions_are_no_dispositions(load, restriction):
+def test_ignores_other_restrictions(load, restriction):
     assert cup(load, f":Cup rdfs:subClassOf [ a owl:Restriction ; {restriction} ] .").dispositions == ()
 
 
-def test_dispositions_of_subclasses_do_not_climb(load):
+def test_dispositions_are_not_inherited_upwards(load):
     restriction = "[ a owl:Restriction ; owl:onProperty soma:hasDisposition ; owl:someValuesFrom soma:Containment ]"
     assert cup(load, f":Mug rdfs:subClassOf :Cup, {restriction} .").dispositions == ()
 

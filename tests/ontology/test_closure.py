@@ -1,4 +1,4 @@
-"""An ontology with all that it imports, as triples without headers."""
+"""The imports closure of an ontology as triples without headers."""
 
 from pathlib import Path
 
@@ -32,7 +32,7 @@ def subjects(triples: tuple[ox.Triple, ...]) -> set[str]:
     return {triple.subject.value for triple in triples if isinstance(triple.subject, ox.NamedNode)}
 
 
-def test_the_imports_come_with_it_and_no_header(tmp_path: Path):
+def test_includes_imports_without_headers(tmp_path: Path):
     write(tmp_path, "tools", ":Hammer a owl:Class .")
     lab = write(tmp_path, "lab", BENCH, "tools")
     closure = read_closure(load_tbox(lab))
@@ -42,7 +42,7 @@ def test_the_imports_come_with_it_and_no_header(tmp_path: Path):
     assert subjects(closure.triples) == {f"https://lab.example/{name}" for name in names}
 
 
-def test_blank_nodes_of_two_documents_stay_apart_and_keep_their_names(tmp_path: Path):
+def test_blank_nodes_of_documents_are_renamed_apart(tmp_path: Path):
     write(tmp_path, "tools", BENCH)
     lab = write(tmp_path, "lab", BENCH, "tools")
     first, second = read_closure(load_tbox(lab)), read_closure(load_tbox(lab))
@@ -51,7 +51,7 @@ def test_blank_nodes_of_two_documents_stay_apart_and_keep_their_names(tmp_path: 
     assert first == second
 
 
-def test_what_is_not_at_hand_is_named(tmp_path: Path):
+def test_lists_missing_imports(tmp_path: Path):
     lab = write(tmp_path, "lab", BENCH, "absent")
     also = ["https://lab.example/lab", "https://lab.example/far", "https://lab.example/near"]
     write(tmp_path, "near", ":Oven a owl:Class .")
@@ -60,14 +60,14 @@ def test_what_is_not_at_hand_is_named(tmp_path: Path):
     assert closure.documents == ("https://lab.example/lab", "https://lab.example/near")
 
 
-def test_the_built_in_ontology_brings_its_classes():
+def test_includes_the_classes_of_the_built_in_tbox():
     closure = read_closure(load_home_tbox(), ["http://www.ease-crc.org/ont/SOMA-HOME.owl"])
     assert "http://www.ease-crc.org/ont/SOMA.owl#Cup" in subjects(closure.triples)
     assert closure.documents == ("https://w3id.org/usd2kg/home",)
     assert closure.missing == ("http://www.ease-crc.org/ont/SOMA-HOME.owl",)
 
 
-def test_a_document_that_is_gone_is_an_error(tmp_path: Path):
+def test_rejects_a_deleted_document(tmp_path: Path):
     lab = write(tmp_path, "lab", BENCH)
     tbox = load_tbox(lab)
     lab.unlink()
@@ -87,7 +87,7 @@ AnnotationAssertion(rdfs:label :Bench "Werkbank"@de)
 """
 
 
-def test_functional_syntax_becomes_rdf(tmp_path: Path):
+def test_converts_functional_syntax_to_rdf(tmp_path: Path):
     path = tmp_path / "lab.owl"
     path.write_text(FUNCTIONAL, encoding="utf-8")
     store = ox.Store()
@@ -101,7 +101,7 @@ def test_functional_syntax_becomes_rdf(tmp_path: Path):
     )
 
 
-def test_soma_home_with_its_thirteen_documents_and_usd_beside_them():
+def test_soma_home_with_its_imports_and_usd():
     tbox = load_tbox(shared_file("ontologies/soma/SOMA-HOME.owl"))
     closure = read_closure(tbox, [tbox.ontology_iri, "https://ease-crc.org/ont/USD.owl"])
     assert closure.missing == ()

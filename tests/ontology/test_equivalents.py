@@ -1,4 +1,4 @@
-"""Named classes that are stated to be the same: scope, the one that stays, its texts and names."""
+"""Equivalent classes: scope, representative, texts and names."""
 
 import random
 
@@ -20,7 +20,7 @@ def parents(tbox):
 
 
 def equivalents(tbox):
-    """Return local name → IRIs of the equivalents, for classes that have any."""
+    """Return local name → IRIs of the equivalents, if any."""
     return {cls.local_name: cls.equivalents for cls in tbox.classes if cls.equivalents}
 
 
@@ -28,7 +28,7 @@ def equivalents(tbox):
 
 
 def test_equivalence_places_a_class_and_makes_it_physical(write_turtle):
-    # The file says of :sink nothing but that it is SOMA's.
+    # The file only states that :sink is equivalent to SOMA's class.
     write_turtle("soma:Sink rdfs:subClassOf soma:Fixture . soma:Fixture rdfs:subClassOf dul:PhysicalObject .", "up.ttl")
     text = """
     <http://example.com/home> a owl:Ontology ; owl:imports <http://x/up> .
@@ -39,7 +39,7 @@ def test_equivalence_places_a_class_and_makes_it_physical(write_turtle):
     assert equivalents(tbox) == {"sink": (f"{SOMA}Sink",)}
 
 
-def test_what_is_below_an_equivalent_of_a_physical_class_is_physical(load):
+def test_subclasses_of_an_equivalent_are_physical(load):
     text = """
     soma:Component rdfs:subClassOf dul:PhysicalObject . soma:Component owl:equivalentClass :part .
     :knob rdfs:subClassOf :handle . :handle rdfs:subClassOf :part . :plan rdfs:subClassOf :idea .
@@ -49,7 +49,7 @@ def test_what_is_below_an_equivalent_of_a_physical_class_is_physical(load):
     assert equivalents(tbox) == {"part": (f"{SOMA}Component",)}
 
 
-def test_the_class_that_stays_has_the_parents_and_children_of_all(load):
+def test_representative_has_all_parents_and_children(load):
     text = """
     <http://example.com/home> a owl:Ontology .
     :Cup owl:equivalentClass soma:Cup . :Mug rdfs:subClassOf soma:Cup . :Beaker rdfs:subClassOf :Cup .
@@ -64,19 +64,19 @@ def test_the_class_that_stays_has_the_parents_and_children_of_all(load):
     }
 
 
-def test_equivalents_of_upper_classes_are_no_candidates(load):
+def test_equivalents_of_upper_classes_are_not_candidates(load):
     text = ":concrete owl:equivalentClass dul:PhysicalObject . :Cup rdfs:subClassOf :concrete ."
     assert parents(load(text)) == {"Cup": ()}
 
 
-def test_equivalence_places_beside_a_flat_list(load):
+def test_equivalence_in_a_flat_list(load):
     text = ":Cup a owl:Class . :Mug a owl:Class ; owl:equivalentClass soma:Mug ."
     tbox = load(text)
     assert (parents(tbox), equivalents(tbox)) == ({"Cup": (), "Mug": ()}, {"Mug": (f"{SOMA}Mug",)})
 
 
 @pytest.mark.parametrize("top", ["owl:Thing", "owl:Nothing", "rdfs:Resource"])
-def test_two_classes_that_are_everything_or_empty_are_two(load, top):
+def test_equivalents_of_top_or_bottom_stay_distinct(load, top):
     tbox = load(f":Cup owl:equivalentClass {top} . :Mug owl:equivalentClass {top} .")
     assert (parents(tbox), equivalents(tbox)) == ({"Cup": (), "Mug": ()}, {})
 
@@ -89,11 +89,11 @@ def test_two_classes_that_are_everything_or_empty_are_two(load, top):
         ":Name owl:equivalentClass <http://www.w3.org/2001/XMLSchema#string> .",
     ],
 )
-def test_definitions_of_datatypes_are_no_classes(load, text):
+def test_datatype_definitions_are_not_classes(load, text):
     assert parents(load(f":Cup rdfs:subClassOf :Crockery . {text}")) == {"Crockery": (), "Cup": ("Crockery",)}
 
 
-def test_deprecated_equivalents_lend_their_names_and_are_no_candidates(load):
+def test_deprecated_equivalents_are_synonyms_only(load):
     text = """
     <http://example.com/home> a owl:Ontology . :Crockery a owl:Class .
     :Tassie rdfs:subClassOf :Crockery ; owl:deprecated true ; rdfs:label "tassie" ; owl:equivalentClass soma:Cup .
@@ -104,7 +104,7 @@ def test_deprecated_equivalents_lend_their_names_and_are_no_candidates(load):
     assert tbox.resolve("Tassie") == f"{SOMA}Cup"
 
 
-# --- what a user asks for ----------------------------------------------------------------------------
+# --- explicit scopes ---------------------------------------------------------------------------------
 
 TREE = """
 <http://example.com/home> a owl:Ontology . :Crockery rdfs:subClassOf :Artifact .
@@ -113,7 +113,7 @@ TREE = """
 
 
 @pytest.mark.parametrize("root", [f"{HOME}Cup", "soma:Cup"])
-def test_roots_bring_their_equivalents_and_all_below(load, root):
+def test_roots_include_equivalents_and_subclasses(load, root):
     assert parents(load(TREE, roots=[root])) == {"Cup": (), "Mug": ("Cup",)}
 
 
@@ -125,26 +125,26 @@ def test_roots_bring_their_equivalents_and_all_below(load, root):
         (["soma:Cup", f"{HOME}Cup"], f"{HOME}Cup"),
     ],
 )
-def test_of_listed_classes_one_of_each_group_stays(load, classes, kept):
+def test_listed_classes_keep_one_representative_per_group(load, classes, kept):
     tbox = load(TREE, classes=[*classes, f"{HOME}Crockery"])
     assert [cls.iri for cls in tbox.classes] == sorted([f"{HOME}Crockery", kept])
     assert parents(tbox)["Cup"] == ("Crockery",)
     assert {tbox.resolve(f"{HOME}Cup"), tbox.resolve("soma:Cup")} == {kept}
 
 
-# --- the one that stays ------------------------------------------------------------------------------
+# --- representative ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("text", "kept"),
     [
-        # In the namespace of the ontology, though the other is declared, has a parent, a label and a smaller IRI.
+        # In the namespace of the ontology, although the other is declared and has a parent, a label and a smaller IRI.
         (
             "<http://example.com/home> a owl:Ontology . :Cup owl:equivalentClass <http://a#A> . "
             '<http://a#A> a owl:Class ; rdfs:subClassOf :Crockery ; rdfs:label "a" .',
             f"{HOME}Cup",
         ),
-        # A namespace that ends in a slash; one that only begins with the same letters is not that of the ontology.
+        # The namespace ends in a slash; an IRI that only shares a prefix is in another one.
         (
             "<http://b/home/> a owl:Ontology . <http://b/home/Cup> owl:equivalentClass <http://b/hometown/A> .",
             "http://b/home/Cup",
@@ -155,7 +155,7 @@ def test_of_listed_classes_one_of_each_group_stays(load, classes, kept):
             '<http://a#A> rdfs:subClassOf :Crockery ; rdfs:label "a" .',
             f"{HOME}Cup",
         ),
-        # Made a subclass, made a superclass.
+        # Used as subclass, used as superclass.
         (
             ':Cup rdfs:subClassOf :Crockery ; owl:equivalentClass <http://a#A> . <http://a#A> rdfs:label "a" .',
             f"{HOME}Cup",
@@ -164,20 +164,20 @@ def test_of_listed_classes_one_of_each_group_stays(load, classes, kept):
             ':Mug rdfs:subClassOf :Cup . :Cup owl:equivalentClass <http://a#A> . <http://a#A> rdfs:label "a" .',
             f"{HOME}Cup",
         ),
-        # With a label.
+        # Labelled.
         (':Cup owl:equivalentClass <http://a#A> ; rdfs:label "cup" .', f"{HOME}Cup"),
-        # The smallest IRI.
+        # Smallest IRI.
         (":Cup owl:equivalentClass <http://a#A> .", "http://a#A"),
     ],
 )
-def test_rules_of_choice_in_their_order(load, text, kept):
+def test_choice_of_the_representative(load, text, kept):
     tbox = load(text)
     grouped = [cls for cls in tbox.classes if cls.equivalents]
     assert [cls.iri for cls in grouped] == [kept]
     assert not set(grouped[0].equivalents) & set(tbox.by_iri)
 
 
-def test_what_only_an_import_declares_or_links_gives_way(write_turtle):
+def test_classes_of_the_file_precede_imported_ones(write_turtle):
     write_turtle(
         '<http://a#A> a owl:Class ; rdfs:subClassOf <http://a#B> ; rdfs:label "a" ; owl:equivalentClass :Cup .', "a.ttl"
     )
@@ -203,12 +203,12 @@ def test_a_class_equivalent_to_itself_has_no_equivalents(load):
 # --- cycles ------------------------------------------------------------------------------------------
 
 
-def test_a_subclass_statement_within_a_group_is_no_cycle(load):
+def test_subclass_axiom_within_a_group_is_not_a_cycle(load):
     tbox = load(":A owl:equivalentClass :B . :A rdfs:subClassOf :B, :Top . :B rdfs:subClassOf :A .")
     assert (parents(tbox), tbox.notes) == ({"A": ("Top",), "Top": ()}, ())
 
 
-def test_a_cycle_through_an_equivalent_is_told_and_left_out(load):
+def test_reports_a_cycle_through_an_equivalent(load):
     tbox = load(":A owl:equivalentClass :B . :B rdfs:subClassOf :C . :C rdfs:subClassOf :A, :Top .")
     assert parents(tbox) == {"A": ("Top",), "C": ("Top",), "Top": ()}
     assert [note.message.split(" ")[0] for note in tbox.notes] == [f"<{HOME}A>", f"<{HOME}C>"]
@@ -225,10 +225,10 @@ def _reach(edges, start):
 
 @settings(max_examples=60, deadline=None)
 @given(seed=st.integers(0, 100_000))
-def test_any_hierarchy_with_equivalents_is_acyclic_complete_and_the_same_in_every_order(tmp_path_factory, seed):
+def test_hierarchies_with_equivalents_are_acyclic_and_deterministic(tmp_path_factory, seed):
     rng = random.Random(seed)
     names = "ABCDEFGH"
-    # Superclasses are later letters, so that cycles come about by equivalences only.
+    # Superclasses are later letters, so only equivalences cause cycles.
     below = {tuple(sorted(rng.sample(names, 2))) for _ in range(rng.randint(1, 8))}
     same = {tuple(rng.sample(names, 2)) for _ in range(rng.randint(0, 3))}
     lines = [f":{a} rdfs:subClassOf :{b} .\n" for a, b in sorted(below)]
@@ -247,7 +247,7 @@ def test_any_hierarchy_with_equivalents_is_acyclic_complete_and_the_same_in_ever
     assert all(kept[a] == kept[b] for a, b in same)
     for name, stands in kept.items():
         above = {kept[up] for up in _reach(edges, name)}
-        # What is above and below at once is a cycle, whose edges are left out.
+        # Classes that are each other's superclass form a cycle, whose edges are dropped.
         strict = {up for up in above if stands not in {kept[upper] for upper in _reach(edges, up)}}
         assert {iri.removeprefix(HOME) for iri in tbox.closure(HOME + stands)} == strict | {stands}
 
@@ -265,7 +265,7 @@ def test_labels_and_synonyms_of_equivalents_become_synonyms(load):
     assert (cls.label, cls.alt_labels) == ("tap", ("Hahn", "faucet", "spigot", "water tap"))
 
 
-def test_local_names_stand_in_for_labels_of_equivalents_too(load):
+def test_local_names_are_fallback_synonyms_of_equivalents(load):
     cls = load(":Tap rdfs:subClassOf :Fitting ; owl:equivalentClass soma:WaterTap .").by_iri[f"{HOME}Tap"]
     assert (cls.label, cls.alt_labels) == ("Tap", ("WaterTap",))
 
@@ -273,7 +273,7 @@ def test_local_names_stand_in_for_labels_of_equivalents_too(load):
 @pytest.mark.parametrize(
     ("own", "comment"), [('rdfs:comment "Ours."', "Ours."), ('skos:altLabel "spigot"', "Water comes out.")]
 )
-def test_the_comment_of_an_equivalent_stands_in_for_a_missing_one(load, own, comment):
+def test_comment_of_an_equivalent_is_the_fallback(load, own, comment):
     text = f"""
     :Tap rdfs:subClassOf :Fitting ; {own} ; owl:equivalentClass soma:Tap .
     soma:Tap rdfs:comment "Water comes out." .
@@ -281,7 +281,7 @@ def test_the_comment_of_an_equivalent_stands_in_for_a_missing_one(load, own, com
     assert load(text).by_iri[f"{HOME}Tap"].comment == comment
 
 
-def test_dispositions_come_over_equivalent_classes_and_dispositions(load):
+def test_dispositions_follow_equivalences(load):
     text = """
     soma:Vessel rdfs:subClassOf
         [ a owl:Restriction ; owl:onProperty soma:hasDisposition ; owl:someValuesFrom :holding ] .
@@ -315,17 +315,17 @@ NAMED = TBox(
         (f" <{SOMA}Beaker>", "Cup"),
         ("soma:Beaker", "Cup"),
         ("Beaker", "Cup"),
-        ("Bin", "Bin"),  # its own name, and that of its equivalent
-        ("Cup", "Cup"),  # a class's own name goes before that of another's equivalent
+        ("Bin", "Bin"),  # the name of the class and of its equivalent
+        ("Cup", "Cup"),  # the name of a class precedes that of an equivalent class
         ("http://a#Cup", "Bin"),
         ("Mug", "Mug"),
     ],
 )
-def test_names_of_equivalents_lead_to_the_class_that_stays(name, local):
+def test_resolves_names_of_equivalents(name, local):
     assert NAMED.resolve(name) == HOME + local
 
 
-def test_names_of_two_classes_equivalents_are_refused():
+def test_rejects_ambiguous_names_of_equivalents():
     with pytest.raises(OntologyError, match=f"'Pail' names 2 classes \\({HOME}Bin, {HOME}Cup\\) of the 3 in scope"):
         NAMED.resolve("Pail")
 
@@ -378,7 +378,7 @@ TURTLE = (
 
 
 @pytest.mark.parametrize("text", [FUNCTIONAL, MANCHESTER, OWL_XML, TURTLE], ids=["ofn", "omn", "owx", "ttl"])
-def test_every_syntax_gives_the_same_equivalents(tmp_path, text):
+def test_equivalents_are_the_same_in_all_syntaxes(tmp_path, text):
     path = tmp_path / "home.owl"
     path.write_text(text, encoding="utf-8")
     tbox = load_tbox(path)

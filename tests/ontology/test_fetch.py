@@ -1,4 +1,4 @@
-"""Known ontologies are fetched whole and as they are known, or not at all; a real server gives them."""
+"""Downloading known ontologies from a local server, with hashes and catalog."""
 
 import hashlib
 import threading
@@ -33,12 +33,12 @@ ANSWERS = {
     "/garbage": b"garbage\r\n\r\n",
     "/short": b"HTTP/1.0 200 OK\r\nContent-Length: 9999\r\n\r\n" + LAB,
 }
-"""Whole answers, as they go over the wire."""
+"""Raw HTTP responses."""
 
 
 @contextmanager
 def server(pages: dict[str, bytes]) -> Iterator[str]:
-    """Serve pages, `/moved` by a redirect to the first; yield the address."""
+    """Serve pages, with a redirect from `/moved` to the first; yield the address."""
 
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self):
@@ -98,7 +98,7 @@ PAGES = {
 
 
 @pytest.mark.parametrize("lab", ["/lab", "/moved"])
-def test_what_is_fetched_loads_with_its_imports(tmp_path: Path, lab: str):
+def test_fetched_ontology_loads_with_its_imports(tmp_path: Path, lab: str):
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address, lab=lab))["lab"]
         path = fetch_ontology(known, tmp_path / "new")
@@ -108,7 +108,7 @@ def test_what_is_fetched_loads_with_its_imports(tmp_path: Path, lab: str):
     assert tbox.notes == ()
 
 
-def test_what_is_there_is_not_fetched_again(tmp_path: Path):
+def test_skips_up_to_date_documents(tmp_path: Path):
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address))["lab"]
         fetch_ontology(known, tmp_path)
@@ -118,7 +118,7 @@ def test_what_is_there_is_not_fetched_again(tmp_path: Path):
     assert lines == [f"{tmp_path / 'lab.ttl'}: up to date"]
 
 
-def test_another_version_is_refused_and_taken_on_request(tmp_path: Path):
+def test_accepts_another_version_only_on_request(tmp_path: Path):
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address, sha256="0" * 64))["lab"]
         with pytest.raises(OntologyError, match=f"sha256 is {hashlib.sha256(LAB).hexdigest()}, expected 0000"):
@@ -131,7 +131,7 @@ def test_another_version_is_refused_and_taken_on_request(tmp_path: Path):
     ("page", "message"),
     [("/gone", "answered 404"), ("/page", "expected an ontology; has"), ("/image", "expected an ontology; has")],
 )
-def test_what_is_no_ontology_is_refused(tmp_path: Path, page: str, message: str):
+def test_rejects_responses_that_are_not_ontologies(tmp_path: Path, page: str, message: str):
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address, lab=page, sha256=""))["lab"]
         with pytest.raises(OntologyError, match=message):
@@ -139,13 +139,13 @@ def test_what_is_no_ontology_is_refused(tmp_path: Path, page: str, message: str)
     assert not (tmp_path / "new").exists()
 
 
-def test_only_web_addresses_are_fetched(tmp_path: Path):
+def test_rejects_other_url_schemes(tmp_path: Path):
     known = read_registry(registry(tmp_path, "file:///etc"))["lab"]
     with pytest.raises(OntologyError, match="is not a web address"):
         fetch_ontology(known, tmp_path / "new")
 
 
-def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path):
+def test_reports_a_folder_that_cannot_be_created(tmp_path: Path):
     (tmp_path / "taken").write_text("a file")
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address))["lab"]
@@ -162,7 +162,7 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path):
         ("ontology = " + "[" * 100_000, "is not a registry"),
     ],
 )
-def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):
+def test_rejects_a_malformed_registry(tmp_path: Path, text: str, message: str):
     path = tmp_path / "r.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(OntologyError, match=message):
@@ -170,21 +170,21 @@ def test_a_malformed_registry_is_told(tmp_path: Path, text: str, message: str):
 
 
 @pytest.mark.parametrize("file", ["../up.ttl", "/etc/x", "a/b.ttl", "", ".hidden"])
-def test_a_file_name_that_leads_elsewhere_is_refused(tmp_path: Path, file: str):
+def test_rejects_file_names_with_a_path(tmp_path: Path, file: str):
     path = registry(tmp_path, "http://127.0.0.1:1")
     path.write_text(path.read_text().replace('file = "lab.ttl"', f'file = "{file}"'))
     with pytest.raises(OntologyError, match="is not a plain file name"):
         read_registry(path)
 
 
-def test_our_registry_knows_the_hash_of_each_document():
+def test_built_in_registry_has_all_hashes():
     for ontology in read_registry().values():
         assert ontology.documents
         assert all(len(document.sha256) == 64 for document in ontology.documents)
         assert all(document.address.startswith(("https://", "http://")) for document in ontology.documents)
 
 
-def test_our_registry_knows_soma_as_it_is():
+def test_built_in_registry_matches_soma():
     for document in read_registry()["soma-home"].documents:
         data = shared_file(f"ontologies/soma/{document.file}").read_bytes()
         assert hashlib.sha256(data).hexdigest() == document.sha256
@@ -201,7 +201,7 @@ def test_our_registry_knows_soma_as_it_is():
         ("/short", f"ended after {len(LAB)} of 9,999 bytes"),
     ],
 )
-def test_a_server_that_misleads_is_refused(tmp_path: Path, page: str, message: str):
+def test_rejects_misleading_responses(tmp_path: Path, page: str, message: str):
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address, lab=page, sha256=""))["lab"]
         with pytest.raises(OntologyError, match=message):
@@ -210,13 +210,13 @@ def test_a_server_that_misleads_is_refused(tmp_path: Path, page: str, message: s
 
 
 @pytest.mark.parametrize("address", ["http://[x", "http://a b", "http://127.0.0.1:abc", "http://", "https:"])
-def test_an_address_that_cannot_be_asked_is_told(tmp_path: Path, address: str):
+def test_rejects_invalid_addresses(tmp_path: Path, address: str):
     known = read_registry(registry(tmp_path, address, lab="/"))["lab"]
     with pytest.raises(OntologyError, match=r"is not a valid address|cannot be reached"):
         fetch_ontology(known, tmp_path / "new")
 
 
-def test_secrets_of_an_address_are_not_printed(tmp_path: Path):
+def test_hides_secrets_of_addresses(tmp_path: Path):
     lines: list[str] = []
     with server(PAGES) as address:
         known = read_registry(registry(tmp_path, address, lab="/lab?key=hidden"))["lab"]
@@ -233,14 +233,14 @@ def test_secrets_of_an_address_are_not_printed(tmp_path: Path):
 
 
 @pytest.mark.parametrize("file", ["catalog-v001.xml", "Catalog-v001.XML"])
-def test_a_document_called_as_the_catalog_is_refused(tmp_path: Path, file: str):
+def test_rejects_a_document_named_like_the_catalog(tmp_path: Path, file: str):
     path = registry(tmp_path, "http://127.0.0.1:1")
     path.write_text(path.read_text().replace('file = "lab.ttl"', f'file = "{file}"'))
     with pytest.raises(OntologyError, match="is reserved for the catalog"):
         read_registry(path)
 
 
-def test_an_ontology_without_documents_is_refused(tmp_path: Path):
+def test_rejects_an_ontology_without_documents(tmp_path: Path):
     path = tmp_path / "r.toml"
     path.write_text('[[ontology]]\nname="n"\ntitle="t"\nversion="1"\nlicence="l"\ndocument=[]\n')
     with pytest.raises(OntologyError, match=r"the ontology 'n' has no \[\[ontology\.document\]\]; add one"):

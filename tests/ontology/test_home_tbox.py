@@ -1,4 +1,4 @@
-"""The TBox that ships with the package: SOMA-HOME's classes, texts of our own."""
+"""The built-in TBox: SOMA-HOME's classes with labels and synonyms of this project."""
 
 from collections import defaultdict
 
@@ -12,7 +12,7 @@ CONTAINMENT = "http://www.ease-crc.org/ont/SOMA.owl#Containment"
 
 @pytest.fixture(scope="module")
 def soma_home():
-    """The official ontology."""
+    """The published ontology."""
     return load_tbox(shared_file("ontologies/soma/SOMA-HOME.owl"))
 
 
@@ -45,7 +45,7 @@ def test_every_class_has_a_label_and_a_description(home_tbox):
         assert len(cls.comment.split()) >= 5, cls.iri
 
 
-def test_no_label_or_synonym_stands_for_two_classes(home_tbox):
+def test_labels_and_synonyms_are_unambiguous(home_tbox):
     owners = defaultdict(set)
     for cls in home_tbox.classes:
         for text in (cls.label, *cls.alt_labels):

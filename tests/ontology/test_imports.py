@@ -1,4 +1,4 @@
-"""Imports: found by the catalog or in the folder, never fetched, never fatal when missing."""
+"""Imports are resolved by catalog or file name, never fetched, and reported if missing."""
 
 import pytest
 
@@ -10,7 +10,7 @@ CATALOG = '<catalog prefer="public" xmlns="urn:oasis:names:tc:entity:xmlns:xml:c
 
 @pytest.fixture
 def write_catalog(tmp_path):
-    """A function that writes `catalog-v001.xml` from IRI → place."""
+    """Return a function that writes `catalog-v001.xml` from IRI → file."""
 
     def write(**places):
         entries = "".join(f'<uri name="{iri}" uri="{place}"/>' for iri, place in places.items())
@@ -30,10 +30,10 @@ def names(tbox):
 
 PHYSICAL = ":Cup rdfs:subClassOf :Crockery . :Plan rdfs:subClassOf :Idea .\n"
 UPPER = ":Crockery rdfs:subClassOf dul:PhysicalObject .\n"
-"""With this imported, :Cup and :Crockery are known to be physical and :Plan is not."""
+"""Imported document that makes :Cup and :Crockery physical, but not :Plan."""
 
 
-def test_import_by_catalog(write_turtle, write_catalog):
+def test_resolves_imports_by_catalog(write_turtle, write_catalog):
     write_catalog(**{"http://example.com/upper": "lib/other_name.ttl"})
     write_turtle(ontology("http://example.com/upper") + UPPER, "lib/other_name.ttl")
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
@@ -44,7 +44,7 @@ def test_import_by_catalog(write_turtle, write_catalog):
 @pytest.mark.parametrize(
     "iri", ["http://example.com/upper", "http://example.com/upper.owl", "http://example.com/upper#", "urn/upper/"]
 )
-def test_import_by_file_name_in_the_folder(write_turtle, name, iri):
+def test_resolves_imports_by_file_name(write_turtle, name, iri):
     if iri.endswith(".owl") and name == "upper":
         name = "upper.owl"
     write_turtle(UPPER, name)
@@ -52,7 +52,7 @@ def test_import_by_file_name_in_the_folder(write_turtle, name, iri):
     assert (names(tbox), tbox.notes) == (["Crockery", "Cup"], ())
 
 
-def test_imports_of_imports_are_read(write_turtle):
+def test_reads_transitive_imports(write_turtle):
     write_turtle(ontology("http://example.com/a", "http://example.com/b"), "a.ttl")
     write_turtle(ontology("http://example.com/b") + UPPER, "b.ttl")
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/a") + PHYSICAL))
@@ -60,7 +60,7 @@ def test_imports_of_imports_are_read(write_turtle):
     assert tbox.imports == ("http://example.com/a", "http://example.com/b")
 
 
-def test_cyclic_imports_end(write_turtle):
+def test_accepts_cyclic_imports(write_turtle):
     write_turtle(ontology("http://example.com/a", "http://example.com/home") + UPPER, "a.ttl")
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/a") + PHYSICAL))
     assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://example.com/a",))
@@ -73,16 +73,16 @@ def test_cycle_by_version_iri_does_not_import_the_file_itself(write_turtle, writ
     assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://example.com/a",))
 
 
-def test_import_that_calls_itself_otherwise_is_read_once(write_turtle):
+def test_reads_an_import_with_two_iris_once(write_turtle):
     write_turtle(ontology("http://other.org/name") + UPPER, "upper.ttl")
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
     assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://other.org/name",))
 
 
-def test_missing_import_is_told_and_not_fatal(write_turtle):
+def test_reports_a_missing_import(write_turtle):
     path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
     tbox = load_tbox(path)
-    assert names(tbox) == ["Crockery", "Cup", "Idea", "Plan"]  # nothing says what is physical
+    assert names(tbox) == ["Crockery", "Cup", "Idea", "Plan"]  # no class is known to be physical
     assert [(note.code, note.message) for note in tbox.notes] == [
         (
             "missing-import",
@@ -92,20 +92,20 @@ def test_missing_import_is_told_and_not_fatal(write_turtle):
     ]
 
 
-def test_import_with_an_endless_name_is_missing_like_any_other(write_turtle):
-    # No file system takes a name of 400 letters.
+def test_import_with_a_too_long_name_is_missing(write_turtle):
+    # File systems limit names to 255 bytes.
     path = write_turtle(ontology("http://example.com/home", "http://example.com/" + "a" * 400) + PHYSICAL)
     assert [note.code for note in load_tbox(path).notes] == ["missing-import"]
 
 
-def test_same_missing_import_is_told_once(write_turtle):
+def test_reports_the_same_missing_import_once(write_turtle):
     write_turtle(ontology("http://example.com/a", "http://example.com/gone"), "a.ttl")
     home = ontology("http://example.com/home", "http://example.com/a", "http://example.com/gone")
     assert len(load_tbox(write_turtle(home + PHYSICAL)).notes) == 1
 
 
-def test_catalog_place_is_a_uri(write_turtle, write_catalog):
-    # XML Catalogs 1.1, section 6.1: `uri` is a URI reference, so a blank is written %20.
+def test_decodes_catalog_uris(write_turtle, write_catalog):
+    # XML Catalogs 1.1, section 6.1: `uri` is a URI reference, so spaces are percent-encoded.
     write_catalog(**{"http://example.com/upper": "my%20upper.ttl"})
     write_turtle(UPPER, "my upper.ttl")
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
@@ -114,12 +114,12 @@ def test_catalog_place_is_a_uri(write_turtle, write_catalog):
 
 def test_catalog_entry_without_its_file_is_a_missing_import(write_turtle, write_catalog):
     write_catalog(**{"http://example.com/upper": "gone.ttl"})
-    write_turtle(UPPER, "upper.ttl")  # the catalog decides: no second guess by name
+    write_turtle(UPPER, "upper.ttl")  # the catalog entry takes precedence over the file name
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
     assert [note.code for note in tbox.notes] == ["missing-import"]
 
 
-def test_catalogs_of_the_editor_protege_are_read(write_turtle, tmp_path):
+def test_reads_catalogs_of_protege(write_turtle, tmp_path):
     group = '<group id="Folder Repository" prefer="public" xml:base=""><uri id="x" name="{}" uri="u.ttl"/></group>'
     (tmp_path / "catalog-v001.xml").write_text(CATALOG.format(group.format("http://example.com/upper")))
     write_turtle(UPPER, "u.ttl")
@@ -128,7 +128,7 @@ def test_catalogs_of_the_editor_protege_are_read(write_turtle, tmp_path):
 
 
 @pytest.mark.parametrize("text", ["<catalog", "", "no xml at all"])
-def test_malformed_catalog_is_refused(write_turtle, tmp_path, text):
+def test_rejects_a_malformed_catalog(write_turtle, tmp_path, text):
     (tmp_path / "catalog-v001.xml").write_text(text)
     path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
     with pytest.raises(OntologyError) as caught:
@@ -144,14 +144,14 @@ def test_catalog_is_not_needed_without_imports(write_turtle, tmp_path):
     assert names(load_tbox(write_turtle(PHYSICAL))) == ["Crockery", "Cup", "Idea", "Plan"]
 
 
-def test_malformed_import_is_refused_with_its_own_place(write_turtle, tmp_path):
+def test_rejects_a_malformed_import_with_its_path(write_turtle, tmp_path):
     (tmp_path / "upper.ttl").write_text("@prefix broken")
     path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
     with pytest.raises(OntologyError, match=r"upper\.ttl: looks like Turtle or N-Triples but does not parse"):
         load_tbox(path)
 
 
-# --- nothing outside -----------------------------------------------------------------------------------
+# --- access to other folders ---------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -164,7 +164,7 @@ def test_malformed_import_is_refused_with_its_own_place(write_turtle, tmp_path):
         "../secret.ttl",
     ],
 )
-def test_import_iri_does_not_leave_the_folder(write_turtle, iri):
+def test_import_iris_do_not_reach_other_folders(write_turtle, iri):
     write_turtle(UPPER, "secret.ttl")
     path = write_turtle(ontology("http://example.com/home", iri) + PHYSICAL, "inside/home.ttl")
     tbox = load_tbox(path)
@@ -173,7 +173,7 @@ def test_import_iri_does_not_leave_the_folder(write_turtle, iri):
 
 
 @pytest.mark.parametrize("place", ["http://example.com/upper.ttl", "file://{outside}"])
-def test_catalog_does_not_lead_to_the_network_or_to_file_urls(write_turtle, write_catalog, tmp_path, place):
+def test_catalogs_do_not_reach_network_or_file_urls(write_turtle, write_catalog, tmp_path, place):
     outside = write_turtle(UPPER, "elsewhere/upper.ttl")
     write_catalog(**{"http://example.com/gone": place.format(outside=outside)})
     path = write_turtle(ontology("http://example.com/home", "http://example.com/gone") + PHYSICAL)
@@ -190,14 +190,14 @@ def test_hash_covers_the_whole_closure(write_turtle):
 
 
 @pytest.mark.parametrize("quoted", ["", "%2F"])
-def test_catalog_entry_with_an_absolute_place_is_not_opened(write_turtle, write_catalog, tmp_path, quoted):
+def test_ignores_absolute_catalog_entries(write_turtle, write_catalog, tmp_path, quoted):
     place = str(write_turtle(UPPER, "elsewhere/secret.ttl"))
     write_catalog(**{"http://example.com/upper": quoted + place[1:] if quoted else place})
     tbox = load_tbox(write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL))
     assert [note.code for note in tbox.notes] == ["missing-import"]
 
 
-def test_catalog_may_lead_to_a_folder_beside(write_turtle, tmp_path):
+def test_catalogs_may_reach_sibling_folders(write_turtle, tmp_path):
     write_turtle(UPPER, "upper/u.ttl")
     home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL, "home/home.ttl")
     entry = '<uri name="http://example.com/upper" uri="../upper/u.ttl"/>'
@@ -206,7 +206,7 @@ def test_catalog_may_lead_to_a_folder_beside(write_turtle, tmp_path):
 
 
 @pytest.mark.parametrize("text", ["secret words", "@prefix secret words", "<secret words", "{secret"])
-def test_nothing_is_quoted_from_outside_the_folder(write_turtle, tmp_path, text):
+def test_errors_do_not_quote_files_outside_the_folder(write_turtle, tmp_path, text):
     (tmp_path / "notes.txt").write_text(text)
     home = write_turtle(ontology("http://example.com/home", "http://example.com/upper"), "home/home.ttl")
     entry = '<uri name="http://example.com/upper" uri="../notes.txt"/>'
@@ -217,7 +217,7 @@ def test_nothing_is_quoted_from_outside_the_folder(write_turtle, tmp_path, text)
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-32", "nonsense"])
-def test_catalog_that_names_an_encoding_is_read_as_utf_8(write_turtle, tmp_path, encoding):
+def test_reads_catalogs_as_utf_8(write_turtle, tmp_path, encoding):
     declared = f'<?xml version="1.0" encoding="{encoding}"?>'
     entry = '<uri name="http://example.com/upper" uri="ü.ttl"/>'
     (tmp_path / "catalog-v001.xml").write_text(declared + CATALOG.format(entry), encoding="utf-8")
@@ -226,7 +226,7 @@ def test_catalog_that_names_an_encoding_is_read_as_utf_8(write_turtle, tmp_path,
     assert names(load_tbox(home)) == ["Crockery", "Cup"]
 
 
-def test_catalog_of_another_encoding_is_refused(write_turtle, tmp_path):
+def test_rejects_catalogs_in_other_encodings(write_turtle, tmp_path):
     (tmp_path / "catalog-v001.xml").write_text(CATALOG.format(""), encoding="utf-32")
     home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
     with pytest.raises(OntologyError, match=r"catalog-v001\.xml: byte 0 is not UTF-8 text, expected a catalog"):

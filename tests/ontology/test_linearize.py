@@ -1,4 +1,4 @@
-"""The TBox as text, flat and as a tree."""
+"""Linearisation of a TBox as a list and as a tree."""
 
 import subprocess
 import sys
@@ -55,7 +55,7 @@ def test_tree_with_comments(load):
     assert tree == TREE.replace("Chair\n", "Chair -- To sit on.\n")
 
 
-def test_classes_whose_iri_is_a_number_are_called_by_their_labels(load):
+def test_numbered_classes_show_their_labels(load):
     device = ':OBI_0000968 rdfs:label "device"@en .'
     detector = ':OBI_0400082 rdfs:subClassOf :OBI_0000968 ; rdfs:label "photodetector"@en .'
     tbox = load(f"{device} {detector}")
@@ -63,10 +63,10 @@ def test_classes_whose_iri_is_a_number_are_called_by_their_labels(load):
     assert linearize_tree(tbox) == "device [OBI_0000968]\n  photodetector [OBI_0400082]\n"
 
 
-def test_a_leaf_under_two_parents_stands_under_both(load):
+def test_leaf_with_two_parents_appears_below_both(load):
     text = ':SofaBed rdfs:subClassOf :Bed, :Seat ; rdfs:comment "C" .'
     tree = linearize_tree(load(text), with_comments=True)
-    # Nothing is below it, so there is nothing to see above; its comment is written once.
+    # A leaf needs no reference to its first occurrence; its comment is written once.
     assert tree == "Bed\n  SofaBed -- C\nSeat\n  SofaBed\n"
 
 
@@ -80,7 +80,7 @@ def test_order_of_the_axioms_does_not_matter(tmp_path_factory, statements):
 
 
 def linearized(path, seed):
-    """Return both texts and the hash as a process with another hash seed writes them."""
+    """Return both texts and the hash from a process with another hash seed."""
     code = (
         "import sys; from usd2kg.ontology import load_tbox, linearize_flat, linearize_tree\n"
         "tbox = load_tbox(sys.argv[1])\n"
@@ -96,12 +96,12 @@ def linearized(path, seed):
 
 
 @pytest.mark.parametrize("name", ["soma/SOMA-HOME.owl", "other/cco/ArtifactOntology.ttl"])
-def test_two_runs_give_the_same_bytes(name):
+def test_output_is_deterministic(name):
     path = shared_file(f"ontologies/{name}")
     assert linearized(path, "1") == linearized(path, "2")
 
 
-def test_two_runs_on_an_ontology_with_everything_give_the_same_bytes(write_turtle):
+def test_output_of_all_features_is_deterministic(write_turtle):
     synonyms = " ".join(f':Cup rdfs:label "l{i}"@en ; skos:altLabel "s{i}" .' for i in range(9))
     path = write_turtle(
         "\n".join([*STATEMENTS, synonyms, ":Cup rdfs:subClassOf :Mug, :Food . :Mug rdfs:subClassOf :Cup ."])

@@ -1,4 +1,4 @@
-"""What is no ontology is refused in one line that says what to do."""
+"""Files that are not ontologies raise one-line errors with advice."""
 
 import gzip
 from time import process_time
@@ -10,7 +10,7 @@ from usd2kg.ontology import load_tbox
 
 
 def refusal(path):
-    """Return the message with which `path` is refused, after the path itself; it is one line."""
+    """Return the error message for `path`, which is one line, without the path."""
     with pytest.raises(OntologyError) as caught:
         load_tbox(path)
     message = str(caught.value)
@@ -21,7 +21,7 @@ def refusal(path):
 
 @pytest.fixture
 def write(tmp_path):
-    """A function that writes a file and returns its path."""
+    """Return a function that writes a file and returns its path."""
 
     def run(content, name="home.owl"):
         path = tmp_path / name
@@ -47,7 +47,7 @@ def test_binary_file(write, content):
     assert "is not UTF-8 text, expected an ontology; is it a binary or compressed file?" in message
 
 
-def test_place_of_the_first_bad_byte_is_told(write):
+def test_reports_the_first_invalid_byte(write):
     assert refusal(write(b"abc\xff")).startswith("byte 3 is not UTF-8 text")
 
 
@@ -60,14 +60,14 @@ def test_place_of_the_first_bad_byte_is_told(write):
         ("#usda 1.0\n(\n)\n", "'#usda 1.0 ( )'"),
     ],
 )
-def test_text_that_is_no_ontology_is_quoted(write, content, begins):
+def test_quotes_text_that_is_not_an_ontology(write, content, begins):
     assert refusal(write(content)) == (
         f"not an ontology (begins with {begins}), expected one of OWL functional syntax, Manchester syntax, OWL/XML, "
         "RDF/XML, Turtle or N-Triples, JSON-LD"
     )
 
 
-def test_long_texts_are_quoted_in_part(write):
+def test_truncates_quoted_text(write):
     assert len(refusal(write("word " * 10_000))) < 250
 
 
@@ -83,7 +83,7 @@ def test_long_texts_are_quoted_in_part(write):
         ('{"@context": "http://example.com/remote.jsonld", "@id": "http://x"}', "JSON-LD"),
     ],
 )
-def test_malformed_documents_are_named_by_syntax(write, content, syntax):
+def test_names_the_syntax_of_malformed_documents(write, content, syntax):
     message = refusal(write(content))
     assert message.startswith(f"looks like {syntax} but does not parse (")
     assert message.endswith("); fix or re-export it")
@@ -104,12 +104,12 @@ def test_ontology_without_classes(write, content):
     assert message.startswith("no class in scope (0 classes found, none placed in a hierarchy)")
 
 
-def test_ontology_that_only_imports_names_what_it_found(write):
+def test_ontology_with_imports_only(write):
     write("<http://x/b> <http://www.w3.org/2000/01/rdf-schema#subClassOf> <http://x/c> .", "upper.nt")
     owl = "http://www.w3.org/2002/07/owl#"
     path = write(f"<http://x> a <{owl}Ontology> ; <{owl}imports> <http://x/upper> .")
     assert refusal(path).startswith("no class in scope (2 classes found, none placed in a hierarchy)")
-    # What the message advises helps.
+    # The advice in the message works.
     assert [cls.local_name for cls in load_tbox(path, roots=["http://x/c"]).classes] == ["b", "c"]
 
 
@@ -122,12 +122,12 @@ def test_ontology_that_only_imports_names_what_it_found(write):
         ("[" * 200_000, "looks like JSON-LD but does not parse (Parser error at line 1 column 65538"),
     ],
 )
-def test_documents_that_would_take_hours_or_overflow_are_refused_at_once(write, content, reason):
+def test_rejects_pathological_documents_quickly(write, content, reason):
     start = process_time()
     assert refusal(write(content)).startswith(reason)
     assert process_time() - start < 2
 
 
-def test_text_that_the_parser_has_no_room_for_is_refused(write):
+def test_rejects_text_beyond_the_parser_limit(write):
     said = refusal(write(f'<a:a> <a:b> "{"x" * 2**24}" .', "long.ttl"))
     assert said.startswith("looks like Turtle or N-Triples but does not parse (Reached the buffer maximal size of ")

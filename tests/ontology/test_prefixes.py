@@ -14,7 +14,7 @@ from usd2kg.ontology.prefixes import PREFIXES
     [
         ("soma:Cup", "http://www.ease-crc.org/ont/SOMA.owl#Cup"),
         ("SOMA:Cup", "http://www.ease-crc.org/ont/SOMA.owl#Cup"),
-        ("usd:Prim", "https://ease-crc.org/ont/USD.owl#Prim"),  # https and no www, unlike SOMA
+        ("usd:Prim", "https://ease-crc.org/ont/USD.owl#Prim"),  # https without www, unlike SOMA
         ("obo:BFO_0000040", "http://purl.obolibrary.org/obo/BFO_0000040"),
         ("unknown:Cup", "unknown:Cup"),
         ("Cup", "Cup"),

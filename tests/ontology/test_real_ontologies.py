@@ -1,4 +1,4 @@
-"""Ontologies of others, as they were published."""
+"""Published ontologies."""
 
 import pytest
 
@@ -28,12 +28,12 @@ def test_published_ontology_loads(name):
     assert len(linearize_tree(tbox).splitlines()) >= len(tbox.classes)
 
 
-def test_all_of_them_are_tried():
+def test_all_published_ontologies_are_tested():
     shared_file("ontologies/other")
     assert len(FILES) == 18
 
 
-def test_a_scene_is_no_ontology():
+def test_rejects_a_scene():
     path = shared_file("ontologies/other/multiverse_soma_dfl/SOMA_DFL_module.usda")
     with pytest.raises(OntologyError, match="not an ontology"):
         load_tbox(path)
@@ -47,18 +47,18 @@ def test_a_scene_is_no_ontology():
         ("other/dogont/dogont.owl", "http://elite.polito.it/ontologies/dogont.owl#Oven", ["WhiteGoods"]),
     ],
 )
-def test_a_class_of_each_stands_where_its_authors_put_it(name, iri, parents):
+def test_published_classes_have_their_parents(name, iri, parents):
     tbox = load_tbox(shared_file(f"ontologies/{name}"))
     assert [tbox.by_iri[up].local_name for up in tbox.by_iri[iri].parents] == parents
 
 
-def test_missing_imports_of_the_apartment_are_told():
+def test_reports_missing_imports_of_the_apartment():
     tbox = load_tbox(shared_file("ontologies/iai/iai-apartment.owl"))
     assert {note.code for note in tbox.notes} == {"missing-import"}
 
 
-def test_equivalence_with_soma_brings_handles_into_scope():
-    # part ≡ soma:DesignedComponent, which is below dul:PhysicalObject; nothing else places it there.
+def test_equivalence_with_soma_includes_handles():
+    # part ≡ soma:DesignedComponent, which is below dul:PhysicalObject; which is its only place in the hierarchy.
     tbox = load_tbox(shared_file("ontologies/other/multiverse_soma_dfl/SOMA_DFL_module.owl"))
     dfl = "http://www.ease-crc.org/ont/SOMA_DFL.owl#"
     assert tbox.is_subclass(f"{dfl}knob.n.wn.artifact..handle", f"{dfl}handle.n.wn.artifact")

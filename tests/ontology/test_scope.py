@@ -1,4 +1,4 @@
-"""Which classes are candidates, and which superclasses they keep."""
+"""The classes in scope and their parents."""
 
 import pytest
 
@@ -23,7 +23,7 @@ def parents(tbox):
 # --- the default scope -------------------------------------------------------------------------------
 
 
-def test_physical_classes_below_dul_are_in_scope_and_the_rest_is_not(load):
+def test_scope_is_the_physical_classes_below_dul(load):
     assert parents(load(TREE)) == {
         "Crockery": ("DesignedArtifact",),
         "Cup": ("Crockery",),
@@ -32,7 +32,7 @@ def test_physical_classes_below_dul_are_in_scope_and_the_rest_is_not(load):
     }
 
 
-def test_classes_that_others_declare_and_the_file_places_are_in_scope(write_turtle):
+def test_imported_classes_placed_by_the_file_are_in_scope(write_turtle):
     upper = "soma:Appliance rdfs:subClassOf dul:PhysicalObject . soma:Unused rdfs:subClassOf dul:PhysicalObject ."
     write_turtle(upper, "upper.ttl")
     home = "<http://x> a owl:Ontology ; owl:imports <http://x/upper> . :Toaster rdfs:subClassOf soma:Appliance ."
@@ -46,11 +46,11 @@ def test_classes_that_others_declare_and_the_file_places_are_in_scope(write_turt
         "https://spec.industrialontologies.org/ontology/core/Core/MaterialArtifact",
     ],
 )
-def test_other_upper_classes_of_physical_things_are_known(load, root):
+def test_recognises_other_upper_classes(load, root):
     assert list(parents(load(f":Cup rdfs:subClassOf <{root}> . :Plan rdfs:subClassOf :Idea ."))) == ["Cup"]
 
 
-def test_without_a_known_upper_class_everything_placed_is_in_scope(load):
+def test_scope_without_a_known_upper_class(load):
     assert list(parents(load(":Cup rdfs:subClassOf :Thing . :Plan rdfs:subClassOf :Idea . :Alone a owl:Class ."))) == [
         "Cup",
         "Idea",
@@ -63,14 +63,14 @@ def test_a_flat_list_of_classes_is_in_scope(load):
     assert parents(load(":Cup a owl:Class . :Mug a rdfs:Class . :has a owl:ObjectProperty .")) == {"Cup": (), "Mug": ()}
 
 
-def test_top_classes_are_no_parents(load):
+def test_top_classes_are_not_parents(load):
     assert parents(load(":Cup rdfs:subClassOf owl:Thing, :Crockery . :Pan rdfs:subClassOf rdfs:Resource .")) == {
         "Cup": ("Crockery",),
         "Crockery": (),
     }
 
 
-def test_deprecated_classes_are_left_out_and_passed_through(load):
+def test_deprecated_classes_are_skipped(load):
     text = """
     :Bowl rdfs:subClassOf :Cup . :Cup rdfs:subClassOf :Old .
     :Old rdfs:subClassOf :Crockery ; owl:deprecated true .
@@ -79,15 +79,15 @@ def test_deprecated_classes_are_left_out_and_passed_through(load):
 
 
 @pytest.mark.parametrize(("value", "is_in"), [('"true"', False), ("true", False), ("1", False), ("false", True)])
-def test_what_counts_as_deprecated(load, value, is_in):
+def test_recognises_deprecation_values(load, value, is_in):
     text = f":Cup rdfs:subClassOf :Crockery . :Old rdfs:subClassOf :Crockery ; owl:deprecated {value} ."
     assert ("Old" in parents(load(text))) is is_in
 
 
-# --- what a user asks for ----------------------------------------------------------------------------
+# --- explicit scopes ---------------------------------------------------------------------------------
 
 
-def test_roots_are_in_scope_with_all_below(load):
+def test_roots_include_their_subclasses(load):
     assert parents(load(TREE, roots=["http://example.com/home#Cup"])) == {"Cup": (), "Mug": ("Cup",)}
 
 
@@ -95,19 +95,19 @@ def test_roots_may_be_curies(load):
     assert list(parents(load(TREE, roots=["dul:DesignedArtifact"]))) == ["Crockery", "Cup", "Mug", "DesignedArtifact"]
 
 
-def test_roots_leave_out_deprecated_classes_below(load):
+def test_roots_exclude_deprecated_subclasses(load):
     text = TREE + ":Jug rdfs:subClassOf :Crockery ; owl:deprecated true ."
     assert list(parents(load(text, roots=["http://example.com/home#Crockery"]))) == ["Crockery", "Cup", "Mug"]
 
 
-def test_list_of_classes_is_taken_as_it_is(load):
-    # Cup lies between Mug and Crockery but is not asked for: Crockery is the nearest parent in scope.
+def test_scope_of_listed_classes(load):
+    # Cup is between Mug and Crockery but not listed: Crockery is the nearest parent in scope.
     classes = ["http://example.com/home#Mug", "http://example.com/home#Crockery"]
     assert parents(load(TREE, classes=classes)) == {"Crockery": (), "Mug": ("Crockery",)}
 
 
 @pytest.mark.parametrize("option", ["roots", "classes"])
-def test_unknown_classes_are_refused(load, option):
+def test_rejects_unknown_classes(load, option):
     with pytest.raises(OntologyError) as caught:
         load(TREE, **{option: ["http://example.com/home#Cup", "soma:Spaceship"]})
     assert "<http://www.ease-crc.org/ont/SOMA.owl#Spaceship> is not a class of the ontology" in str(caught.value)
@@ -115,7 +115,7 @@ def test_unknown_classes_are_refused(load, option):
 
 
 @pytest.mark.parametrize("option", ["roots", "classes"])
-def test_asking_for_nothing_is_refused(load, option):
+def test_rejects_an_empty_scope(load, option):
     with pytest.raises(OntologyError, match="no class in scope"):
         load(TREE, **{option: []})
 
@@ -123,7 +123,7 @@ def test_asking_for_nothing_is_refused(load, option):
 # --- superclasses ------------------------------------------------------------------------------------
 
 
-def test_stated_grandparents_are_no_parents(load):
+def test_stated_grandparents_are_not_parents(load):
     text = ":Mug rdfs:subClassOf :Cup, :Crockery . :Cup rdfs:subClassOf :Crockery ."
     assert parents(load(text)) == {"Crockery": (), "Cup": ("Crockery",), "Mug": ("Cup",)}
 
@@ -142,12 +142,12 @@ def test_named_conjuncts_of_superclasses_and_definitions_are_parents(load):
     assert parents(load(text))["Mug"] == ("Big", "Cup")
 
 
-def test_unions_and_complements_are_no_parents(load):
+def test_unions_and_complements_are_not_parents(load):
     text = ":Cup rdfs:subClassOf :Crockery, [ a owl:Class ; owl:unionOf ( :A :B ) ], [ owl:complementOf :Plate ] ."
     assert parents(load(text)) == {"Crockery": (), "Cup": ("Crockery",)}
 
 
-def test_cycles_are_told_and_left_out(load):
+def test_reports_and_ignores_cycles(load):
     text = ":A rdfs:subClassOf :B . :B rdfs:subClassOf :A . :B rdfs:subClassOf :Top . :C rdfs:subClassOf :A ."
     tbox = load(text)
     assert parents(tbox) == {"A": ("Top",), "B": ("Top",), "C": ("A", "B"), "Top": ()}
@@ -158,7 +158,7 @@ def test_cycles_are_told_and_left_out(load):
     assert tbox.notes[0].message.endswith("is a subclass of itself; the edges of that cycle are ignored")
 
 
-def test_a_class_below_itself_is_no_cycle(load):
+def test_reflexive_subclass_axiom_is_not_a_cycle(load):
     tbox = load(":Cup rdfs:subClassOf :Cup, :Crockery .")
     assert (parents(tbox), tbox.notes) == ({"Crockery": (), "Cup": ("Crockery",)}, ())
 
@@ -166,7 +166,7 @@ def test_a_class_below_itself_is_no_cycle(load):
 # --- SOMA-HOME ---------------------------------------------------------------------------------------
 
 
-def test_scope_of_soma_home_is_the_reference():
+def test_scope_of_soma_home_matches_the_reference():
     expected = shared_file("reference/soma_home_scope.txt").read_text(encoding="utf-8").split()
     tbox = load_tbox(shared_file("ontologies/soma/SOMA-HOME.owl"))
     assert [cls.iri for cls in tbox.classes] == sorted(expected)

@@ -1,4 +1,4 @@
-"""Asking a TBox: hierarchy, common ancestors, names."""
+"""TBox queries: hierarchy, common ancestors, names."""
 
 import random
 
@@ -13,7 +13,7 @@ BASE = "http://example.com/home#"
 
 
 def tbox_of(**parents):
-    """Return a TBox from local name → local names of the parents, apart by blanks."""
+    """Return a TBox from local name → space-separated local names of the parents."""
     classes = tuple(
         OntologyClass(BASE + name, name.lower(), (), "", tuple(BASE + up for up in sorted(ups.split())))
         for name, ups in sorted(parents.items())
@@ -39,20 +39,20 @@ def test_roots_and_children_are_sorted():
     assert HOME.children[BASE + "Bread"] == ()
 
 
-def test_closure_is_the_class_with_all_above():
+def test_closure_includes_the_class_and_its_superclasses():
     assert sorted(local(HOME.closure(BASE + "SofaBed"))) == ["Artifact", "Bed", "Seat", "SofaBed"]
     assert local(HOME.closure(BASE + "Food")) == ["Food"]
 
 
-def test_subclass_is_reflexive_and_one_way():
+def test_subclass_is_reflexive_and_antisymmetric():
     assert HOME.is_subclass(BASE + "Chair", BASE + "Artifact")
     assert HOME.is_subclass(BASE + "Chair", BASE + "Chair")
     assert not HOME.is_subclass(BASE + "Artifact", BASE + "Chair")
     assert not HOME.is_subclass(BASE + "Chair", BASE + "Food")
 
 
-def test_depth_is_the_longest_way_up():
-    # D is below B and below C below B: two edges by B, three by C.
+def test_depth_is_the_longest_path_to_a_root():
+    # D is below B, and below C, which is below B: paths of two and three edges.
     deep = tbox_of(A="", B="A", C="B", D="B C")
     assert local(deep.depths) == ["A", "B", "C", "D"]
     assert list(deep.depths.values()) == [0, 1, 2, 3]
@@ -82,7 +82,7 @@ def test_several_lowest_common_ancestors_are_sorted():
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.integers(1, 12))
 def test_hierarchy_of_any_tree_is_consistent(seed, size):
-    # Parents are drawn among earlier names only, so there is no cycle.
+    # Parents are drawn from earlier names, so there is no cycle.
     rng = random.Random(seed)
     names = [chr(ord("A") + index) for index in range(size)]
     parents = {
@@ -102,7 +102,7 @@ def test_hierarchy_of_any_tree_is_consistent(seed, size):
     assert all(any(tbox.is_subclass(low, iri) for low in lowest) for iri in common)
 
 
-def test_very_deep_hierarchies_do_no_harm():
+def test_accepts_very_deep_hierarchies():
     # Deeper than Python's default limit of 1000 calls; C0000 is the deepest.
     chain = tbox_of(**{f"C{index:04}": f"C{index + 1:04}" if index < 1100 else "" for index in range(1101)})
     assert len(chain.closure(BASE + "C0000")) == 1101
@@ -137,7 +137,7 @@ def test_resolve(name, iri):
     assert NAMED.resolve(name) == iri
 
 
-def test_ambiguous_names_are_refused_with_the_choices():
+def test_rejects_ambiguous_names():
     with pytest.raises(OntologyError) as caught:
         NAMED.resolve("Cup")
     assert str(caught.value) == (
@@ -147,6 +147,6 @@ def test_ambiguous_names_are_refused_with_the_choices():
 
 
 @pytest.mark.parametrize("name", ["cup", "Cupboard", "", "soma:Plate", "https://www.ease-crc.org/ont/SOMA.owl#Cup"])
-def test_unknown_names_are_refused(name):
+def test_rejects_unknown_names(name):
     with pytest.raises(OntologyError, match="names no class of the 3 in scope"):
         NAMED.resolve(name)

@@ -1,4 +1,4 @@
-"""Wikidata items that an ontology maps its classes to."""
+"""Mappings of classes to Wikidata items."""
 
 import pytest
 
@@ -25,11 +25,11 @@ def items(load, text):
         f":Mug owl:equivalentClass :Cup . :Mug skos:exactMatch <{WD}Q81727> .",
     ],
 )
-def test_each_way_to_map(load, text):
+def test_reads_all_mapping_properties(load, text):
     assert items(load, text) == ("Q81727",)
 
 
-def test_the_surest_statement_counts_and_keeps_all_its_items(load):
+def test_strongest_mapping_property_wins(load):
     text = f":Cup rdfs:seeAlso <{WD}Q5> ; skos:exactMatch <{WD}Q811>, <{WD}Q81> ; skos:closeMatch <{WD}Q7> ."
     assert items(load, text) == ("Q81", "Q811")
 
@@ -46,7 +46,7 @@ def test_the_surest_statement_counts_and_keeps_all_its_items(load):
         "",
     ],
 )
-def test_what_is_no_mapping(load, text):
+def test_ignores_other_statements(load, text):
     assert items(load, text) == ()
 
 
@@ -60,5 +60,5 @@ def test_mappings_of_functional_syntax(tmp_path):
     assert load_tbox(path).by_iri[CUP].wikidata == ("Q81727",)
 
 
-def test_the_home_tbox_maps_none():
+def test_home_tbox_has_no_mappings():
     assert not any(cls.wikidata for cls in load_home_tbox().classes)

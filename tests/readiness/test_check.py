@@ -1,4 +1,4 @@
-"""What an ontology lacks is found, each fault in its place, and nothing in one that has all."""
+"""Findings of the readiness check."""
 
 from pathlib import Path
 
@@ -30,13 +30,13 @@ def found(report: OntologyReport) -> set[tuple[str, str]]:
     return {(finding.rule, finding.iri.rpartition("#")[2]) for finding in report.findings}
 
 
-def test_the_built_in_ontology_has_all(home_tbox: TBox):
+def test_built_in_tbox_has_no_findings(home_tbox: TBox):
     report = check_ontology(home_tbox)
     assert report.findings == ()
     assert report.classes == report.labelled == report.meant == report.found_by_name == 102
 
 
-def test_what_is_there_is_counted(tmp_path: Path):
+def test_counts_labels_definitions_and_synonyms(tmp_path: Path):
     report = check(tmp_path, ":Box a owl:Class ; rdfs:subClassOf :Artifact .")
     assert (report.classes, report.labelled, report.described, report.with_synonyms) == (3, 2, 2, 1)
     assert (report.roots, report.depth, report.several_parents, report.documents) == (1, 1, 0, 1)
@@ -74,7 +74,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_each_fault_is_found_where_it_is(tmp_path: Path, name: str):
+def test_finds_each_fault(tmp_path: Path, name: str):
     text, expected = CASES[name]
     report = check(tmp_path, text)
     assert expected in found(report)
@@ -83,7 +83,7 @@ def test_each_fault_is_found_where_it_is(tmp_path: Path, name: str):
     assert finding.found and finding.expected and finding.advice
 
 
-def test_a_flat_list_lacks_general_classes(tmp_path: Path):
+def test_finds_a_flat_list(tmp_path: Path):
     names = "Fork Spoon Plate Bowl Knife Table Chair Lamp".split()
     path = tmp_path / "flat.ttl"
     path.write_text(
@@ -94,7 +94,7 @@ def test_a_flat_list_lacks_general_classes(tmp_path: Path):
     assert report.default is None
 
 
-def test_classes_that_stand_alone_are_named(tmp_path: Path):
+def test_finds_isolated_classes(tmp_path: Path):
     alone = "".join(f":Alone{i:02} a owl:Class .\n" for i in range(22))
     report = check(tmp_path, f"{alone} :Old a owl:Class ; owl:deprecated true . owl:Thing a owl:Class .")
     (finding,) = [finding for finding in report.findings if finding.rule == "stands-alone"]
@@ -104,14 +104,14 @@ def test_classes_that_stand_alone_are_named(tmp_path: Path):
     assert not any(rule == "stands-alone" for rule, _ in found(check(tmp_path, "")))
 
 
-def test_where_the_scope_is_named_nothing_stands_alone_in_it(tmp_path: Path):
+def test_explicit_scopes_have_no_isolated_classes(tmp_path: Path):
     path = tmp_path / "lab.ttl"
     path.write_text(HEAD + ":Alone a owl:Class .", encoding="utf-8")
     assert load_tbox(path).isolated == ("https://lab.example/onto#Alone",)
     assert load_tbox(path, roots=["https://lab.example/onto#Artifact"]).isolated == ()
 
 
-def test_it_is_said_where_things_get_no_class_at_all(tmp_path: Path):
+def test_finds_a_missing_residual_class(tmp_path: Path):
     path = tmp_path / "kinds.ttl"
     pairs = [("Table", "Desk"), ("Chair", "Armchair")]
     classes = "".join(
@@ -126,7 +126,7 @@ def test_it_is_said_where_things_get_no_class_at_all(tmp_path: Path):
     assert report.default is None
 
 
-def test_where_nothing_general_is_above_most_it_is_said(tmp_path: Path):
+def test_finds_a_narrow_residual_class(tmp_path: Path):
     others = "".join(
         f":R{i} a owl:Class ; rdfs:label 'cabinet kind {i}' .\n:S{i} a owl:Class ; rdfs:subClassOf :R{i} .\n"
         for i in range(4)
@@ -134,19 +134,19 @@ def test_where_nothing_general_is_above_most_it_is_said(tmp_path: Path):
     assert "no-general-class" in {finding.rule for finding in check(tmp_path, others).findings}
 
 
-def test_an_example_of_a_word_is_offered(tmp_path: Path):
+def test_suggests_a_common_noun(tmp_path: Path):
     report = check(tmp_path, ":QuuxGripper a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'quux gripper' .")
     advice = next(f.advice for f in report.findings if f.rule == "no-sense" and f.iri.endswith("QuuxGripper"))
     assert advice.startswith("Add a skos:altLabel")
 
 
-def test_a_class_that_another_has_the_name_of_is_told(tmp_path: Path):
+def test_finds_a_label_claimed_by_another_class(tmp_path: Path):
     report = check(tmp_path, ":Cup2 a owl:Class ; rdfs:subClassOf :Artifact ; rdfs:label 'cup' .")
     (lost,) = [finding for finding in report.findings if finding.rule == "lost-name"]
     assert "an object called Cup is grounded to" in lost.found
 
 
-def test_a_sense_key_of_wordnet_is_read_as_its_word():
+def test_reads_wordnet_sense_keys():
     tbox = load_tbox(shared_file("ontologies/other/multiverse_soma_dfl/SOMA_DFL_module.owl"))
     report = check_ontology(tbox)
     assert report.found_by_name / report.classes > 0.9

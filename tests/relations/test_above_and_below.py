@@ -20,7 +20,7 @@ def test_a_lamp_above_a_table_and_the_table_below_it():
         assert relation.confidence == 1
 
 
-def test_the_share_is_that_of_the_smaller_footprint():
+def test_overlap_is_relative_to_the_smaller_footprint():
     # The sign is 2 m × 0.1 m over a box of 0.2 m × 0.2 m: half of the box is under it, a tenth of the sign over it.
     sign = artifact("sign", (-1, 0.3, 2), (2, 0.1, 0.3))
     box = artifact("box", (0, 0.2, 0), (0.2, 0.2, 0.2))
@@ -29,7 +29,7 @@ def test_the_share_is_that_of_the_smaller_footprint():
 
 
 @pytest.mark.parametrize(("more", "count"), [(HAIR, 1), (-HAIR, 0)])
-def test_just_enough_and_just_not_enough_of_it_over_the_other(more: float, count: int):
+def test_overlap_threshold_of_above(more: float, count: int):
     over = ABOVE.min_overlap_ratio * 0.2 + more
     lamp = (thing("/lamp", (1 - over, 0.4, 1.5), (0.2, 0.2, 0.3)), "Appliance")
     assert len(relate(TABLE, lamp, kinds=("above",))) == count
@@ -39,29 +39,29 @@ def test_on_suppresses_above():
     assert relate(FLOOR, TABLE, cup((0.4, 0.4, 0.7)), kinds=("above",)) == ()
 
 
-def test_of_a_book_on_a_tray_on_a_table_a_lamp_is_above_the_book():
+def test_lamp_above_a_stack_is_above_its_top_object():
     tray = artifact("tray", (0.2, 0.2, 0.7), (0.6, 0.6, 0.02))
     book = artifact("book", (0.35, 0.35, 0.72), (0.3, 0.3, 0.04))
     assert related(relate(FLOOR, TABLE, tray, book, LAMP, kinds=("above",))) == {("lamp", "above", "book")}
 
 
-def test_an_object_not_in_between_suppresses_nothing():
+def test_objects_beside_the_gap_suppress_nothing():
     tray = artifact("tray", (0, 0, 0.7), (0.3, 0.3, 0.02))
     assert related(relate(TABLE, tray, LAMP, kinds=("above",))) == {("lamp", "above", "table")}
 
 
-def test_a_stack_in_the_air_is_a_chain():
+def test_stacked_objects_with_gaps_are_a_chain():
     signs = [artifact(f"sign{i}", (0, 0, 1.0 * i), (1, 1, 0.1)) for i in range(5)]
     assert related(relate(*signs, kinds=("above",))) == {(f"sign{i + 1}", "above", f"sign{i}") for i in range(4)}
 
 
-def test_a_shelf_is_above_the_objects_below_its_books():
+def test_shelf_is_above_objects_instead_of_its_books():
     shelf = (thing("/shelf", (0, 0, 1.4), (1, 0.3, 0.05)), "DesignedFurniture")
     book = artifact("book", (0.1, 0.05, 1.45), (0.2, 0.2, 0.25))
     assert related(relate(TABLE, shelf, book, kinds=("above",))) == {("shelf", "above", "table")}
 
 
-def test_of_plates_in_a_wall_cupboard_the_cupboard_does():
+def test_wall_cupboard_is_above_objects_instead_of_its_plates():
     cupboard = (thing("/cupboard", (0, 0, 1.4), (1, 0.4, 0.7)), "Cupboard")
     low = (thing("/low", (0.2, 0.1, 1.42), (0.25, 0.25, 0.02)), "DinnerPlate")
     high = (thing("/high", (0.2, 0.1, 1.8), (0.25, 0.25, 0.02)), "DinnerPlate")
@@ -69,7 +69,7 @@ def test_of_plates_in_a_wall_cupboard_the_cupboard_does():
     assert found == {("cupboard", "above", "table"), ("high", "above", "low")}
 
 
-def test_drawers_of_one_cabinet_are_above_each_other_and_above_nothing_outside():
+def test_drawers_are_above_each_other_within_their_cabinet():
     cabinet = (thing("/cab", (0, 0, 0.2), (0.6, 0.6, 0.8)), "KitchenCabinet")
     drawers = [
         (thing(f"/cab/drawer{i}", (0.02, 0, 0.2 + 0.25 * i), (0.56, 0.5, 0.24), parent_path="/cab"), "Drawer")
@@ -92,7 +92,7 @@ def test_flat_objects_at_one_height_are_not_above_each_other():
     assert relate(artifact("a", (0, 0, 1), (1, 1, 0)), artifact("b", (0, 0, 1), (1, 1, 0)), kinds=("above",)) == ()
 
 
-def test_floors_take_no_part_in_above():
+def test_floors_are_excluded_from_above():
     room = (thing("/room", (-5, -5, 0), (10, 10, 3)), "Room")
     ceiling = (thing("/ceiling", (-5, -5, 3), (10, 10, 0.1)), "Ceiling")
     assert relate(room, FLOOR, ceiling, LAMP, kinds=("above",)) == ()

@@ -19,7 +19,7 @@ def cabinet(name: str, x: float, width: float = 0.6) -> Placed:
 
 
 class TestTouching:
-    def test_two_cabinets_side_by_side(self):
+    def test_adjacent_cabinets_touch(self):
         (relation,) = relate(cabinet("a", 0), cabinet("b", 0.602), kinds=("touching",))
         assert (relation.kind, relation.target, relation.anchor) == ("touching", "/a", "/b")
         assert relation.numbers == pytest.approx({"gap": 0.002})
@@ -36,7 +36,7 @@ class TestTouching:
     def test_thresholds(self, gap: float, count: int):
         assert len(relate(cabinet("a", 0), cabinet("b", 0.6 + gap), kinds=("touching",))) == count
 
-    def test_meeting_in_an_edge_is_not_enough(self):
+    def test_contact_at_an_edge_is_not_touching(self):
         corner = (thing("/c", (0.6, 0.55, 0), (0.6, 0.6, 0.8)), "KitchenCabinet")
         assert relate(cabinet("a", 0), corner, kinds=("touching",)) == ()
 
@@ -54,7 +54,7 @@ class TestTouching:
 
 
 class TestNextTo:
-    def test_two_chairs(self):
+    def test_two_chairs_are_next_to_each_other(self):
         # 0.1 m between chairs 0.5 m wide and deep: half of 0.5 m is allowed, so 0.6 of the margin is left.
         one = (thing("/one", (0, 0, 0), (0.5, 0.5, 0.9)), "DesignedChair")
         other = (thing("/other", (0.6, 0, 0), (0.5, 0.5, 0.9)), "DesignedChair")
@@ -63,20 +63,20 @@ class TestNextTo:
         assert relation.confidence == pytest.approx(0.6**2 * (3 - 2 * 0.6))
 
     @pytest.mark.parametrize(("extra", "count"), [(-HAIR, 1), (HAIR, 0)])
-    def test_the_smaller_one_decides_how_far(self, extra: float, count: int):
+    def test_smaller_object_determines_the_distance_limit(self, extra: float, count: int):
         # A cup 0.2 m wide beside a wardrobe: half of 0.2 m.
         small = (thing("/small", (1.1 + extra, 0, 0), (0.2, 0.2, 0.5)), "Box")
         wardrobe = (thing("/wardrobe", (0, 0, 0), (1, 1, 2)), "Wardrobe")
         assert RULES.next_to.gap_share * 0.2 == pytest.approx(0.1)
         assert len(relate(small, wardrobe, kinds=("next-to",))) == count
 
-    def test_at_another_height_it_is_not_next_to_it(self):
+    def test_different_heights_are_not_next_to_each_other(self):
         low = artifact("low", (0, 0, 0), (0.3, 0.3, 0.3))
         high = artifact("high", (0.35, 0, 0.25), (0.3, 0.3, 0.3))
         assert relate(low, high, kinds=("next-to",)) == ()
         assert pairs(relate(low, high, kinds=CLOSE)) == {("near", names("low", "high"))}
 
-    def test_a_third_thing_between_parts_them(self):
+    def test_third_object_in_between_blocks_next_to(self):
         row = [artifact(name, (0.2 * i, 0, 0), (0.19, 0.5, 0.5)) for i, name in enumerate("abc")]
         found = pairs(relate(*row, kinds=("next-to",)))
         assert found == {("next-to", names("a", "b")), ("next-to", names("b", "c"))}
@@ -99,25 +99,25 @@ class TestNextTo:
         found = pairs(relate(cupboard, *inner, outer, kinds=("next-to",)))
         assert found == {("next-to", names("in0", "in1")), ("next-to", names("cupboard", "out"))}
 
-    def test_each_is_next_to_its_nearest_few_or_among_theirs(self):
+    def test_keeps_pairs_nearest_for_either_object(self):
         # Of a bench's twelve neighbours three are its nearest, but the bench is among the nearest of each.
         bench = artifact("bench", (0, 0, 0), (2.4, 0.3, 0.3))
         row = [cup((0.05 + 0.2 * i, 0.34, 0), (0.1, 0.1, 0.1), f"c{i}") for i in range(12)]
         found = pairs(relate(bench, *row, kinds=("next-to",)))
         assert found == {("next-to", names("bench", f"c{i}")) for i in range(12)}
 
-    def test_a_crowd_does_not_explode(self):
+    def test_dense_rows_have_few_links(self):
         crowd = [cup((0.11 * (i % 20), 0.11 * (i // 20), 0), (0.1, 0.1, 0.1), f"c{i}") for i in range(400)]
         found = relate(*crowd, kinds=("next-to",))
         assert 400 < len(found) <= RULES.next_to.most * 400
 
-    def test_the_room_itself_has_no_neighbours(self):
+    def test_rooms_are_excluded_from_adjacency(self):
         wall = (thing("/wall", (0.52, -2, 0), (0.1, 4, 2.5)), "Wall")
         assert relate(FLOOR, wall, artifact("box", (0, 0, 0), (0.5, 0.5, 0.5)), kinds=CLOSE) == ()
 
 
 class TestNear:
-    def test_a_chair_a_step_from_a_desk(self):
+    def test_chair_is_near_a_desk(self):
         # The chair's mean extent is (0.5 + 0.5 + 0.9) / 3 = 0.6333 m; the desk is 0.4 m away.
         chair = (thing("/chair", (0, 0, 0), (0.5, 0.5, 0.9)), "DesignedChair")
         desk = (thing("/desk", (0.9, 0, 0), (1.6, 0.8, 0.7)), "Table")
@@ -127,19 +127,19 @@ class TestNear:
         assert relation.confidence == pytest.approx(share**2 * (3 - 2 * share))
 
     @pytest.mark.parametrize(("extra", "count"), [(-HAIR, 1), (HAIR, 0)])
-    def test_no_farther_than_the_mean_extent_of_the_smaller(self, extra: float, count: int):
+    def test_distance_limit_is_the_mean_extent_of_the_smaller_object(self, extra: float, count: int):
         one = artifact("one", (0, 0, 0), (0.3, 0.3, 0.3))
         other = artifact("other", (0.6 + extra, 0, 0), (0.3, 0.3, 0.3))
         assert len(relate(one, other, kinds=("near",))) == count
 
-    def test_in_any_direction(self):
+    def test_near_holds_in_any_direction(self):
         # Apart by 0.03 m, 0.04 m and 0.12 m: 0.13 m.
         one = artifact("one", (0, 0, 0), (0.3, 0.3, 0.3))
         other = artifact("other", (0.33, 0.34, 0.42), (0.3, 0.3, 0.3))
         (relation,) = relate(one, other, kinds=("near",))
         assert relation.numbers == pytest.approx({"distance": 0.13})
 
-    def test_nothing_weaker_is_said_where_more_holds(self):
+    def test_stronger_relations_suppress_near(self):
         one, other = cabinet("a", 0), cabinet("b", 0.6)
         assert {r.kind for r in relate(one, other, kinds=CLOSE)} == {"touching", "next-to"}
         assert {r.kind for r in relate(one, other, kinds=("near",))} == {"near"}
@@ -162,13 +162,13 @@ class TestTurned:
         lower = (x - width / 2, y - depth / 2, 0)
         return thing(f"/{name}", lower, (width, depth, 0.5), **(turned | known)), "DesignedArtifact"
 
-    def test_its_sides_count_and_not_those_of_its_box(self):
+    def test_distance_uses_the_rotated_footprint(self):
         # Two parallel boards, their middles 0.3 m apart across: 0.1 m between them, though their boxes overlap.
         step = 0.3 * self.HALF
         found = relate(self.board("one", 0, 0), self.board("other", -step, step), kinds=("next-to",))
         assert [r.numbers for r in found] == [pytest.approx({"distance": 0.1})]
 
-    def test_a_box_beside_it(self):
+    def test_distance_between_rotated_and_aligned_footprints(self):
         # Its end is at 0.5 m along the diagonal, 0.1 m from each side: the corner farthest along x at 0.4243 m.
         post = artifact("post", (0.46, 0.25, 0), (0.1, 0.1, 0.5))
         corner = 0.5 * self.HALF + 0.1 * self.HALF
@@ -184,7 +184,7 @@ class TestTurned:
         assert relate(with_more, self.board("other", -step, step), kinds=("next-to",)) == ()
 
     @pytest.mark.parametrize("degrees", [0, 10, 30, 45, 60, 90, 123])
-    def test_the_distance_is_the_same_however_both_are_turned(self, degrees: float):
+    def test_distance_is_invariant_under_common_rotation(self, degrees: float):
         angle = math.radians(degrees)
         x, y = -0.3 * math.sin(angle), 0.3 * math.cos(angle)
         one, other = self.board("one", 0, 0, degrees), self.board("other", x, y, degrees)

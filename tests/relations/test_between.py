@@ -11,7 +11,7 @@ def between(*placed):
     return {(r.target[1:], frozenset({r.anchor[1:], (r.other_anchor or "")[1:]})) for r in found}
 
 
-def test_a_cup_between_two_plates():
+def test_cup_is_between_two_plates():
     left = (thing("/left", (0, 0, 0), (0.3, 0.3, 0.1)), "Bowl")
     right = (thing("/right", (0.6, 0, 0), (0.3, 0.3, 0.1)), "Bowl")
     (relation,) = relate(left, right, cup((0.4, 0.1, 0)), kinds=("between",))
@@ -21,8 +21,8 @@ def test_a_cup_between_two_plates():
     assert relation.confidence == 1
 
 
-def test_the_share_in_the_hull_of_both():
-    # The hull of two boxes in a row, 0.2 m deep, is 0.2 m deep; 0.06 m of the cup's 0.1 m are in there.
+def test_ratio_is_the_share_in_the_convex_hull():
+    # The hull of the two boxes is 0.2 m deep and contains 0.06 m of the cup's 0.1 m.
     left, right = artifact("left", (0, 0, 0), (0.2, 0.2, 0.2)), artifact("right", (0.6, 0, 0), (0.2, 0.2, 0.2))
     (relation,) = relate(left, right, cup((0.35, 0.14, 0)), kinds=("between",))
     assert relation.numbers == pytest.approx({"betweenRatio": 0.6})
@@ -30,19 +30,19 @@ def test_the_share_in_the_hull_of_both():
     assert relate(left, right, cup((0.35, 0.151, 0)), kinds=("between",)) == ()
 
 
-def test_in_a_slanted_hull():
-    # From a corner of one box to the other the hull's sides slant: at the middle it is as deep as the boxes.
+def test_ratio_in_a_slanted_hull():
+    # The sides of the hull slant; in the middle it is as deep as the boxes.
     left, right = artifact("left", (0, 0, 0), (0.2, 0.2, 0.2)), artifact("right", (0.6, 0.4, 0), (0.2, 0.2, 0.2))
     assert between(left, right, cup((0.35, 0.25, 0))) == {("cup", frozenset({"left", "right"}))}
     assert between(left, right, cup((0.35, 0.42, 0))) == set()
 
 
-def test_at_another_height_nothing_is_between():
+def test_different_heights_are_not_between():
     left, right = artifact("left", (0, 0, 0), (0.2, 0.2, 0.2)), artifact("right", (0.6, 0, 0), (0.2, 0.2, 0.2))
     assert between(left, right, cup((0.35, 0.05, 0.19))) == set()
 
 
-def test_a_supporter_is_no_anchor_of_between():
+def test_supporters_are_not_anchors():
     other = artifact("other", (0.6, 0.1, 0.7), (0.2, 0.2, 0.2))
     assert between(FLOOR, TABLE, other, cup((0.4, 0.15, 0.7))) == set()
 
@@ -52,6 +52,6 @@ def test_finds_the_closest_pair_of_anchors():
     assert between(*row) == {(f"box{i}", frozenset({f"box{i - 1}", f"box{i + 1}"})) for i in (1, 2, 3)}
 
 
-def test_too_far_apart():
+def test_distant_anchors_are_ignored():
     left, right = artifact("left", (0, 0, 0), (0.2, 0.2, 0.2)), artifact("right", (1.5, 0, 0), (0.2, 0.2, 0.2))
     assert between(left, right, cup((0.8, 0.05, 0))) == set()

@@ -39,7 +39,7 @@ class TestStated:
     CABINET = (thing("/cab", (0, 0, 0), (0.6, 0.6, 0.8)), "KitchenCabinet")
     DRAWER = (thing("/drawer", (0, -0.02, 0.5), (0.6, 0.5, 0.2)), "Drawer")
 
-    def test_a_joint_that_moves(self):
+    def test_movable_joints_state_parthood(self):
         (relation,) = relate(
             self.CABINET, self.DRAWER, kinds=("part-of",), joints=[joint("/cab", "/drawer", "prismatic")]
         )
@@ -47,38 +47,38 @@ class TestStated:
         assert (relation.numbers, relation.confidence) == ({}, None)
 
     @pytest.mark.parametrize("kind", ["fixed", "distance", "other"])
-    def test_a_joint_that_only_holds_says_nothing_by_itself(self, kind: str):
+    def test_fixed_joints_do_not_state_parthood(self, kind: str):
         chair = (thing("/chair", (2, 0, 0), (0.5, 0.5, 0.9)), "DesignedChair")
         assert parts(self.CABINET, chair, joints=[joint("/cab", "/chair", kind)]) == {}
 
-    def test_bodies_within_objects_and_the_world(self):
+    def test_resolves_bodies_to_objects(self):
         inner = [joint("/cab/frame/mesh", "/drawer/body"), joint(None, "/cab"), joint("/cab/a", "/cab/b")]
         assert parts(self.CABINET, self.DRAWER, joints=inner) == {("/drawer", "/cab"): PART.stated_rule}
 
-    def test_bodies_the_other_way_round(self):
+    def test_swapped_bodies(self):
         assert list(parts(self.CABINET, self.DRAWER, joints=[joint("/drawer", "/cab")])) == [("/drawer", "/cab")]
         nested = make_object("/cab/flap", parent_path="/cab"), "DesignedArtifact"
         assert list(parts(self.CABINET, nested, joints=[joint("/cab/flap", "/cab")])) == [("/cab/flap", "/cab")]
 
-    def test_the_floor_is_no_whole(self):
+    def test_floor_is_never_a_whole(self):
         floor = (thing("/floor", (-5, -5, -0.1), (10, 10, 0.1)), "Floor")
         robot = (thing("/robot", (2, 0, 0), (0.5, 0.5, 0.9)), "DesignedArtifact")
         assert parts(floor, robot, joints=[joint("/floor", "/robot")]) == {}
 
-    def test_the_kind_subcomponent(self):
+    def test_subcomponents_are_parts(self):
         motor = make_object("/fan/motor", parent_path="/fan", kind="subcomponent"), "Appliance"
         fan = (thing("/fan", (0, 0, 0), (0.5, 0.5, 0.5)), "Appliance")
         assert parts(fan, motor) == {("/fan/motor", "/fan"): PART.stated_rule}
 
-    def test_jointed_parts_are_on_nothing(self):
-        # A drawer is never laid down, so a flap of another class.
+    def test_jointed_parts_do_not_rest_on_objects(self):
+        # Drawers never rest on objects, so use another class.
         flap = (thing("/flap", (0, 0, 0.8), (0.6, 0.6, 0.02)), "DesignedArtifact")
         assert related(relate(self.CABINET, flap)) == {("flap", "on", "cab")}
         assert relate(self.CABINET, flap, joints=[joint("/cab", "/flap")]) == ()
 
 
 class TestNested:
-    def test_a_component_below_another_object(self):
+    def test_nested_components_are_parts(self):
         cabinet = (thing("/cab", (0, 0, 0), (0.6, 0.6, 0.8)), "KitchenCabinet")
         door = make_object("/cab/group/door", parent_path="/cab"), "Door"
         handle = make_object("/cab/group/door/handle", parent_path="/cab/group/door"), "DesignedHandle"
@@ -93,7 +93,7 @@ class TestNested:
         assert parts(table, nested) == {}
 
     @pytest.mark.parametrize("cls", ["Kitchen", "Room", "Building"])
-    def test_a_sink_is_no_part_of_a_room(self, cls: str):
+    def test_rooms_have_no_parts(self, cls: str):
         room = (thing("/room", (0, 0, 0), (4, 4, 2.5)), cls)
         sink = make_object("/room/sink", parent_path="/room"), "Sink"
         assert parts(room, sink) == {}
@@ -114,7 +114,7 @@ class TestFitted:
     RIGHT = (thing("/K/unit/right", (0.401, -0.02, 0), (0.399, 0.02, 0.7)), "Door")
     KNOB = (thing("/K/unit/knob", (0.37, -0.045, 0.1), (0.025, 0.025, 0.025)), "DesignedHandle")
 
-    def test_doors_of_the_carcass_and_a_knob_of_its_door(self):
+    def test_doors_and_knobs_are_fitted(self):
         assert parts(self.CARCASS, self.LEFT, self.RIGHT, self.KNOB) == {
             ("/K/unit/left", "/K/unit/carcass"): PART.fitted_rule,
             ("/K/unit/right", "/K/unit/carcass"): PART.fitted_rule,
@@ -127,15 +127,15 @@ class TestFitted:
         assert relation.numbers == pytest.approx({"gap": 0.005})
         assert relation.confidence == pytest.approx(0.5)
 
-    def test_a_knob_without_a_door_is_the_body_s(self):
+    def test_knob_without_a_door_is_fitted_to_the_body(self):
         low = (thing("/K/unit/knob", (0.37, -0.025, 0.1), (0.025, 0.025, 0.025)), "DesignedHandle")
         assert list(parts(self.CARCASS, low)) == [("/K/unit/knob", "/K/unit/carcass")]
 
-    def test_not_across_groups_or_from_afar(self):
+    def test_fitting_requires_siblings_in_contact(self):
         elsewhere = (thing("/K/other/door", (0, -0.02, 0), (0.399, 0.02, 0.7)), "Door")
         afar = (thing("/K/unit/door", (0, -0.2, 0), (0.399, 0.02, 0.7)), "Door")
         assert parts(self.CARCASS, elsewhere, afar) == {}
 
-    def test_a_stage_without_boxes_has_parts_too(self):
+    def test_finds_stated_parts_without_boxes(self):
         cabinet, door = make_object("/cab"), make_object("/cab/door", parent_path="/cab")
         assert list(parts((cabinet, "KitchenCabinet"), (door, "Door"))) == [("/cab/door", "/cab")]

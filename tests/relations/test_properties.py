@@ -204,7 +204,7 @@ def test_stronger_relations_suppress_weaker_ones(room: list[Placed]):
 
 @settings(deadline=None, max_examples=40)
 @given(rooms())
-def test_kinds_are_independent_of_each_other(room: list[Placed]):
+def test_kinds_are_independent(room: list[Placed]):
     whole = everything(room)
     for kind in ALL_KINDS:
         if kind not in {"near", *VIEWPOINT_KINDS}:
@@ -224,7 +224,7 @@ def test_translation_by_any_length_preserves_relations(by: Corner):
         (thing("/chair", (1.1, 0.2, 0), (0.5, 0.5, 0.9)), "DesignedChair"),
     ]
     assert by_statement(everything(moved(room, by))).keys() == by_statement(everything(room)).keys()
-    # 1,000 m away a number has 13 digits left behind the point.
+    # At 1,000 m, float64 has 13 decimals.
     gap = next(r.numbers["gap"] for r in everything(moved(room, by)) if (r.target, r.kind) == ("/cup", "on"))
     assert gap == pytest.approx(0.002, abs=1e-9)
 

@@ -124,7 +124,7 @@ def stage_text(unit: float, up_axis: str) -> str:
 
 @settings(deadline=None, max_examples=12)
 @given(st.sampled_from([1.0, 0.01, 0.001, 0.0254, 0.3048, 1000.0]), st.sampled_from("YZ"))
-def test_the_unit_and_the_axis_of_the_stage_change_nothing(unit: float, up_axis: str):
+def test_relations_are_invariant_under_stage_units_and_axis(unit: float, up_axis: str):
     stage: Any = Usd.Stage.CreateInMemory()
     assert stage.GetRootLayer().ImportFromString(stage_text(unit, up_axis))
     scene = read_scene(stage)

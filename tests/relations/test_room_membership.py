@@ -13,7 +13,7 @@ def rooms(*placed, **options):
     return related(relate(*placed, kinds=("room",), **options))
 
 
-def test_two_rooms_side_by_side():
+def test_objects_are_in_one_of_two_rooms():
     found = rooms(KITCHEN, HALL, cup((1, 1, 0.7)), artifact("coat", (5, 1, 1), (0.3, 0.1, 1)))
     assert found == {("cup", "room", "kitchen"), ("coat", "room", "hall")}
 
@@ -26,12 +26,12 @@ def test_its_numbers():
     assert relation.confidence == pytest.approx(0.5)
 
 
-def test_the_middle_counts():
+def test_centre_determines_the_room():
     assert rooms(KITCHEN, HALL, artifact("rug", (3.4, 1, 0), (1, 1, 0.01))) == {("rug", "room", "kitchen")}
     assert rooms(KITCHEN, artifact("antenna", (1, 1, 2.4), (0.1, 0.1, 0.4))) == set()
 
 
-def test_the_smallest_room_around_it():
+def test_smallest_room_wins():
     flat = (thing("/flat", (0, 0, 0), (10, 3, 2.5)), "Room")
     assert rooms(flat, KITCHEN, cup((1, 1, 0.7))) == {("cup", "room", "kitchen")}
     assert rooms(flat, KITCHEN, cup((6, 1, 0.7))) == {("cup", "room", "flat")}
@@ -49,13 +49,13 @@ def test_a_rooms_box_includes_the_objects_below_it():
     assert rooms(room, cup((1, 1, 0.7))) == {("cup", "room", "room")}
 
 
-def test_the_shell_is_not_in_it():
+def test_floor_and_walls_are_not_in_the_room():
     floor = (thing("/floor", (0, 0, 0), (4, 3, 0.02)), "Floor")
     wall = (thing("/wall", (0, 0, 0), (4, 0.1, 2.5)), "Wall")
     assert rooms(KITCHEN, floor, wall) == set()
 
 
-def test_a_panel_that_is_called_a_kitchen_is_no_room():
+def test_flat_boxes_are_not_rooms():
     panel = (thing("/panel", (0, 0, 0), (4, 0.02, 2.5)), "Kitchen")
     low = (thing("/low", (0, 0, 0), (4, 3, 0.9)), "Kitchen")
     assert rooms(panel, low, cup((1, 0.001, 0.1), (0.01,) * 3)) == set()
@@ -64,7 +64,7 @@ def test_a_panel_that_is_called_a_kitchen_is_no_room():
 class TestGroups:
     """Without room objects, groups named after a room count."""
 
-    def test_a_group_called_after_a_room(self):
+    def test_groups_with_room_names_are_rooms(self):
         fridge = (thing("/Flat/kitchen_01/fridge", (0, 0, 0), (0.6, 0.6, 2)), "Refrigerator")
         table = (thing("/Flat/kitchen_01/props/table", (2, 2, 0), (1, 1, 0.7)), "Table")
         bed = (thing("/Flat/BedRoom/bed", (6, 0, 0), (2, 2, 0.5)), "DesignedFurniture")
@@ -83,15 +83,15 @@ class TestGroups:
         assert rooms(*walls, robot) == {("robot", "room", "kitchen")}
 
     @pytest.mark.parametrize("name", ["KitchenCabinets", "diningArea", "props", "roomba", "kitchen_sink"])
-    def test_a_group_called_after_something_else(self, name: str):
+    def test_groups_with_other_names_are_not_rooms(self, name: str):
         things = [(thing(f"/Flat/{name}/box{i}", (i, i, i), (1, 1, 1)), "Box") for i in range(3)]
         assert rooms(*things) == set()
 
-    def test_it_has_to_be_as_large_as_a_room(self):
+    def test_small_groups_are_not_rooms(self):
         things = [(thing(f"/Flat/kitchen/box{i}", (0.1 * i, 0, 0), (0.1, 0.1, 0.1)), "Box") for i in range(3)]
         assert rooms(*things) == set()
 
-    def test_with_a_room_among_the_objects_groups_are_none(self):
+    def test_groups_are_ignored_if_an_object_is_a_room(self):
         things = [(thing(f"/Flat/kitchen/box{i}", (i, i, i), (1, 1, 1)), "Box") for i in range(3)]
         assert rooms(*things[:2], KITCHEN) == {("box0", "room", "kitchen"), ("box1", "room", "kitchen")}
         assert {r.anchor for r in relate(*things, KITCHEN, kinds=("room",))} == {"/kitchen"}

@@ -36,7 +36,7 @@ def test_every_class_of_the_lists_is_known_to_the_home_ontology():
     assert not [name for name in listed if expand_curie(name.removeprefix("=")) not in known]
 
 
-def test_single_values_are_replaced(rules_file):
+def test_overrides_single_values(rules_file):
     path = rules_file("[on]\nmax_gap = 0.2\nmin_gap = 0.2\n\n[next_to]\nmost = 1\n")
     rules = load_rules(path)
     assert (rules.on.max_gap, rules.next_to.most) == (0.2, 1)
@@ -47,7 +47,7 @@ def test_single_values_are_replaced(rules_file):
     assert relate(TABLE, cup((0.4, 0.4, 0.85))) == ()
 
 
-def test_a_rule_gets_an_id_of_its_own(rules_file):
+def test_overrides_the_id_of_a_rule(rules_file):
     rules = load_rules(rules_file('[on]\nrule = "lab-on/1"\n'))
     assert [r.rule for r in relate(TABLE, cup((0.4, 0.4, 0.7)), rules=rules)] == ["lab-on/1"]
 
@@ -56,14 +56,14 @@ class TestClasses:
     AROUND = (thing("/around", (0, 0, 0), (1, 1, 1)), "Table")
     CRUMB = artifact("crumb", (0.4, 0.4, 0.4), (0.1, 0.1, 0.1))
 
-    def test_a_list_is_replaced(self, rules_file):
+    def test_replaces_a_class_list(self, rules_file):
         rules = load_rules(rules_file('[classes]\ncontainers = ["soma:Table"]\n'))
         assert rules.classes.containers == ("soma:Table",)
         assert related(relate(self.AROUND, self.CRUMB, rules=rules)) == {("crumb", "inside", "around")}
         rack = (thing("/rack", (0, 0, 0), (1, 1, 1)), "Rack")
         assert relate(rack, self.CRUMB, rules=rules) == ()
 
-    def test_or_extended(self, rules_file):
+    def test_extends_a_class_list(self, rules_file):
         rules = load_rules(rules_file('[classes.extend]\ncontainers = ["soma:Table"]\n'))
         assert rules.classes.containers == (*load_rules().classes.containers, "soma:Table")
         rack = (thing("/rack", (0, 0, 0), (1, 1, 1)), "Rack")
@@ -76,7 +76,7 @@ class TestClasses:
             armchair = (thing("/around", (0, 0, 0), (1, 1, 1)), "Armchair")
             assert bool(relate(armchair, self.CRUMB, rules=rules)) is expected
 
-    def test_full_iris_and_unknown_ones(self, rules_file):
+    def test_accepts_full_and_unknown_iris(self, rules_file):
         table = "http://www.ease-crc.org/ont/SOMA.owl#Table"
         rules = load_rules(
             rules_file(f'[classes.extend]\ncontainers = ["{table}", "https://lab.example/onto#Bench"]\n')
@@ -115,7 +115,7 @@ def test_rejects_invalid_rule_files(rules_file, text: str, message: str):
     assert str(raised.value).startswith(str(path))
 
 
-def test_thresholds_at_their_limits_divide_by_nothing(rules_file):
+def test_extreme_thresholds_do_not_divide_by_zero(rules_file):
     limits = """
     [on]
     min_overlap_ratio = 1.0
@@ -167,7 +167,7 @@ class TestPage:
         ids = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]
         assert not [rule for rule in ids if isinstance(rule, str) and f"`{rule}`" not in self.PAGE]
 
-    def test_the_example_of_rules_of_ones_own_works(self, rules_file):
+    def test_documented_example_is_valid(self, rules_file):
         example = self.PAGE.partition("```toml\n")[2].partition("```")[0]
         rules = load_rules(rules_file(example))
         assert (rules.on.rule, rules.near.most) == ("lab-on/1", 5)
@@ -195,12 +195,12 @@ class TestPage:
         assert not [text for text, holds in documented.items() if not holds or text not in page]
 
 
-def test_a_missing_file(tmp_path: Path):
+def test_rejects_a_missing_file(tmp_path: Path):
     with pytest.raises(GraphError, match=r"none.toml: cannot be read as relation rules .*; expected a TOML file"):
         load_rules(tmp_path / "none.toml")
 
 
-def test_every_kind_has_a_rule_of_its_own():
+def test_every_kind_has_a_distinct_rule():
     rules = load_rules()
     names = ("rule", "group_rule", "stated_rule", "tree_rule", "fitted_rule")
     found = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]

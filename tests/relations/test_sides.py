@@ -35,30 +35,30 @@ def sides(*placed, viewpoint):
         ((3, 0.1, 1.6), ("behind", "front")),
     ],
 )
-def test_two_boxes_along_x_from_four_sides(position, expected):
+def test_sides_from_four_viewpoints(position, expected):
     one, two = expected
     assert sides(ONE, RIGHT, viewpoint=Viewpoint(position)) == {("one", one, "two"), ("two", two, "one")}
 
 
-def test_with_a_direction_the_place_does_not_count():
+def test_gaze_direction_overrides_the_position():
     for x in (-5.0, 0.0, 5.0):
         looking = Viewpoint((x, -3.0, 1.6), (0.0, 1.0, -0.5))
         assert sides(ONE, RIGHT, viewpoint=looking) == {("one", "left", "two"), ("two", "right", "one")}
         assert sides(ONE, FAR, viewpoint=looking) == {("one", "front", "two"), ("two", "behind", "one")}
 
 
-def test_the_angle_that_it_is_off():
-    # From one to the other by 0.3 m along x and 0.3 m · tan 20° along y; seen along y, 20 degrees off to the right.
+def test_angle_and_confidence():
+    # The offset is 0.3 m along one axis and 0.3 m · tan 20° along the other: 20 degrees off the direction.
     two = artifact("two", (0.3, 0.3 * 0.36397023, 0), (0.2, 0.2, 0.2))
     found = relate(ONE, two, kinds=("right",), viewpoint=Viewpoint((0, -3, 0), (0, 1, 0)))
     (relation,) = found
     assert (relation.target, relation.rule) == ("/two", RULES.side.rule)
     assert relation.numbers == pytest.approx({"angle": 20, "distance": 0.1})
-    # Half of the 40 degrees that are allowed.
+    # Half of the tolerance of 40 degrees.
     assert relation.confidence == pytest.approx(0.5)
 
 
-def test_in_between_two_directions_nothing_is_said():
+def test_diagonal_pairs_have_no_side():
     two = artifact("two", (0.25, 0.25, 0), (0.2, 0.2, 0.2))
     assert sides(ONE, two, viewpoint=Viewpoint((0, -3, 0), (0, 1, 0))) == set()
 
@@ -70,37 +70,37 @@ def test_sides_need_similar_heights_and_proximity():
         assert sides(ONE, other, viewpoint=Viewpoint((0, -3, 0), (0, 1, 0))) == set()
 
 
-def test_from_right_above_there_is_no_direction():
+def test_viewer_directly_above_sees_no_sides():
     assert sides(ONE, RIGHT, viewpoint=Viewpoint((0.25, 0.1, 3))) == set()
 
 
-def test_a_viewpoint_brings_them_in_by_default():
+def test_viewpoint_adds_sides_to_the_default_kinds():
     assert RelationOptions().chosen_kinds == frozenset(DEFAULT_KINDS)
     looking = RelationOptions(viewpoint=Viewpoint((0, -3, 1)))
     assert looking.chosen_kinds == frozenset((*DEFAULT_KINDS, *VIEWPOINT_KINDS))
 
 
-class TestWords:
+class TestParsing:
     def test_viewpoint(self):
         assert parse_viewpoint("1,2.5,-3") == Viewpoint((1, 2.5, -3))
         assert parse_viewpoint(" 1, 2, 3, 0, 1, 0") == Viewpoint((1, 2, 3), (0, 1, 0))
 
     @pytest.mark.parametrize("text", ["", "1,2", "a,b,c", "1,2,3,4", "1,2,3,4,5,6,7", "nan,0,0", "0,0,0,inf,0,0"])
-    def test_a_viewpoint_is_three_or_six_numbers(self, text: str):
+    def test_rejects_malformed_viewpoints(self, text: str):
         with pytest.raises(GraphError, match=r"viewpoint .*: expected"):
             parse_viewpoint(text)
 
-    def test_nobody_looks_straight_down(self):
+    def test_rejects_a_vertical_gaze(self):
         with pytest.raises(GraphError, match="vertical; expected one that looks sideways"):
             parse_viewpoint("0,0,2,0,0,-1")
 
-    def test_kinds_come_in_their_order_and_once(self):
+    def test_kinds_are_sorted_and_unique(self):
         assert parse_kinds("near, on,inside ,on") == ("on", "inside", "near")
         assert parse_kinds("default") == DEFAULT_KINDS
         assert set(parse_kinds("all")) == set(ALL_KINDS) - set(VIEWPOINT_KINDS)
         assert parse_kinds("all", Viewpoint((0, 0, 0))) == ALL_KINDS
 
-    def test_an_unknown_kind_is_refused_with_the_known_ones(self):
+    def test_rejects_unknown_kinds(self):
         with pytest.raises(GraphError, match="kind 'under' is unknown; expected a list of on, inside, above"):
             parse_kinds("on,under")
         with pytest.raises(GraphError, match="no kind is named"):

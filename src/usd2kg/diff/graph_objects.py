@@ -12,11 +12,11 @@ import pyoxigraph as ox
 from usd2kg.diff.object_state import Link, ObjectState, Quaternion, Vector
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
-from usd2kg.graph.formats.document import TOO_LARGE, open_rdf, rdf_format
+from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 from usd2kg.ontology import local_name
-from usd2kg.ontology.entities import refuse_entity_bomb_in_file
+from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
 from usd2kg.relations import SYMMETRIC_KINDS
 
 __all__ = ["GraphStyle", "detect_graph_style", "objects_of_graph", "read_statements"]

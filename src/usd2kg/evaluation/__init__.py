@@ -1,11 +1,11 @@
-"""Measuring grounding: gold labels, metrics, matrices of runs, reports."""
+"""Grounding evaluation: gold labels, metrics, run matrices and reports."""
 
 from usd2kg.evaluation.calibrate import fit_scaling
 from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.matrix import Matrix, read_matrix
-from usd2kg.evaluation.reproduce import CellResult, SceneResult, run_matrix
-from usd2kg.evaluation.run import Evaluation, evaluate, evaluation_json, selection_of
-from usd2kg.evaluation.sample import Score, join_scores
+from usd2kg.evaluation.run import Evaluation, evaluate, evaluation_json, score_scene_selection
+from usd2kg.evaluation.run_matrix import CellResult, SceneResult, run_matrix
+from usd2kg.evaluation.score import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
 
 __all__ = [
@@ -23,6 +23,6 @@ __all__ = [
     "read_gold",
     "read_matrix",
     "run_matrix",
-    "selection_of",
+    "score_scene_selection",
     "summarize_scores",
 ]

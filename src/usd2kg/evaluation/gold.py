@@ -1,4 +1,4 @@
-"""Gold labels: what a person says each prim is."""
+"""Gold labels: the class of each prim according to a person."""
 
 import csv
 from collections.abc import Iterable
@@ -10,7 +10,8 @@ from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["GoldLabel", "read_gold"]
 
-_COLUMNS = ("path", "class", "also")
+_HEADER = "path,class,also"
+_REQUIRED_COLUMNS = ("path", "class")
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,41 +20,38 @@ class GoldLabel:
 
     prim_path: str
     target: ClassIRI
-    """The class."""
     also: frozenset[ClassIRI]
-    """Other classes that a careful person would defend; without the target."""
+    """Other defensible classes, without the target."""
 
 
 def read_gold(path: Path, tbox: TBox) -> tuple[GoldLabel, ...]:
-    """Return the labels of a CSV file `path,class,also`, in its order.
+    """Return the labels of a CSV file `path,class,also`, in file order.
 
-    Classes are IRIs, CURIEs or local names that are unique in the scope; `also` holds several, parted by `|`.
+    Classes are IRIs, CURIEs or local names that are unique in the scope. `also` is a `|`-separated list.
 
     Raises:
-        EvaluationError: the file cannot be read, a column is missing, a class is not in scope, or a path stands twice.
+        EvaluationError: the file cannot be read, a column is missing, a class is not in scope, or a path is repeated.
     """
     try:
         text = path.read_text("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise EvaluationError(
-            f"{path}: cannot be read as gold labels ({error}); expected CSV path,class,also"
-        ) from error
+        raise EvaluationError(f"{path}: cannot be read as gold labels ({error}); expected CSV {_HEADER}") from error
     rows = csv.DictReader(text.splitlines())
     try:
         return _read_rows(path, rows, tbox)
     except csv.Error as error:
-        raise EvaluationError(f"{path}: line {rows.line_num} is not CSV ({error}); expected path,class,also") from error
+        raise EvaluationError(f"{path}: line {rows.line_num} is not CSV ({error}); expected {_HEADER}") from error
 
 
 def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> tuple[GoldLabel, ...]:
-    missing = [column for column in _COLUMNS[:2] if column not in (rows.fieldnames or ())]
-    if missing:
-        found = ", ".join(rows.fieldnames or ()) or "nothing"
-        raise EvaluationError(f"{path}: line 1 has the columns {found}; expected path,class,also")
+    columns = rows.fieldnames or ()
+    if not set(columns).issuperset(_REQUIRED_COLUMNS):
+        found = f"the columns {', '.join(columns)}" if columns else "no columns"
+        raise EvaluationError(f"{path}: line 1 has {found}; expected {_HEADER}")
     labels = [_label(path, rows.line_num, row, tbox) for row in rows if (row["path"] or "").strip()]
-    _check_distinct(path, labels)
+    _check_unique(path, labels)
     if not labels:
-        raise EvaluationError(f"{path}: holds no label; expected a row path,class,also for each object")
+        raise EvaluationError(f"{path}: contains no label; expected a row {_HEADER} for each object")
     return tuple(labels)
 
 
@@ -70,9 +68,9 @@ def _label(path: Path, line: int, row: dict[str, str | None], tbox: TBox) -> Gol
     return GoldLabel(prim_path, target, also - {target})
 
 
-def _check_distinct(path: Path, labels: Iterable[GoldLabel]) -> None:
+def _check_unique(path: Path, labels: Iterable[GoldLabel]) -> None:
     seen: set[str] = set()
     for label in labels:
         if label.prim_path in seen:
-            raise EvaluationError(f"{path}: {label.prim_path} stands twice; expected one row for each prim")
+            raise EvaluationError(f"{path}: {label.prim_path} has more than one row; expected one row per prim")
         seen.add(label.prim_path)

@@ -1,7 +1,7 @@
-"""A matrix of runs: scenes × grounders × regimes × ablations × repeats, described in a TOML file."""
+"""Run matrices: scenes × grounders × conditions × repeats, read from TOML files."""
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,7 @@ from typing import Any
 from usd2kg.errors import EvaluationError, GroundingError
 from usd2kg.grounding import GROUNDERS, NamingRegime, is_llm_name, parse_evidence
 
-__all__ = ["STUDY_ABLATION", "Cell", "Matrix", "SceneSpec", "read_matrix"]
+__all__ = ["OWN_ABLATION", "STUDY_ABLATION", "Cell", "Matrix", "SceneSpec", "read_matrix"]
 
 STUDY_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
     "geometry only": (NamingRegime.OPAQUE, "geometry"),
@@ -19,7 +19,7 @@ STUDY_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
     "full context, anonymised": (NamingRegime.OPAQUE_ANONYMOUS, "geometry,position,hierarchy"),
     "hierarchy only, anonymised": (NamingRegime.OPAQUE_ANONYMOUS, "hierarchy"),
 }
-"""The study's six conditions, under opaque names: condition → (regime, evidence)."""
+"""The six conditions of the study, under opaque names: condition → (regime, evidence groups)."""
 
 OWN_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
     "name only": (NamingRegime.SEMANTIC, "name"),
@@ -29,7 +29,7 @@ OWN_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
     "asset only": (NamingRegime.SEMANTIC, "asset"),
     "parts only": (NamingRegime.SEMANTIC, "parts"),
 }
-"""Our own conditions, under authored names."""
+"""Further conditions, under authored names."""
 
 _KEYS = {"title", "regimes", "grounders", "repeats", "ablation", "scene"}
 _SCENE_KEYS = {"name", "path", "gold", "ontology", "optional", "note"}
@@ -37,7 +37,7 @@ _SCENE_KEYS = {"name", "path", "gold", "ontology", "optional", "note"}
 
 @dataclass(frozen=True, slots=True)
 class SceneSpec:
-    """One scene of a matrix; paths are absolute."""
+    """One scene of a matrix, with absolute paths."""
 
     name: str
     path: Path
@@ -45,13 +45,13 @@ class SceneSpec:
     ontology: Path | None
     """None for the built-in home TBox."""
     note: str
-    """Said beside the scene's figures: who labelled it, whether it may be tuned on."""
+    """Printed next to the results: who labelled the scene, and whether it is tuning data."""
     is_optional: bool
-    """Whether the matrix goes on without the scene where its files are absent."""
+    """Whether the scene is skipped if its files are missing; otherwise that is an error."""
 
     @property
     def missing(self) -> Path | None:
-        """The first of its files that does not exist."""
+        """The first file that does not exist; None if all exist."""
         files = (self.path, self.gold, *((self.ontology,) if self.ontology else ()))
         return next((file for file in files if not file.exists()), None)
 
@@ -63,7 +63,7 @@ class Cell:
     scene: SceneSpec
     grounder: str
     condition: str
-    """Name of the regime, or of the ablation's condition."""
+    """Name of the naming regime or of the ablation condition."""
     regime: NamingRegime
     evidence: frozenset[str] | None
     repeat: int
@@ -71,7 +71,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Matrix:
-    """What is to be run."""
+    """Scenes, grounders and conditions to run."""
 
     title: str
     scenes: tuple[SceneSpec, ...]
@@ -81,7 +81,7 @@ class Matrix:
     has_ablation: bool
 
     def cells(self) -> Iterator[Cell]:
-        """Yield all runs, scene by scene."""
+        """Yield the runs, scene by scene."""
         conditions: list[tuple[str, NamingRegime, frozenset[str] | None]] = [(r.value, r, None) for r in self.regimes]
         if self.has_ablation:
             ablations = {**STUDY_ABLATION, **OWN_ABLATION}
@@ -97,7 +97,7 @@ def read_matrix(path: Path) -> Matrix:
     """Return the matrix in a TOML file; its paths are relative to the file.
 
     Raises:
-        EvaluationError: the file cannot be read, or says something that is not understood.
+        EvaluationError: the file cannot be read, or has an unknown key, grounder or regime.
     """
     try:
         data = tomllib.loads(path.read_text("utf-8"))
@@ -105,31 +105,38 @@ def read_matrix(path: Path) -> Matrix:
         raise EvaluationError(
             f"{path}: cannot be read as a matrix ({error}); expected TOML, see docs/evaluation.md"
         ) from error
-    _check_keys(path, "the matrix", data, _KEYS)
+    _check_keys(path, "matrix", data, _KEYS)
     scenes = tuple(_read_scene_spec(path, spec) for spec in data.get("scene", ()))
     if not scenes:
-        raise EvaluationError(f"{path}: names no scene; expected at least one [[scene]] with path and gold")
-    grounders = tuple(data.get("grounders", GROUNDERS))
-    unknown = [name for name in grounders if name not in GROUNDERS and not is_llm_name(name)]
-    if unknown:
-        known = f"{', '.join(GROUNDERS)}, or llm-B:MODEL"
-        raise EvaluationError(f"{path}: grounder {unknown[0]!r} is unknown; expected {known}")
-    try:
-        regimes = tuple(NamingRegime(name) for name in data.get("regimes", list(NamingRegime)))
-    except (ValueError, GroundingError) as error:
-        raise EvaluationError(f"{path}: {error}; expected regimes of {', '.join(NamingRegime)}") from error
+        raise EvaluationError(f"{path}: has no scene; expected at least one [[scene]] with path and gold")
     return Matrix(
         title=str(data.get("title", path.stem)),
         scenes=scenes,
-        grounders=grounders,
-        regimes=regimes,
+        grounders=_read_grounders(path, data.get("grounders", GROUNDERS)),
+        regimes=_read_regimes(path, data.get("regimes", tuple(NamingRegime))),
         repeats=int(data.get("repeats", 1)),
         has_ablation=bool(data.get("ablation", False)),
     )
 
 
+def _read_grounders(path: Path, names: Iterable[str]) -> tuple[str, ...]:
+    grounders = tuple(names)
+    unknown = [name for name in grounders if name not in GROUNDERS and not is_llm_name(name)]
+    if unknown:
+        known = ", ".join(GROUNDERS)
+        raise EvaluationError(f"{path}: grounder {unknown[0]!r} is unknown; expected {known}, or llm-B:MODEL")
+    return grounders
+
+
+def _read_regimes(path: Path, names: Iterable[str]) -> tuple[NamingRegime, ...]:
+    try:
+        return tuple(NamingRegime(name) for name in names)
+    except (ValueError, GroundingError) as error:
+        raise EvaluationError(f"{path}: {error}; expected one of {', '.join(NamingRegime)}") from error
+
+
 def _read_scene_spec(path: Path, spec: Mapping[str, Any]) -> SceneSpec:
-    name = str(spec.get("name", spec.get("path", "a scene")))
+    name = str(spec.get("name", spec.get("path", "unnamed")))
     _check_keys(path, f"scene {name!r}", spec, _SCENE_KEYS)
     for key in ("path", "gold"):
         if key not in spec:
@@ -144,11 +151,15 @@ def _read_scene_spec(path: Path, spec: Mapping[str, Any]) -> SceneSpec:
         is_optional=bool(spec.get("optional", False)),
     )
     if scene.missing and not scene.is_optional:
-        raise EvaluationError(f"{path}: scene {name!r}: {scene.missing} does not exist; mend the path or set optional")
+        raise EvaluationError(
+            f"{path}: scene {name!r}: {scene.missing} does not exist; fix the path or set optional = true"
+        )
     return scene
 
 
-def _check_keys(path: Path, what: str, data: Mapping[str, Any], known: set[str]) -> None:
+def _check_keys(path: Path, table: str, data: Mapping[str, Any], known: set[str]) -> None:
     unknown = sorted(set(data) - known)
     if unknown:
-        raise EvaluationError(f"{path}: {what} has the key {unknown[0]!r}; expected {', '.join(sorted(known))}")
+        raise EvaluationError(
+            f"{path}: {table} has the unknown key {unknown[0]!r}; expected {', '.join(sorted(known))}"
+        )

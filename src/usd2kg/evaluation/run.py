@@ -1,4 +1,4 @@
-"""One evaluation: a grounder on a scene with gold labels, under one regime and one set of evidence."""
+"""Evaluation of one grounder on one scene, under one naming regime and set of evidence groups."""
 
 import time
 from collections.abc import Mapping, Sequence
@@ -6,25 +6,25 @@ from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.evaluation.gold import GoldLabel
-from usd2kg.evaluation.metrics.selection import SelectionScore, score_selection
-from usd2kg.evaluation.sample import Score, join_scores
+from usd2kg.evaluation.metrics.object_selection import SelectionScore, score_selection
+from usd2kg.evaluation.score import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
 from usd2kg.grounding import ABBREVIATED_LENGTH, Grounder, Grounding, NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ASKED_FOR, Scene
 
-__all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "selection_of"]
+__all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "score_scene_selection"]
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """The scores of one run and what they come to."""
+    """The scores of one run, with their summary."""
 
     grounding: Grounding
     scores: tuple[Score, ...]
     summary: Summary
     seconds: float
-    """Time the grounder took for the labelled objects, without reading the scene."""
+    """Wall time of grounding the labelled objects, without reading the scene."""
 
 
 def evaluate(
@@ -40,8 +40,7 @@ def evaluate(
 ) -> Evaluation:
     """Return the evaluation of a grounder on the labelled prims of a scene.
 
-    The scene must have been read with the gold paths as `paths`, so that each is an object; all other objects are
-    context.
+    Read the scene with the gold paths as `paths`, so that each is an object. All other objects serve as context.
     """
     start = time.perf_counter()
     paths = [label.prim_path for label in gold]
@@ -59,19 +58,19 @@ def evaluate(
 
 
 def score_grounding(grounding: Grounding, gold: Sequence[GoldLabel], tbox: TBox, seconds: float) -> Evaluation:
-    """Return the evaluation of answers that were given before."""
+    """Return the evaluation of an existing grounding; `seconds` is the time it took."""
     scores = join_scores(gold, grounding)
     return Evaluation(grounding, scores, summarize_scores(scores, tbox), seconds)
 
 
-def selection_of(scene: Scene, gold: Sequence[GoldLabel]) -> SelectionScore:
-    """Return how the selection rules alone do against the labelled prims."""
+def score_scene_selection(scene: Scene, gold: Sequence[GoldLabel]) -> SelectionScore:
+    """Return how well the selection rules find the labelled prims, without the paths that were requested."""
     selected = [obj.prim_path for obj in scene.objects if obj.selected_by != ASKED_FOR]
     return score_selection(selected, (label.prim_path for label in gold))
 
 
 def evaluation_json(evaluation: Evaluation, selection: SelectionScore | None = None) -> dict[str, Any]:
-    """Return an evaluation as plain data: the figures, what produced them, and every score."""
+    """Return an evaluation as plain data: the summary, the settings of the run, and every score."""
     grounding = evaluation.grounding
     data: dict[str, Any] = {
         **evaluation.summary.as_json(),
@@ -92,7 +91,6 @@ def evaluation_json(evaluation: Evaluation, selection: SelectionScore | None = N
 
 
 def _score_json(score: Score) -> Mapping[str, Any]:
-    """Return one score as plain data."""
     return {
         "path": score.id,
         "target": score.target,

@@ -1,4 +1,4 @@
-"""Results of single runs in files, to be compared later."""
+"""Read the result files of single runs."""
 
 import json
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import EvaluationError
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
 from usd2kg.grounding import Status
 
 __all__ = ["StoredRun", "read_run"]
@@ -14,12 +14,12 @@ __all__ = ["StoredRun", "read_run"]
 
 @dataclass(frozen=True)
 class StoredRun:
-    """One run as `usd2kg eval run --output` wrote it."""
+    """A run that `usd2kg eval run --output` wrote."""
 
     source: str
     ontology_hash: str
     description: str
-    """Grounder and settings in a line."""
+    """Grounder, naming regime and evidence in one line."""
     scores: tuple[Score, ...]
 
 
@@ -27,7 +27,7 @@ def read_run(path: Path) -> StoredRun:
     """Return the run in a JSON file.
 
     Raises:
-        EvaluationError: the file cannot be read as a run.
+        EvaluationError: the file is unreadable or malformed.
     """
     try:
         data = json.loads(path.read_text("utf-8"))

@@ -1,4 +1,4 @@
-"""A gold file to fill in: one row for each object of a scene."""
+"""Template of a gold file, with one row per object of a scene."""
 
 import csv
 import io
@@ -14,10 +14,10 @@ _COLUMNS = ("path", "class", "also", "words", "size_m", "asset", "documentation"
 
 
 def gold_template(scene: Scene, suggestions: Grounding | None = None, tbox: TBox | None = None) -> str:
-    """Return CSV with a row for each object, class and also to be filled in.
+    """Return a CSV file with one row per object and empty columns `class` and `also`.
 
-    Beside them stand what helps a person to decide; reading gold ignores those columns. With `suggestions`, the class
-    is filled in for review. Labels that are to measure a grounder should not start from its own answers.
+    Further columns help a person to decide; `read_gold` ignores them. With `suggestions`, `class` is filled in for
+    review. Do not evaluate a grounder on labels that started from its own answers.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -4,12 +4,12 @@ from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_text
 from usd2kg.graph.export.neo4j import write_neo4j
 from usd2kg.graph.export.property_graph import PropertyEdge, PropertyGraph, PropertyNode, read_property_graph
 from usd2kg.graph.export.sssom import UNSPECIFIED_LICENSE, format_sssom
-from usd2kg.graph.formats.document import RDF_FORMATS, GraphDocument, GraphPart, document_of, rdf_format, read_document
 from usd2kg.graph.formats.serialize import GRAPH_FORMATS, GraphFormat, graph_format, serialize_graph, write_graph
 from usd2kg.graph.import_closure import merge_imports
 from usd2kg.graph.instantiate import PROFILES, KnowledgeGraph, instantiate
 from usd2kg.graph.iris import individual_iri, prim_path_of
 from usd2kg.graph.options import ANNOTATIONS, COLORS, GraphOptions, read_epoch, read_time
+from usd2kg.graph.rdf_document import RDF_FORMATS, GraphDocument, GraphPart, document_of, rdf_format, read_document
 
 __all__ = [
     "ANNOTATIONS",

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 import pyoxigraph as ox
 
 from usd2kg.graph.axiom_annotation import Annotation
+from usd2kg.graph.settings import JUSTIFICATION
 from usd2kg.graph.vocabulary import SEMAPV, SSSOM, U2K, named_node, number, text
 from usd2kg.grounding import PERSON, Prediction, Review
 
 __all__ = ["justify_class", "justify_refusal", "matching_process"]
 
-_ALTERNATIVES = 3
 _MATCHING = {
     "dictionary": SEMAPV.LexicalMatching,
     "lexical": SEMAPV.CompositeMatching,
@@ -78,4 +78,4 @@ def matching_process(prediction: Prediction) -> ox.NamedNode:
 
 def _alternatives(prediction: Prediction) -> list[str]:
     others = [c.class_iri for c in prediction.candidates if c.class_iri != prediction.class_iri]
-    return others[:_ALTERNATIVES]
+    return others[: JUSTIFICATION.max_alternatives]

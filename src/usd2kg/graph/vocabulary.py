@@ -1,8 +1,10 @@
-"""Namespaces, prefixes and literals. Mind http and https in namespace IRIs."""
+"""Namespaces, prefixes and literals."""
 
 from collections.abc import Iterable
 
 import pyoxigraph as ox
+
+from usd2kg.ontology import namespaces
 
 __all__ = [
     "DCTERMS",
@@ -56,20 +58,20 @@ class Namespace:
         return node
 
 
-RDF = Namespace("http://www.w3.org/1999/02/22-rdf-syntax-ns#")
-RDFS = Namespace("http://www.w3.org/2000/01/rdf-schema#")
-OWL = Namespace("http://www.w3.org/2002/07/owl#")
-XSD = Namespace("http://www.w3.org/2001/XMLSchema#")
-SKOS = Namespace("http://www.w3.org/2004/02/skos/core#")
-DCTERMS = Namespace("http://purl.org/dc/terms/")
-PROV = Namespace("http://www.w3.org/ns/prov#")
+RDF = Namespace(namespaces.RDF)
+RDFS = Namespace(namespaces.RDFS)
+OWL = Namespace(namespaces.OWL)
+XSD = Namespace(namespaces.XSD)
+SKOS = Namespace(namespaces.SKOS)
+DCTERMS = Namespace(namespaces.DCTERMS)
+PROV = Namespace(namespaces.PROV)
 QUDT = Namespace("http://qudt.org/schema/qudt/")
-SSSOM = Namespace("https://w3id.org/sssom/")
+SSSOM = Namespace(namespaces.SSSOM)
 SEMAPV = Namespace("https://w3id.org/semapv/vocab/")
-SOMA = Namespace("http://www.ease-crc.org/ont/SOMA.owl#")
-DUL = Namespace("http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#")
-USD = Namespace("https://ease-crc.org/ont/USD.owl#")
-KNOWROB = Namespace("http://knowrob.org/kb/knowrob.owl#")
+SOMA = Namespace(namespaces.SOMA)
+DUL = Namespace(namespaces.DUL)
+USD = Namespace(namespaces.USD)
+KNOWROB = Namespace(namespaces.KNOWROB)
 U2K = Namespace("https://w3id.org/usd2kg#")
 """The u2k vocabulary, defined in graph/vocabulary.ttl."""
 

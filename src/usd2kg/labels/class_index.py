@@ -10,7 +10,7 @@ from rapidfuzz import fuzz, process
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS
 from usd2kg.labels.settings import LINT
 from usd2kg.ontology import ClassIRI, Closure, TBox, local_name
-from usd2kg.ontology.axioms import ALT_LABELS, LABELS
+from usd2kg.ontology.class_axioms import ALT_LABELS, LABELS
 from usd2kg.ontology.components import reachable
 from usd2kg.scene import class_words
 from usd2kg.words import split_identifier

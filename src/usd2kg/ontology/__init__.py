@@ -1,14 +1,14 @@
 """OWL files → TBox: the classes in scope with labels, comments and hierarchy."""
 
-from usd2kg.ontology.axioms import LABELS
+from usd2kg.ontology.class_axioms import LABELS
 from usd2kg.ontology.closure import Closure, read_closure, without_header
 from usd2kg.ontology.fetch import fetch_ontology
+from usd2kg.ontology.known_ontologies import KnownOntology, read_registry
 from usd2kg.ontology.linearize import linearize_flat, linearize_tree
 from usd2kg.ontology.load import load_home_tbox, load_tbox
 from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.owl_write import write_functional_syntax
 from usd2kg.ontology.prefixes import compact_iri, expand_curie
-from usd2kg.ontology.registry import KnownOntology, read_registry
 
 __all__ = [
     "LABELS",

@@ -9,14 +9,16 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.knowledge import data_file
-from usd2kg.ontology.documents import Document, close_imports, find_document, parse_document, parse_import, read_triples
+from usd2kg.ontology.catalog import find_document
+from usd2kg.ontology.documents import Document, close_imports, parse_document, parse_import, read_triples
 from usd2kg.ontology.load import HOME
 from usd2kg.ontology.model import TBox
+from usd2kg.ontology.namespaces import OWL, RDF
 
 __all__ = ["Closure", "read_closure", "without_header"]
 
-_TYPE = ox.NamedNode("http://www.w3.org/1999/02/22-rdf-syntax-ns#type")
-_ONTOLOGY = ox.NamedNode("http://www.w3.org/2002/07/owl#Ontology")
+_TYPE = ox.NamedNode(f"{RDF}type")
+_ONTOLOGY = ox.NamedNode(f"{OWL}Ontology")
 
 
 @dataclass(frozen=True)

@@ -1,28 +1,23 @@
 """Ontology documents: parse them and resolve their imports locally."""
 
 import hashlib
-from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 from typing import Literal
-from urllib.parse import unquote
-from xml.etree import ElementTree
 
 import pyoxigraph as ox
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology.axioms import ClassAxioms
-from usd2kg.ontology.entities import refuse_entity_bomb
+from usd2kg.ontology.catalog import CATALOG, find_document
+from usd2kg.ontology.class_axioms import ClassAxioms
 from usd2kg.ontology.model import OntologyNote
 from usd2kg.ontology.owl_syntax import owl_as_rdf, read_owl_axioms
 from usd2kg.ontology.rdf_syntax import parse_rdf, read_rdf_axioms
 from usd2kg.ontology.sniff import sniff_syntax
+from usd2kg.ontology.source_files import decode_text, read_source
 
-__all__ = ["Document", "close_imports", "find_document", "parse_document", "parse_import", "read_triples"]
+__all__ = ["Document", "close_imports", "parse_document", "parse_import", "read_triples"]
 
-_CATALOG = "catalog-v001.xml"
-_CATALOG_URI = "{urn:oasis:names:tc:entity:xmlns:xml:catalog}uri"
-_ENDINGS = {".owl", ".ofn", ".omn", ".owx", ".rdf", ".ttl", ".nt", ".xml", ".jsonld"}
 _SYNTAXES = {
     "ofn": "OWL functional syntax",
     "omn": "Manchester syntax",
@@ -58,8 +53,8 @@ def parse_document(path: Path, *, quotes: bool = True) -> Document:
     Raises:
         OntologyError: the file is missing, malformed, or in an unknown syntax.
     """
-    data = _read(path)
-    text = _decode(path, data)
+    data = read_source(path)
+    text = decode_text(path, data)
     syntax = sniff_syntax(text)
     known = ", ".join(_SYNTAXES.values())
     if syntax is None:
@@ -89,7 +84,7 @@ def read_triples(path: Path) -> list[ox.Triple]:
     Raises:
         OntologyError: the file is missing, malformed, or in an unknown syntax.
     """
-    text = _decode(path, _read(path))
+    text = decode_text(path, read_source(path))
     syntax = sniff_syntax(text)
     try:
         owl_syntax = _OWL_SYNTAXES.get(syntax or "")
@@ -97,26 +92,6 @@ def read_triples(path: Path) -> list[ox.Triple]:
         return [quad.triple for quad in quads]
     except (ValueError, SyntaxError, MemoryError) as error:
         raise OntologyError(f"{path}: cannot be read as RDF ({_shorten(str(error))}); fix or re-export it") from error
-
-
-def _read(path: Path) -> bytes:
-    if path.is_dir():
-        raise OntologyError(f"{path}: is a folder, expected an ontology file; name the file inside it")
-    try:
-        return path.read_bytes()
-    except FileNotFoundError as error:
-        raise OntologyError(f"{path}: no such file; expected an ontology ({', '.join(sorted(_ENDINGS))})") from error
-    except OSError as error:
-        raise OntologyError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
-
-
-def _decode(path: Path, data: bytes, expected: str = "an ontology") -> str:
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise OntologyError(
-            f"{path}: byte {error.start} is not UTF-8 text, expected {expected}; is it a binary or compressed file?"
-        ) from error
 
 
 def _shorten(message: str, limit: int = 200) -> str:
@@ -168,49 +143,6 @@ def parse_import(path: Path, folder: Path) -> Document:
 
 def _missing_import(iri: str, document: Document) -> str:
     return (
-        f"{document.source}: imports <{iri}>, which is neither in {_CATALOG} nor in the folder; "
+        f"{document.source}: imports <{iri}>, which is neither in {CATALOG} nor in the folder; "
         "the hierarchy is built without it"
     )
-
-
-def find_document(iri: str, folder: Path) -> Path | None:
-    """Return the local file of an ontology, by the catalog of `folder` or by file name; None if there is none."""
-    catalog = _read_catalog(folder / _CATALOG)
-    if iri in catalog:
-        return catalog[iri] if _is_file(catalog[iri]) else None
-    name = iri.rstrip("#/").rpartition("/")[2]
-    names = [name, *(Path(name).stem + ending for ending in sorted(_ENDINGS))]
-    # Look up plain file names only: an IRI must not reach other folders.
-    return next((folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n)), None)
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except OSError:
-        # A name may be too long for the file system.
-        return False
-
-
-def _read_catalog(path: Path) -> dict[str, Path]:
-    if not path.is_file():
-        return {}
-    text = _decode(path, _read(path), "a catalog")
-    try:
-        refuse_entity_bomb(text)
-        root = ElementTree.fromstring(text)
-    except (SyntaxError, ValueError) as error:
-        raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); fix or remove it") from error
-    places = {entry.attrib["name"]: unquote(entry.attrib["uri"]) for entry in _entries(root)}
-    # Catalogs are untrusted: accept relative paths, not any file of this machine.
-    return {iri: path.parent / place for iri, place in places.items() if not _is_absolute(place)}
-
-
-def _is_absolute(place: str) -> bool:
-    return PurePosixPath(place).is_absolute() or bool(PureWindowsPath(place).anchor)
-
-
-def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:
-    for entry in root.iter(_CATALOG_URI):
-        if "name" in entry.attrib and "uri" in entry.attrib and "://" not in entry.attrib["uri"]:
-            yield entry

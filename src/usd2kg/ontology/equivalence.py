@@ -3,7 +3,7 @@
 The representative takes over the labels and synonyms of the others, and their IRIs resolve to it.
 """
 
-from usd2kg.ontology.axioms import LABELS, ClassAxioms
+from usd2kg.ontology.class_axioms import LABELS, ClassAxioms
 from usd2kg.ontology.scope import ancestors
 
 __all__ = ["all_equivalents", "choose_representatives"]
@@ -31,7 +31,7 @@ def choose_representatives(scope: set[str], ontology_iri: str, own: ClassAxioms,
     linked = own.linked()
 
     def rank(iri: str) -> tuple[bool, bool, bool, bool, str]:
-        has_label = bool(closure.annotations[iri].pick(LABELS))
+        has_label = bool(closure.annotations[iri].preferred_text(LABELS))
         return (not iri.startswith(namespaces), iri not in own.declared, iri not in linked, not has_label, iri)
 
     return {min({iri, *all_equivalents(iri, closure)} & scope, key=rank) for iri in scope}

@@ -7,23 +7,22 @@ import hashlib
 import re
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from http.client import HTTPException, InvalidURL
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
-from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
-from usd2kg.ontology.registry import CATALOG, KnownDocument, KnownOntology
+from usd2kg.ontology.catalog import CATALOG, format_catalog
+from usd2kg.ontology.known_ontologies import KnownDocument, KnownOntology
+from usd2kg.ontology.limits import DOWNLOAD
 from usd2kg.ontology.sniff import sniff_syntax
 
 __all__ = ["fetch_ontology", "shown_address"]
 
 _ACCEPT = "text/turtle, application/rdf+xml, text/owl-functional, application/owl+xml, */*;q=0.5"
-_TIMEOUT_S = 60.0
-_MOST_BYTES = 200_000_000
 _SCHEMES = {"http", "https"}
 
 
@@ -64,7 +63,8 @@ def fetch_ontology(
         raise OutputError(f"{folder}: cannot be created ({error.strerror}); choose another folder") from error
     for path, data in fetched.items():
         write_whole(path, data)
-    write_whole(folder / CATALOG, _catalog(ontology.documents).encode())
+    catalog = format_catalog({document.iri: document.file for document in ontology.documents})
+    write_whole(folder / CATALOG, catalog.encode())
     return folder / ontology.documents[0].file
 
 
@@ -126,8 +126,8 @@ def _download(address: str) -> bytes:
         raise OntologyError(f"{shown}: is not a web address; expected https://… or http://…")
     try:
         request = urllib.request.Request(address, headers={"Accept": _ACCEPT, "User-Agent": "usd2kg"})
-        with _opener().open(request, timeout=_TIMEOUT_S) as answer:
-            data: bytes = answer.read(_MOST_BYTES + 1)
+        with _opener().open(request, timeout=DOWNLOAD.timeout_s) as answer:
+            data: bytes = answer.read(DOWNLOAD.document_bytes + 1)
             promised = answer.headers.get("Content-Length", "")
     except urllib.error.HTTPError as error:
         error.close()
@@ -141,8 +141,8 @@ def _download(address: str) -> bytes:
     except OSError as error:
         reason = getattr(error, "reason", error)
         raise OntologyError(f"{shown}: cannot be reached ({reason}); is this machine online?") from error
-    if len(data) > _MOST_BYTES:
-        raise OntologyError(f"{shown}: is longer than {_MOST_BYTES:,} bytes; expected an ontology")
+    if len(data) > DOWNLOAD.document_bytes:
+        raise OntologyError(f"{shown}: is longer than {DOWNLOAD.document_bytes:,} bytes; expected an ontology")
     # A sized read does not report a connection that ended early.
     if promised.isascii() and promised.isdigit() and len(data) < int(promised):
         raise OntologyError(f"{shown}: ended after {len(data):,} of {int(promised):,} bytes; try again")
@@ -151,16 +151,3 @@ def _download(address: str) -> bytes:
 
 def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
-
-
-def _catalog(documents: Sequence[KnownDocument]) -> str:
-    """Return an OASIS XML catalog that maps IRIs to files in its folder."""
-    lines = [f"  <uri name={quoteattr(document.iri)} uri={quoteattr(document.file)}/>" for document in documents]
-    return "\n".join(
-        [
-            '<?xml version="1.0" encoding="UTF-8"?>',
-            '<catalog prefer="public" xmlns="urn:oasis:names:tc:entity:xmlns:xml:catalog">',
-            *lines,
-            "</catalog>\n",
-        ]
-    )

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
-from usd2kg.ontology.axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
+from usd2kg.ontology.class_axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.components import Components, find_components, reachable
 from usd2kg.ontology.documents import Document, close_imports, parse_document
 from usd2kg.ontology.equivalence import all_equivalents, choose_representatives
@@ -114,13 +114,13 @@ def _class(iri: str, parents: tuple[str, ...], dispositions: tuple[str, ...], cl
     equivalents = sorted(all_equivalents(iri, closure))
     annotations = [closure.annotations[same] for same in (iri, *equivalents)]
     label = _label(iri, closure)
-    others = {text for each in annotations for text in each.all((*LABELS, *ALT_LABELS))}
+    others = {text for each in annotations for text in each.all_texts((*LABELS, *ALT_LABELS))}
     others |= {_label(same, closure) for same in equivalents}
     return OntologyClass(
         iri=iri,
         label=label,
         alt_labels=tuple(sorted(others - {label})),
-        comment=next((comment for each in annotations if (comment := each.pick(DEFINITIONS))), ""),
+        comment=next((comment for each in annotations if (comment := each.preferred_text(DEFINITIONS))), ""),
         parents=parents,
         dispositions=dispositions,
         equivalents=tuple(equivalents),
@@ -140,7 +140,7 @@ def _wikidata(same: Iterable[str], closure: ClassAxioms) -> tuple[str, ...]:
 
 
 def _label(iri: str, closure: ClassAxioms) -> str:
-    return closure.annotations[iri].pick(LABELS) or local_name(iri)
+    return closure.annotations[iri].preferred_text(LABELS) or local_name(iri)
 
 
 def _dispositions(

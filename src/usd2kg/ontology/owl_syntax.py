@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 
 import pyhornedowl
 
-from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
-from usd2kg.ontology.entities import refuse_entity_bomb
+from usd2kg.ontology.class_axioms import HAS_DISPOSITION, ClassAxioms
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
 
 __all__ = ["owl_as_rdf", "read_owl_axioms"]
 

@@ -1,20 +1,22 @@
-"""Well-known prefixes. IRIs are exact: http and https differ."""
+"""CURIEs with well-known prefixes."""
+
+from usd2kg.ontology import namespaces
 
 __all__ = ["PREFIXES", "compact_iri", "expand_curie"]
 
 PREFIXES = {
-    "soma": "http://www.ease-crc.org/ont/SOMA.owl#",
-    "dul": "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#",
-    "usd": "https://ease-crc.org/ont/USD.owl#",
-    "knowrob": "http://knowrob.org/kb/knowrob.owl#",
-    "owl": "http://www.w3.org/2002/07/owl#",
-    "rdf": "http://www.w3.org/1999/02/22-rdf-syntax-ns#",
-    "rdfs": "http://www.w3.org/2000/01/rdf-schema#",
-    "xsd": "http://www.w3.org/2001/XMLSchema#",
-    "prov": "http://www.w3.org/ns/prov#",
-    "sssom": "https://w3id.org/sssom/",
-    "skos": "http://www.w3.org/2004/02/skos/core#",
-    "obo": "http://purl.obolibrary.org/obo/",
+    "soma": namespaces.SOMA,
+    "dul": namespaces.DUL,
+    "usd": namespaces.USD,
+    "knowrob": namespaces.KNOWROB,
+    "owl": namespaces.OWL,
+    "rdf": namespaces.RDF,
+    "rdfs": namespaces.RDFS,
+    "xsd": namespaces.XSD,
+    "prov": namespaces.PROV,
+    "sssom": namespaces.SSSOM,
+    "skos": namespaces.SKOS,
+    "obo": namespaces.OBO,
 }
 
 

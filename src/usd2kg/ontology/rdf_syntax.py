@@ -10,16 +10,13 @@ from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.ontology.axioms import HAS_DISPOSITION, ClassAxioms
-from usd2kg.ontology.entities import refuse_entity_bomb
+from usd2kg.ontology.class_axioms import HAS_DISPOSITION, ClassAxioms
+from usd2kg.ontology.namespaces import OWL, RDF, RDFS, XSD
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
 
 __all__ = ["parse_rdf", "read_rdf_axioms"]
 
-_RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
-_RDFS = "http://www.w3.org/2000/01/rdf-schema#"
-_OWL = "http://www.w3.org/2002/07/owl#"
-_XSD = "http://www.w3.org/2001/XMLSchema#"
-_CLASS_TYPES = (f"{_OWL}Class", f"{_RDFS}Class")
+_CLASS_TYPES = (f"{OWL}Class", f"{RDFS}Class")
 _FORMATS = {
     "rdf": ox.RdfFormat.RDF_XML,
     "ttl": ox.RdfFormat.TURTLE,
@@ -59,17 +56,17 @@ def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
 
 
 def _read_subject(iri: str, statements: dict[str, list[Any]], triples: _Triples, axioms: ClassAxioms) -> None:
-    types = {node.value for node in statements.get(f"{_RDF}type", ()) if isinstance(node, ox.NamedNode)}
-    if f"{_OWL}Ontology" in types:
+    types = {node.value for node in statements.get(f"{RDF}type", ()) if isinstance(node, ox.NamedNode)}
+    if f"{OWL}Ontology" in types:
         axioms.ontology_iri = iri
-        axioms.version_iri = next((node.value for node in statements.get(f"{_OWL}versionIRI", ())), None)
-        axioms.imports |= {node.value for node in statements.get(f"{_OWL}imports", ())}
+        axioms.version_iri = next((node.value for node in statements.get(f"{OWL}versionIRI", ())), None)
+        axioms.imports |= {node.value for node in statements.get(f"{OWL}imports", ())}
         return
     if not types.isdisjoint(_CLASS_TYPES):
         axioms.declare(iri)
-    for node in statements.get(f"{_RDFS}subClassOf", ()):
+    for node in statements.get(f"{RDFS}subClassOf", ()):
         _add_superclass(iri, node, triples, axioms)
-    for node in statements.get(f"{_OWL}equivalentClass", ()):
+    for node in statements.get(f"{OWL}equivalentClass", ()):
         if _is_intersection(node, triples):
             _add_superclass(iri, node, triples, axioms)
         elif isinstance(node, ox.NamedNode) and not _is_datatype(types, node, triples):
@@ -88,30 +85,28 @@ def _add_superclass(child: str, expression: Any, triples: _Triples, axioms: Clas
             axioms.add_parent(child, part.value)
             continue
         restriction = triples.get(part, {})
-        on_property = [
-            node.value for node in restriction.get(f"{_OWL}onProperty", ()) if isinstance(node, ox.NamedNode)
-        ]
+        on_property = [node.value for node in restriction.get(f"{OWL}onProperty", ()) if isinstance(node, ox.NamedNode)]
         if on_property == [HAS_DISPOSITION]:
-            fillers = [f for node in restriction.get(f"{_OWL}someValuesFrom", ()) for f in _conjuncts(node, triples)]
+            fillers = [f for node in restriction.get(f"{OWL}someValuesFrom", ()) for f in _conjuncts(node, triples)]
             axioms.dispositions[child].update(node.value for node in fillers if isinstance(node, ox.NamedNode))
 
 
 def _is_datatype(types: set[str], other: ox.NamedNode, triples: _Triples) -> bool:
     # owl:equivalentClass also defines datatypes.
-    datatype = ox.NamedNode(f"{_RDFS}Datatype")
-    is_other = other.value.startswith(_XSD) or datatype in triples.get(other, {}).get(f"{_RDF}type", ())
+    datatype = ox.NamedNode(f"{RDFS}Datatype")
+    is_other = other.value.startswith(XSD) or datatype in triples.get(other, {}).get(f"{RDF}type", ())
     return datatype.value in types or is_other
 
 
 def _is_intersection(node: Any, triples: _Triples) -> bool:
-    return isinstance(node, ox.BlankNode) and f"{_OWL}intersectionOf" in triples.get(node, {})
+    return isinstance(node, ox.BlankNode) and f"{OWL}intersectionOf" in triples.get(node, {})
 
 
 def _conjuncts(node: Any, triples: _Triples) -> Iterator[Any]:
     if not _is_intersection(node, triples):
         yield node
         return
-    for head in triples[node][f"{_OWL}intersectionOf"]:
+    for head in triples[node][f"{OWL}intersectionOf"]:
         for part in _list(head, triples):
             yield from _conjuncts(part, triples)
 
@@ -120,5 +115,5 @@ def _list(head: Any, triples: _Triples) -> Iterator[Any]:
     seen = set()
     while head in triples and head not in seen:
         seen.add(head)
-        yield from triples[head].get(f"{_RDF}first", ())
-        head = next(iter(triples[head].get(f"{_RDF}rest", ())), None)
+        yield from triples[head].get(f"{RDF}first", ())
+        head = next(iter(triples[head].get(f"{RDF}rest", ())), None)

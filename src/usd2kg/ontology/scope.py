@@ -9,14 +9,15 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology.axioms import TOP_CLASSES, ClassAxioms
+from usd2kg.ontology.class_axioms import TOP_CLASSES, ClassAxioms
 from usd2kg.ontology.components import find_components, reachable
+from usd2kg.ontology.namespaces import DUL, OBO
 
 __all__ = ["ancestors", "default_scope", "isolated_classes", "nearest_parents", "rooted_scope"]
 
 PHYSICAL_ROOTS = (
-    "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#PhysicalObject",
-    "http://purl.obolibrary.org/obo/BFO_0000040",  # material entity
+    f"{DUL}PhysicalObject",
+    f"{OBO}BFO_0000040",  # material entity
     "https://spec.industrialontologies.org/ontology/core/Core/MaterialArtifact",
 )
 """Upper-level classes of physical objects."""

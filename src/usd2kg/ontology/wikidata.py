@@ -3,16 +3,14 @@
 import re
 from collections.abc import Iterable, Mapping
 
+from usd2kg.ontology.namespaces import OWL, RDF, RDFS, SKOS
+
 __all__ = ["EQUIVALENT_CLASS", "is_mapping", "item_in", "pick_items"]
 
-_OWL = "http://www.w3.org/2002/07/owl#"
-_RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
-_RDFS = "http://www.w3.org/2000/01/rdf-schema#"
-_SKOS = "http://www.w3.org/2004/02/skos/core#"
-EQUIVALENT_CLASS = f"{_OWL}equivalentClass"
-_SAME = (f"{_SKOS}exactMatch", EQUIVALENT_CLASS, f"{_OWL}sameAs", f"{_SKOS}closeMatch", f"{_RDFS}seeAlso")
+EQUIVALENT_CLASS = f"{OWL}equivalentClass"
+_SAME = (f"{SKOS}exactMatch", EQUIVALENT_CLASS, f"{OWL}sameAs", f"{SKOS}closeMatch", f"{RDFS}seeAlso")
 """Mapping properties, strongest first; other annotations rank last."""
-_OTHER_ITEMS = tuple(f"{_SKOS}{name}" for name in ("broadMatch", "narrowMatch", "relatedMatch", "mappingRelation"))
+_OTHER_ITEMS = tuple(f"{SKOS}{name}" for name in ("broadMatch", "narrowMatch", "relatedMatch", "mappingRelation"))
 """Properties whose item is not equivalent to the class."""
 _ITEM = re.compile(
     r"(?:https?://(?:www\.)?wikidata\.org/(?:entity|wiki)/|(?:wd|wikidata):)(Q[1-9][0-9]*)", re.IGNORECASE
@@ -36,7 +34,7 @@ def is_mapping(property_iri: str) -> bool:
     """Return whether this property may map a class to an equivalent item."""
     if property_iri in _SAME:
         return True
-    return not property_iri.startswith((_OWL, _RDF, _RDFS)) and property_iri not in _OTHER_ITEMS
+    return not property_iri.startswith((OWL, RDF, RDFS)) and property_iri not in _OTHER_ITEMS
 
 
 def pick_items(found: Mapping[str, Iterable[str]]) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
-from usd2kg.graph.formats.document import TOO_LARGE, open_rdf, rdf_format
+from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.query.graph_store import GraphStore
 
 __all__ = ["load_graph"]

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from usd2kg.ontology import TBox, read_closure
+from usd2kg.readiness.class_senses import ClassSenses, find_sense_faults
 from usd2kg.readiness.hierarchy import find_hierarchy_faults
 from usd2kg.readiness.labels import LabelIndex, find_label_faults
-from usd2kg.readiness.senses import ClassSenses, find_sense_faults
 from usd2kg.validation import AxiomIndex, Finding, sort_findings
 
 __all__ = ["OntologyReport", "check_ontology"]

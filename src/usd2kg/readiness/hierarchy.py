@@ -3,16 +3,14 @@
 from collections.abc import Iterator
 
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri, local_name
+from usd2kg.ontology.namespaces import OWL
 from usd2kg.readiness.labels import class_finding
+from usd2kg.readiness.settings import HIERARCHY
 from usd2kg.validation import AxiomIndex, Finding, Severity
 
 __all__ = ["find_hierarchy_faults"]
 
-_SHORT_LIST = 8
-"""Chosen: a list of fewer classes may be flat."""
-_MOST_NAMED = 20
-"""Chosen: classes named in one finding."""
-_NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
+_NOTHING = f"{OWL}Nothing"
 
 
 def find_hierarchy_faults(tbox: TBox, axioms: AxiomIndex, default: ClassIRI | None) -> Iterator[Finding]:
@@ -25,7 +23,7 @@ def find_hierarchy_faults(tbox: TBox, axioms: AxiomIndex, default: ClassIRI | No
     """
     for note in tbox.notes:
         yield _note_finding(note.code, note.message)
-    if len(tbox.classes) >= _SHORT_LIST and not any(cls.parents for cls in tbox.classes):
+    if len(tbox.classes) >= HIERARCHY.min_flat_classes and not any(cls.parents for cls in tbox.classes):
         yield _ontology_finding(
             tbox,
             "flat",
@@ -61,12 +59,13 @@ def _note_finding(code: str, message: str) -> Finding:
 
 def _isolated(tbox: TBox) -> Finding:
     named = [local_name(iri) for iri in tbox.isolated]
-    more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
+    omitted = len(named) - HIERARCHY.max_names
+    more = f" and {omitted} more" if omitted > 0 else ""
     which = f"class{'es' if len(named) > 1 else ''} without subclass axioms"
     return _ontology_finding(
         tbox,
         "stands-alone",
-        f"{len(named)} {which}: {', '.join(named[:_MOST_NAMED])}{more}",
+        f"{len(named)} {which}: {', '.join(named[: HIERARCHY.max_names])}{more}",
         "a place in the hierarchy for each candidate class",
         "Add rdfs:subClassOf to classes of physical objects: no object is grounded to an isolated class.",
         Severity.NOTE,
@@ -85,7 +84,7 @@ def _narrow_default(tbox: TBox, default: ClassIRI | None) -> Finding | None:
         gets = f"no class: none of the {len(tbox.roots)} roots fits objects of all kinds"
     else:
         below = sum(tbox.is_subclass(cls.iri, default) for cls in tbox.classes)
-        if 2 * below >= len(tbox.classes):
+        if below >= HIERARCHY.min_general_share * len(tbox.classes):
             return None
         name = f"“{tbox.by_iri[default].label}” ({compact_iri(default)})"
         gets = f"{name}, which is above {below} of {len(tbox.classes)} classes"

@@ -5,7 +5,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, rank_in_group, select_rows
+from usd2kg.relations.array_records import (
+    concatenate_rows,
+    first_of_each_group,
+    rank_in_group,
+    ratios,
+    rounded,
+    select_rows,
+)
 from usd2kg.relations.boxed_objects import BoxedObjects, overlap_areas
 from usd2kg.relations.model import Links, margin_above, margin_score
 from usd2kg.relations.thresholds import AboveRule
@@ -74,7 +81,7 @@ def _candidates(boxed: BoxedObjects, chosen: Indices, frame: Indices, rule: Abov
 def _overlap_ratio(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
     shared = overlap_areas(boxed.lower[one], boxed.upper[one], boxed.lower[other], boxed.upper[other])
     smaller = np.minimum(boxed.area[one], boxed.area[other])
-    return np.asarray(np.minimum(shared / np.maximum(smaller, 1e-12), 1.0))
+    return np.asarray(np.minimum(ratios(shared, smaller), 1.0))
 
 
 def _is_supported(pairs: _StackedPairs, supporter: Indices) -> Mask:
@@ -90,7 +97,7 @@ def _is_supported(pairs: _StackedPairs, supporter: Indices) -> Mask:
 
 def _nearest(boxed: BoxedObjects, pairs: _StackedPairs, most: int) -> _StackedPairs:
     """Return the pairs with the smallest gaps of each target, nearest first."""
-    return select_rows(pairs, first_of_each_group(pairs.target, (boxed.rank[pairs.anchor], pairs.gap.round(6)), most))
+    return select_rows(pairs, first_of_each_group(pairs.target, (boxed.rank[pairs.anchor], rounded(pairs.gap)), most))
 
 
 def _has_intermediate(boxed: BoxedObjects, pairs: _StackedPairs, supporter: Indices, rule: AboveRule) -> Mask:

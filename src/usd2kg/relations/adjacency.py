@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, select_rows
+from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, ratios, rounded, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.distances import box_gaps, distances
 from usd2kg.relations.model import Links, margin_above, margin_below, margin_score
@@ -60,7 +60,7 @@ def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules
 
 def _limits(boxed: BoxedObjects, rule: NearRule | NextToRule) -> Array:
     """Return the distance limit of each object by its size; the smaller object of a pair decides."""
-    _, half, _ = boxed.turned
+    half = boxed.footprints.half_sides
     size = 2 * half.mean(axis=1) if isinstance(rule, NextToRule) else (2 * half.sum(axis=1) + boxed.size[:, 2]) / 3
     return np.asarray(np.clip(rule.gap_share * size, rule.min_gap, rule.max_gap))
 
@@ -75,9 +75,9 @@ def are_nearest(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Mask:
 
 def height_overlaps(boxed: BoxedObjects, pairs: NearbyPairs) -> Array:
     """Return for each pair the vertical overlap as a share of the shorter object's height."""
-    lower_one = np.minimum(boxed.size[pairs.one, 2], boxed.size[pairs.other, 2])
+    shorter = np.minimum(boxed.size[pairs.one, 2], boxed.size[pairs.other, 2])
     shared = -box_gaps(boxed, pairs.one, pairs.other)[:, 2]
-    return np.asarray(np.clip(shared / np.maximum(lower_one, 1e-12), 0, 1))
+    return np.asarray(np.clip(ratios(shared, shorter), 0, 1))
 
 
 def find_touching(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules) -> tuple[Links, Mask]:
@@ -85,7 +85,7 @@ def find_touching(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules)
     rule = rules.touching
     gaps = box_gaps(boxed, pairs.one, pairs.other)
     smaller = np.minimum(boxed.size[pairs.one], boxed.size[pairs.other])
-    shares = -gaps / np.maximum(smaller, 1e-12)
+    shares = ratios(-gaps, smaller)
     # The boxes are apart along this axis; along the others their faces overlap.
     axis = gaps.argmax(axis=1)
     rows = np.arange(len(axis))
@@ -118,8 +118,8 @@ def find_next_to(
     beside = height_overlaps(boxed, pairs)
     # With a larger overlap of footprints, one object is over or in the other.
     smaller = np.minimum(boxed.size[pairs.one], boxed.size[pairs.other])
-    is_turned = boxed.turned[0][pairs.one] | boxed.turned[0][pairs.other]
-    is_apart = (is_turned & (pairs.distance > 0)) | (gaps >= -rule.max_overlap_ratio * smaller)[:, :2].any(axis=1)
+    is_rotated = boxed.footprints.is_rotated[pairs.one] | boxed.footprints.is_rotated[pairs.other]
+    is_apart = (is_rotated & (pairs.distance > 0)) | (gaps >= -rule.max_overlap_ratio * smaller)[:, :2].any(axis=1)
     is_good = (pairs.distance <= limit) & (beside >= rule.min_height_share) & is_apart
     is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around, rules.blocking)
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)
@@ -168,7 +168,7 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
     )
     low, high = edges.min(axis=0), edges.max(axis=0)
     filled = np.minimum(boxed.upper[third], high) - np.maximum(boxed.lower[third], low)
-    shares = np.clip(filled, 0, None) / np.maximum(high - low, 1e-9)
+    shares = ratios(np.clip(filled, 0, None), high - low)
     is_gap = edges[0] > edges[1]
     # A blocker reaches into the gap, and fills a share of it across.
     blocks = np.where(is_gap, filled > 0, shares >= rule.min_fill_ratio).all(axis=1)
@@ -183,4 +183,4 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
 def _nearest_of_each(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Indices:
     """Return for each object the indices of its nearest pairs; pairs where it is second follow the others."""
     from_, to = np.concatenate([pairs.one, pairs.other]), np.concatenate([pairs.other, pairs.one])
-    return first_of_each_group(from_, (boxed.rank[to], np.tile(pairs.distance.round(6), 2)), most)
+    return first_of_each_group(from_, (boxed.rank[to], np.tile(rounded(pairs.distance), 2)), most)

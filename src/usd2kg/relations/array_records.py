@@ -1,16 +1,30 @@
-"""Operations on records of arrays (structs of arrays), and on groups and chains of rows."""
+"""Operations on records of arrays (structs of arrays), on groups and chains of rows, and on sort keys and ratios."""
 
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["concatenate_rows", "first_of_each_group", "is_on_cycle", "rank_in_group", "select_rows"]
+__all__ = [
+    "concatenate_rows",
+    "first_of_each_group",
+    "is_on_cycle",
+    "rank_in_group",
+    "ratios",
+    "rounded",
+    "select_rows",
+]
 
+Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 _Columns = TypeVar("_Columns", bound=tuple[Any, ...])
 """A NamedTuple of arrays of the same length."""
+
+_DECIMALS = 6
+"""Decimals of sort keys: micrometres."""
+_SMALLEST = 1e-12
+"""Smallest divisor."""
 
 
 def select_rows(columns: _Columns, chosen: Mask | Indices) -> _Columns:
@@ -71,3 +85,13 @@ def is_on_cycle(after: Indices, starts: Indices) -> Mask:
         on_cycle[reached] = True
         reached = here[reached]
     return np.asarray(on_cycle[starts])
+
+
+def rounded(values: Array) -> Array:
+    """Return sort keys rounded to micrometres, so that rounding errors of a translated scene change no order."""
+    return np.asarray(values.round(_DECIMALS))
+
+
+def ratios(parts: Array, wholes: Array) -> Array:
+    """Return parts / wholes; a whole of 0 counts as tiny."""
+    return np.asarray(parts / np.maximum(wholes, _SMALLEST))

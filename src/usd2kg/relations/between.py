@@ -4,10 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.relations.adjacency import NearbyPairs
-from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, select_rows
+from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, ratios, rounded, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects, overlap_areas
 from usd2kg.relations.distances import box_gaps, distances
 from usd2kg.relations.model import Links, margin_above, margin_score
+from usd2kg.relations.settings import BETWEEN
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.thresholds import BetweenRule
 from usd2kg.shapes import overlapping_pairs
@@ -18,16 +19,15 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_SAMPLES = 10
-"""Sample points along each side of a footprint; bounds the resolution of `betweenRatio`."""
 _BATCH = 1 << 13
+"""Pairs of anchors whose samples are tested at a time."""
 _ROUNDING = 1e-9
 
 
 def find_between(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelations, rule: BetweenRule) -> Links:
     """Return for each object the closest pair of anchors that it is between, if any.
 
-    Most of its footprint, sampled at 10 × 10 points, is in the convex hull of their footprints.
+    Most of its footprint, sampled on a grid, is in the convex hull of their footprints.
     """
     target, anchor, distance = _anchors(boxed, is_chosen, stronger, rule)
     starts = np.searchsorted(target, np.arange(len(boxed) + 1))
@@ -37,7 +37,7 @@ def find_between(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelatio
     is_good = np.flatnonzero(ratio > rule.min_hull_ratio)
     one, other, reach, ratio = one[is_good], other[is_good], reach[is_good], ratio[is_good]
     ranks = boxed.rank[anchor[one]], boxed.rank[anchor[other]]
-    best = first_of_each_group(target[one], (*ranks, -ratio.round(6), reach.round(6)))
+    best = first_of_each_group(target[one], (*ranks, -rounded(ratio), rounded(reach)))
     clear = margin_above(ratio[best], rule.min_hull_ratio)
     first, second = anchor[one[best]], anchor[other[best]]
     is_swapped = boxed.rank[first] > boxed.rank[second]
@@ -60,13 +60,13 @@ def _anchors(boxed: BoxedObjects, is_chosen: Mask, stronger: StrongerRelations, 
         found.append(select_rows(pairs, pairs.distance <= reach[pairs.one]))
     pairs = concatenate_rows(found)
     return select_rows(
-        pairs, first_of_each_group(pairs.one, (boxed.rank[pairs.other], pairs.distance.round(6)), rule.most)
+        pairs, first_of_each_group(pairs.one, (boxed.rank[pairs.other], rounded(pairs.distance)), rule.most)
     )
 
 
 def _are_beside(boxed: BoxedObjects, pairs: NearbyPairs, rule: BetweenRule) -> Mask:
     target, anchor, _ = pairs
-    beside = -box_gaps(boxed, target, anchor)[:, 2] / np.maximum(boxed.size[target, 2], 1e-12)
+    beside = ratios(-box_gaps(boxed, target, anchor)[:, 2], boxed.size[target, 2])
     shared = overlap_areas(boxed.lower[target], boxed.upper[target], boxed.lower[anchor], boxed.upper[anchor])
     is_apart = shared <= rule.max_overlap_ratio * boxed.area[target]
     return np.asarray((beside >= rule.min_height_share) & is_apart)
@@ -86,7 +86,7 @@ def _pairs_in_groups(starts: Indices) -> tuple[Indices, Indices]:
 
 def _hull_ratios(boxed: BoxedObjects, target: Indices, one: Indices, other: Indices) -> Array:
     """Return the share of each target's footprint in the convex hull of two other footprints."""
-    shares = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+    shares = (np.arange(BETWEEN.samples) + 0.5) / BETWEEN.samples
     found = np.zeros(len(target))
     for start in range(0, len(target), _BATCH):
         part = slice(start, start + _BATCH)
@@ -120,4 +120,4 @@ def _solve(points: Array, start: Array, end: Array, *, sign: float) -> tuple[Arr
         at = room / slope
     low = np.where(slope < 0, at, np.where((slope == 0) & (room < 0), 1.0, 0.0))
     high = np.where(slope > 0, at, np.where((slope == 0) & (room < 0), 0.0, 1.0))
-    return np.clip(low, 0, 1 + 1e-9), np.clip(high, -1e-9, 1)
+    return np.clip(low, 0, 1 + _ROUNDING), np.clip(high, -_ROUNDING, 1)

@@ -2,25 +2,22 @@
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox, expand_curie
+from usd2kg.relations.settings import FOOTPRINT
 from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
 from usd2kg.scene import Box, SceneObject
 
-__all__ = ["BoxedObjects", "ClassMembership", "corners_of", "overlap_areas"]
+__all__ = ["BoxedObjects", "ClassMembership", "Footprints", "corners_of", "overlap_areas"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
-
-_UPRIGHT = 0.9999
-"""Minimal z component of the vertical axis of an object rotated about z only."""
-_FITS = 0.01
-"""Relative tolerance between the measured AABB and that of the rotated footprint."""
 
 
 class ClassMembership:
@@ -56,12 +53,23 @@ class ClassMembership:
         return np.asarray(can & ~self.are_in("not_containers"))
 
 
+class Footprints(NamedTuple):
+    """Rectangles in the floor plane, one row each."""
+
+    is_rotated: Mask
+    """Whether the sides are not along x and y."""
+    half_sides: Array
+    """(n, 2), metres."""
+    direction: Array
+    """Unit vector of the first side, (n, 2)."""
+
+
 class BoxedObjects:
     """Objects with a box of their own as arrays, one row each; metres, world frame, z-up."""
 
     def __init__(self, objects: Sequence[SceneObject], geometry: ObjectGeometry) -> None:
         self.geometry = geometry
-        self.number = np.array([index for index, obj in enumerate(objects) if obj.own_box is not None], np.int64)
+        self.scene_index = np.array([index for index, obj in enumerate(objects) if obj.own_box is not None], np.int64)
         """Index among all objects of the scene."""
         self.objects = [obj for obj in objects if obj.own_box is not None]
         boxes = [obj.own_box for obj in self.objects if obj.own_box is not None]
@@ -107,23 +115,22 @@ class BoxedObjects:
         return starts.astype(np.int64), lower, upper
 
     @cached_property
-    def turned(self) -> tuple[Mask, Array, Array]:
-        """Whether each footprint is a rotated rectangle, its half sides (n, 2), and the unit vector of the first side.
+    def footprints(self) -> Footprints:
+        """The footprint of each object as a rectangle.
 
-        The rectangle is known if the extents along the prim's own axes reproduce the measured box; the footprint of
-        the box is the fallback.
+        It is rotated if the extents along the prim's own axes reproduce the measured box; else it is that of the box.
         """
-        is_turned = np.zeros(len(self), np.bool_)
+        is_rotated = np.zeros(len(self), np.bool_)
         half, along = self.size[:, :2] / 2, np.tile([1.0, 0.0], (len(self), 1))
         for index, obj in enumerate(self.objects):
-            found = _turned_footprint(obj)
+            found = _rotated_footprint(obj)
             if found is not None:
-                is_turned[index] = True
+                is_rotated[index] = True
                 half[index], along[index] = found
-        return is_turned, half, along
+        return Footprints(is_rotated, half, along)
 
 
-def _turned_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
+def _rotated_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
     """Return half sides and the direction of the first side of an object rotated about z only; None for others."""
     if obj.oriented_size is None or obj.orientation is None or obj.own_box is None or obj.own_box != obj.box:
         return None
@@ -137,13 +144,13 @@ def _turned_footprint(obj: SceneObject) -> tuple[Array, Array] | None:
         ]
     )
     upright = int(np.abs(axes[:, 2]).argmax())
-    if abs(axes[upright, 2]) < _UPRIGHT:
+    if abs(axes[upright, 2]) < FOOTPRINT.min_upright:
         return None
     first, second = (axis for axis in range(3) if axis != upright)
     sides = np.array([obj.oriented_size[first], obj.oriented_size[second]])
     along = axes[first, :2] / np.hypot(*axes[first, :2])
     around = np.abs(along) * sides[0] + np.abs(along[::-1]) * sides[1]
-    fits = np.abs(around - obj.own_box.size[:2]).max() <= _FITS * sides.max()
+    fits = np.abs(around - obj.own_box.size[:2]).max() <= FOOTPRINT.max_misfit * sides.max()
     return (sides / 2, along) if fits else None
 
 

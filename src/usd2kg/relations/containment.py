@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, is_on_cycle, select_rows
+from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, is_on_cycle, ratios, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership, corners_of, overlap_areas
 from usd2kg.relations.model import Links, margin_above, margin_score
 from usd2kg.relations.thresholds import InsideRule, RelationRules, StandingInRule
@@ -48,11 +48,11 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
         wholes: index of the whole of each object, -1 for none.
         rules: the thresholds.
     """
-    can_contain = classes.can_contain[boxed.number]
-    is_drawer = classes.are_in("not_laid")[boxed.number]
-    may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[boxed.number]
+    can_contain = classes.can_contain[boxed.scene_index]
+    is_drawer = classes.are_in("not_laid")[boxed.scene_index]
+    may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[boxed.scene_index]
     has_parts = bool((wholes >= 0).any())
-    is_open = can_contain & ~classes.are_in("closed")[boxed.number]
+    is_open = can_contain & ~classes.are_in("closed")[boxed.scene_index]
     found = [_no_pairs()]
     for i, j in overlapping_pairs(boxed.lower[:, :2], boxed.upper[:, :2]):
         for target, anchor in ((i, j), (j, i)):
@@ -140,7 +140,7 @@ def _are_on_top(boxed: BoxedObjects, pairs: _ContainmentPairs, is_closed: Mask, 
         over[pair], top[pair] = max(upper[is_over, 2], default=-np.inf), upper[:, 2].max()
     stands = boxed.lower[pairs.target, 2] > over - rules.on.max_sink
     highest = np.where(is_closed[pairs.anchor], top, over)
-    share = (highest - boxed.lower[pairs.anchor, 2]) / np.maximum(boxed.size[pairs.anchor, 2], 1e-12)
+    share = ratios(highest - boxed.lower[pairs.anchor, 2], boxed.size[pairs.anchor, 2])
     return np.asarray(stands & (share > rules.inside.max_floor_share))
 
 

@@ -4,15 +4,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.relations.boxed_objects import BoxedObjects
+from usd2kg.relations.settings import DISTANCE
 
 __all__ = ["box_gaps", "distances"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_MAX_PART_PAIRS = 256
-"""Pairs of objects with more pairs of parts are compared by their boxes."""
 _BATCH = 1 << 20
+"""Pairs of parts that are compared at a time."""
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
@@ -31,12 +31,12 @@ def distances(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
     """
     gaps = np.clip(box_gaps(boxed, one, other), 0, None)
     level = np.hypot(gaps[:, 0], gaps[:, 1])
-    is_turned = boxed.turned[0][one] | boxed.turned[0][other]
-    some = np.flatnonzero(is_turned)
+    is_rotated = boxed.footprints.is_rotated[one] | boxed.footprints.is_rotated[other]
+    some = np.flatnonzero(is_rotated)
     if len(some):
         level[some] = _between_rectangles(boxed, one[some], other[some])
     found = np.hypot(level, gaps[:, 2])
-    some = np.flatnonzero(~is_turned)
+    some = np.flatnonzero(~is_rotated)
     found[some] = _between_parts(boxed, one[some], other[some], found[some])
     return np.asarray(found)
 
@@ -46,9 +46,9 @@ def _between_parts(boxed: BoxedObjects, one: Indices, other: Indices, box_distan
     starts, lower, upper = boxed.parts
     count = np.diff(starts)
     pair_count = count[one] * count[other]
-    some = np.flatnonzero((pair_count > 1) & (pair_count <= _MAX_PART_PAIRS))
+    some = np.flatnonzero((pair_count > 1) & (pair_count <= DISTANCE.max_part_pairs))
     found = box_distance.copy()
-    for portion in np.array_split(some, len(some) * _MAX_PART_PAIRS // _BATCH + 1):
+    for portion in np.array_split(some, len(some) * DISTANCE.max_part_pairs // _BATCH + 1):
         pair = np.repeat(portion, pair_count[portion])
         nth = np.arange(len(pair)) - np.repeat(
             np.cumsum(pair_count[portion]) - pair_count[portion], pair_count[portion]
@@ -71,7 +71,7 @@ def _between_rectangles(boxed: BoxedObjects, one: Indices, other: Indices) -> Ar
 
 def _to_rectangle(boxed: BoxedObjects, one: Indices, other: Indices) -> tuple[Array, NDArray[np.bool_]]:
     """Return the distances from the corners of `one` to `other`, and whether an axis of `other` separates them."""
-    _, half, along = boxed.turned
+    _, half, along = boxed.footprints
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     corners = (
         boxed.middle[one, None, :2]

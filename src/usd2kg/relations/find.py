@@ -77,7 +77,7 @@ class _Finder:
             found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
             self.groups = found.groups
             yield found.links
-        takes_part = ~self.classes.are_in("not_neighbours")[self.boxed.number]
+        takes_part = ~self.classes.are_in("not_neighbours")[self.boxed.scene_index]
         if kinds & {"above", "below"}:
             above = find_above(self.boxed, takes_part, stronger.frame, stronger.supporter, self.rules.above)
             above = stronger.drop_implied(above)
@@ -88,7 +88,7 @@ class _Finder:
     def _adjacent(self, kinds: frozenset[str], takes_part: Mask, stronger: StrongerRelations) -> Iterator[Links]:
         sides = kinds & frozenset(VIEWPOINT_KINDS)
         if kinds & SYMMETRIC_KINDS or sides:
-            walls = self.classes.are_in("walls")[self.boxed.number]
+            walls = self.classes.are_in("walls")[self.boxed.scene_index]
             around = stronger.in_same_frame(find_nearby_pairs(self.boxed, takes_part | walls, self.rules))
             pairs = stronger.drop_related(select_rows(around, takes_part[around.one] & takes_part[around.other]))
             yield from self._symmetric(kinds, pairs, around)
@@ -112,7 +112,7 @@ class _Finder:
 
     def _to_scene_indices(self, links: Links) -> Links:
         """Return links with indices among all objects of the scene instead of those with a box."""
-        number = np.concatenate([self.boxed.number, len(self.scene.objects) + np.arange(len(self.groups))])
+        number = np.concatenate([self.boxed.scene_index, len(self.scene.objects) + np.arange(len(self.groups))])
         other = None if links.other is None else number[links.other]
         return links._replace(target=number[links.target], anchor=number[links.anchor], other=other)
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import first_of_each_group
+from usd2kg.relations.array_records import first_of_each_group, rounded
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps
 from usd2kg.relations.model import Links, margin_below, margin_score
@@ -72,8 +72,8 @@ def wholes_of(boxed: BoxedObjects, parts: PartLinks) -> Indices:
 
 def boxed_ends(boxed: BoxedObjects, links: Links) -> tuple[Indices, Indices]:
     """Return targets and anchors as indices among the boxed objects, -1 without a box."""
-    place = np.full(int(boxed.number.max(initial=-1)) + 2, -1)
-    place[boxed.number] = np.arange(len(boxed))
+    place = np.full(int(boxed.scene_index.max(initial=-1)) + 2, -1)
+    place[boxed.scene_index] = np.arange(len(boxed))
     return place[np.minimum(links.target, len(place) - 1)], place[np.minimum(links.anchor, len(place) - 1)]
 
 
@@ -113,9 +113,9 @@ def _object_at(path: str, number: dict[str, int]) -> int | None:
 
 
 def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free: Mask, rule: PartOfRule) -> Links:
-    is_front, is_handle = classes.are_in("fronts")[boxed.number], classes.are_in("handles")[boxed.number]
-    is_body = classes.are_in("bodies")[boxed.number] & ~is_front & ~is_handle
-    parts = np.flatnonzero((is_front | is_handle) & is_free[boxed.number])
+    is_front, is_handle = classes.are_in("fronts")[boxed.scene_index], classes.are_in("handles")[boxed.scene_index]
+    is_body = classes.are_in("bodies")[boxed.scene_index] & ~is_front & ~is_handle
+    parts = np.flatnonzero((is_front | is_handle) & is_free[boxed.scene_index])
     wholes = np.flatnonzero(is_body | is_front)
     above = [obj.prim_path.rpartition("/")[0] for obj in boxed.objects]
     group = {path: index for index, path in enumerate(dict.fromkeys(above))}
@@ -137,7 +137,7 @@ def _best_fit(boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask
     """Return the best-fitting whole of each part; fronts take precedence for handles."""
     gaps = box_gaps(boxed, part, whole)
     met = np.clip((rule.max_gap - gaps) / (boxed.size[part] + rule.max_gap), 0, 1).prod(axis=1)
-    best = first_of_each_group(part, (boxed.rank[whole], -met.round(6), ~is_front[whole]))
+    best = first_of_each_group(part, (boxed.rank[whole], -rounded(met), ~is_front[whole]))
     gap = np.clip(gaps[best].max(axis=1, initial=0), 0, None)
     links = Links(
         "part-of",
@@ -147,4 +147,4 @@ def _best_fit(boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask
         {"gap": gap},
         margin_score(margin_below(gap, rule.max_gap)),
     )
-    return links._replace(target=boxed.number[links.target], anchor=boxed.number[links.anchor])
+    return links._replace(target=boxed.scene_index[links.target], anchor=boxed.scene_index[links.anchor])

@@ -42,8 +42,8 @@ def find_rooms(
 
     The box of a room includes the objects below it, since floor and walls are often objects of their own.
     """
-    boxes = [objects[number].box for number in boxed.number.tolist()]
-    named = np.flatnonzero(classes.are_in("rooms")[boxed.number]).tolist()
+    boxes = [objects[number].box for number in boxed.scene_index.tolist()]
+    named = np.flatnonzero(classes.are_in("rooms")[boxed.scene_index]).tolist()
     rooms = [room for index in named if (room := _room(index, boxes[index], rule))]
     groups: list[str] = []
     if not rooms:
@@ -52,7 +52,7 @@ def find_rooms(
         rooms, groups = [room for room in made if room], list(found)
     rule_id = rule.group_rule if groups else rule.rule
     is_placed = ~classes.are_in("not_neighbours") | classes.are_in("handles")
-    links = _members(boxed, rooms, np.flatnonzero(is_placed[boxed.number]), rule)
+    links = _members(boxed, rooms, np.flatnonzero(is_placed[boxed.scene_index]), rule)
     return RoomLinks(links._replace(rule=rule_id), groups)
 
 

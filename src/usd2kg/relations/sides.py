@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 
 _TURNS = {"behind": 0.0, "left": 90.0, "front": 180.0, "right": -90.0}
 """Degrees from the gaze direction to the direction from anchor to target, counter-clockwise from above."""
+_APART = 1e-9
+"""Metres above which a horizontal offset has a direction."""
 _OPPOSITE = {"behind": "front", "front": "behind", "left": "right", "right": "left"}
 
 
@@ -28,7 +30,7 @@ def find_sides(boxed: BoxedObjects, pairs: NearbyPairs, viewpoint: Viewpoint, ru
     pairs = select_rows(pairs, are_nearest(boxed, pairs, rule.most))
     view = _directions(boxed, pairs, viewpoint)
     away = boxed.middle[pairs.one, :2] - boxed.middle[pairs.other, :2]
-    is_apart = (np.hypot(away[:, 0], away[:, 1]) > 1e-9) & (np.hypot(view[:, 0], view[:, 1]) > 1e-9)
+    is_apart = (np.hypot(away[:, 0], away[:, 1]) > _APART) & (np.hypot(view[:, 0], view[:, 1]) > _APART)
     cross, dot = view[:, 0] * away[:, 1] - view[:, 1] * away[:, 0], (view * away).sum(axis=1)
     angle = np.degrees(np.arctan2(cross, dot))
     links = []

@@ -5,7 +5,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, is_on_cycle, select_rows
+from usd2kg.relations.array_records import (
+    concatenate_rows,
+    first_of_each_group,
+    is_on_cycle,
+    ratios,
+    rounded,
+    select_rows,
+)
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership, corners_of, overlap_areas
 from usd2kg.relations.model import Links, margin_above, margin_below, margin_score
 from usd2kg.relations.protrusions import has_protrusion
@@ -58,12 +65,12 @@ def find_support(
         container: index of the container of each object, -1 for none.
         rules: the thresholds.
     """
-    may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.number]
-    surfaces = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.number], rules)
+    may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.scene_index]
+    surfaces = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.scene_index], rules)
     near = _find_contacts(boxed, np.flatnonzero(may_rest), surfaces, container, rules)
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
     single = _on_single(boxed, surfaces, contacts, rules.on)
-    bears = ~classes.are_in("not_bearing")[boxed.number]
+    bears = ~classes.are_in("not_bearing")[boxed.scene_index]
     is_left = np.ones(len(boxed), np.bool_)
     is_left[single.target] = False
     several = _on_several(
@@ -75,7 +82,7 @@ def find_support(
     is_left[several.target] = False
     is_left &= container < 0
     # The box around all walls of a house says nothing about their places.
-    is_wall = classes.are_in("walls")[boxed.number] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
+    is_wall = classes.are_in("walls")[boxed.scene_index] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
     is_left[_near_walls(boxed, np.flatnonzero(is_left), is_wall, rules)] = False
     return [single, several, _hovering(boxed, surfaces, select_rows(near, is_left[near.target]), rules)]
 
@@ -133,7 +140,7 @@ def _find_contacts(
             surfaces.lower[contacts.surface],
             surfaces.upper[contacts.surface],
         )
-        ratio = np.minimum(shared / np.maximum(foot_area[contacts.target], 1e-12), 1.0)
+        ratio = np.minimum(ratios(shared, foot_area[contacts.target]), 1.0)
         found.append(contacts._replace(ratio=ratio))
     return concatenate_rows(found)
 
@@ -158,7 +165,7 @@ def _pointers(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> 
 def _best(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> _Contacts:
     """Return the surface of each target that begins highest; rounded, so that translations change nothing."""
     owner, lowest = surfaces.owner[contacts.surface], surfaces.lower[contacts.surface, 2]
-    keys = (boxed.rank[owner], -contacts.ratio.round(6), np.abs(contacts.gap).round(6), -lowest.round(6))
+    keys = (boxed.rank[owner], -rounded(contacts.ratio), rounded(np.abs(contacts.gap)), -rounded(lowest))
     return select_rows(contacts, first_of_each_group(contacts.target, keys))
 
 
@@ -169,15 +176,15 @@ def _links(rule: str, surfaces: _Surfaces, contacts: _Contacts, confidence: Arra
 
 def _on_several(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts, rules: RelationRules) -> Links:
     rule = rules.on_several
-    own = np.maximum((surfaces.upper - surfaces.lower)[contacts.surface, :2].prod(axis=1), 1e-12)
+    own = (surfaces.upper - surfaces.lower)[contacts.surface, :2].prod(axis=1)
     lower, upper = boxed.feet
     foot_area = (upper - lower)[:, :2].prod(axis=1)
-    share = np.minimum(contacts.ratio * foot_area[contacts.target] / own, 1.0)
+    share = np.minimum(ratios(contacts.ratio * foot_area[contacts.target], own), 1.0)
     bears = share >= rule.min_anchor_ratio
     contacts, share = select_rows(contacts, bears), share[bears]
     # Keep the part of each anchor with the largest share.
     anchors = contacts.target * len(boxed) + surfaces.owner[contacts.surface]
-    best = first_of_each_group(anchors, (contacts.surface, -contacts.ratio.round(6)))
+    best = first_of_each_group(anchors, (contacts.surface, -rounded(contacts.ratio)))
     contacts, share = select_rows(contacts, best), share[best]
     count = np.bincount(contacts.target, minlength=len(boxed))
     is_good = (count >= rule.min_anchors)[contacts.target] & _supports_center(boxed, surfaces, contacts)[
@@ -202,7 +209,7 @@ def _hovering(boxed: BoxedObjects, surfaces: _Surfaces, near: _Contacts, rules: 
     fits = boxed.area[near.target] < rules.on.max_area_ratio * surfaces.area[near.surface]
     is_good = fits & (near.gap >= 0) & (near.gap <= rule.max_gap) & (near.ratio >= rule.min_overlap_ratio)
     near = select_rows(near, is_good)
-    keys = (boxed.rank[surfaces.owner[near.surface]], -near.ratio.round(6), near.gap.round(6))
+    keys = (boxed.rank[surfaces.owner[near.surface]], -rounded(near.ratio), rounded(near.gap))
     best = select_rows(near, first_of_each_group(near.target, keys))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
     return _links(rule.rule, surfaces, best, margin_score(margin_below(best.gap, rule.max_gap), over))
@@ -210,8 +217,7 @@ def _hovering(boxed: BoxedObjects, surfaces: _Surfaces, near: _Contacts, rules: 
 
 def _thickness(boxed: BoxedObjects) -> Array:
     """Return the shorter side of each footprint in metres."""
-    _, half, _ = boxed.turned
-    return np.asarray(2 * half.min(axis=1))
+    return np.asarray(2 * boxed.footprints.half_sides.min(axis=1))
 
 
 def _near_walls(boxed: BoxedObjects, chosen: Indices, is_wall: Mask, rules: RelationRules) -> Indices:

@@ -43,7 +43,7 @@ RDFLIB_FORMATS = {".ttl": "turtle", ".nt": "nt", ".trig": "trig", ".nq": "nquads
 PROFILES = ("soma", "plain")
 
 pytestmark = [
-    # rdflib's own deprecations.
+    # Deprecations within rdflib.
     pytest.mark.filterwarnings("ignore:ConjunctiveGraph is deprecated:DeprecationWarning"),
     pytest.mark.filterwarnings("ignore:Dataset.default_context is deprecated:DeprecationWarning"),
 ]

@@ -16,7 +16,7 @@ from usd2kg.ontology import TBox
 
 CUP = thing("/Room/Cup", (0, 0, 0), (0.1, 0.1, 0.1))
 
-# Run in processes of their own, whose sets and dicts of strings are ordered by different hashes.
+# Runs in separate processes with different hash seeds.
 WRITER = """
 import sys
 from pathlib import Path
@@ -76,7 +76,7 @@ def test_a_large_graph_is_written_in_pieces_that_say_the_same(
     whole = serialize_graph(graph, rdf_format)
     monkeypatch.setattr(serialize, "_CHUNK", 3)
     assert len(graph.triples) > 30
-    # Pieces end where the subject changes, so that even the layout is the same.
+    # Chunks end where the subject changes, so the layout is the same.
     assert serialize_graph(graph, rdf_format) == whole
 
 

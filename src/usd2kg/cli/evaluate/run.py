@@ -15,7 +15,7 @@ from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
     from usd2kg.evaluation import Evaluation, Score
-    from usd2kg.evaluation.metrics.selection import SelectionScore
+    from usd2kg.evaluation.metrics.object_selection import SelectionScore
     from usd2kg.ontology import TBox
 
 __all__ = ["run_command"]
@@ -63,7 +63,7 @@ def run_command(
             abbreviated_length=abbreviated_length,
         )
     session.report(result.grounding, tbox)
-    selection = evaluation.selection_of(found, labels)
+    selection = evaluation.score_scene_selection(found, labels)
     data = evaluation.evaluation_json(result, selection)
     if output is not None:
         emit(jsonlib.dumps(data, indent=1, ensure_ascii=False) + "\n", output)

@@ -1,1 +1,1 @@
-"""Measures: pure functions of lists of scores, one family a module."""
+"""Metrics: pure functions of lists of scores, one family per module."""

@@ -1,16 +1,19 @@
-"""Whether a confidence is the probability of being right, and what abstaining would buy."""
+"""Calibration of confidences, and selective accuracy when low confidences abstain."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
+from usd2kg.evaluation.settings import CONFIDENCE
 
-__all__ = ["ReliabilityBin", "accuracy_at_coverage", "calibration_error", "reliability", "risk_coverage"]
+__all__ = ["ReliabilityBin", "accuracy_at_coverage", "calibration_error", "reliability_bins", "risk_coverage_curve"]
+
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
 class ReliabilityBin:
-    """The answers whose confidence lies in one interval."""
+    """The answers with a confidence in one interval."""
 
     lower: float
     upper: float
@@ -18,11 +21,11 @@ class ReliabilityBin:
     confidence: float
     """Mean confidence."""
     accuracy: float
-    """Share that is right."""
+    """Share of right answers."""
 
 
-def reliability(scores: Sequence[Score], bins: int = 10) -> tuple[ReliabilityBin, ...]:
-    """Return the bins of equal width that hold answers, lowest first; unanswered objects have no confidence."""
+def reliability_bins(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> tuple[ReliabilityBin, ...]:
+    """Return the non-empty bins of equal width, lowest first; objects without an answer are in none."""
     members: dict[int, list[Score]] = {}
     for score in scores:
         if score.confidence is not None:
@@ -41,21 +44,25 @@ def _bin(index: int, bins: int, members: list[Score]) -> ReliabilityBin:
     )
 
 
-def calibration_error(scores: Sequence[Score], bins: int = 10) -> float | None:
-    """Return the expected calibration error Σ (n_b / n) |accuracy_b - confidence_b|; None if nothing was answered.
+def calibration_error(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> float | None:
+    """Return the expected calibration error Σ (n_b / n) |accuracy_b - confidence_b|; None without answers.
 
-    Guo et al., On Calibration of Modern Neural Networks (2017), equation 3.
+    Guo et al. 2017, On Calibration of Modern Neural Networks, equation 3.
     """
-    filled = reliability(scores, bins)
+    filled = reliability_bins(scores, bins)
     total = sum(b.count for b in filled)
     return sum(b.count * abs(b.accuracy - b.confidence) for b in filled) / total if total else None
 
 
-def risk_coverage(scores: Sequence[Score], *, accepting: bool = False) -> tuple[tuple[float, float], ...]:
-    """Return (coverage, risk) as answers are taken in falling confidence; equal confidences are taken together.
+def risk_coverage_curve(scores: Sequence[Score], *, accepting: bool = False) -> tuple[tuple[float, float], ...]:
+    """Return the points (coverage, risk) as the confidence threshold falls; ties enter together.
 
-    Coverage is the share of all objects, risk the share of wrong answers among those taken. Unanswered objects are
-    never taken. With `accepting`, an answer that is one of the gold's second labels is not wrong.
+    Coverage is the share of all objects whose answer is accepted, risk the share of wrong answers among these. Objects
+    without an answer are never covered.
+
+    Args:
+        scores: the scores.
+        accepting: whether second labels count as right.
     """
     answered = sorted((s for s in scores if s.confidence is not None), key=lambda s: -(s.confidence or 0.0))
     points = []
@@ -68,9 +75,9 @@ def risk_coverage(scores: Sequence[Score], *, accepting: bool = False) -> tuple[
 
 
 def accuracy_at_coverage(scores: Sequence[Score], coverage: float, *, accepting: bool = False) -> float | None:
-    """Return the accuracy of the surest answers that make up at least `coverage`; None if there are too few.
+    """Return the accuracy of the most confident answers that cover at least `coverage`; None if there are too few.
 
-    With `accepting`, the gold's second labels count as right.
+    With `accepting`, second labels count as right.
     """
-    reached = [risk for share, risk in risk_coverage(scores, accepting=accepting) if share >= coverage - 1e-12]
-    return 1 - reached[0] if reached else None
+    curve = risk_coverage_curve(scores, accepting=accepting)
+    return next((1 - risk for share, risk in curve if share >= coverage - _ROUNDING), None)

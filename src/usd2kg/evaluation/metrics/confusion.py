@@ -1,10 +1,10 @@
-"""Which classes are taken for which."""
+"""Precision and recall by class, and confusions between classes."""
 
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
 from usd2kg.ontology import ClassIRI
 
 __all__ = ["ClassReport", "class_reports", "confusion"]
@@ -12,23 +12,23 @@ __all__ = ["ClassReport", "class_reports", "confusion"]
 
 @dataclass(frozen=True, slots=True)
 class ClassReport:
-    """How one class fares."""
+    """Counts for one class."""
 
     class_iri: ClassIRI
     support: int
-    """Objects whose target it is."""
+    """Objects with this target."""
     answered: int
-    """Objects that were given it."""
+    """Objects with this answer."""
     correct: int
 
     @property
     def precision(self) -> float | None:
-        """Share of its answers that are right; None where it was never answered."""
+        """Share of its answers that are right; None if it was never answered."""
         return self.correct / self.answered if self.answered else None
 
     @property
     def recall(self) -> float | None:
-        """Share of its objects that were found; None where it has none."""
+        """Share of its objects that were found; None if there are none."""
         return self.correct / self.support if self.support else None
 
 
@@ -42,7 +42,7 @@ def class_reports(scores: Sequence[Score]) -> tuple[ClassReport, ...]:
 
 
 def confusion(scores: Sequence[Score]) -> tuple[tuple[ClassIRI, ClassIRI | None, int], ...]:
-    """Return (target, answer, count) of the wrong answers, the most frequent first; no answer is None."""
+    """Return (target, answer, count) of the wrong answers, most frequent first; a missing answer is None."""
     counts = Counter((score.target, score.answer) for score in scores if not score.is_exact)
     return tuple(
         (target, answer, count)

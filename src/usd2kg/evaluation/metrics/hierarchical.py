@@ -1,48 +1,48 @@
-"""Hierarchical precision, recall and F1: an answer near the target in the hierarchy is partly right.
+"""Hierarchical precision, recall and F1, with partial credit for answers near the target.
 
-Silla and Freitas (2011), as the study uses them. With ↑c the class and all its ancestors up to the scope's roots:
+Silla and Freitas 2011, as in the study. With ↑c for a class and its superclasses in the scope:
 hP = |↑ĉ ∩ ↑c*| / |↑ĉ|, hR = |↑ĉ ∩ ↑c*| / |↑c*|, and HF1 is the mean over objects of 2 hP hR / (hP + hR).
 """
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["Hierarchical", "hierarchical", "hierarchical_f1", "hierarchical_one"]
+__all__ = ["HierarchicalScore", "hierarchical_f1", "hierarchical_score", "mean_hierarchical_score"]
 
 
-class Hierarchical(NamedTuple):
-    """Means over objects, each from 0 to 1."""
+class HierarchicalScore(NamedTuple):
+    """Hierarchical precision, recall and F1, each from 0 to 1."""
 
     precision: float
     recall: float
     f1: float
 
 
-def hierarchical_one(answer: ClassIRI | None, target: ClassIRI, tbox: TBox) -> Hierarchical:
-    """Return hP, hR and F1 of one answer; all 0 where there is no answer or no common ancestor."""
+def hierarchical_score(answer: ClassIRI | None, target: ClassIRI, tbox: TBox) -> HierarchicalScore:
+    """Return hP, hR and F1 of one answer; all 0 without an answer or a common superclass."""
     if answer is None:
-        return Hierarchical(0.0, 0.0, 0.0)
-    given, true = tbox.closure(answer), tbox.closure(target)
-    common = len(given & true)
-    precision, recall = common / len(given), common / len(true)
-    return Hierarchical(precision, recall, 2 * precision * recall / (precision + recall) if common else 0.0)
+        return HierarchicalScore(0.0, 0.0, 0.0)
+    predicted, true = tbox.closure(answer), tbox.closure(target)
+    common = len(predicted & true)
+    precision, recall = common / len(predicted), common / len(true)
+    return HierarchicalScore(precision, recall, 2 * precision * recall / (precision + recall) if common else 0.0)
 
 
-def hierarchical(scores: Sequence[Score], tbox: TBox) -> Hierarchical:
-    """Return the means of hP, hR and F1 over objects; unanswered ones count as 0.
+def mean_hierarchical_score(scores: Sequence[Score], tbox: TBox) -> HierarchicalScore:
+    """Return the means of hP, hR and F1 over objects; those without an answer count as 0.
 
     Raises:
-        ValueError: there is no score.
+        ValueError: there are no scores.
     """
     if not scores:
-        raise ValueError("a mean of no samples is undefined")
-    each = [hierarchical_one(score.answer, score.target, tbox) for score in scores]
-    return Hierarchical(*(sum(values) / len(each) for values in zip(*each, strict=True)))
+        raise ValueError("the mean of no samples is undefined")
+    each = [hierarchical_score(score.answer, score.target, tbox) for score in scores]
+    return HierarchicalScore(*(sum(values) / len(each) for values in zip(*each, strict=True)))
 
 
 def hierarchical_f1(scores: Sequence[Score], tbox: TBox) -> float:
-    """Return HF1 alone."""
-    return hierarchical(scores, tbox).f1
+    """Return HF1, the mean F1 over objects."""
+    return mean_hierarchical_score(scores, tbox).f1

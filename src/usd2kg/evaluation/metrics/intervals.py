@@ -1,17 +1,18 @@
-"""How sure a figure is, and whether two methods differ."""
+"""Bootstrap intervals, McNemar's test, and the spread of repeated runs."""
 
 import math
 from collections.abc import Callable, Hashable, Sequence
+from statistics import fmean, stdev
 from typing import NamedTuple
 
 import numpy as np
 
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
+from usd2kg.evaluation.settings import BOOTSTRAP
 
-__all__ = ["Interval", "McNemar", "bootstrap_interval", "mcnemar", "mean_spread"]
+__all__ = ["Interval", "McNemar", "bootstrap_interval", "mcnemar", "mean_and_deviation"]
 
-_RESAMPLES = 2000
-_SEED = 20240229
+_PERCENTILES = (2.5, 97.5)
 
 
 class Interval(NamedTuple):
@@ -22,51 +23,51 @@ class Interval(NamedTuple):
 
 
 def bootstrap_interval(
-    values: Sequence[float], clusters: Sequence[Hashable] | None = None, resamples: int = _RESAMPLES
+    values: Sequence[float], clusters: Sequence[Hashable] | None = None, resamples: int = BOOTSTRAP.resamples
 ) -> Interval:
-    """Return the percentile bootstrap interval of the mean of `values`.
+    """Return the percentile bootstrap interval of the mean of `values`, with a fixed seed.
 
-    With `clusters`, whole clusters are drawn, not single values: a hundred copies of one cup are one observation
-    of the cup, not a hundred (Field and Welsh, 2007). The seed is fixed, so the same values give the same interval.
+    With `clusters` (one per value), whole clusters are resampled: a hundred copies of a cup are one observation, not a
+    hundred (Field and Welsh 2007).
 
     Raises:
         ValueError: there are no values.
     """
     if not values:
-        raise ValueError("an interval of no samples is undefined")
+        raise ValueError("the interval of no samples is undefined")
     keys = list(clusters) if clusters is not None else list(range(len(values)))
     index = {key: i for i, key in enumerate(dict.fromkeys(keys))}
     sums, sizes = np.zeros(len(index)), np.zeros(len(index))
     for key, value in zip(keys, values, strict=True):
         sums[index[key]] += value
         sizes[index[key]] += 1
-    generator = np.random.default_rng(_SEED)
+    generator = np.random.default_rng(BOOTSTRAP.seed)
     draws = generator.integers(0, len(index), size=(resamples, len(index)))
     means = sums[draws].sum(axis=1) / sizes[draws].sum(axis=1)
-    lower, upper = np.percentile(means, [2.5, 97.5])
+    lower, upper = np.percentile(means, _PERCENTILES)
     return Interval(float(lower), float(upper))
 
 
 class McNemar(NamedTuple):
-    """A comparison of two methods on the same objects."""
+    """McNemar's test of two methods on the same objects."""
 
     only_first: int
-    """Objects that only the first method has right."""
+    """Objects that only the first method gets right."""
     only_second: int
     p_value: float
-    """Two-sided exact probability of a split at least as uneven if both were equally good."""
+    """Two-sided exact p-value under the null hypothesis of equal accuracy."""
 
 
 def mcnemar(
     first: Sequence[Score], second: Sequence[Score], is_right: Callable[[Score], bool] = lambda score: score.is_exact
 ) -> McNemar:
-    """Return McNemar's exact test (McNemar, 1947; binomial form) on the objects that both have scores for.
+    """Return McNemar's exact test (McNemar 1947; binomial form) on the objects that both methods have scores for.
 
     Raises:
         ValueError: they have no object in common.
     """
-    others = {score.id: score for score in second}
-    pairs = [(is_right(score), is_right(others[score.id])) for score in first if score.id in others]
+    by_id = {score.id: score for score in second}
+    pairs = [(is_right(score), is_right(by_id[score.id])) for score in first if score.id in by_id]
     if not pairs:
         raise ValueError("the two runs have no object in common")
     only_first = sum(a and not b for a, b in pairs)
@@ -76,11 +77,6 @@ def mcnemar(
     return McNemar(only_first, only_second, min(1.0, 2 * tail / 2**discordant))
 
 
-def mean_spread(values: Sequence[float]) -> tuple[float, float | None]:
-    """Return mean and sample standard deviation of repeated runs; the spread of a single run is None."""
-    if not values:
-        raise ValueError("a mean of no runs is undefined")
-    mean = sum(values) / len(values)
-    if len(values) == 1:
-        return mean, None
-    return mean, math.sqrt(sum((value - mean) ** 2 for value in values) / (len(values) - 1))
+def mean_and_deviation(values: Sequence[float]) -> tuple[float, float | None]:
+    """Return the mean and sample standard deviation of repeated runs; the deviation of a single run is None."""
+    return fmean(values), stdev(values) if len(values) > 1 else None

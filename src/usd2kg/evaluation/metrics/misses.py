@@ -1,36 +1,36 @@
-"""What kind of miss a wrong answer is."""
+"""Kinds of wrong answers, by the relation of answer and target in the hierarchy."""
 
 from collections import Counter
 from collections.abc import Iterable
 from enum import StrEnum
 
-from usd2kg.evaluation.sample import Score
+from usd2kg.evaluation.score import Score
 from usd2kg.ontology import TBox
 
-__all__ = ["Miss", "count_misses", "kind_of_miss"]
+__all__ = ["Miss", "classify_miss", "count_misses"]
 
 
 class Miss(StrEnum):
-    """The kinds, in the order in which they are looked for."""
+    """Kinds of wrong answers; the first that applies counts."""
 
     UNANSWERED = "unanswered"
-    """There was no answer."""
+    """There is no answer."""
     SUPERCLASS_COLLAPSE = "superclass collapse"
-    """The truth is a leaf, the answer a class above it."""
+    """The target is a leaf, the answer one of its superclasses."""
     TOO_GENERAL = "too general"
-    """The truth is itself a class with subclasses, the answer a class above it."""
+    """The target has subclasses, the answer is one of its superclasses."""
     TOO_SPECIFIC = "too specific"
-    """The answer is below the truth."""
+    """The answer is a subclass of the target."""
     SIBLING = "sibling"
-    """Answer and truth have a parent in common."""
+    """Answer and target have a direct superclass in common."""
     SAME_BRANCH = "same branch"
-    """They have a common ancestor other than a root."""
+    """Answer and target have a common superclass other than a root."""
     FAR_OFF = "far off"
-    """They have a root in common at most."""
+    """Answer and target have at most a root in common."""
 
 
-def kind_of_miss(score: Score, tbox: TBox) -> Miss | None:
-    """Return what kind of miss a score is; None if it is right."""
+def classify_miss(score: Score, tbox: TBox) -> Miss | None:
+    """Return the kind of a wrong answer; None for a right one."""
     if score.is_exact:
         return None
     if score.answer is None:
@@ -46,6 +46,6 @@ def kind_of_miss(score: Score, tbox: TBox) -> Miss | None:
 
 
 def count_misses(scores: Iterable[Score], tbox: TBox) -> dict[Miss, int]:
-    """Return how often each kind occurs; kinds that do not are 0."""
-    counts = Counter(kind_of_miss(score, tbox) for score in scores)
+    """Return the count of each kind, 0 included."""
+    counts = Counter(classify_miss(score, tbox) for score in scores)
     return {kind: counts[kind] for kind in Miss}

@@ -1,4 +1,4 @@
-"""Reports on results: tables, error analysis and plots, as Markdown, LaTeX, HTML, CSV and JSON."""
+"""Reports of results: tables, error analysis and plots, as Markdown, LaTeX, HTML, CSV and JSON."""
 
 from usd2kg.evaluation.report.write import write_report
 

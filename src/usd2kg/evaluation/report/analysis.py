@@ -1,4 +1,4 @@
-"""What the wrong and the right answers have in common: pure functions of results."""
+"""Analysis of right and wrong answers across methods: pure functions of results."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -7,39 +7,39 @@ from typing import NamedTuple
 
 from usd2kg.evaluation.metrics.accuracy import exact_match
 from usd2kg.evaluation.metrics.intervals import McNemar, mcnemar
-from usd2kg.evaluation.reproduce import CellResult, SceneResult
-from usd2kg.evaluation.sample import Score, distinct_name
+from usd2kg.evaluation.run_matrix import CellResult, SceneResult
+from usd2kg.evaluation.score import Score, distinct_name
 from usd2kg.grounding import NamingRegime
-from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.ontology.model import local_name
+from usd2kg.ontology import ClassIRI, TBox, local_name
 from usd2kg.words import words_of
 
 __all__ = [
     "REGIMES",
-    "Agreed",
     "NameQuality",
     "SizeDistinctive",
-    "agreed_objects",
+    "UnanimousObjects",
     "compare_methods",
+    "contains_head_noun",
     "ema_by_name_quality",
-    "head_word",
-    "hierarchy_order",
-    "methods_of",
+    "find_size_distinctive",
+    "find_unanimous",
+    "group_repeats",
+    "has_geometry_runs",
+    "head_noun",
+    "list_methods",
     "name_counts",
-    "names_its_class",
-    "runs_of",
-    "scores_under",
-    "size_distinctive",
+    "scores_by_method",
+    "sort_by_hierarchy",
 ]
 
 REGIMES = tuple(regime.value for regime in NamingRegime)
-"""The naming regimes, each the name of the condition that uses it with all evidence."""
+"""The naming regimes, which are also the names of the conditions with all evidence."""
 _GEOMETRY_ONLY = "geometry only"
 _NO_EVIDENCE = "hierarchy only, anonymised"
 _VOLUME = "volume"
 
 
-def runs_of(result: SceneResult) -> Mapping[tuple[str, str], tuple[CellResult, ...]]:
+def group_repeats(result: SceneResult) -> Mapping[tuple[str, str], tuple[CellResult, ...]]:
     """Return (method, condition) → its repeats, in the order of the matrix."""
     found: dict[tuple[str, str], list[CellResult]] = {}
     for done in result.cells:
@@ -47,69 +47,67 @@ def runs_of(result: SceneResult) -> Mapping[tuple[str, str], tuple[CellResult, .
     return {key: tuple(cells) for key, cells in found.items()}
 
 
-def methods_of(result: SceneResult) -> tuple[str, ...]:
-    """Return the grounders that were run, in the order of the matrix; the first is the default one."""
+def list_methods(result: SceneResult) -> tuple[str, ...]:
+    """Return the grounders that were run, in the order of the matrix."""
     return tuple(dict.fromkeys(done.cell.grounder for done in result.cells))
 
 
-def scores_under(result: SceneResult, condition: str) -> Mapping[str, tuple[Score, ...]]:
-    """Return method → scores of its first repeat under a condition; methods that were not run under it are absent."""
+def scores_by_method(result: SceneResult, condition: str) -> Mapping[str, tuple[Score, ...]]:
+    """Return method → scores of the first repeat under a condition, for the methods that were run under it."""
     return {
-        method: repeats[0].evaluation.scores for (method, name), repeats in runs_of(result).items() if name == condition
+        method: repeats[0].evaluation.scores
+        for (method, name), repeats in group_repeats(result).items()
+        if name == condition
     }
 
 
-class Agreed(NamedTuple):
-    """The objects on which all methods fare alike."""
+class UnanimousObjects(NamedTuple):
+    """The objects that all methods get right, or all get wrong."""
 
     right: tuple[Score, ...]
-    """The first method's scores of the objects that every method has right."""
+    """Scores of the first method for the objects that all methods get right."""
     wrong: tuple[Score, ...]
-    """Likewise of those that every method has wrong, in whatever way."""
+    """Scores of the first method for the objects that all methods get wrong, whatever the answers."""
 
 
-def agreed_objects(by_method: Mapping[str, Sequence[Score]]) -> Agreed:
-    """Return the objects that all methods have right, and those that all have wrong, in the order of the gold."""
+def find_unanimous(by_method: Mapping[str, Sequence[Score]]) -> UnanimousObjects:
+    """Return the objects that all methods get right, and those that all get wrong, in gold order."""
     right_by: Counter[str] = Counter()
     for scores in by_method.values():
         right_by.update(score.id for score in scores if score.is_exact)
     first = next(iter(by_method.values()), ())
-    return Agreed(
+    return UnanimousObjects(
         right=tuple(score for score in first if right_by[score.id] == len(by_method)),
         wrong=tuple(score for score in first if right_by[score.id] == 0),
     )
 
 
 def name_counts(scores: Iterable[Score]) -> tuple[tuple[str, int], ...]:
-    """Return (distinct name, objects that bear it), the most frequent first."""
+    """Return (distinct name, number of objects), most frequent first."""
     counts = Counter(distinct_name(score.name) for score in scores)
     return tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
 
 
 class SizeDistinctive(NamedTuple):
-    """The objects whose box alone gives them away."""
+    """The objects that are recognised by the size of their box alone."""
 
     found: tuple[Score, ...]
-    """Right from geometry alone, and not right without any evidence; in the order of the gold."""
+    """Right from geometry alone, but not without evidence; in gold order."""
     by_default: int
-    """Objects right from geometry alone that the same method also has right without evidence: its standing answer
-    happens to be their class, and their size says nothing."""
+    """Number of objects that are right from geometry alone and also without evidence: the method's default answer
+    happens to be their class."""
 
 
-def size_distinctive(result: SceneResult) -> SizeDistinctive:
-    """Return the objects that a method limited to geometry, or the volume method, has right under opaque names.
+def find_size_distinctive(result: SceneResult) -> SizeDistinctive:
+    """Return the objects that a method limited to geometry, or the volume method, gets right under opaque names.
 
-    Without evidence means the condition `hierarchy only, anonymised`; where it was not run, nothing is taken off.
+    The condition without evidence is `hierarchy only, anonymised`; if it was not run, no object is discounted.
     """
-    limited = dict(scores_under(result, _GEOMETRY_ONLY))
-    by_volume = scores_under(result, NamingRegime.OPAQUE.value).get(_VOLUME)
-    if by_volume is not None:
-        limited[_VOLUME] = by_volume
-    blind = scores_under(result, _NO_EVIDENCE)
+    without_evidence = scores_by_method(result, _NO_EVIDENCE)
     found: dict[str, Score] = {}
     by_default: set[str] = set()
-    for method, scores in limited.items():
-        default = {score.id for score in blind.get(method, ()) if score.is_exact}
+    for method, scores in _geometry_runs(result).items():
+        default = {score.id for score in without_evidence.get(method, ()) if score.is_exact}
         for score in scores:
             if score.is_exact and score.id in default:
                 by_default.add(score.id)
@@ -122,40 +120,52 @@ def size_distinctive(result: SceneResult) -> SizeDistinctive:
     )
 
 
-def head_word(iri: ClassIRI) -> str:
-    """Return the last word of a class's local name, lower case: what the class is, apart from of what sort.
+def has_geometry_runs(result: SceneResult) -> bool:
+    """Return whether any method was limited to geometry."""
+    return bool(_geometry_runs(result))
 
-    >>> head_word("http://www.ease-crc.org/ont/SOMA.owl#DesignedContainer")
+
+def _geometry_runs(result: SceneResult) -> Mapping[str, Sequence[Score]]:
+    by_volume = scores_by_method(result, NamingRegime.OPAQUE.value).get(_VOLUME)
+    volume = {} if by_volume is None else {_VOLUME: by_volume}
+    return {**scores_by_method(result, _GEOMETRY_ONLY), **volume}
+
+
+def head_noun(iri: ClassIRI) -> str:
+    """Return the head noun of a class: the last word of its local name, lower case.
+
+    >>> head_noun("http://www.ease-crc.org/ont/SOMA.owl#DesignedContainer")
     'container'
     """
     name = local_name(iri)
     return (words_of(name) or (name.lower(),))[-1]
 
 
-def names_its_class(name: str, target: ClassIRI) -> bool:
-    """Return whether an authored name contains the head word of its class.
+def contains_head_noun(name: str, target: ClassIRI) -> bool:
+    """Return whether the head noun of the class is a word of an authored name.
 
-    >>> names_its_class("CupCBlue_1", "#Cup"), names_its_class("FlowerPot_2", "#DesignedContainer")
+    >>> contains_head_noun("CupCBlue_1", "#Cup"), contains_head_noun("FlowerPot_2", "#DesignedContainer")
     (True, False)
     """
-    return head_word(target) in words_of(name)
+    return head_noun(target) in words_of(name)
 
 
 class NameQuality(NamedTuple):
-    """Exact match where names are good and where they are not."""
+    """Exact match by whether the authored name contains the head noun of the class."""
 
     named: int
-    """Objects whose name contains the head word of their class."""
+    """Number of objects whose name contains it."""
     ema_named: float | None
-    """Exact match of those, percent; None where there are none."""
+    """Exact match of these objects, percent; None if there are none."""
     other: int
+    """Number of the other objects."""
     ema_other: float | None
 
 
 def ema_by_name_quality(scores: Sequence[Score]) -> NameQuality:
-    """Return exact match apart for objects whose authored name names their class and for the others."""
-    named = [score for score in scores if names_its_class(score.name, score.target)]
-    other = [score for score in scores if not names_its_class(score.name, score.target)]
+    """Return exact match separately for good names, which contain the head noun of the class, and for others."""
+    named = [score for score in scores if contains_head_noun(score.name, score.target)]
+    other = [score for score in scores if not contains_head_noun(score.name, score.target)]
     return NameQuality(len(named), _percent(named), len(other), _percent(other))
 
 
@@ -168,18 +178,18 @@ def compare_methods(by_method: Mapping[str, Sequence[Score]]) -> tuple[tuple[str
     return tuple((a, b, mcnemar(by_method[a], by_method[b])) for a, b in combinations(by_method, 2))
 
 
-def hierarchy_order(classes: Iterable[ClassIRI], tbox: TBox) -> tuple[ClassIRI, ...]:
-    """Return classes as a walk down the hierarchy meets them: each below its superclass and beside its siblings."""
+def sort_by_hierarchy(classes: Iterable[ClassIRI], tbox: TBox) -> tuple[ClassIRI, ...]:
+    """Return classes in depth-first order of the hierarchy, so that superclasses and siblings are neighbours."""
     wanted = set(classes)
-    met: dict[ClassIRI, None] = {}
+    visited: dict[ClassIRI, None] = {}
 
-    def walk(iri: ClassIRI) -> None:
-        if iri in met:
+    def visit(iri: ClassIRI) -> None:
+        if iri in visited:
             return
-        met[iri] = None
+        visited[iri] = None
         for child in tbox.children[iri]:
-            walk(child)
+            visit(child)
 
     for root in tbox.roots:
-        walk(root)
-    return tuple(iri for iri in met if iri in wanted)
+        visit(root)
+    return tuple(iri for iri in visited if iri in wanted)

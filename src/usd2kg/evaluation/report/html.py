@@ -1,15 +1,15 @@
-"""A report as one HTML file that needs nothing else: no script, no font, no image from anywhere."""
+"""Reports as one self-contained HTML file, without scripts or external resources."""
 
 import html
 import re
 from collections.abc import Sequence
 
-from usd2kg.evaluation.report.document import Figure, Section, Table, printable
+from usd2kg.evaluation.report.blocks import Figure, Section, Table, printable
 
 __all__ = ["escape_html", "format_html"]
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
-"""What the page may load: nothing. Its styles stand inside it."""
+"""Content Security Policy: the page loads nothing; its styles are inline."""
 _STYLE = """
 :root { color-scheme: light; --ink: #1d2430; --soft: #5b6575; --line: #dfe3ea; --tint: #f5f7fa; --accent: #0072b2; }
 * { box-sizing: border-box; }
@@ -40,11 +40,11 @@ figure svg { max-width: 100%; height: auto; }
 figcaption { color: var(--soft); font-size: .88rem; max-width: 48rem; }
 @media print { nav { display: none; } h2 { break-after: avoid; } figure, tr { break-inside: avoid; } }
 """
-_NUMBER = re.compile(r"(fail|–|< ?)?[\d\s.,±/%×to-]*")
+_NUMERIC_CELL = re.compile(r"(fail|–|< ?)?[\d\s.,±/%×to-]*")
 
 
 def escape_html(text: str) -> str:
-    """Return text that HTML shows as it is, in an attribute too.
+    """Return text escaped for HTML content and attributes.
 
     >>> escape_html("<script>alert('1')</script>")
     '&lt;script&gt;alert(&#x27;1&#x27;)&lt;/script&gt;'
@@ -53,7 +53,7 @@ def escape_html(text: str) -> str:
 
 
 def format_html(title: str, sections: Sequence[Section]) -> str:
-    """Return the whole page."""
+    """Return the page."""
     contents = " ".join(f'<a href="#s{i}">{escape_html(s.title)}</a>' for i, s in enumerate(sections, 1))
     body = "\n".join(_section(section, index) for index, section in enumerate(sections, 1))
     return (
@@ -79,7 +79,7 @@ def _block(block: str | Table | Figure, key: str) -> str:
 
 
 def _table(table: Table) -> str:
-    numeric = [all(_NUMBER.fullmatch(row[at]) for row in table.rows) for at in range(len(table.columns))]
+    numeric = [all(_NUMERIC_CELL.fullmatch(row[at]) for row in table.rows) for at in range(len(table.columns))]
     title = escape_html(table.title)
     head = _row("th", table.columns, numeric)
     rows = "\n".join(_row("td", row, numeric) for row in table.rows)
@@ -102,7 +102,7 @@ def _row(tag: str, cells: Sequence[str], numeric: Sequence[bool]) -> str:
 
 
 def _figure(figure: Figure, key: str) -> str:
-    # All plots share the page's ids, so that each gets its own.
+    # Ids must be unique on the page, and all plots use the same ones.
     svg = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{key}-", figure.svg)
     caption = escape_html(figure.caption)
     svg = svg.replace("<svg ", f'<svg role="img" aria-label="{caption}" ', 1)

@@ -1,9 +1,9 @@
-"""A report as Markdown (GitHub's, for the tables)."""
+"""Reports as GitHub Flavored Markdown."""
 
 import re
 from collections.abc import Sequence
 
-from usd2kg.evaluation.report.document import Figure, Section, Table, printable
+from usd2kg.evaluation.report.blocks import Figure, Section, Table, printable
 
 __all__ = ["escape_markdown", "format_markdown"]
 
@@ -12,7 +12,7 @@ _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;"})
 
 
 def escape_markdown(text: str) -> str:
-    """Return text that Markdown shows as it is, inside a table too.
+    """Return text escaped for Markdown, including table cells.
 
     >>> escape_markdown("a|b `c` <i>")
     'a\\\\|b \\\\`c\\\\` &lt;i&gt;'
@@ -21,7 +21,7 @@ def escape_markdown(text: str) -> str:
 
 
 def format_markdown(title: str, sections: Sequence[Section]) -> str:
-    """Return the report; plots are referred to in the folder `plots` beside it."""
+    """Return the report, which links to its plots in the folder `plots`."""
     parts = [f"# {escape_markdown(title)}"]
     for section in sections:
         parts.append(f"## {escape_markdown(section.title)}")

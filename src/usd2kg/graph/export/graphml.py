@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from usd2kg.graph.export.property_graph import PropertyGraph, Value
-from usd2kg.graph.formats.rdf_xml import replace_not_xml, xml_attribute, xml_text
+from usd2kg.graph.xml_text import replace_illegal_characters, xml_attribute, xml_text
 
 __all__ = ["graphml_pieces"]
 
@@ -47,4 +47,4 @@ def _data(domain: str, values: Mapping[str, Value]) -> str:
 def _text(value: Value) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
-    return xml_text(replace_not_xml(value)) if isinstance(value, str) else repr(value)
+    return xml_text(replace_illegal_characters(value)) if isinstance(value, str) else repr(value)

@@ -23,7 +23,7 @@ from usd2kg.graph.export.property_terms import (
     TEXTS,
     VECTORS,
 )
-from usd2kg.graph.formats.document import GraphDocument
+from usd2kg.graph.rdf_document import GraphDocument
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD, XSD
 
 __all__ = ["PropertyEdge", "PropertyGraph", "PropertyNode", "Value", "read_property_graph"]

@@ -3,15 +3,15 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby, islice
-from xml.sax.saxutils import escape
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
-from usd2kg.graph.formats.document import refuse_rdf12
+from usd2kg.graph.rdf_document import refuse_rdf12
 from usd2kg.graph.vocabulary import RDF
+from usd2kg.graph.xml_text import find_illegal_character, xml_attribute, xml_text
 
-__all__ = ["not_xml", "rdf_xml_pieces", "replace_not_xml", "xml_attribute", "xml_text"]
+__all__ = ["rdf_xml_pieces"]
 
 _START = (
     "A-Z_a-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
@@ -35,10 +35,6 @@ _RESERVED = {
 }
 """Local names of the RDF namespace that are no property elements (RDF 1.1 XML Syntax, section 6.2)."""
 _PREFIX = re.compile(r"[A-Za-z_][\w.-]*\Z", flags=re.ASCII)
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""Characters that are illegal in XML 1.0, even escaped (section 2.2)."""
-_RETURN = {"\r": "&#13;"}
-"""XML readers normalise a bare carriage return to a line feed (section 2.11)."""
 _SUBJECTS = 10_000
 """Runs of triples per chunk."""
 
@@ -98,7 +94,7 @@ def _property(triple: ox.Triple, names: _Names) -> str:
     value = triple.object
     if not isinstance(value, ox.Literal):
         return f"    <{name}{declaration} {_reference(value, 'resource')}/>\n"
-    if wrong := not_xml(value.value):
+    if wrong := find_illegal_character(value.value):
         raise GraphError(
             f"{names.source}: a value of <{triple.predicate.value}> of {triple.subject} contains {wrong!r}; "
             "XML cannot represent it, choose .ttl, .nt or .jsonld"
@@ -124,24 +120,3 @@ def _node_id(label: str) -> str:
     found = _NAME.match(label)
     is_name = found is not None and not found[1] and not label.startswith("b_")
     return label if is_name else f"b_{label}"
-
-
-def not_xml(text: str) -> str | None:
-    """Return the first character that is illegal in XML, or None."""
-    found = _NO_XML.search(text)
-    return found[0] if found else None
-
-
-def xml_text(text: str) -> str:
-    """Return text escaped as element content."""
-    return escape(text, _RETURN)
-
-
-def xml_attribute(text: str) -> str:
-    """Return text escaped as a double-quoted attribute value."""
-    return escape(text, {**_RETURN, '"': "&quot;", "\n": "&#10;", "\t": "&#9;"})
-
-
-def replace_not_xml(text: str) -> str:
-    """Return text with U+FFFD for each character that is illegal in XML."""
-    return _NO_XML.sub("\ufffd", text)

@@ -18,7 +18,7 @@ from usd2kg.grounding.lexical.reading.shortening import may_be_short
 from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE, READING
 from usd2kg.languages import translate
 from usd2kg.ontology import ClassIRI
-from usd2kg.words import is_telling, split_identifier
+from usd2kg.words import is_content_word, split_identifier
 
 __all__ = ["NameEvidence"]
 
@@ -77,7 +77,7 @@ class NameEvidence:
     def score_abbreviation(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes of the readings of an abbreviated name; none if all its words are known."""
         tokens = [part.lower() for part in split_identifier(view.name) if part.isalpha()]
-        tokens = [token for token in tokens if is_telling(token)][: ABBREVIATED_NAME.max_tokens]
+        tokens = [token for token in tokens if is_content_word(token)][: ABBREVIATED_NAME.max_tokens]
         if not tokens or (not view.is_masked and self._is_spelled_out(tokens)):
             return []
         spelled = {token for token in tokens if len(token) >= SHORTEST_WORD and self._is_word(token)}

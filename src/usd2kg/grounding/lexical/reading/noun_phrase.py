@@ -13,7 +13,7 @@ from usd2kg.grounding.lexical.reading.word_kinds import WordKinds
 from usd2kg.grounding.lexical.settings import READING
 from usd2kg.knowledge import word_set
 from usd2kg.languages import language_of, translate
-from usd2kg.words import is_telling
+from usd2kg.words import is_content_word
 
 __all__ = ["NamePhrase", "NameReader"]
 
@@ -87,7 +87,7 @@ class NameReader:
         """Return the tokens before a preposition, if they name an object: `toy_bin_w_lid`, `towel_on_rack`."""
         for at in range(1, len(tokens)):
             is_cut = self._begins_attribute(tokens, at) or self._begins_location(tokens, at)
-            if is_cut and any(is_telling(token.text) for token in tokens[at + 1 :]):
+            if is_cut and any(is_content_word(token.text) for token in tokens[at + 1 :]):
                 return tokens[:at]
         return tokens
 
@@ -109,7 +109,7 @@ class NameReader:
 
     def _content_tokens(self, tokens: list[Token]) -> list[Token]:
         """Return the tokens without pipeline tokens (`low`, `test`), unless a term contains them: `TestTube`."""
-        kept = {at for at, token in enumerate(tokens) if is_telling(token.text)}
+        kept = {at for at, token in enumerate(tokens) if is_content_word(token.text)}
         for at in range(min(len(tokens), READING.max_words)):
             if at not in kept:
                 kept.update(self._term_around(tokens, at))

@@ -13,7 +13,7 @@ from usd2kg.grounding.lexical.reading.shortening import consonants_of
 from usd2kg.grounding.lexical.reading.word_frequencies import log_prior
 from usd2kg.grounding.lexical.reading.word_kinds import PLACEMENTS, THING_DOMAINS, WordKinds
 from usd2kg.grounding.lexical.settings import SPELLING
-from usd2kg.words import is_telling
+from usd2kg.words import is_content_word
 
 __all__ = ["SpellingCorrector"]
 
@@ -55,7 +55,7 @@ class SpellingCorrector:
         least = SPELLING.min_joined_letters
         for at in range(least, len(word) - least + 1):
             left, right = word[:at], self._taxonomy.singular(word[at:])
-            if not is_telling(right):
+            if not is_content_word(right):
                 return self._known_words(left)
             is_head = right not in PLACEMENTS and self._kinds.is_object(right)
             if is_head and (before := self._known_words(left)):

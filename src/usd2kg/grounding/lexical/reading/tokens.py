@@ -4,7 +4,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.settings import READING
-from usd2kg.words import is_telling, split_identifier
+from usd2kg.words import is_content_word, split_identifier
 
 __all__ = ["ParentTokens", "Token", "is_compound_part", "is_reference", "parent_tokens", "tokens_of"]
 
@@ -51,7 +51,7 @@ def tokens_of(name: str) -> list[Token]:
 def parent_tokens(name: str) -> ParentTokens:
     """Return the tokens of the name of a prim above."""
     tokens = tokens_of(name)
-    content = frozenset(token.text for token in tokens if is_telling(token.text))
+    content = frozenset(token.text for token in tokens if is_content_word(token.text))
     return ParentTokens(content, frozenset((token.text, token.number) for token in tokens))
 
 

@@ -37,7 +37,7 @@ class ClassSenses:
         return self._lexicon.default_class
 
     def is_known(self, iri: ClassIRI) -> bool:
-        """Return whether a class is aligned with a synset or with a list of names."""
+        """Return whether a class is aligned with a synset, is a category of synsets, or has a list of names."""
         return iri in self._aligned or iri in self._categories or iri in self._lexicon.home_classes
 
     @cached_property
@@ -79,8 +79,8 @@ def find_sense_faults(tbox: TBox, senses: ClassSenses) -> Iterator[Finding]:
     yield from _non_objects(tbox)
     for cls in tbox.classes:
         answer = senses.answers.get(cls.iri, cls.iri)
-        if taken := senses.rival(cls):
-            yield _lost(cls, _as_name(taken.text), tbox.by_iri[taken.class_iri])
+        if rival := senses.rival(cls):
+            yield _lost(cls, _as_name(rival.text), tbox.by_iri[rival.class_iri])
         elif answer is not None and answer != cls.iri:
             yield _lost(cls, senses.names[cls.iri], tbox.by_iri[answer])
         elif cls.iri in senses.names and not senses.is_known(cls.iri):
@@ -89,9 +89,9 @@ def find_sense_faults(tbox: TBox, senses: ClassSenses) -> Iterator[Finding]:
 
 def _non_objects(tbox: TBox) -> Iterator[Finding]:
     """Yield the topmost classes that are not physical objects: one finding per subtree."""
-    things = {cls.iri for cls in physical_classes(tbox)}
+    physical = {cls.iri for cls in physical_classes(tbox)}
     for cls in tbox.classes:
-        if cls.iri not in things and things.issuperset(cls.parents):
+        if cls.iri not in physical and physical.issuperset(cls.parents):
             below = sum(tbox.is_subclass(other.iri, cls.iri) for other in tbox.classes) - 1
             yield class_finding(
                 cls,

@@ -13,7 +13,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
-from usd2kg.ontology.entities import refuse_entity_bomb_in_file
+from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
 
 __all__ = [
     "RDF_FORMATS",

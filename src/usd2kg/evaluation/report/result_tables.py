@@ -1,15 +1,17 @@
-"""The tables of accuracy, ablation, selection and time."""
+"""Report tables: scenes, accuracy, ablation, object selection and run time."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
-from usd2kg.evaluation.metrics.intervals import mean_spread
-from usd2kg.evaluation.report.analysis import REGIMES, methods_of, runs_of
-from usd2kg.evaluation.report.document import ABSENT, Table, interval_text, number_text, plain_number, spread_text
-from usd2kg.evaluation.report.study import AS_PUBLISHED, StudyFigure, study_ablation, study_main
-from usd2kg.evaluation.reproduce import CellResult, SceneResult
-from usd2kg.evaluation.sample import distinct_name
+from usd2kg.evaluation.metrics.intervals import mean_and_deviation
+from usd2kg.evaluation.report.analysis import REGIMES, group_repeats, list_methods
+from usd2kg.evaluation.report.blocks import Table
+from usd2kg.evaluation.report.cell_text import ABSENT, interval_text, number_text, significant_digits, spread_text
+from usd2kg.evaluation.report.published import AS_PUBLISHED, PublishedResult, published_ablation, published_main
+from usd2kg.evaluation.run_matrix import CellResult, SceneResult
+from usd2kg.evaluation.score import distinct_name
+from usd2kg.evaluation.settings import REPORT
 from usd2kg.evaluation.summary import Summary
 
 __all__ = [
@@ -25,11 +27,9 @@ __all__ = [
     "timing_table",
 ]
 
-_MOST_MISSED = 10
-
 
 def scenes_table(results: Sequence[SceneResult]) -> Table:
-    """Return what was measured on: a row for each scene."""
+    """Return one row per scene: file, counts, ontology and note."""
     columns = ("scene", "file", "objects", "distinct names", "classes", "superclass targets", "ontology", "note")
     return Table("Scenes", columns, tuple(_scene_row(result) for result in results))
 
@@ -37,15 +37,15 @@ def scenes_table(results: Sequence[SceneResult]) -> Table:
 def _scene_row(result: SceneResult) -> tuple[str, ...]:
     targets = [label.target for label in result.gold]
     names = {distinct_name(label.prim_path.rpartition("/")[2]) for label in result.gold}
-    above = sum(bool(result.tbox.children[target]) for target in targets)
+    general = sum(bool(result.tbox.children[target]) for target in targets)
     return (
         result.spec.name,
         result.spec.path.name,
         str(len(targets)),
         str(len(names)),
         f"{len(set(targets))} of {len(result.tbox.classes)}",
-        str(above),
-        # The file's name, not its folder: a report must read the same wherever it was made.
+        str(general),
+        # Omit the folder, so that reports do not depend on the machine.
         PurePath(result.tbox.source).name,
         result.spec.note,
     )
@@ -53,25 +53,26 @@ def _scene_row(result: SceneResult) -> tuple[str, ...]:
 
 def main_table(result: SceneResult) -> Table:
     """Return method × regime in the study's format: `EMA % / HF1`."""
-    runs = runs_of(result)
+    runs = group_repeats(result)
     rows = tuple(
-        (method, *(_ema_f1(runs.get((method, regime), ())) for regime in REGIMES)) for method in methods_of(result)
+        (method, *(_ema_f1(runs.get((method, regime), ())) for regime in REGIMES)) for method in list_methods(result)
     )
     title = f"{size_title(result)}: EMA % / HF1 by naming regime"
     return Table(title, ("method", *REGIMES), rows, _repeats_note(result))
 
 
 def published_table() -> Table:
-    """Return the study's main results, headed as what they are."""
+    """Return the study's main results, with a caveat in the title."""
     rows = tuple(
-        (method, *(_published(figures.get(regime)) for regime in REGIMES)) for method, figures in study_main().items()
+        (method, *(_published(results.get(regime)) for regime in REGIMES))
+        for method, results in published_main().items()
     )
-    note = "For orientation only: another scene, labelled by other people."
+    note = "For orientation only: another scene with other annotators."
     return Table(f"EMA % / HF1 {AS_PUBLISHED}", ("method", *REGIMES), rows, note)
 
 
 def detail_table(result: SceneResult) -> Table:
-    """Return the further measures of each method and regime, with 95 % intervals."""
+    """Return further metrics of each method and regime, with 95 % intervals."""
     columns = (
         "method",
         "regime",
@@ -85,10 +86,10 @@ def detail_table(result: SceneResult) -> Table:
         "EMA % at 80 % coverage",
         "EMA % accept-also at 80 % coverage",
     )
-    runs = runs_of(result)
-    keys = [(method, regime) for method in methods_of(result) for regime in REGIMES if (method, regime) in runs]
+    runs = group_repeats(result)
+    keys = [(method, regime) for method in list_methods(result) for regime in REGIMES if (method, regime) in runs]
     rows = tuple((*key, *_details([done.evaluation.summary for done in runs[key]])) for key in keys)
-    return Table(f"{size_title(result)}: intervals and further measures", columns, rows, _repeats_note(result))
+    return Table(f"{size_title(result)}: intervals and further metrics", columns, rows, _repeats_note(result))
 
 
 def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
@@ -107,32 +108,32 @@ def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
 
 
 def timing_table(results: Sequence[SceneResult]) -> Table:
-    """Return seconds per object of each method and regime: the one table that no two runs have alike."""
+    """Return seconds per object of each method and regime; the only table that differs between equal runs."""
     rows = []
     for result in results:
-        runs = runs_of(result)
-        for method in methods_of(result):
+        runs = group_repeats(result)
+        for method in list_methods(result):
             cells = [runs.get((method, regime), ()) for regime in REGIMES]
             rows.append((result.spec.name, method, str(len(result.gold)), *(_seconds(done) for done in cells)))
     columns = ("scene", "method", "n", *REGIMES)
-    return Table("Seconds per object", columns, tuple(rows), "Without reading the scene and the ontology.")
+    return Table("Seconds per object", columns, tuple(rows), "Excludes reading the scene and the ontology.")
 
 
 def _seconds(repeats: Sequence[CellResult]) -> str:
     if not repeats:
         return ABSENT
     each = [done.evaluation.seconds / done.evaluation.summary.n for done in repeats]
-    return plain_number(mean_spread(each)[0])
+    return significant_digits(mean_and_deviation(each)[0])
 
 
 def ablation_table(result: SceneResult) -> Table | None:
-    """Return the study's conditions × methods, its own figures beside; None if none was run."""
+    """Return the study's conditions × methods, next to its published results; None if none was run."""
     if not _has_any(result, STUDY_ABLATION):
         return None
-    published = study_ablation()
-    columns = ("condition", *methods_of(result), *(f"{method} (published)" for method in published))
+    published = published_ablation()
+    columns = ("condition", *list_methods(result), *(f"{method} (published)" for method in published))
     rows = tuple(
-        (*_ablation_row(result, condition), *(_ema_alone(figures[condition]) for figures in published.values()))
+        (*_ablation_row(result, condition), *(_ema_only(results[condition]) for results in published.values()))
         for condition in STUDY_ABLATION
     )
     return Table(
@@ -141,25 +142,25 @@ def ablation_table(result: SceneResult) -> Table | None:
 
 
 def own_ablation_table(result: SceneResult) -> Table | None:
-    """Return our own conditions × methods, under authored names; None if none was run."""
+    """Return our conditions × methods, under authored names; None if none was run."""
     if not _has_any(result, OWN_ABLATION):
         return None
     rows = tuple(_ablation_row(result, condition) for condition in OWN_ABLATION)
-    return Table(f"{size_title(result)}: EMA % under our conditions", ("condition", *methods_of(result)), rows)
+    return Table(f"{size_title(result)}: EMA % under our conditions", ("condition", *list_methods(result)), rows)
 
 
 def _has_any(result: SceneResult, conditions: Iterable[str]) -> bool:
-    return not {condition for _, condition in runs_of(result)}.isdisjoint(conditions)
+    return not {condition for _, condition in group_repeats(result)}.isdisjoint(conditions)
 
 
 def _ablation_row(result: SceneResult, condition: str) -> tuple[str, ...]:
-    runs = runs_of(result)
-    found = [runs.get((method, condition), ()) for method in methods_of(result)]
+    runs = group_repeats(result)
+    found = [runs.get((method, condition), ()) for method in list_methods(result)]
     return (condition, *(spread_text([d.evaluation.summary.ema for d in repeats], 0) for repeats in found))
 
 
 def selection_table(results: Sequence[SceneResult]) -> Table:
-    """Return recall and precision of object selection, a row for each scene."""
+    """Return recall and precision of object selection, one row per scene."""
     rows = tuple(
         (
             result.spec.name,
@@ -172,30 +173,34 @@ def selection_table(results: Sequence[SceneResult]) -> Table:
         for result in results
     )
     columns = ("scene", "labelled", "recall", "precision", "missed", "selected without label")
-    note = "Precision is a lower bound where the gold labels do not cover the whole scene."
-    return Table("Selected against labelled prims", columns, rows, note)
+    note = "If the gold labels do not cover the whole scene, precision is a lower bound."
+    return Table("Selected and labelled prims", columns, rows, note)
 
 
 def missed_table(result: SceneResult) -> Table | None:
-    """Return the labelled prims that selection missed, at most ten, then a count; None if it missed none."""
+    """Return the labelled prims that were not selected, truncated with a count; None if there are none."""
     missed = result.selection.missed
-    rows = [(path,) for path in missed[:_MOST_MISSED]]
-    if not rows:
+    if not missed:
         return None
-    if len(missed) > _MOST_MISSED:
-        rows.append((f"and {len(missed) - _MOST_MISSED} more",))
+    rows = [(path,) for path in missed[: REPORT.max_missed]]
+    if len(missed) > REPORT.max_missed:
+        rows.append((f"and {len(missed) - REPORT.max_missed} more",))
     return Table(f"{result.spec.name}: labelled prims that were not selected", ("prim path",), tuple(rows))
 
 
 def size_title(result: SceneResult) -> str:
-    """Return the scene's name with its number of objects and of distinct names."""
+    """Return the name of the scene with the numbers of objects and distinct names."""
     names = {distinct_name(label.prim_path.rpartition("/")[2]) for label in result.gold}
     return f"{result.spec.name} (n = {len(result.gold)} objects, {len(names)} distinct names)"
 
 
 def _repeats_note(result: SceneResult) -> str:
     repeats = max((done.cell.repeat for done in result.cells), default=1)
-    return "" if repeats == 1 else f"Mean ± standard deviation of {repeats} repeats; intervals are the first repeat's."
+    return (
+        ""
+        if repeats == 1
+        else f"Mean ± standard deviation of {repeats} repeats; intervals are those of the first repeat."
+    )
 
 
 def _ema_f1(repeats: Sequence[CellResult]) -> str:
@@ -205,13 +210,13 @@ def _ema_f1(repeats: Sequence[CellResult]) -> str:
     return f"{spread_text([s.ema for s in summaries], 0)} / {spread_text([s.hf1 for s in summaries], 2, '0')}"
 
 
-def _published(figure: StudyFigure | None) -> str:
-    if figure is None:
+def _published(result: PublishedResult | None) -> str:
+    if result is None:
         return ABSENT
-    if figure.ema is None or figure.hf1 is None:
-        return figure.note
-    return f"{figure.ema:.0f} / {number_text(figure.hf1, 2).removeprefix('0')}"
+    if result.ema is None or result.hf1 is None:
+        return result.note
+    return f"{result.ema:.0f} / {number_text(result.hf1, 2).removeprefix('0')}"
 
 
-def _ema_alone(figure: StudyFigure) -> str:
-    return figure.note if figure.ema is None else f"{figure.ema:.0f}"
+def _ema_only(result: PublishedResult) -> str:
+    return result.note if result.ema is None else f"{result.ema:.0f}"

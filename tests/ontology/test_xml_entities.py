@@ -1,12 +1,12 @@
-"""XML entities are expanded as far as ontologies need it, and no further."""
+"""Limits on the expansion of XML entities."""
 
 import pytest
 
 from usd2kg.diff.graph_objects import read_statements
 from usd2kg.errors import GraphError, OntologyError
-from usd2kg.graph.formats.document import read_document
+from usd2kg.graph.rdf_document import read_document
 from usd2kg.ontology import load_tbox
-from usd2kg.ontology.entities import refuse_entity_bomb
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
 from usd2kg.query import load_graph
 
 OWL = 'xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:owl="http://www.w3.org/2002/07/owl#"'
@@ -27,7 +27,7 @@ def document(entities: str, content: str = "x", root: str = "rdf:RDF") -> str:
         f'<!ENTITY a "{"x" * 1000}"><!ENTITY b "{"&a;" * 9}">',
     ],
 )
-def test_entities_of_namespaces_are_taken(entities):
+def test_accepts_namespace_entities(entities):
     refuse_entity_bomb(document(entities))
 
 
@@ -45,19 +45,19 @@ def test_entities_of_namespaces_are_taken(entities):
         ('<!ENTITY a "x">' + "".join(f'<!ENTITY {b} "&{a};">' for a, b in ("ab", "bc", "cd", "de", "ef")), "5 deep"),
     ],
 )
-def test_entities_that_grow_are_refused(entities, reason):
+def test_rejects_expanding_entities(entities, reason):
     with pytest.raises(SyntaxError, match=reason):
         refuse_entity_bomb(document(entities))
 
 
-def test_many_uses_of_one_long_entity_are_refused():
+def test_rejects_many_references_to_a_long_entity():
     # 1,000 × 9,000 = 9 million characters from 13,000.
     with pytest.raises(SyntaxError, match="expand to 9,000,000 characters"):
         refuse_entity_bomb(document(f'<!ENTITY a "{"x" * 9000}">', "&a;" * 1000))
 
 
 @pytest.mark.parametrize("root", ["rdf:RDF", "Ontology"])
-def test_ontology_is_refused_before_it_is_parsed(tmp_path, root):
+def test_rejects_an_ontology_before_parsing(tmp_path, root):
     path = tmp_path / "laughs.owl"
     path.write_text(document(LAUGHS, root=root), encoding="utf-8")
     with pytest.raises(OntologyError, match=r"laughs\.owl.*expands to more than 10,000 characters"):
@@ -65,16 +65,16 @@ def test_ontology_is_refused_before_it_is_parsed(tmp_path, root):
 
 
 @pytest.mark.parametrize("read", [load_graph, read_document, read_statements])
-def test_graph_is_refused_before_it_is_parsed(tmp_path, read):
+def test_rejects_a_graph_before_parsing(tmp_path, read):
     path = tmp_path / "laughs.rdf"
-    # The declarations lie across the end of the first megabyte.
+    # The declarations span the end of the first chunk.
     start = '<?xml version="1.0"?><!--'
     path.write_text(start + " " * (2**20 - len(start) - 20) + "-->" + document(LAUGHS)[21:], encoding="utf-8")
     with pytest.raises(GraphError, match=r"laughs\.rdf.*expands to more than 10,000 characters"):
         read(path)
 
 
-def test_graph_with_entities_for_namespaces_is_read(tmp_path):
+def test_reads_a_graph_with_namespace_entities(tmp_path):
     path = tmp_path / "flat.rdf"
     about = (
         f'<rdf:RDF {OWL}><rdf:Description rdf:about="&b;C"><rdf:type rdf:resource="&b;D"/></rdf:Description></rdf:RDF>'

@@ -1,4 +1,4 @@
-"""The results behind a report, for programs: a row or an entry for each run."""
+"""Machine-readable results of a report, with one CSV row and one JSON entry per run."""
 
 import csv
 import io
@@ -9,24 +9,24 @@ from typing import Any
 from usd2kg.evaluation.metrics.intervals import Interval
 from usd2kg.evaluation.report.analysis import (
     REGIMES,
-    agreed_objects,
     ema_by_name_quality,
+    find_size_distinctive,
+    find_unanimous,
     name_counts,
-    scores_under,
-    size_distinctive,
+    scores_by_method,
 )
-from usd2kg.evaluation.reproduce import CellResult, SceneResult
 from usd2kg.evaluation.run import evaluation_json
+from usd2kg.evaluation.run_matrix import CellResult, SceneResult
 
 __all__ = ["format_csv", "format_json"]
 
-_FORMULA = ("=", "+", "-", "@")
+_FORMULA_STARTS = ("=", "+", "-", "@")
 
 
 def format_csv(results: Sequence[SceneResult]) -> str:
-    """Return a row for each run. EMA is in percent and HF1 from 0 to 1, neither rounded; unknown is empty.
+    """Return one CSV row per run: EMA in percent, HF1 from 0 to 1, not rounded; unknown values are empty.
 
-    Text that a spreadsheet would take for a formula gets an apostrophe in front.
+    An apostrophe precedes text that a spreadsheet would interpret as a formula.
     """
     text = io.StringIO()
     rows = [dict(_csv_row(result, done)) for result in results for done in result.cells]
@@ -57,7 +57,7 @@ def _csv_row(result: SceneResult, done: CellResult) -> Iterator[tuple[str, Any]]
 
 
 def _safe(text: str) -> str:
-    return f"'{text}" if text.startswith(_FORMULA) else text
+    return f"'{text}" if text.startswith(_FORMULA_STARTS) else text
 
 
 def _evidence(done: CellResult) -> str:
@@ -65,7 +65,7 @@ def _evidence(done: CellResult) -> str:
 
 
 def format_json(title: str, results: Sequence[SceneResult]) -> str:
-    """Return everything: scenes, selection, analysis, and each run with its settings and scores."""
+    """Return scenes, object selection, analysis, and the settings and scores of each run as JSON."""
     data = {"title": title, "scenes": [_scene(result) for result in results]}
     return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False) + "\n"
 
@@ -86,18 +86,19 @@ def _scene(result: SceneResult) -> dict[str, Any]:
 
 
 def _analysis(result: SceneResult) -> dict[str, Any]:
-    size = size_distinctive(result)
+    size = find_size_distinctive(result)
     agreed = {}
     for regime in REGIMES:
-        if by_method := scores_under(result, regime):
-            found = agreed_objects(by_method)
+        if by_method := scores_by_method(result, regime):
+            found = find_unanimous(by_method)
             agreed[regime] = {"all_right": dict(name_counts(found.right)), "all_wrong": dict(name_counts(found.wrong))}
     return {
         "distinct_names_agreed_on": agreed,
         "size_distinctive": [score.id for score in size.found],
         "ema_by_name_quality": {
             regime: {
-                method: ema_by_name_quality(scores)._asdict() for method, scores in scores_under(result, regime).items()
+                method: ema_by_name_quality(scores)._asdict()
+                for method, scores in scores_by_method(result, regime).items()
             }
             for regime in agreed
         },
@@ -110,6 +111,6 @@ def _run(result: SceneResult, done: CellResult) -> dict[str, Any]:
         "condition": done.cell.condition,
         "repeat": done.cell.repeat,
         **evaluation_json(done.evaluation),
-        # The folder is of no use elsewhere.
+        # Folders of this machine are meaningless elsewhere.
         "scene": result.spec.path.name,
     }

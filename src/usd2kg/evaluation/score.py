@@ -1,4 +1,4 @@
-"""What is scored: one object with its true class and the answer that was given."""
+"""Scores: the gold class of each object and the answer it was given."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -13,16 +13,17 @@ __all__ = ["Score", "distinct_name", "join_scores"]
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """One object's target and answer; every measure is a function of a list of these."""
+    """Target and answer of one object; every metric is a function of a list of these."""
 
     id: str
     """The prim path."""
     name: str
-    """The authored name, whatever the regime showed."""
+    """The authored name, even if the naming regime masked it."""
     target: ClassIRI
     also: frozenset[ClassIRI]
+    """Second labels: further classes that count as right in the lenient metrics."""
     answer: ClassIRI | None
-    """None where there was no answer: it counts as wrong."""
+    """None if there is no answer, which counts as wrong."""
     confidence: float | None
     status: Status
     explanation: str
@@ -34,12 +35,12 @@ class Score:
 
     @property
     def is_accepted(self) -> bool:
-        """Whether the answer is the target or one of the classes accepted beside it."""
-        return self.answer is not None and (self.answer == self.target or self.answer in self.also)
+        """Whether the answer is the target or a second label."""
+        return self.is_exact or self.answer in self.also
 
 
 def distinct_name(name: str) -> str:
-    """Return what a name shares with the names of copies: its words, without numbers and pipeline tokens.
+    """Return the words of a name, which copies of an object share, without numbers and pipeline tokens.
 
     >>> distinct_name("SM_CupCBlue_01") == distinct_name("CupCBlue_7")
     True
@@ -48,19 +49,19 @@ def distinct_name(name: str) -> str:
 
 
 def join_scores(gold: Iterable[GoldLabel], grounding: Grounding) -> tuple[Score, ...]:
-    """Return a score for each gold label, in its order; a prim that was not answered for stays, without answer."""
+    """Return one score per gold label, in order; a prim without a prediction has a score without an answer."""
     return tuple(_score(label, grounding) for label in gold)
 
 
 def _score(label: GoldLabel, grounding: Grounding) -> Score:
-    found = grounding.by_path.get(label.prim_path)
+    prediction = grounding.by_path.get(label.prim_path)
     return Score(
         id=label.prim_path,
         name=label.prim_path.rpartition("/")[2],
         target=label.target,
         also=label.also,
-        answer=found.class_iri if found else None,
-        confidence=found.confidence if found else None,
-        status=found.status if found else Status.MISSING,
-        explanation=found.explanation if found else "it was not asked for",
+        answer=prediction.class_iri if prediction else None,
+        confidence=prediction.confidence if prediction else None,
+        status=prediction.status if prediction else Status.MISSING,
+        explanation=prediction.explanation if prediction else "not among the predictions",
     )

@@ -1,4 +1,4 @@
-"""Running a matrix: resumable, and no answer is asked for twice."""
+"""Run a matrix. Answers are stored, so that an interrupted run resumes."""
 
 import hashlib
 import json
@@ -11,8 +11,8 @@ from pathlib import Path
 
 from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.matrix import Cell, Matrix, SceneSpec
-from usd2kg.evaluation.metrics.selection import SelectionScore
-from usd2kg.evaluation.run import Evaluation, evaluate, score_grounding, selection_of
+from usd2kg.evaluation.metrics.object_selection import SelectionScore
+from usd2kg.evaluation.run import Evaluation, evaluate, score_grounding, score_scene_selection
 from usd2kg.files import write_whole
 from usd2kg.grounding import Grounder, format_mapping, make_grounder, read_grounding
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
@@ -25,17 +25,17 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class CellResult:
-    """One run that was done, or done before."""
+    """The result of one run."""
 
     cell: Cell
     evaluation: Evaluation
     was_stored: bool
-    """Whether the answers came from an earlier, maybe interrupted, run."""
+    """Whether the answers were read from the store."""
 
 
 @dataclass(frozen=True)
 class SceneResult:
-    """All runs on one scene."""
+    """The results of all runs on one scene."""
 
     spec: SceneSpec
     scene: Scene
@@ -48,13 +48,15 @@ class SceneResult:
 def run_matrix(
     matrix: Matrix, folder: Path, *, refresh: bool = False, progress: Callable[[CellResult], None] | None = None
 ) -> list[SceneResult]:
-    """Return the results of all cells, scene by scene; answers are stored in `folder/runs` as they come.
+    """Return the results of all runs, scene by scene.
+
+    Each answer is stored in `folder/runs` as soon as it is known. Runs with stored answers are only scored.
 
     Args:
-        matrix: what to run. Optional scenes whose files are absent are left out.
-        folder: where answers are stored; cells whose answers are there already are only scored again.
-        refresh: ask again, whatever is stored.
-        progress: called after each cell.
+        matrix: the runs. Optional scenes with missing files are skipped.
+        folder: where answers are stored.
+        refresh: ignore stored answers.
+        progress: called after each run.
     """
     (folder / "runs").mkdir(parents=True, exist_ok=True)
     grounders = {name: make_grounder(name) for name in matrix.grounders}
@@ -65,7 +67,7 @@ def run_matrix(
     for cells in by_scene.values():
         spec = cells[0].scene
         if spec.missing is not None:
-            logger.warning("%s is left out: %s does not exist", spec.name, spec.missing)
+            logger.warning("scene %s skipped: %s does not exist", spec.name, spec.missing)
             continue
         results.append(_run_scene(spec, cells, grounders, folder, refresh, progress))
     return results
@@ -88,7 +90,7 @@ def _run_scene(
         done.append(result)
         if progress is not None:
             progress(result)
-    return SceneResult(spec, scene, tbox, gold, selection_of(scene, gold), tuple(done))
+    return SceneResult(spec, scene, tbox, gold, score_scene_selection(scene, gold), tuple(done))
 
 
 def _run_cell(
@@ -112,7 +114,7 @@ def _run_cell(
 
 
 def _key(cell: Cell, scene: Scene, gold: tuple[GoldLabel, ...], tbox: TBox, grounder: Grounder) -> str:
-    """Return what the answers depend on, as a name for a file."""
+    """Return a file name that hashes everything the answers depend on."""
     evidence = ",".join(sorted(cell.evidence)) if cell.evidence is not None else "all"
     parts = [
         scene.content_hash,
@@ -130,7 +132,7 @@ def _key(cell: Cell, scene: Scene, gold: tuple[GoldLabel, ...], tbox: TBox, grou
 
 @lru_cache(maxsize=1)
 def _code_digest() -> str:
-    """Return a digest of the code and data that answers come from: other code, other answers."""
+    """Return a hash of the code and data that determine the answers."""
     digest = hashlib.sha256()
     root = Path(str(files("usd2kg")))
     for path in _sources(root):
@@ -140,6 +142,6 @@ def _code_digest() -> str:
 
 
 def _sources(root: Path) -> Iterator[Path]:
-    for package in ("data", "grounding", "ontology", "scene"):
+    for package in ("data", "grounding", "languages", "ontology", "render", "scene", "shapes"):
         yield from sorted(path for path in (root / package).rglob("*") if path.is_file() and path.suffix != ".pyc")
-    yield from (root / name for name in ("knowledge.py", "languages.py", "words.py"))
+    yield from (root / name for name in ("knowledge.py", "words.py"))

@@ -9,24 +9,16 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping
 from typing import BinaryIO, NamedTuple
 
+from usd2kg.ontology.limits import XML_ENTITIES
+
 __all__ = ["refuse_entity_bomb", "refuse_entity_bomb_in_file"]
 
-_LONGEST = 10_000
-"""Characters to which one entity may expand."""
-_DEEPEST = 5
-"""Nesting depth of entities."""
-_MOST_GROWTH = 100
-"""Expansion factor of a document…"""
-_SMALL = 8_000_000
-"""…above this number of characters."""
-_MOST_BYTES = 200_000_000
-"""Size of a file that declares entities."""
 _CHUNK = 1 << 20
 _START = b"<!ENTITY"
 # As lenient as parsers are. The value is a lookahead, so that text in a comment cannot hide a declaration.
 _DECLARATION = re.compile(
     r"""<!ENTITY\s*(?:%\s*)?([^\s<]+)\s+"""
-    rf"""(?="([^"]{{0,{_LONGEST + 1}}})|'([^']{{0,{_LONGEST + 1}}}))"""
+    rf"""(?="([^"]{{0,{XML_ENTITIES.characters + 1}}})|'([^']{{0,{XML_ENTITIES.characters + 1}}}))"""
 )
 _REFERENCE = re.compile(r"[&%]([^\s;&%<]+);")
 # In a value, an escaped ampersand starts a reference on expansion (XML 1.0, appendix D).
@@ -42,13 +34,12 @@ class _Size(NamedTuple):
 def refuse_entity_bomb(text: str) -> None:
     """Raise SyntaxError if the entities of an XML document expand beyond what an ontology needs.
 
-    The limits are 10,000 characters per entity, 5 levels of nesting, and, above 8 million characters, 100 times the
-    length of the document. Cyclic references exceed the nesting limit.
+    `EntityLimits` documents the limits. Cyclic references exceed the nesting depth.
     """
     values: dict[str, list[str]] = defaultdict(list)
     for declared in _DECLARATION.finditer(text):
         name, value = declared[1], declared[2] or declared[3] or ""
-        if len(value) > _LONGEST:
+        if len(value) > XML_ENTITIES.characters:
             raise _too_long(name)
         values[name].append(_AMPERSAND.sub("&", value))
     if not values:
@@ -58,22 +49,23 @@ def refuse_entity_bomb(text: str) -> None:
         _measure(name, values, sizes, 1)
     used = Counter(found[1] for found in _REFERENCE.finditer(text))
     total = sum(size.characters * used[name] for name, size in sizes.items())
-    if total > max(_SMALL, _MOST_GROWTH * len(text)):
+    if total > max(XML_ENTITIES.small_document, XML_ENTITIES.growth * len(text)):
         raise SyntaxError(
-            f"its XML entities expand to {total:,} characters, expected at most {_MOST_GROWTH} times its own length"
+            f"its XML entities expand to {total:,} characters, "
+            f"expected at most {XML_ENTITIES.growth} times its own length"
         )
 
 
 def _measure(name: str, values: Mapping[str, list[str]], sizes: dict[str, _Size], level: int) -> _Size:
     """Return the expanded size of an entity; the largest if it is declared more than once."""
-    if level > _DEEPEST:
+    if level > XML_ENTITIES.depth:
         raise _too_deep(name)
     if name not in sizes:
         found = [_expand(value, values, sizes, level) for value in values[name]]
         sizes[name] = _Size(max(size.characters for size in found), max(size.depth for size in found))
-    if sizes[name].characters > _LONGEST:
+    if sizes[name].characters > XML_ENTITIES.characters:
         raise _too_long(name)
-    if level + sizes[name].depth - 1 > _DEEPEST:
+    if level + sizes[name].depth - 1 > XML_ENTITIES.depth:
         raise _too_deep(name)
     return sizes[name]
 
@@ -86,27 +78,29 @@ def _expand(value: str, values: Mapping[str, list[str]], sizes: dict[str, _Size]
 
 
 def _too_long(name: str) -> SyntaxError:
-    return SyntaxError(f"its XML entity {name!r} expands to more than {_LONGEST:,} characters; expected a short text")
+    return SyntaxError(
+        f"its XML entity {name!r} expands to more than {XML_ENTITIES.characters:,} characters; expected a short text"
+    )
 
 
 def _too_deep(name: str) -> SyntaxError:
-    return SyntaxError(f"its XML entities, {name!r} among them, are nested more than {_DEEPEST} deep")
+    return SyntaxError(f"its XML entities, {name!r} among them, are nested more than {XML_ENTITIES.depth} deep")
 
 
 def refuse_entity_bomb_in_file(file: BinaryIO) -> None:
     """Apply `refuse_entity_bomb` to an open RDF/XML file, from its current position.
 
     Raises:
-        SyntaxError: as `refuse_entity_bomb`; or it declares entities and is longer than 200 million bytes.
+        SyntaxError: as `refuse_entity_bomb`; or it declares entities and is longer than `EntityLimits.file_bytes`.
         OSError, EOFError, zlib.error: it cannot be read.
     """
     end = b""
     while chunk := file.read(_CHUNK):
         if _START in end + chunk:
             file.seek(0)
-            data = file.read(_MOST_BYTES + 1)
-            if len(data) > _MOST_BYTES:
-                raise SyntaxError(f"it declares XML entities and is longer than {_MOST_BYTES:,} bytes")
+            data = file.read(XML_ENTITIES.file_bytes + 1)
+            if len(data) > XML_ENTITIES.file_bytes:
+                raise SyntaxError(f"it declares XML entities and is longer than {XML_ENTITIES.file_bytes:,} bytes")
             refuse_entity_bomb(data.decode("utf-8", errors="replace"))
             return
         end = chunk[-len(_START) :]

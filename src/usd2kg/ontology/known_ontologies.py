@@ -9,11 +9,10 @@ from typing import Any
 
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
+from usd2kg.ontology.catalog import CATALOG
 
-__all__ = ["CATALOG", "KnownDocument", "KnownOntology", "read_registry"]
+__all__ = ["KnownDocument", "KnownOntology", "read_registry"]
 
-CATALOG = "catalog-v001.xml"
-"""File name of the OASIS catalog written next to the documents."""
 _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}")
 _SHA256 = re.compile(r"[0-9a-f]{64}|")
 

@@ -1,4 +1,4 @@
-"""Whether the right prims were taken for objects: apart from what they were grounded to."""
+"""Recall and precision of object selection, independent of the classes."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -7,7 +7,7 @@ __all__ = ["SelectionScore", "score_selection"]
 
 
 class SelectionScore(NamedTuple):
-    """Selected prims against labelled ones."""
+    """Comparison of the selected prims with the labelled ones."""
 
     recall: float
     """Share of the labelled prims that were selected."""
@@ -16,7 +16,7 @@ class SelectionScore(NamedTuple):
     missed: tuple[str, ...]
     """Labelled, not selected; sorted."""
     unlabelled: tuple[str, ...]
-    """Selected, not labelled; sorted. Gold that is not complete makes these look like mistakes."""
+    """Selected, not labelled; sorted. If the gold labels are incomplete, these are not errors."""
 
 
 def score_selection(selected: Iterable[str], labelled: Iterable[str]) -> SelectionScore:

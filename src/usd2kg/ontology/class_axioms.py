@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from usd2kg.ontology.namespaces import DCTERMS, OBO, OWL, RDFS, SKOS, SOMA
 from usd2kg.ontology.wikidata import is_mapping, item_in
 
 __all__ = [
@@ -18,31 +19,28 @@ __all__ = [
     "merge_axioms",
 ]
 
-_RDFS = "http://www.w3.org/2000/01/rdf-schema#"
-_SKOS = "http://www.w3.org/2004/02/skos/core#"
-_OBO = "http://purl.obolibrary.org/obo/"
 _OIO = "http://www.geneontology.org/formats/oboInOwl#"
 
-LABELS = (f"{_SKOS}prefLabel", f"{_RDFS}label")
+LABELS = (f"{SKOS}prefLabel", f"{RDFS}label")
 ALT_LABELS = (
-    f"{_SKOS}altLabel",
-    f"{_SKOS}hiddenLabel",
-    f"{_OBO}IAO_0000118",
+    f"{SKOS}altLabel",
+    f"{SKOS}hiddenLabel",
+    f"{OBO}IAO_0000118",
     f"{_OIO}hasExactSynonym",
     f"{_OIO}hasRelatedSynonym",
     f"{_OIO}hasNarrowSynonym",
 )
 DEFINITIONS = (
-    f"{_SKOS}definition",
-    f"{_OBO}IAO_0000115",
-    "http://purl.org/dc/terms/description",
+    f"{SKOS}definition",
+    f"{OBO}IAO_0000115",
+    f"{DCTERMS}description",
     "http://purl.org/dc/elements/1.1/description",
-    f"{_RDFS}comment",
+    f"{RDFS}comment",
 )
-DEPRECATED = "http://www.w3.org/2002/07/owl#deprecated"
-HAS_DISPOSITION = "http://www.ease-crc.org/ont/SOMA.owl#hasDisposition"
-TOP_CLASSES = frozenset({"http://www.w3.org/2002/07/owl#Thing", f"{_RDFS}Resource"})
-_NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
+DEPRECATED = f"{OWL}deprecated"
+HAS_DISPOSITION = f"{SOMA}hasDisposition"
+TOP_CLASSES = frozenset({f"{OWL}Thing", f"{RDFS}Resource"})
+_NOTHING = f"{OWL}Nothing"
 
 
 @dataclass
@@ -54,14 +52,14 @@ class Annotations:
     """Property IRI → Wikidata items."""
     is_deprecated: bool = False
 
-    def pick(self, properties: Iterable[str]) -> str:
+    def preferred_text(self, properties: Iterable[str]) -> str:
         """Return the text of the first property that has one: English first, then untagged, then any language."""
         for name in properties:
             if self.texts.get(name):
                 return min(self.texts[name], key=_language_rank)[1]
         return ""
 
-    def all(self, properties: Iterable[str]) -> set[str]:
+    def all_texts(self, properties: Iterable[str]) -> set[str]:
         """Return the texts of the properties in all languages."""
         return {text for name in properties for _, text in self.texts.get(name, ())}
 

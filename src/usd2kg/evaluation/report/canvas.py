@@ -1,0 +1,98 @@
+"""Matplotlib canvases with fixed settings, rendered as deterministic SVG. Matplotlib loads on first use."""
+
+import io
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from usd2kg.errors import EvaluationError
+from usd2kg.evaluation.report.blocks import Figure, printable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Canvas
+
+__all__ = ["add_legend", "check_matplotlib", "label_text", "method_color", "method_marker", "open_canvas", "to_figure"]
+
+_COLORS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#7F7F7F", "#000000")
+"""Palette of Okabe and Ito, distinguishable with colour vision deficiencies."""
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+_LONGEST_LABEL = 40
+_SETTINGS: Mapping[Any, Any] = {
+    "svg.hashsalt": "usd2kg",
+    # Keep text as text: sharp, searchable, and rendered with the viewer's fonts if ours lacks a script.
+    "svg.fonttype": "none",
+    # A dollar sign in a name must not start a formula.
+    "text.parse_math": False,
+    "font.family": ["DejaVu Sans", "sans-serif"],
+    "font.size": 11,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#e3e3e3",
+    "legend.frameon": False,
+    "axes.titlesize": 11,
+    "axes.titlelocation": "left",
+}
+
+
+def check_matplotlib() -> None:
+    """Raise EvaluationError with the install command if matplotlib is not installed."""
+    try:
+        import matplotlib.figure  # noqa: F401, PLC0415
+    except ImportError as error:
+        raise EvaluationError(
+            f"plots need matplotlib, which cannot be imported ({error}); pip install 'usd2kg[plots]'"
+        ) from error
+
+
+def method_color(index: int) -> str:
+    """Return the colour of the method with this index."""
+    return _COLORS[index % len(_COLORS)]
+
+
+def method_marker(index: int) -> str:
+    """Return the marker of the method or scene with this index."""
+    return _MARKERS[index % len(_MARKERS)]
+
+
+@contextmanager
+def open_canvas(
+    width: float, height: float, panels: tuple[int, int] = (1, 1)
+) -> Iterator[tuple["Canvas", list["Axes"]]]:
+    """Yield a canvas of a size in inches and its panels, independent of the user's matplotlib settings."""
+    check_matplotlib()
+    import matplotlib as mpl  # noqa: PLC0415
+    from matplotlib.figure import Figure as Canvas  # noqa: PLC0415
+
+    with mpl.rc_context(), warnings.catch_warnings():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_SETTINGS)
+        # The viewer's fonts render scripts that the font lacks; matplotlib just cannot measure them.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from", category=UserWarning)
+        canvas = Canvas(figsize=(width, height), layout="constrained")
+        yield canvas, list(canvas.subplots(*panels, squeeze=False).flat)
+
+
+def to_figure(canvas: "Canvas", file: str, caption: str) -> Figure:
+    """Return the canvas as SVG without a date."""
+    text = io.StringIO()
+    canvas.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    svg = text.getvalue()
+    return Figure(file, printable(caption), svg[svg.index("<svg") :].strip())
+
+
+def label_text(text: str, longest: int = _LONGEST_LABEL) -> str:
+    """Return text as a label, truncated to `longest` characters."""
+    # Matplotlib hides labels with a leading underscore from the legend.
+    text = " " + printable(text) if text.startswith("_") else printable(text)
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def add_legend(canvas: "Canvas", *panels: "Axes") -> None:
+    """Add one legend for several panels above them."""
+    entries = [zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels]
+    by_label = {label: handle for panel in entries for handle, label in panel}
+    canvas.legend([*by_label.values()], [*by_label], loc="outside upper left", ncols=4)

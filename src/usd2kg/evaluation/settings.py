@@ -1,0 +1,60 @@
+"""Settings of the evaluation, one class per section of `knowledge/settings/evaluation.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = [
+    "BOOTSTRAP",
+    "CONFIDENCE",
+    "PLATT_FIT",
+    "REPORT",
+    "BootstrapSettings",
+    "ConfidenceSettings",
+    "PlattFitSettings",
+    "ReportSettings",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class ConfidenceSettings:
+    """Reliability diagrams and calibration error."""
+
+    bins: int
+
+
+@dataclass(frozen=True, slots=True)
+class BootstrapSettings:
+    """Bootstrap intervals."""
+
+    resamples: int
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class PlattFitSettings:
+    """Newton's method for Platt scaling."""
+
+    min_answers: int
+    max_iterations: int
+    tolerance: float
+    ridge: float
+
+
+@dataclass(frozen=True, slots=True)
+class ReportSettings:
+    """How much reports list."""
+
+    max_names: int
+    max_confusions: int
+    max_missed: int
+    max_heat_map_classes: int
+    max_unfolded_rows: int
+    latex_page_rows: int
+    latex_wide_cell: int
+
+
+CONFIDENCE = read_settings("evaluation", "confidence", ConfidenceSettings)
+BOOTSTRAP = read_settings("evaluation", "bootstrap", BootstrapSettings)
+PLATT_FIT = read_settings("evaluation", "platt_fit", PlattFitSettings)
+REPORT = read_settings("evaluation", "report", ReportSettings)

@@ -1,0 +1,74 @@
+"""OASIS XML catalogs (version 1.1), which map ontology IRIs to local files, and lookup by file name."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from urllib.parse import unquote
+from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
+
+from usd2kg.errors import OntologyError
+from usd2kg.ontology.source_files import ENDINGS, decode_text, read_source
+from usd2kg.ontology.xml_entities import refuse_entity_bomb
+
+__all__ = ["CATALOG", "find_document", "format_catalog"]
+
+CATALOG = "catalog-v001.xml"
+"""File name of a catalog."""
+_NAMESPACE = "urn:oasis:names:tc:entity:xmlns:xml:catalog"
+_URI = f"{{{_NAMESPACE}}}uri"
+
+
+def find_document(iri: str, folder: Path) -> Path | None:
+    """Return the local file of an ontology, by the catalog of `folder` or by file name; None if there is none."""
+    catalog = _read_catalog(folder / CATALOG)
+    if iri in catalog:
+        return catalog[iri] if _is_file(catalog[iri]) else None
+    name = iri.rstrip("#/").rpartition("/")[2]
+    names = [name, *(Path(name).stem + ending for ending in ENDINGS)]
+    # Look up plain file names only: an IRI must not reach other folders.
+    return next((folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n)), None)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:
+        # A name may be too long for the file system.
+        return False
+
+
+def _read_catalog(path: Path) -> dict[str, Path]:
+    if not path.is_file():
+        return {}
+    text = decode_text(path, read_source(path), "a catalog")
+    try:
+        refuse_entity_bomb(text)
+        root = ElementTree.fromstring(text)
+    except (SyntaxError, ValueError) as error:
+        raise OntologyError(f"{path}: the catalog is not well-formed XML ({error}); fix or remove it") from error
+    places = {entry.attrib["name"]: unquote(entry.attrib["uri"]) for entry in _entries(root)}
+    # Catalogs are untrusted: accept relative paths, not any file of this machine.
+    return {iri: path.parent / place for iri, place in places.items() if not _is_absolute(place)}
+
+
+def _is_absolute(place: str) -> bool:
+    return PurePosixPath(place).is_absolute() or bool(PureWindowsPath(place).anchor)
+
+
+def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:
+    for entry in root.iter(_URI):
+        if "name" in entry.attrib and "uri" in entry.attrib and "://" not in entry.attrib["uri"]:
+            yield entry
+
+
+def format_catalog(files: Mapping[str, str]) -> str:
+    """Return a catalog that maps IRIs to files in its folder."""
+    lines = [f"  <uri name={quoteattr(iri)} uri={quoteattr(file)}/>" for iri, file in files.items()]
+    return "\n".join(
+        [
+            '<?xml version="1.0" encoding="UTF-8"?>',
+            f'<catalog prefer="public" xmlns="{_NAMESPACE}">',
+            *lines,
+            "</catalog>\n",
+        ]
+    )

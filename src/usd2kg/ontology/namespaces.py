@@ -1,0 +1,31 @@
+"""Namespace IRIs of the vocabularies in use. They are exact: http and https differ."""
+
+__all__ = [
+    "DCTERMS",
+    "DUL",
+    "KNOWROB",
+    "OBO",
+    "OWL",
+    "PROV",
+    "RDF",
+    "RDFS",
+    "SKOS",
+    "SOMA",
+    "SSSOM",
+    "USD",
+    "XSD",
+]
+
+RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+OWL = "http://www.w3.org/2002/07/owl#"
+XSD = "http://www.w3.org/2001/XMLSchema#"
+SKOS = "http://www.w3.org/2004/02/skos/core#"
+DCTERMS = "http://purl.org/dc/terms/"
+PROV = "http://www.w3.org/ns/prov#"
+OBO = "http://purl.obolibrary.org/obo/"
+SSSOM = "https://w3id.org/sssom/"
+SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
+DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
+USD = "https://ease-crc.org/ont/USD.owl#"
+KNOWROB = "http://knowrob.org/kb/knowrob.owl#"

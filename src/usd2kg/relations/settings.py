@@ -1,0 +1,34 @@
+"""Numerical accuracy of relations, one class per section of `knowledge/settings/relations.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["BETWEEN", "DISTANCE", "FOOTPRINT", "BetweenSettings", "DistanceSettings", "FootprintSettings"]
+
+
+@dataclass(frozen=True, slots=True)
+class FootprintSettings:
+    """Recognition of footprints that are rotated about z."""
+
+    min_upright: float
+    max_misfit: float
+
+
+@dataclass(frozen=True, slots=True)
+class DistanceSettings:
+    """Distances between the parts of objects."""
+
+    max_part_pairs: int
+
+
+@dataclass(frozen=True, slots=True)
+class BetweenSettings:
+    """Sampling of footprints."""
+
+    samples: int
+
+
+FOOTPRINT = read_settings("relations", "footprint", FootprintSettings)
+DISTANCE = read_settings("relations", "distance", DistanceSettings)
+BETWEEN = read_settings("relations", "between", BetweenSettings)
