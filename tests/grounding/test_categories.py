@@ -11,7 +11,7 @@ from tests.grounding.ontologies import load_ontology
 from tests.grounding.records import ground_names
 from tests.grounding.test_taxonomy import TINY
 from tools import build_categories
-from usd2kg.grounding.lexical.concepts.categories import members_of, find_synset
+from usd2kg.grounding.lexical.concepts.categories import find_synset, members_of
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.knowledge import read_rows
 
@@ -46,7 +46,7 @@ class TestBuild:
         assert build_categories.find_informative_members(["kit"], ["roll", "bun#2"], TINY) == ["roll"]
 
     def test_rejects_a_member_that_the_taxonomy_lacks(self):
-        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is no noun of the taxonomy"):
+        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is not a noun of the taxonomy"):
             build_categories.find_informative_members(["kit", "set"], ["tool", "ghost"], TINY)
 
     def test_merges_rows_whose_categories_share_a_first_sense(self):

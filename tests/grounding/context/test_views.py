@@ -178,7 +178,7 @@ FIELDS = {
     "materials": {"materials"},
     "parts": {"parts"},
     "labels": {"labels"},
-    "neighbours": {"neighbours"},
+    "neighbours": {"neighbourhood"},
 }
 
 
