@@ -49,6 +49,8 @@ class RouteFeatures(NamedTuple):
     """Logarithm of the number of subclasses, the class included."""
     default: float = 0.0
     """Whether the class is the default class."""
+    general: float = 0.0
+    """Whether the class is a root or the default class."""
 
 
 class Route(NamedTuple):
@@ -127,8 +129,12 @@ class Routes:
             yield Route(iri, features, (synset, up, aligned))
 
     def _features(self, iri: ClassIRI, **known: float) -> RouteFeatures:
-        is_default = float(iri == self._lexicon.default_class)
-        return RouteFeatures(log_below=math.log(self._subclass_counts[iri]), default=is_default, **known)
+        return RouteFeatures(
+            log_below=math.log(self._subclass_counts[iri]),
+            default=float(iri == self._lexicon.default_class),
+            general=float(iri in self._lexicon.general_classes),
+            **known,
+        )
 
 
 def class_shares(routes: Sequence[Route]) -> dict[ClassIRI, float]:
