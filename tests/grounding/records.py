@@ -121,9 +121,9 @@ def local(prediction: Prediction) -> str:
     return (prediction.class_iri or "").rpartition("#")[2]
 
 
-def words_written(company: Neighbourhood, form: str, ways: WriteForms) -> list[tuple[str, float, float]]:
+def words_written(neighbourhood: Neighbourhood, form: str, ways: WriteForms) -> list[tuple[str, float, float]]:
     """Return (word, share of the other objects, score) of the words that a form may abbreviate, sorted."""
-    return company.words_by_form(ways, _as_it_is, _all_of_them, 1000)(form) or []
+    return neighbourhood.words_by_form(ways, _as_it_is, _all_of_them, 1000)(form) or []
 
 
 def _as_it_is(word: str, share: float, score: float) -> tuple[str, float, float]:

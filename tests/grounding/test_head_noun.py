@@ -9,7 +9,7 @@ from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures, head_likelihood, head_log_odds
 from usd2kg.knowledge import read_text
 
-FITTED = json.loads(read_text("heads.json"))
+FITTED = json.loads(read_text("head_noun.json"))
 WEIGHTS = FITTED["weights"]
 
 

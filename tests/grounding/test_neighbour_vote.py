@@ -58,7 +58,7 @@ def test_the_weight_decreases_with_distance_in_the_tree():
 
 
 def test_the_weight_is_a_gaussian_of_the_difference_in_size():
-    # Standard deviation 0.2: one weighs exp(-1/2), two weigh exp(-2).
+    # Standard deviation 0.2: one weighs exp(-1/2), two combine_evidence exp(-2).
     one = ratio(near("cup", NEXT, 0.4), near("lamp", NEXT, 0.2))
     assert one == pytest.approx(math.exp(-2) / math.exp(-0.5))
     assert ratio(near("cup", NEXT, 3.0), near("lamp", NEXT, 0.1)) < 1e-6

@@ -5,7 +5,7 @@ import pytest
 
 from tests.grounding.records import make_object, make_scene
 from usd2kg.grounding import NamingRegime, view_objects
-from usd2kg.grounding.context import Appearance, Neighbour
+from usd2kg.grounding.context import Appearance, PlacedObject
 from usd2kg.grounding.context.placement import FloorPlan, Placement
 from usd2kg.scene import Box, Scene
 
@@ -30,9 +30,9 @@ class Names:
     """A judge that numbers the objects it is asked about."""
 
     def __init__(self) -> None:
-        self.asked: list[Neighbour] = []
+        self.asked: list[PlacedObject] = []
 
-    def __call__(self, neighbour: Neighbour) -> np.ndarray:
+    def __call__(self, neighbour: PlacedObject) -> np.ndarray:
         self.asked.append(neighbour)
         return np.array([len(self.asked), neighbour.appearance.size[0]])
 
@@ -126,7 +126,7 @@ def test_the_look_has_oriented_extents_and_nesting():
     turned = thing("/Room/x", (0, 0, 1), (1, 1, 2), oriented_size=(1.2, 0.1, 2), parent_path="/Room")
     judge = Names()
     Placement(FloorPlan(make_scene(TABLE, turned)), 0, is_anonymous=True).around(judge, 8)
-    assert judge.asked == [Neighbour("", (), Appearance((1.2, 0.1, 2), 2, 1.0, True))]
+    assert judge.asked == [PlacedObject("", (), Appearance((1.2, 0.1, 2), 2, 1.0, True))]
 
 
 # --- views -------------------------------------------------------------------------------------------

@@ -126,7 +126,7 @@ def test_the_semantic_regime_shows_all_fields():
         parts=("handle",),
         labels=("mug",),
         neighbourhood=view.neighbourhood,
-        placement=view.placement,
+        standing=view.standing,
         is_masked=False,
     )
     assert list(view.siblings) == ["Plate"]
