@@ -25,20 +25,20 @@ LEXICON = build_lexicon(load_home_tbox(), load_taxonomy(), {})
 READER = AbbreviationReader(LEXICON, load_taxonomy())
 
 
-def read(*tokens: str, company: Neighbourhood | None = None) -> dict[tuple[str, ...], float]:
-    return {reading.words: reading.probability for reading in READER.read(tokens, company)}
+def read(*tokens: str, neighbourhood: Neighbourhood | None = None) -> dict[tuple[str, ...], float]:
+    return {reading.words: reading.probability for reading in READER.read(tokens, neighbourhood)}
 
 
-def best(*tokens: str, company: Neighbourhood | None = None) -> tuple[str, ...]:
-    return next(iter(read(*tokens, neighbourhood=company)))
+def best(*tokens: str, neighbourhood: Neighbourhood | None = None) -> tuple[str, ...]:
+    return next(iter(read(*tokens, neighbourhood=neighbourhood)))
 
 
-def company_of(*names: str) -> Neighbourhood:
-    """Return the other objects of a scene, which have these names, as the company of a nameless one."""
+def neighbourhood_of(*names: str) -> Neighbourhood:
+    """Return the other objects of a scene, which have these names, as the neighbourhood of a nameless one."""
     scene = scene_of("/Room/obj_1", *(f"/Room/{name}" for name in names))
-    company = next(view for _, view in view_objects(scene, NamingRegime.OPAQUE)).neighbourhood
-    assert company is not None
-    return company
+    neighbourhood = next(view for _, view in view_objects(scene, NamingRegime.OPAQUE)).neighbourhood
+    assert neighbourhood is not None
+    return neighbourhood
 
 
 # --- readings ----------------------------------------------------------------------------------------
@@ -76,35 +76,37 @@ def test_a_token_in_full_is_read_as_itself():
 def test_words_of_the_parent_are_likelier():
     assert READER.read(["thdlg"])[0].words[0] != "theodolite"
     assert READER.read(["thdlg"], parent="Theodolites_grp")[0].words[0] == "theodolite"
-    assert READER.read(["thdlg"], company_of("Chair"), parent="Theodolite")[0].words[0] == "theodolite"
+    assert READER.read(["thdlg"], neighbourhood_of("Chair"), parent="Theodolite")[0].words[0] == "theodolite"
 
 
-class TestCompany:
+class TestNeighbourhood:
     """Words in the names of the other objects."""
 
     def test_a_word_of_the_scene_is_likelier(self):
-        alone, among_cuffs = read("cff"), read("cff", neighbourhood=company_of("Cuff_1", "Cuff_2", "Cuff_3"))
+        alone, among_cuffs = read("cff"), read("cff", neighbourhood=neighbourhood_of("Cuff_1", "Cuff_2", "Cuff_3"))
         assert alone[("coffee",)] > alone[("cuff",)]
         assert among_cuffs[("cuff",)] > 0.9 > alone[("cuff",)]
 
     def test_a_compound_of_the_scene_is_likelier(self):
-        company = company_of("Fridge", "CoffeeMachine")
-        assert read("cffmchn", neighbourhood=company)[("coffee", "machine")] > read("cffmchn")[("coffee", "machine")]
+        neighbourhood = neighbourhood_of("Fridge", "CoffeeMachine")
+        assert (
+            read("cffmchn", neighbourhood=neighbourhood)[("coffee", "machine")] > read("cffmchn")[("coffee", "machine")]
+        )
 
     def test_a_word_of_more_objects_is_likelier(self):
-        few = read("cff", neighbourhood=company_of("Cuff_1", *(f"Lamp_{i}" for i in range(30))))
-        many = read("cff", neighbourhood=company_of(*(f"Cuff_{i}" for i in range(30)), "Lamp_1"))
+        few = read("cff", neighbourhood=neighbourhood_of("Cuff_1", *(f"Lamp_{i}" for i in range(30))))
+        many = read("cff", neighbourhood=neighbourhood_of(*(f"Cuff_{i}" for i in range(30)), "Lamp_1"))
         assert many[("cuff",)] > few[("cuff",)]
 
     def test_words_that_no_dictionary_has_are_read(self):
         assert ("zorgblat",) not in read("zrgb")
-        assert best("zrgb", neighbourhood=company_of("Zorgblat_1", "Zorgblat_2")) == ("zorgblat",)
+        assert best("zrgb", neighbourhood=neighbourhood_of("Zorgblat_1", "Zorgblat_2")) == ("zorgblat",)
 
     def test_plurals_are_read_as_singulars(self):
-        assert best("knvs", neighbourhood=company_of("knives", "knives_2")) == ("knife",)
+        assert best("knvs", neighbourhood=neighbourhood_of("knives", "knives_2")) == ("knife",)
 
     def test_names_without_fitting_words_change_nothing(self):
-        assert read("frdg", neighbourhood=company_of("Lamp_1", "Oven")) == pytest.approx(read("frdg"))
+        assert read("frdg", neighbourhood=neighbourhood_of("Lamp_1", "Oven")) == pytest.approx(read("frdg"))
 
 
 # --- unusual input -----------------------------------------------------------------------------------
@@ -139,7 +141,7 @@ def test_any_tokens_get_readings_with_words_and_probabilities(tokens: list[str])
 def test_readers_know_the_words_of_their_ontology_and_keep_no_state():
     lexicon = build_lexicon(parse_outline("Jar\nJorgblat"), load_taxonomy(), {})
     used, fresh = (AbbreviationReader(lexicon, load_taxonomy()) for _ in range(2))
-    used.read(["jgs"], company_of("Jug_1"))
+    used.read(["jgs"], neighbourhood_of("Jug_1"))
     for tokens in (["jr"], ["jgs"], ["jrgb"]):
         assert used.read(tokens) == fresh.read(tokens)
     assert fresh.read(["jrgb"])[0].words == ("jorgblat",)

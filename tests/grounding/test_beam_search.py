@@ -7,11 +7,12 @@ from functools import reduce
 
 import pytest
 
-from usd2kg.grounding.lexical.reading import beam_search as beam
 from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
+from usd2kg.grounding.lexical.settings import CHANNEL
 
 SECONDS = {"tea": {"pot": math.log(15), "cup": math.log(3)}, "door": {"bell": math.log(40)}}
 MOST = math.log(40)
+NEXT_WORD = math.log(CHANNEL.next_word)
 NEVER = (-math.inf, 0.0)
 
 Ways = Mapping[tuple[int, int], tuple[tuple[float, float], Mapping[str, list[float]]]]
@@ -49,11 +50,11 @@ def by_adding_up(ways: Ways, length: int) -> Found:
         every = [way for (start, at), known in ways.items() if at == end for way in extended(paths[start], *known)]
         best = max((score for score, _, _ in every), default=0.0)
         for score, words, pieces in sorted(every, key=lambda way: -way[0]):
-            if score > best - beam._HOPELESS:
+            if score > best - CHANNEL.max_log_loss:
                 known_score, known_pieces = paths[end].get(words, (None, pieces))
                 paths[end][words] = (score if known_score is None else log_sum(known_score, score), known_pieces)
         ranked = sorted(paths[end].items(), key=lambda path: (-path[1][0], path[0]))
-        paths[end] = dict(ranked[: beam._WIDTH])
+        paths[end] = dict(ranked[: CHANNEL.beam_width])
     return [(words, score) for words, (score, _) in paths[length].items()]
 
 
@@ -61,8 +62,8 @@ def extended(
     paths: Mapping[tuple[str, ...], tuple[float, int]], unread: tuple[float, float], reasons: Mapping[str, list[float]]
 ) -> Iterator[tuple[float, tuple[str, ...], int]]:
     for words, (score, pieces) in paths.items():
-        if pieces < beam._MOST_PIECES:
-            begun = score + (beam._NEXT_WORD if pieces else 0.0)
+        if pieces < CHANNEL.max_pieces:
+            begun = score + (NEXT_WORD if pieces else 0.0)
             if unread != NEVER:
                 yield begun + sum(unread), words, pieces + 1
             for word, scores in reasons.items():
@@ -77,7 +78,7 @@ def assert_same(found: Found, expected: Found) -> None:
 
 def test_readings_of_two_pieces_worked_by_hand():
     ways = {(0, 1): (NEVER, {"tea": [-1.0]}), (1, 2): ((-2.0, 0.0), {"pot": [-3.0], "bell": [-3.0]})}
-    bonus, step = math.log(15), beam._NEXT_WORD
+    bonus, step = math.log(15), NEXT_WORD
     # Tea pot is a known pair, tea bell is not; the last letter may be no word.
     expected = [(("tea", "pot"), -4 + bonus + step), (("tea",), -3 + step), (("tea", "bell"), -4 + step)]
     assert_same(by_beam(ways, 2), expected)
@@ -85,7 +86,7 @@ def test_readings_of_two_pieces_worked_by_hand():
 
 def test_paths_to_the_same_words_add_up():
     ways = {(0, 1): ((-5.0, 0.0), {}), (1, 2): (NEVER, {"cup": [-1.0]}), (0, 2): (NEVER, {"cup": [-3.0, -3.0]})}
-    one = -5 - 1 + beam._NEXT_WORD
+    one = -5 - 1 + NEXT_WORD
     ((words, score),) = by_beam(ways, 2)
     assert words == ("cup",)
     assert score == pytest.approx(math.log(math.exp(one) + 2 * math.exp(-3)))

@@ -11,7 +11,7 @@ from tests.grounding.ontologies import load_ontology
 from tests.grounding.records import ground_names
 from tests.grounding.test_taxonomy import TINY
 from tools import build_categories
-from usd2kg.grounding.lexical.concepts.categories import members_of, find_synset
+from usd2kg.grounding.lexical.concepts.categories import find_synset, members_of
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.knowledge import read_rows
 

@@ -4,7 +4,7 @@ import pytest
 
 from tests.grounding.records import SOMA
 from usd2kg.grounding import ObjectView, Prediction
-from usd2kg.grounding.lexical.class_choice import reconcile_copies, choose_superclass
+from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Status
 from usd2kg.ontology import TBox

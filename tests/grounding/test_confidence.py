@@ -63,6 +63,6 @@ def test_other_predictions_do_not_change_the_confidence_of_a_home_root():
 def test_margin_has_a_feature_of_its_own_for_other_ontologies(tbox: TBox, name: str, foreign_margin: float):
     iri, other = tbox.resolve(name), tbox.classes[0].iri
     prediction = replace(predict(None, "name"), class_iri=iri, candidates=(Candidate(iri, 0.8), Candidate(other, 0.3)))
-    features = features_of(prediction, NO_POSTERIOR, tbox, tbox.roots, odds=0.0)
+    features = features_of(prediction, NO_POSTERIOR, tbox, tbox.roots, log_odds=0.0)
     assert features["margin"] == pytest.approx(0.5)
     assert features["foreign_margin"] == pytest.approx(foreign_margin)

@@ -41,7 +41,7 @@ def test_mixture_of_neighbours_and_look():
     # The total is the larger of 0.8 of the neighbours' score, 0.48, and half of the look's, 0.5.
     assert scores(found) == pytest.approx({"cup": cup / (cup + jug) * 0.5, "jug": jug / (cup + jug) * 0.5})
     assert [(one.class_iri, one.group, one.explain()) for one in found] == [
-        ("cup", "neighbours", "company says cup"),
+        ("cup", "neighbours", "neighbours says cup"),
         ("jug", "geometry", "the look says jug"),
     ]
 

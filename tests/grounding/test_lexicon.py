@@ -34,12 +34,6 @@ def test_the_iri_can_name_the_sense():
     assert wineglass == 1.0 > woodwind
 
 
-def test_a_label_whose_first_sense_lies_elsewhere_scores_less():
-    # The first sense of screwdriver is a tool, of orange a food.
-    tbox = make_tbox(make_class("Food"), make_class("Screwdriver", "Food"), make_class("Orange", "Food"))
-    assert score("screwdriver", tbox) < score("orange", tbox)
-
-
 def test_terms_share_no_vendor_names_and_remarks():
     vendors = ("Zigbex", "Lonwrk", "Enoqan")
     names = [f"{vendor}{kind}" for vendor in vendors for kind in ("Gateway", "Module", "Relay")]

@@ -6,7 +6,7 @@ import pytest
 
 from tests.grounding.records import SOMA, ground_view, local, make_object, make_scene
 from usd2kg.grounding import NamingRegime, ObjectView, view_objects
-from usd2kg.grounding.context import Neighbour, Nearness
+from usd2kg.grounding.context import Nearness, Neighbour
 from usd2kg.grounding.lexical.neighbour_vote import Vote, VoteCount, count_votes, siblings_as_neighbours
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
@@ -52,9 +52,8 @@ def test_shares_add_up_to_less_than_one():
 
 
 def test_the_weight_decreases_with_distance_in_the_tree():
-    order = [NEXT, TWIN, SIBLING, ALIKE]
-    shares = vote(*(near(nearness.value, nearness, 0.1) for nearness in order)).shares
-    assert sorted(shares, key=lambda name: -shares[name]) == [nearness.value for nearness in order]
+    shares = vote(near("a", NEXT), near("b", TWIN), near("c", SIBLING), near("d", ALIKE)).shares
+    assert sorted(shares, key=lambda name: -shares[name]) == ["a", "b", "c", "d"]
 
 
 def test_the_weight_is_a_gaussian_of_the_difference_in_size():

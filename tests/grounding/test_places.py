@@ -8,13 +8,13 @@ import pytest
 from usd2kg.grounding.context import Appearance
 from usd2kg.grounding.lexical.concepts.places import (
     PLACES,
-    log_stance_likelihoods,
     log_place_likelihoods_of_appearance,
     log_place_likelihoods_of_noun,
+    log_stance_likelihoods,
+    noun_priors,
     place_probabilities,
     places_named,
     stance_of,
-    noun_priors,
 )
 from usd2kg.grounding.lexical.concepts.sizes import everyday_nouns, everyday_object_row, everyday_object_rows
 
@@ -157,5 +157,9 @@ def test_parts_are_likelier_below_other_objects():
 
 
 def test_extreme_looks_have_finite_likelihoods():
-    for look in (Appearance((0, 0, 0), 0, 0, False), Appearance((90, 80, 0), 0, 1e6, True), Appearance((1, 1, 1), 1, -0.0, False)):
+    for look in (
+        Appearance((0, 0, 0), 0, 0, False),
+        Appearance((90, 80, 0), 0, 1e6, True),
+        Appearance((1, 1, 1), 1, -0.0, False),
+    ):
         assert np.isfinite(log_stance_likelihoods(stance_of(look))).all()

@@ -56,7 +56,7 @@ def test_residue_is_the_category_that_a_label_covers_the_rest_of(label: str, res
     ],
 )
 def test_default_class_is_a_root_that_most_things_belong_to(outline: str, default: str | None):
-    iri = build_lexicon(parse_outline(outline), load_taxonomy(), {}).default
+    iri = build_lexicon(parse_outline(outline), load_taxonomy(), {}).default_class
     assert (iri and iri.removeprefix(LAB)) == default
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.grounding.records import ground_names, read_name
-from usd2kg.grounding.lexical.concepts.sizes import log_likelihoods, size_log_likelihood_ratio, everyday_nouns
+from usd2kg.grounding.lexical.concepts.sizes import everyday_nouns, log_likelihoods, size_log_likelihood_ratio
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.grounding.records import make_object, make_scene, words_written
-from usd2kg.grounding.context import Neighbour, Neighbourhood, Nearness, neighbours
+from usd2kg.grounding.context import Nearness, Neighbour, Neighbourhood, neighbours
 from usd2kg.grounding.context.neighbours import neighbourhoods, size_distance
 from usd2kg.scene import Box, Scene
 from usd2kg.words import words_of

@@ -126,7 +126,7 @@ def test_the_semantic_regime_shows_all_fields():
         parts=("handle",),
         labels=("mug",),
         neighbourhood=view.neighbourhood,
-        standing=view.standing,
+        placement=view.placement,
         is_masked=False,
     )
     assert list(view.siblings) == ["Plate"]
@@ -178,7 +178,7 @@ FIELDS = {
     "materials": {"materials"},
     "parts": {"parts"},
     "labels": {"labels"},
-    "neighbours": {"neighbours"},
+    "neighbours": {"neighbourhood"},
 }
 
 
