@@ -46,7 +46,7 @@ class TestBuild:
         assert build_categories.find_informative_members(["kit"], ["roll", "bun#2"], TINY) == ["roll"]
 
     def test_rejects_a_member_that_the_taxonomy_lacks(self):
-        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is no noun of the taxonomy"):
+        with pytest.raises(ValueError, match=r"kit\|set: 'ghost' is not a noun of the taxonomy"):
             build_categories.find_informative_members(["kit", "set"], ["tool", "ghost"], TINY)
 
     def test_merges_rows_whose_categories_share_a_first_sense(self):

@@ -48,7 +48,7 @@ def test_a_further_hypernym_is_added_once():
 
 def test_a_wrong_hypernym_is_removed():
     assert chains(taxonomy_of({"rack": "-furniture"}), "rack") == [["rack"]]
-    with pytest.raises(ValueError, match="'rack,-lamp': WordNet does not have"):
+    with pytest.raises(ValueError, match="'rack,-lamp': WordNet has no such direct hypernym"):
         taxonomy_of({"rack": "-lamp"})
     # WordNet has wheeled vehicles below containers.
     assert "container" not in chains(load_taxonomy(), "forklift")[0]
@@ -105,9 +105,9 @@ def test_the_domain_is_artifact_if_one_hypernym_is_an_artifact():
 
 
 def test_rejects_unknown_and_circular_hypernyms():
-    with pytest.raises(ValueError, match="'rack': 'qwrtz' is no noun"):
+    with pytest.raises(ValueError, match="'rack': 'qwrtz' is not a noun"):
         taxonomy_of({"rack": "qwrtz"})
-    with pytest.raises(ValueError, match="speaks of itself in the end"):
+    with pytest.raises(ValueError, match="refers to itself"):
         taxonomy_of({"arc lamp": "floor lamp", "floor lamp": "arc lamp"})
 
 
