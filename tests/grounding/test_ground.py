@@ -1,4 +1,4 @@
-"""ground: selected prims, their order, and the record of the run."""
+"""`ground`: which objects are grounded, in which order, and what is recorded of the run."""
 
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
@@ -24,7 +24,7 @@ TBOX = make_tbox(make_class("Thing"))
 
 
 class Recorder:
-    """A fake grounder that chooses Thing and records the views."""
+    """A grounder that predicts Thing and records the views it gets."""
 
     name = "recorder"
     is_calibrated = True
@@ -38,7 +38,7 @@ class Recorder:
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         self.seen.extend(views)
-        # In another order than the views: a grounder may batch.
+        # A grounder may return another order than it was given.
         return [
             Prediction(path, LAB + "Thing", 0.5, Status.GROUNDED, self.name, view.name)
             for path, view in reversed(views)
@@ -52,27 +52,27 @@ def paths_of(predictions: Sequence[Prediction]) -> list[str]:
 SCENE = scene_of("/Room/Cup", "/Room/Lamp", "/Room/Oven")
 
 
-def test_grounds_all_objects_in_scene_order():
+def test_all_objects_in_scene_order():
     grounding = ground(SCENE, TBOX, Recorder())
     assert paths_of(grounding.predictions) == ["/Room/Cup", "/Room/Lamp", "/Room/Oven"]
     assert [p.explanation for p in grounding.predictions] == ["Cup", "Lamp", "Oven"]
 
 
-def test_grounds_the_requested_paths_in_their_order():
+def test_requested_paths_are_grounded_in_their_order():
     recorder = Recorder()
     grounding = ground(SCENE, TBOX, recorder, paths=["/Room/Oven", "/Room/Cup"])
     assert paths_of(grounding.predictions) == ["/Room/Oven", "/Room/Cup"]
     assert [path for path, _ in recorder.seen] == ["/Room/Oven", "/Room/Cup"]
-    # The other objects serve as context.
+    # The other objects remain context.
     assert list(recorder.seen[1][1].siblings) == ["Lamp", "Oven"]
 
 
-def test_grounds_a_repeated_path_once():
+def test_a_repeated_path_is_grounded_once():
     grounding = ground(SCENE, TBOX, Recorder(), paths=["/Room/Cup", "/Room/Lamp", "/Room/Cup"])
     assert paths_of(grounding.predictions) == ["/Room/Cup", "/Room/Lamp"]
 
 
-def test_a_path_not_on_the_stage_is_missing():
+def test_an_unknown_path_is_missing_and_not_grounded():
     recorder = Recorder()
     grounding = ground(SCENE, TBOX, recorder, paths=["/Room/Ghost", "/Room/Cup"])
     ghost, cup = grounding.predictions
@@ -87,11 +87,11 @@ def test_a_path_not_on_the_stage_is_missing():
     assert [path for path, _ in recorder.seen] == ["/Room/Cup"]
 
 
-def test_no_paths_give_no_predictions():
+def test_no_requested_path_gives_no_prediction():
     assert ground(SCENE, TBOX, Recorder(), paths=[]).predictions == ()
 
 
-def test_records_the_run():
+def test_the_run_is_recorded():
     grounding = ground(SCENE, TBOX, Recorder(), regime=NamingRegime.OPAQUE, evidence=frozenset({"position", "name"}))
     assert (grounding.scene, grounding.scene_hash) == ("room.usda", "sha256:5ce7e")
     assert (grounding.ontology, grounding.ontology_hash) == ("https://lab.example/onto", "sha256:7b0c5")
@@ -100,17 +100,17 @@ def test_records_the_run():
     assert grounding.settings == {"regime": "opaque", "evidence": "name,position", "depth": "7"}
 
 
-def test_records_all_evidence_groups():
+def test_all_evidence_is_recorded_by_name():
     assert ground(SCENE, TBOX, Recorder()).settings["evidence"] == ",".join(sorted(EVIDENCE_GROUPS))
 
 
-def test_finds_predictions_by_path():
+def test_predictions_are_found_by_path():
     grounding = ground(SCENE, TBOX, Recorder())
     assert grounding.by_path["/Room/Lamp"] is grounding.predictions[1]
     assert "/Room" not in grounding.by_path
 
 
-def test_hides_evidence_that_is_not_allowed():
+def test_only_the_allowed_evidence_is_shown():
     box = Box((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
     cup = make_object("/Room/Cup", box=box, mass_kg=0.2, position=(1.0, 1.0, 1.0), asset=("mug_v1",), parts=("Handle",))
     recorder = Recorder()
@@ -121,12 +121,12 @@ def test_hides_evidence_that_is_not_allowed():
 
 
 @pytest.mark.parametrize("regime", ["semantic", "abbreviated", "opaque", "opaque-anonymous"])
-def test_parses_regimes(regime: str):
+def test_regimes_by_name(regime: str):
     assert parse_regime(regime).value == regime
 
 
 @pytest.mark.parametrize("text", ["", "Opaque", "opaque_anonymous", "none"])
-def test_rejects_an_unknown_regime(text: str):
+def test_rejects_an_unknown_regime_and_lists_the_known_ones(text: str):
     with pytest.raises(GroundingError) as error:
         parse_regime(text)
     assert str(error.value) == (
@@ -138,11 +138,11 @@ def test_rejects_an_unknown_regime(text: str):
     ("text", "groups"),
     [("name", {"name"}), ("name, geometry", {"name", "geometry"}), (",parts,,parts,", {"parts"})],
 )
-def test_parses_evidence(text: str, groups: set[str]):
+def test_evidence_by_name(text: str, groups: set[str]):
     assert parse_evidence(text) == groups
 
 
-def test_parses_every_evidence_group():
+def test_every_evidence_group_can_be_named():
     assert parse_evidence(",".join(EVIDENCE_GROUPS)) == EVIDENCE_GROUPS
 
 
@@ -150,9 +150,10 @@ def test_parses_every_evidence_group():
     ("text", "found"),
     [("", "no group is named"), (" , ", "no group is named"), ("name,colour", "'colour'"), ("Name", "'Name'")],
 )
-def test_rejects_unknown_evidence(text: str, found: str):
+def test_rejects_unknown_evidence_and_lists_the_known_groups(text: str, found: str):
     with pytest.raises(GroundingError) as error:
         parse_evidence(text)
     assert found in str(error.value)
-    expected = "a list of asset, geometry, hierarchy, labels, materials, name, neighbours, parts, position"
-    assert expected in str(error.value)
+    assert "a list of asset, geometry, hierarchy, labels, materials, name, neighbours, parts, position" in str(
+        error.value
+    )
