@@ -5,7 +5,7 @@ from pathlib import Path
 
 from usd2kg.evaluation import CellResult, GoldLabel, SceneResult
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION, Cell, SceneSpec
-from usd2kg.evaluation.metrics.object_selection import SelectionScore
+from usd2kg.evaluation.metrics.selection_scores import SelectionScore
 from usd2kg.evaluation.run import score_grounding
 from usd2kg.grounding import Grounding, NamingRegime, Prediction, Status
 from usd2kg.ontology import OntologyClass, TBox

@@ -21,7 +21,7 @@ from usd2kg.evaluation.metrics.confusion import class_reports, confusion
 from usd2kg.evaluation.metrics.hierarchical import hierarchical_f1, hierarchical_score, mean_hierarchical_score
 from usd2kg.evaluation.metrics.intervals import bootstrap_interval, mcnemar, mean_and_deviation
 from usd2kg.evaluation.metrics.misses import Miss, classify_miss, count_misses
-from usd2kg.evaluation.metrics.object_selection import score_selection
+from usd2kg.evaluation.metrics.selection_scores import score_selection
 
 TBOX = small_tbox()
 CLASSES = sorted(PARENTS)

@@ -1,4 +1,4 @@
-"""Choice of a class: copies of one asset agree, and split candidates give way to their superclass."""
+"""Expansion of a class: copies of one asset agree, and split candidates give way to their superclass."""
 
 import pytest
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from usd2kg.grounding.lexical.reading.shortening import Choice, FormIndex, find_range, forms_of, usual_abbreviations
+from usd2kg.grounding.lexical.reading.shortening import Expansion, FormIndex, find_range, forms_of, usual_abbreviations
 
 FULL, SKELETON, FIRST_VOWEL, CUT = 0.15, 0.5, 0.15, 0.2
 """How likely a word is written in full, without vowels, without vowels after the first letter, or cut."""
@@ -20,10 +20,10 @@ def probabilities(word: str) -> dict[str, float]:
     return {form: math.exp(score) for form, score in forms_of(word)}
 
 
-def choose_by_brute_force(form: str, most: int) -> list[Choice]:
+def choose_by_brute_force(form: str, most: int) -> list[Expansion]:
     """Return the likeliest words of a form, found by writing every word in every form."""
     forms = {word: dict(forms_of(word)) for word in PRIORS}
-    every = [Choice(PRIORS[word] + forms[word][form], word) for word in PRIORS if form in forms[word]]
+    every = [Expansion(PRIORS[word] + forms[word][form], word) for word in PRIORS if form in forms[word]]
     return sorted(every, reverse=True)[:most]
 
 

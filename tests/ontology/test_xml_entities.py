@@ -2,7 +2,7 @@
 
 import pytest
 
-from usd2kg.diff.graph_objects import read_statements
+from usd2kg.diff.graph_states import read_statements
 from usd2kg.errors import GraphError, OntologyError
 from usd2kg.graph.rdf_document import read_document
 from usd2kg.ontology import load_tbox

@@ -13,8 +13,8 @@ from tests.stores.conftest import open_remote
 from tests.stores.servers import free_port, proxy_to
 from usd2kg.errors import StoreError
 from usd2kg.stores import NamedGraph
-from usd2kg.stores.catalog import StoredGraph
 from usd2kg.stores.http_client import HttpRequest, OutcomeUnknownError, SparqlClient
+from usd2kg.stores.named_graphs import StoredGraph
 from usd2kg.stores.server_addresses import check_address, read_credentials, redact_address
 from usd2kg.stores.store_limits import HttpLimits
 

@@ -107,8 +107,8 @@ def open_session(
 def _open_model(
     options: GroundingOptions, scene: "Scene", decisions: "Mapping[str, ClassIRI]", source: Path, reading: "ReadOptions"
 ) -> "Iterator[LLMGrounder]":
-    from usd2kg.grounding.llm.examples import choose_examples  # noqa: PLC0415
     from usd2kg.grounding.llm.factory import open_llm_grounder  # noqa: PLC0415
+    from usd2kg.grounding.llm.few_shot_choice import choose_examples  # noqa: PLC0415
 
     asked = options.model
     if asked.examples and not decisions:

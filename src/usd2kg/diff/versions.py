@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.diff.graph_objects import GraphStyle, detect_graph_style, objects_of_graph, read_statements
+from usd2kg.diff.graph_states import GraphStyle, detect_graph_style, objects_of_graph, read_statements
 from usd2kg.diff.object_state import ObjectState, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
 from usd2kg.graph.iris import default_base

@@ -19,7 +19,7 @@ from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route
 
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
-from usd2kg.endpoint.examples import ExampleQuery
+from usd2kg.endpoint.example_queries import ExampleQuery
 from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
 from usd2kg.endpoint.negotiation import negotiate

@@ -51,7 +51,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         from usd2kg.endpoint.application import make_app  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise GraphError(f"serve: {error.name} is not installed; run: pip install 'usd2kg[serve]'") from error
-    from usd2kg.endpoint.examples import make_examples  # noqa: PLC0415
+    from usd2kg.endpoint.example_queries import make_examples  # noqa: PLC0415
     from usd2kg.endpoint.listening import open_socket  # noqa: PLC0415
 
     with (

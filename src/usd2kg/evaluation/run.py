@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.evaluation.gold import GoldLabel
-from usd2kg.evaluation.metrics.object_selection import SelectionScore, score_selection
+from usd2kg.evaluation.metrics.selection_scores import SelectionScore, score_selection
 from usd2kg.evaluation.score import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
 from usd2kg.grounding import ABBREVIATED_LENGTH, Grounder, Grounding, NamingRegime, ground

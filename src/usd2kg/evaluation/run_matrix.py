@@ -11,7 +11,7 @@ from pathlib import Path
 
 from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.matrix import Cell, Matrix, SceneSpec
-from usd2kg.evaluation.metrics.object_selection import SelectionScore
+from usd2kg.evaluation.metrics.selection_scores import SelectionScore
 from usd2kg.evaluation.run import Evaluation, evaluate, score_grounding, score_scene_selection
 from usd2kg.files import write_whole
 from usd2kg.grounding import Grounder, format_mapping, make_grounder, read_grounding

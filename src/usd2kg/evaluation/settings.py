@@ -10,14 +10,14 @@ __all__ = [
     "PLATT_FIT",
     "REPORT",
     "BootstrapSettings",
-    "ConfidenceSettings",
+    "CalibrationSettings",
     "PlattFitSettings",
     "ReportSettings",
 ]
 
 
 @dataclass(frozen=True, slots=True)
-class ConfidenceSettings:
+class CalibrationSettings:
     """Reliability diagrams and calibration error."""
 
     bins: int
@@ -54,7 +54,7 @@ class ReportSettings:
     latex_wide_cell: int
 
 
-CONFIDENCE = read_settings("evaluation", "confidence", ConfidenceSettings)
+CONFIDENCE = read_settings("evaluation", "confidence", CalibrationSettings)
 BOOTSTRAP = read_settings("evaluation", "bootstrap", BootstrapSettings)
 PLATT_FIT = read_settings("evaluation", "platt_fit", PlattFitSettings)
 REPORT = read_settings("evaluation", "report", ReportSettings)

@@ -10,12 +10,12 @@ __all__ = [
     "SPELLING",
     "CompoundSettings",
     "PhraseSettings",
-    "SpellingSettings",
+    "VariantSettings",
 ]
 
 
 @dataclass(frozen=True, slots=True)
-class SpellingSettings:
+class VariantSettings:
     """Costs of inflected and respelled words."""
 
     inflection_cost: int
@@ -42,6 +42,6 @@ class PhraseSettings:
     max_words: int
 
 
-SPELLING = read_settings("languages", "spelling", SpellingSettings)
+SPELLING = read_settings("languages", "spelling", VariantSettings)
 COMPOUNDS = read_settings("languages", "compounds", CompoundSettings)
 PHRASES = read_settings("languages", "phrases", PhraseSettings)

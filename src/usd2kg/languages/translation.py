@@ -4,7 +4,7 @@ from functools import lru_cache
 from itertools import chain
 from typing import NamedTuple
 
-from usd2kg.languages.lexicon import Lexicon, load_lexicons
+from usd2kg.languages.glossary import Glossary, load_lexicons
 from usd2kg.languages.settings import PHRASES
 
 __all__ = ["language_of", "translate"]
@@ -79,7 +79,7 @@ def _best_reading(words: tuple[str, ...], language: str | None) -> _Reading | No
     return max(readings, key=lambda reading: (reading.revealing, reading.known), default=None)
 
 
-def _read(words: tuple[str, ...], lexicon: Lexicon, is_expected: bool) -> _Reading | None:
+def _read(words: tuple[str, ...], lexicon: Glossary, is_expected: bool) -> _Reading | None:
     """Return the name as read in one language; None if too few of its words are in that language."""
     if not any(_read_word(word, lexicon.language).is_known for word in words):
         return None
@@ -98,7 +98,7 @@ def _read(words: tuple[str, ...], lexicon: Lexicon, is_expected: bool) -> _Readi
     return _Reading(lexicon.language, revealing, known, _in_english_order(terms, lexicon.language))
 
 
-def _main_terms(words: tuple[str, ...], lexicon: Lexicon) -> list[_Term]:
+def _main_terms(words: tuple[str, ...], lexicon: Glossary) -> list[_Term]:
     """Return the terms before a preposition such as `mit`: accessories do not describe the object."""
     terms: list[_Term] = []
     at = 0
@@ -111,14 +111,14 @@ def _main_terms(words: tuple[str, ...], lexicon: Lexicon) -> list[_Term]:
     return terms
 
 
-def _next_term(words: tuple[str, ...], at: int, lexicon: Lexicon) -> tuple[_Term, int]:
+def _next_term(words: tuple[str, ...], at: int, lexicon: Glossary) -> tuple[_Term, int]:
     """Return the term that begins at a word, and the index after it."""
     word = _read_word(words[at], lexicon.language)
     phrase = _phrase_at(words, at, lexicon) if word.key in lexicon.phrase_starts and not word.is_link else None
     return phrase or (word.term, at + 1)
 
 
-def _phrase_at(words: tuple[str, ...], at: int, lexicon: Lexicon) -> tuple[_Term, int] | None:
+def _phrase_at(words: tuple[str, ...], at: int, lexicon: Glossary) -> tuple[_Term, int] | None:
     """Return the longest listed phrase that begins at a word, with or without its links (`mesa_centro`)."""
     found = None
     keys: list[str] = []

@@ -1,8 +1,8 @@
 """Stores: many scenes in a folder or on a server, each in its own named graph."""
 
-from usd2kg.stores.catalog import StoredGraph, choose_graph
 from usd2kg.stores.embedded import EmbeddedStore
 from usd2kg.stores.named_graph import NamedGraph, make_named_graph, make_ontology_graph, read_named_graph
+from usd2kg.stores.named_graphs import StoredGraph, choose_graph
 from usd2kg.stores.opening import SceneStore, is_store, open_graph, open_store, select_graphs
 from usd2kg.stores.remote import RemoteStore
 

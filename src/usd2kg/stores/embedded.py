@@ -14,9 +14,9 @@ from usd2kg.query.answer import Answer
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_UPDATE, has_remote_clause
-from usd2kg.stores.catalog import StoredGraph, list_graphs
 from usd2kg.stores.folder_lock import LOCK_NAME, lock_exclusive, lock_shared
 from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
+from usd2kg.stores.named_graphs import StoredGraph, list_graphs
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
 from usd2kg.stores.store_limits import FolderLimits
 

@@ -8,10 +8,10 @@ from usd2kg.errors import GraphError
 from usd2kg.query.answer import Answer
 from usd2kg.query.graph_file import load_graph
 from usd2kg.query.graph_store import GraphStore
-from usd2kg.stores.catalog import StoredGraph, choose_graph
 from usd2kg.stores.embedded import EmbeddedStore
 from usd2kg.stores.http_client import SparqlClient
 from usd2kg.stores.named_graph import NamedGraph
+from usd2kg.stores.named_graphs import StoredGraph, choose_graph
 from usd2kg.stores.remote import RemoteStore
 from usd2kg.stores.server_addresses import read_credentials
 

@@ -15,11 +15,11 @@ from usd2kg.graph.vocabulary import DCTERMS
 from usd2kg.query.answer import Answer
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_QUERY, REMOTE_UPDATE, has_remote_clause
-from usd2kg.stores.catalog import StoredGraph, list_graphs, read_number
 from usd2kg.stores.chunking import split_triples
 from usd2kg.stores.endpoints import FORM, Endpoints, find_query, find_writing
 from usd2kg.stores.http_client import HttpRequest, HttpResponse, OutcomeUnknownError, SparqlClient
 from usd2kg.stores.named_graph import NamedGraph
+from usd2kg.stores.named_graphs import StoredGraph, list_graphs, read_number
 from usd2kg.stores.query_results import declare_prefixes, parse_results
 from usd2kg.stores.server_addresses import check_address, redact_address
 from usd2kg.stores.store_limits import UploadLimits

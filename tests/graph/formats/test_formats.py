@@ -18,7 +18,7 @@ from rdflib.compare import to_isomorphic
 
 from tests.graph.records import build_graph, thing
 from tests.graph.test_joint_patterns import make_joint
-from usd2kg.diff.graph_objects import read_statements
+from usd2kg.diff.graph_states import read_statements
 from usd2kg.errors import GraphError
 from usd2kg.graph import (
     GRAPH_FORMATS,

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.llm.answers import Answer, parse_answers, repair_request
+from usd2kg.grounding.llm.answers import ParsedAnswer, parse_answers, repair_request
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Status
@@ -32,7 +32,7 @@ def batch_of(count: int, **options: object) -> Batch:
     return build_requests(views, TBOX, PromptOptions(objects_per_prompt=count, **options))[0]
 
 
-def parse(text: str, count: int = 2) -> list[Answer]:
+def parse(text: str, count: int = 2) -> list[ParsedAnswer]:
     return parse_answers(text, batch_of(count), TBOX)
 
 
@@ -40,7 +40,7 @@ def classes(text: str, count: int = 2) -> list[str | None]:
     return [answer.class_iri for answer in parse(text, count)]
 
 
-def one(value: object) -> Answer:
+def one(value: object) -> ParsedAnswer:
     (answer,) = parse(json.dumps({"1": {"class": value}}), 1)
     return answer
 
@@ -69,7 +69,7 @@ class TestFormats:
 
     def test_keeps_the_reasoning(self) -> None:
         answers = parse('{"1": {"reasoning": "It is round.", "class": "Cup"}, "2": {"reasoning": 7, "class": "Knife"}}')
-        assert answers == [Answer(CUP, Status.GROUNDED, "It is round."), Answer(KNIFE, Status.GROUNDED)]
+        assert answers == [ParsedAnswer(CUP, Status.GROUNDED, "It is round."), ParsedAnswer(KNIFE, Status.GROUNDED)]
 
     def test_ignores_json_quoted_in_the_reasoning(self) -> None:
         reasoning = json.dumps('its name says {"1": {"class": "Knife"}, "2": {"class": "Knife"}}')
@@ -77,7 +77,7 @@ class TestFormats:
         assert classes(f'{{"1": {{"class": "Cup"}}, "2": {{"reasoning": {reasoning}') == [CUP, None]
 
     def test_a_truncated_row_is_unreadable(self) -> None:
-        assert parse('{"1": {"class": "Cup"}, "2": {"class": "Kni')[1] == Answer(
+        assert parse('{"1": {"class": "Cup"}, "2": {"class": "Kni')[1] == ParsedAnswer(
             None, Status.UNREADABLE, problem="the answer has no row for it"
         )
 
@@ -121,7 +121,7 @@ class TestClasses:
         ],
     )
     def test_resolves_names_labels_curies_and_iris(self, written: str, expected: str) -> None:
-        assert one(written) == Answer(expected, Status.GROUNDED)
+        assert one(written) == ParsedAnswer(expected, Status.GROUNDED)
 
     @pytest.mark.parametrize(
         ("written", "problem"),
@@ -136,7 +136,7 @@ class TestClasses:
         ],
     )
     def test_an_unknown_class_is_unreadable(self, written: object, problem: str) -> None:
-        assert one(written) == Answer(None, Status.UNREADABLE, problem=problem)
+        assert one(written) == ParsedAnswer(None, Status.UNREADABLE, problem=problem)
 
     def test_a_row_without_class_is_unreadable(self) -> None:
         assert parse('{"1": {"klass": "Cup"}}', 1)[0].problem == "its row has no class"

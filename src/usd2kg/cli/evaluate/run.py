@@ -15,7 +15,7 @@ from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
     from usd2kg.evaluation import Evaluation, Score
-    from usd2kg.evaluation.metrics.object_selection import SelectionScore
+    from usd2kg.evaluation.metrics.selection_scores import SelectionScore
     from usd2kg.ontology import TBox
 
 __all__ = ["run_command"]

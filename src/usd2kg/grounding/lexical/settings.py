@@ -166,7 +166,7 @@ class MatchingSettings:
 
 @dataclass(frozen=True, slots=True)
 class HeadNounSettings:
-    """Choice of the head noun."""
+    """Expansion of the head noun."""
 
     corrected_factor: float
     min_not_modifier: float

@@ -15,14 +15,14 @@ from usd2kg.grounding.llm.token_logprobs import TokenLogprobs
 from usd2kg.grounding.model import Status
 from usd2kg.ontology import ClassIRI, TBox, compact_iri
 
-__all__ = ["Answer", "parse_answers", "repair_request"]
+__all__ = ["ParsedAnswer", "parse_answers", "repair_request"]
 
 _REFUSALS = frozenset({"none", "null", "unknown", "n/a"})
 """Class names that count as a refusal unless a class is called so."""
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class ParsedAnswer:
     """The model's answer for one object."""
 
     class_iri: ClassIRI | None
@@ -42,7 +42,7 @@ class Answer:
     """
 
 
-def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[str, float]] = ()) -> list[Answer]:
+def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[str, float]] = ()) -> list[ParsedAnswer]:
     """Return one answer for each object of the batch, in order.
 
     Args:
@@ -56,30 +56,30 @@ def parse_answers(text: str, batch: Batch, tbox: TBox, tokens: Sequence[tuple[st
         problem = "the answer was empty"
     else:
         problem = "the answer has no row for it" if rows else "the answer has no readable JSON object"
-    missing = Answer(None, Status.UNREADABLE, problem=problem)
+    missing = ParsedAnswer(None, Status.UNREADABLE, problem=problem)
     return [_read_row(rows[number], batch, tbox, logprobs) if number in rows else missing for number in batch.numbers]
 
 
-def _read_row(row: AnswerRow, batch: Batch, tbox: TBox, logprobs: TokenLogprobs) -> Answer:
+def _read_row(row: AnswerRow, batch: Batch, tbox: TBox, logprobs: TokenLogprobs) -> ParsedAnswer:
     answer = _read_value(row.value, batch, tbox)
     return replace(answer, logprob=logprobs.sum_over(row.class_span)) if row.class_span is not None else answer
 
 
-def _read_value(row: Any, batch: Batch, tbox: TBox) -> Answer:
+def _read_value(row: Any, batch: Batch, tbox: TBox) -> ParsedAnswer:
     reasoning, value = "", row
     if isinstance(row, dict):
         reasoning = row["reasoning"] if isinstance(row.get("reasoning"), str) else ""
         if "class" not in row:
-            return Answer(None, Status.UNREADABLE, reasoning, "its row has no class")
+            return ParsedAnswer(None, Status.UNREADABLE, reasoning, "its row has no class")
         value = row["class"]
     if value is None:
-        return Answer(None, Status.REFUSED, reasoning, "the model named no class")
+        return ParsedAnswer(None, Status.REFUSED, reasoning, "the model named no class")
     if not isinstance(value, str):
-        return Answer(None, Status.UNREADABLE, reasoning, f"{quote(json.dumps(value))} is no name of a class")
+        return ParsedAnswer(None, Status.UNREADABLE, reasoning, f"{quote(json.dumps(value))} is no name of a class")
     class_iri, problem = _resolve(value.strip(), batch, tbox)
     if class_iri is None and value.strip().casefold() in _REFUSALS:
-        return Answer(None, Status.REFUSED, reasoning, f"the model named no class but {quote(value)}")
-    return Answer(class_iri, Status.GROUNDED if class_iri else Status.UNREADABLE, reasoning, problem)
+        return ParsedAnswer(None, Status.REFUSED, reasoning, f"the model named no class but {quote(value)}")
+    return ParsedAnswer(class_iri, Status.GROUNDED if class_iri else Status.UNREADABLE, reasoning, problem)
 
 
 def _resolve(name: str, batch: Batch, tbox: TBox) -> tuple[ClassIRI | None, str]:
@@ -113,7 +113,7 @@ def _match_offered(name: str, batch: Batch, tbox: TBox, *, is_exact: bool) -> li
     return matches
 
 
-def repair_request(batch: Batch, text: str, answers: Sequence[Answer]) -> Request:
+def repair_request(batch: Batch, text: str, answers: Sequence[ParsedAnswer]) -> Request:
     """Return a request that repeats the question and lists what was wrong with the first completion.
 
     Args:

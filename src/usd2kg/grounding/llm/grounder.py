@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.llm.answers import Answer, parse_answers, repair_request
+from usd2kg.grounding.llm.answers import ParsedAnswer, parse_answers, repair_request
 from usd2kg.grounding.llm.completion import Completion, Finish
 from usd2kg.grounding.llm.degeneration import is_degenerate
 from usd2kg.grounding.llm.grouping import group_similar_views, make_shortlists
@@ -23,7 +23,9 @@ from usd2kg.ontology import TBox
 
 __all__ = ["LLMGrounder"]
 
-_INTERRUPTED = Answer(None, Status.FAILED, "", "not asked: the run was interrupted; run the same command to resume")
+_INTERRUPTED = ParsedAnswer(
+    None, Status.FAILED, "", "not asked: the run was interrupted; run the same command to resume"
+)
 
 
 class LLMGrounder:
@@ -158,20 +160,22 @@ class LLMGrounder:
         samples = [self._sample(batch, number, tbox) for number in numbers]
         return [vote([_score(answer) for answer in answers]) for answers in zip(*samples, strict=True)]
 
-    def _sample(self, batch: Batch, number: int, tbox: TBox) -> list[Answer]:
+    def _sample(self, batch: Batch, number: int, tbox: TBox) -> list[ParsedAnswer]:
         batch = replace(batch, request=replace(batch.request, sample=number))
         try:
             completion = self._client.complete(batch.request)
         except GroundingError as error:
             with self._client.lock:
                 self.report.failed += 1
-            return [Answer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
+            return [ParsedAnswer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
         answers = self._read(completion, batch, tbox)
         if any(answer.status is Status.UNREADABLE for answer in answers):
             return self._repair(batch, completion, answers, tbox)
         return answers
 
-    def _repair(self, batch: Batch, completion: Completion, answers: list[Answer], tbox: TBox) -> list[Answer]:
+    def _repair(
+        self, batch: Batch, completion: Completion, answers: list[ParsedAnswer], tbox: TBox
+    ) -> list[ParsedAnswer]:
         """Return the answers with the unreadable ones replaced by those to a repair prompt."""
         try:
             second = self._client.complete(repair_request(batch, completion.text, answers))
@@ -182,7 +186,7 @@ class LLMGrounder:
         repaired = self._read(second, batch, tbox)
         return [new if old.status is Status.UNREADABLE else old for old, new in zip(answers, repaired, strict=True)]
 
-    def _read(self, completion: Completion, batch: Batch, tbox: TBox) -> list[Answer]:
+    def _read(self, completion: Completion, batch: Batch, tbox: TBox) -> list[ParsedAnswer]:
         answers = parse_answers(completion.text, batch, tbox, completion.tokens)
         if completion.finish is not Finish.STOP or is_degenerate(completion.text):
             with self._client.lock:
@@ -206,7 +210,7 @@ class LLMGrounder:
         return confidence if confidence is None or self._scaling is None else self._scaling(confidence)
 
 
-def _score(answer: Answer) -> ScoredAnswer:
+def _score(answer: ParsedAnswer) -> ScoredAnswer:
     """Return an answer with the probability of its class name as confidence."""
     if answer.class_iri is None or answer.logprob is None:
         return ScoredAnswer(answer, None)

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from usd2kg.grounding.llm.answers import Answer
+from usd2kg.grounding.llm.answers import ParsedAnswer
 from usd2kg.grounding.model import Candidate
 from usd2kg.ontology import ClassIRI
 
@@ -18,7 +18,7 @@ __all__ = ["ScoredAnswer", "vote"]
 class ScoredAnswer:
     """An answer with its confidence."""
 
-    answer: Answer
+    answer: ParsedAnswer
     confidence: float | None
     """From 0 to 1; None if unknown."""
     candidates: tuple[Candidate, ...] = ()

@@ -2,7 +2,7 @@
 
 from collections.abc import Container, Iterator, Mapping
 
-from usd2kg.grounding.lexical.alignment.class_labels import normalise_label
+from usd2kg.grounding.lexical.alignment.label_words import normalise_label
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, keep_best, term_key
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.class_labels import (
+from usd2kg.grounding.lexical.alignment.home_vocabulary import borrow_terms, lend_terms
+from usd2kg.grounding.lexical.alignment.label_words import (
     SENSE_KEY,
     equivalent_nouns,
     head_noun_of,
@@ -15,7 +16,6 @@ from usd2kg.grounding.lexical.alignment.class_labels import (
     paraphrases,
     words_of_label,
 )
-from usd2kg.grounding.lexical.alignment.home_vocabulary import borrow_terms, lend_terms
 from usd2kg.grounding.lexical.alignment.residual_class import (
     GENERAL_NOUNS,
     align_default,

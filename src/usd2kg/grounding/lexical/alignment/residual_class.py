@@ -2,7 +2,7 @@
 
 from collections import Counter
 
-from usd2kg.grounding.lexical.alignment.class_labels import head_noun_of, words_of_label
+from usd2kg.grounding.lexical.alignment.label_words import head_noun_of, words_of_label
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy

@@ -3,7 +3,7 @@
 from enum import Enum
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.class_labels import normalise_label
+from usd2kg.grounding.lexical.alignment.label_words import normalise_label
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.settings import TERMS
 from usd2kg.ontology import ClassIRI

@@ -17,7 +17,7 @@ from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
 from usd2kg.grounding.lexical.reading.name_bigrams import load_name_bigrams
-from usd2kg.grounding.lexical.reading.shortening import Choice, FormIndex, find_range, forms_of, usual_abbreviations
+from usd2kg.grounding.lexical.reading.shortening import Expansion, FormIndex, find_range, forms_of, usual_abbreviations
 from usd2kg.grounding.lexical.reading.shortening_style import log_consistency
 from usd2kg.grounding.lexical.reading.word_frequencies import log_prior
 from usd2kg.grounding.lexical.settings import CHANNEL
@@ -60,7 +60,7 @@ class _StageWord(NamedTuple):
     """A word of the stage that a form may abbreviate; the best sorts first."""
 
     loss: float
-    """The negative score of a `Choice`."""
+    """The negative score of a `Expansion`."""
     word: str
     noun: str
     """The word in the singular."""
@@ -136,13 +136,13 @@ class AbbreviationReader:
 
         return near
 
-    def _choices_of_parent(self, parent: str) -> dict[str, list[Choice]]:
+    def _choices_of_parent(self, parent: str) -> dict[str, list[Expansion]]:
         """Return form → words of a parent's name that it may abbreviate."""
         words = sorted({self._taxonomy.singular(word) for word in words_of(parent) if word.isalpha()})
-        found: dict[str, list[Choice]] = {}
+        found: dict[str, list[Expansion]] = {}
         for word in words:
             for form, score in forms_of(word):
-                found.setdefault(form, []).append(Choice(math.log(CHANNEL.parent_share / len(words)) + score, word))
+                found.setdefault(form, []).append(Expansion(math.log(CHANNEL.parent_share / len(words)) + score, word))
         return found
 
     def _pieces(self, letters: str, start: int, border: int, near: _Near) -> Iterator[tuple[int, Piece]]:
@@ -165,14 +165,14 @@ class AbbreviationReader:
         choices = self._index.choices(form)
         usual = usual_abbreviations().get(form)
         if usual is not None:
-            choices = [*(choices or ()), Choice(_LOG_COMMON_ABBREVIATION, usual)]
+            choices = [*(choices or ()), Expansion(_LOG_COMMON_ABBREVIATION, usual)]
         if choices is None and form not in _abbreviation_prefixes():
             return None
         return _with_choices(None, choices or ())
 
     def _gather_words(self, form: str, written: list[_StageWord]) -> Piece:
         """Return what a form may be, with words of the stage."""
-        return _with_choices(self._known(form), [Choice(-found.loss, found.noun) for found in written])
+        return _with_choices(self._known(form), [Expansion(-found.loss, found.noun) for found in written])
 
     @cached_property
     def _index(self) -> FormIndex:
@@ -228,7 +228,7 @@ def _nothing_near(_form: str) -> Piece | None:
     return None
 
 
-def _with_choices(piece: Piece | None, choices: Iterable[Choice]) -> Piece:
+def _with_choices(piece: Piece | None, choices: Iterable[Expansion]) -> Piece:
     """Return a piece with further choices."""
     reasons = {word: [*scores] for word, scores in piece.reasons.items()} if piece is not None else {}
     for score, word in choices:

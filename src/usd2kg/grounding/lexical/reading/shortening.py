@@ -10,7 +10,7 @@ from usd2kg.grounding.lexical.settings import SHORTENING
 from usd2kg.knowledge import read_rows
 
 __all__ = [
-    "Choice",
+    "Expansion",
     "FormIndex",
     "consonants_of",
     "find_range",
@@ -38,7 +38,7 @@ _LAST = "\U0010ffff"
 """Sorts after every letter."""
 
 
-class Choice(NamedTuple):
+class Expansion(NamedTuple):
     """A word that a form may abbreviate."""
 
     score: float
@@ -149,7 +149,7 @@ class FormIndex:
     def __contains__(self, word: str) -> bool:
         return word in self._priors
 
-    def choices(self, form: str) -> list[Choice] | None:
+    def choices(self, form: str) -> list[Expansion] | None:
         """Return the most probable words for a form, best first; None if it begins no form either."""
         places = self._find(form)
         if places is None:
@@ -159,9 +159,9 @@ class FormIndex:
         else:
             codes = self._codes(form, places)
         logs, priors = _log_probabilities(len(form), False), self._priors
-        found = [Choice(priors[word] + logs[code], word) for word, code in codes.items() if word != form]
+        found = [Expansion(priors[word] + logs[code], word) for word, code in codes.items() if word != form]
         if form in codes:
-            found.append(Choice(priors[form] + _log_probabilities(len(form), True)[codes[form]], form))
+            found.append(Expansion(priors[form] + _log_probabilities(len(form), True)[codes[form]], form))
         found.sort(reverse=True)
         return found[: self._most]
 

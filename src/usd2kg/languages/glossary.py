@@ -10,11 +10,11 @@ from usd2kg.knowledge import read_rows
 from usd2kg.languages.inflection import Entry, Form, compound_forms, fold, word_forms
 from usd2kg.languages.settings import COMPOUNDS
 
-__all__ = ["Lexicon", "load_lexicons", "split_compound"]
+__all__ = ["Glossary", "load_lexicons", "split_compound"]
 
 
 @dataclass(slots=True)
-class Lexicon:
+class Glossary:
     """The words of one language by their folded spellings."""
 
     language: str
@@ -99,13 +99,13 @@ def _keep_cheapest(forms: dict[str, Form], found: Iterable[tuple[str, Form]]) ->
 
 
 @lru_cache(maxsize=1)
-def load_lexicons() -> dict[str, Lexicon]:
+def load_lexicons() -> dict[str, Glossary]:
     """Return language → lexicon, in the order of the vocabulary; read once."""
     entries = [
         Entry(row["language"], row["word"], tuple(row["english"].split()), row["homograph"] == "yes", row["role"])
         for row in read_rows("glosses.csv")
     ]
-    lexicons = {entry.language: Lexicon(entry.language) for entry in entries}
+    lexicons = {entry.language: Glossary(entry.language) for entry in entries}
     for entry in sorted(entries, key=lambda entry: " " in entry.word):
         lexicons[entry.language].add(entry)
     return lexicons
