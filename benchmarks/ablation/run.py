@@ -10,7 +10,6 @@ training scenes. Without --only the table is written to README.md beside this fi
 import argparse
 import multiprocessing
 import os
-import tomllib
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -18,16 +17,15 @@ from typing import NamedTuple
 
 from benchmarks.ablation.rules import RULES, switched_off
 from benchmarks.bare import bare_scene
+from benchmarks.labelled_scenes import iter_training_scenes
 from benchmarks.names.lists import iter_ontology_lists, resolve_home_lists, resolve_list
-from usd2kg.evaluation.gold import read_gold
 from usd2kg.grounding import NamingRegime, ObjectView, view_objects
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import Scene, read_scene
+from usd2kg.scene import Scene
 
 HERE = Path(__file__).parent
-MATRIX = HERE.parent / "accuracy/matrix.toml"
 SEPARATOR = "<!-- table -->"
 STEP = 8
 COLUMNS = ("names", "abbreviated", "own ontologies", "public ontologies", "scenes")
@@ -83,15 +81,10 @@ def samples_of_ontologies() -> Iterator[Sample]:
 
 def samples_of_scenes() -> Iterator[Sample]:
     """Yield the labelled scenes that are no tests, spelled out and abbreviated."""
-    for spec in tomllib.loads(MATRIX.read_text("utf-8"))["scene"]:
-        path = MATRIX.parent / spec["path"]
-        if not path.exists() or "test" in spec["name"]:
-            continue
-        tbox = open_tbox(MATRIX.parent / spec["ontology"] if "ontology" in spec else None)
-        targets = {label.prim_path: label.target for label in read_gold(MATRIX.parent / spec["gold"], tbox)}
-        scene = read_scene(path, paths=list(targets))
+    for labelled in iter_training_scenes():
+        targets = {label.prim_path: label.target for label in labelled.gold}
         for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED):
-            yield sample_of("scenes", scene, regime, tbox, targets)
+            yield sample_of("scenes", labelled.scene, regime, labelled.tbox, targets)
 
 
 def sample_of(column: str, scene: Scene, regime: NamingRegime, tbox: TBox, targets: dict[str, ClassIRI]) -> Sample:

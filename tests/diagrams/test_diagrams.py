@@ -152,7 +152,7 @@ class TestCommand:
         ("arguments", "message"),
         [
             (["table", "-o", "x.gif"], "expected a file name ending in .svg or .png"),
-            (["dinner plate", "-o", "x.svg"], "means 4 objects; expected one, by its prim path"),
+            (["dinner plate", "-o", "x.svg"], "matches 4 objects; expected a prim path"),
             (["unicorn", "-o", "x.svg"], "nothing is named 'unicorn'"),
         ],
     )

@@ -4,7 +4,14 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["BASELINES", "PLATT_SCALING", "QUEUE"]
+__all__ = [
+    "BASELINES",
+    "PLATT_SCALING",
+    "QUEUE",
+    "BaselineSettings",
+    "PlattScalingSettings",
+    "QueueSettings",
+]
 
 
 @dataclass(frozen=True, slots=True)

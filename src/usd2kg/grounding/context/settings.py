@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["NEIGHBOURS", "PLACEMENT"]
+__all__ = [
+    "NEIGHBOURS",
+    "PLACEMENT",
+    "NeighbourSettings",
+    "PlacementSettings",
+]
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["DECODING", "DEGENERATION", "ESTIMATES", "SAMPLING"]
+__all__ = [
+    "DECODING",
+    "DEGENERATION",
+    "ESTIMATES",
+    "SAMPLING",
+    "DecodingSettings",
+    "DegenerationSettings",
+    "EstimateSettings",
+    "SamplingSettings",
+]
 
 
 @dataclass(frozen=True, slots=True)

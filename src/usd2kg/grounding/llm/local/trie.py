@@ -15,6 +15,7 @@ from usd2kg.grounding.llm.settings import DECODING
 __all__ = [
     "FloatArray",
     "NameScores",
+    "ScoredName",
     "TokenPath",
     "TrieNode",
     "add_logprobs",
