@@ -16,6 +16,7 @@ __all__ = [
     "COMBINATION",
     "CONFIDENCE",
     "COPIES",
+    "DOMAIN_FREQUENCY",
     "EVIDENCE",
     "FREQUENCY",
     "HEAD_NOUN",
@@ -31,6 +32,7 @@ __all__ = [
     "STANCE",
     "TERMS",
     "VOTE",
+    "WORD_PRIOR",
     "AbbreviatedNameSettings",
     "AbstentionSettings",
     "AlignmentSettings",
@@ -39,6 +41,7 @@ __all__ = [
     "CombinationSettings",
     "ConfidenceSettings",
     "CopySettings",
+    "DomainFrequency",
     "EvidenceSettings",
     "FrequencySettings",
     "HeadNounSettings",
@@ -54,6 +57,7 @@ __all__ = [
     "StanceSettings",
     "TermSettings",
     "VoteSettings",
+    "WordPriorSettings",
 ]
 
 
@@ -216,18 +220,44 @@ class ClassifierSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class SenseSettings:
-    """Prior of senses."""
+class DomainFrequency:
+    """Frequency of objects in scenes by WordNet domain."""
 
     artifact: float
     food: float
-    person: float
+    plant: float
+    animal: float
+    body: float
+    object: float
     substance: float
     communication: float
+    shape: float
     group: float
+    person: float
+    phenomenon: float
     top: float
-    other_domain: float
+    other: float
+
+    def of(self, domain: str) -> float:
+        """Return the frequency of a domain; unlisted domains are other."""
+        frequency: float = getattr(self, domain, self.other)
+        return frequency
+
+
+@dataclass(frozen=True, slots=True)
+class SenseSettings:
+    """Prior of senses."""
+
+    domain_power: float
     rank_decay: float
+
+
+@dataclass(frozen=True, slots=True)
+class WordPriorSettings:
+    """Prior of words."""
+
+    frequency_power: float
+    home_label_share: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -379,7 +409,9 @@ ROUTES = read_settings("lexical", "routes", RouteSettings)
 MATCHING = read_settings("lexical", "matching", MatchingSettings)
 HEAD_NOUN = read_settings("lexical", "head_noun", HeadNounSettings)
 CLASSIFIER = read_settings("lexical", "classifier", ClassifierSettings)
+DOMAIN_FREQUENCY = read_settings("lexical", "domain_frequency", DomainFrequency)
 SENSE = read_settings("lexical", "sense", SenseSettings)
+WORD_PRIOR = read_settings("lexical", "word_prior", WordPriorSettings)
 SIZE = read_settings("lexical", "size", SizeSettings)
 PLACE = read_settings("lexical", "place", PlaceSettings)
 STANCE = read_settings("lexical", "stance", StanceSettings)

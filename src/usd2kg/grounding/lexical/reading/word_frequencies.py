@@ -5,6 +5,7 @@ import math
 from functools import lru_cache
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.settings import DOMAIN_FREQUENCY, WORD_PRIOR
 from usd2kg.knowledge import read_bytes
 
 __all__ = ["UNKNOWN_FREQUENCY", "log_prior", "word_frequency"]
@@ -12,37 +13,8 @@ __all__ = ["UNKNOWN_FREQUENCY", "log_prior", "word_frequency"]
 UNKNOWN_FREQUENCY = 1.0
 """Zipf score of a word in no list: ten uses in a billion words, the end of SCOWL's class 70, rounded down."""
 
-_DISCOUNT = 0.75
-"""Power of a word's frequency: names in scenes are distributed more evenly than words in text.
-
-The value of word2vec's negative sampling (Mikolov et al., NeurIPS 2013, section 2.2).
-"""
-
-_DOMAIN_WEIGHTS = {
-    "artifact": 1.0,
-    "food": 0.2,
-    "plant": 0.2,
-    "animal": 0.1,
-    "body": 0.1,
-    "object": 0.1,
-    "substance": 0.1,
-    "communication": 0.03,
-    "shape": 0.03,
-    "group": 0.01,
-    "person": 0.01,
-    "phenomenon": 0.01,
-    "top": 0.01,
-}
-"""WordNet's domain → frequency in scenes relative to artifacts. Chosen by hand."""
-
 _TOTAL_WEIGHT = 2509746.600651732
 """Sum of the weights of the vocabulary, stored because it takes half a second to compute; a test verifies it."""
-
-_OTHER_WEIGHT = 0.003
-"""The same for domains outside the taxonomy (acts, times) and for other parts of speech."""
-
-_NEW_WEIGHT = 0.5
-"""The same for a word outside WordNet that ends a label of the home TBox (`cooktop`)."""
 
 _UNLISTED = f"{10 * UNKNOWN_FREQUENCY:.0f}/"
 """The entry of an unlisted word."""
@@ -89,7 +61,7 @@ def log_prior(word: str) -> float:
 def _prior(entry: str, kinds: str) -> float:
     """Return the prior by entry and senses, which many words share."""
     tenths, _, percent = entry.partition("/")
-    weight = float(10 ** (_DISCOUNT * (int(tenths) / 10)) * _thing_share(percent, kinds))
+    weight = float(10 ** (WORD_PRIOR.frequency_power * (int(tenths) / 10)) * _thing_share(percent, kinds))
     return math.log(weight / _TOTAL_WEIGHT)
 
 
@@ -97,17 +69,17 @@ def _thing_share(percent: str, kinds: str) -> float:
     if not percent:
         return _noun_weight(kinds)
     if percent == "-":
-        return _NEW_WEIGHT
+        return WORD_PRIOR.home_label_share
     noun_share = int(percent) / 100
-    return noun_share * _noun_weight(kinds) + (1 - noun_share) * _OTHER_WEIGHT
+    return noun_share * _noun_weight(kinds) + (1 - noun_share) * DOMAIN_FREQUENCY.other
 
 
 @lru_cache(maxsize=4096)
 def _noun_weight(kinds: str) -> float:
     senses = load_taxonomy().parse_kinds(kinds)
     if not senses:
-        return _OTHER_WEIGHT
+        return DOMAIN_FREQUENCY.other
     # Two spellings of a compound (back door, backdoor) have senses of the same rank; the first one counts.
-    weights = {rank: _DOMAIN_WEIGHTS[domain] for rank, domain in reversed(senses)}
+    weights = {rank: DOMAIN_FREQUENCY.of(domain) for rank, domain in reversed(senses)}
     ranks = range(1, senses[-1][0] + 1)
-    return sum(weights.get(rank, _OTHER_WEIGHT) / rank for rank in ranks) / sum(1 / rank for rank in ranks)
+    return sum(weights.get(rank, DOMAIN_FREQUENCY.other) / rank for rank in ranks) / sum(1 / rank for rank in ranks)
