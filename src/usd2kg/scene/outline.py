@@ -44,7 +44,7 @@ NOTHING_AUTHORED = Authored(
 
 @dataclass(slots=True)
 class PrimRecord:
-    """One prim that is or contains geometry."""
+    """One prim that was not pruned."""
 
     stage: Any
     path: str
@@ -129,8 +129,8 @@ class PrimRecord:
 class Outline:
     """The tree of records, with counts and reasons of pruned prims.
 
-    As a context manager, it breaks the reference cycles between records at the end, which releases the stage: OpenUSD
-    would return the cached layers of a stage still in use although the file has changed.
+    As a context manager, it breaks the reference cycles between records on exit, which releases the stage: while a
+    stage is in use, OpenUSD returns its cached layers even if the file has changed.
     """
 
     root: PrimRecord
