@@ -198,8 +198,9 @@ def _sample_lines(lines: _Lines) -> Iterator[tuple[Indices, Indices, Array]]:
 def _leak_levels(corners: Array, cells: int) -> Array:
     """Return for each cell the highest water level above the visible surface that does not leak sideways, 0 to 1.
 
-    A height field cannot distinguish a rail from a wall, or a cage from a tub. Therefore the box is divided into voxels:
-    voxels with a surface in them are solid, and water passes all others. Gaps of one voxel may remain undetected.
+    A height field cannot distinguish a rail from a wall, or a cage from a tub. Therefore the box is divided into
+    voxels: those with a surface in them are solid, and water passes all others. Gaps of one voxel may remain
+    undetected.
 
     Args:
         corners: (m, 3, 3), scaled to 0 … 1 along each side of the box.
