@@ -1,4 +1,4 @@
-"""AnchorMap: relations before and after, compared although the path of the anchor has changed."""
+"""AnchorMap: compare relations before and after, even if the path of the anchor has changed."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence

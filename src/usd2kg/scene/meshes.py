@@ -322,7 +322,7 @@ def _rgb(color: Any) -> Vector:
 
 
 def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
-    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if it is broken.
+    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if empty or broken.
 
     Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
     """

@@ -208,7 +208,7 @@ class SceneObject:
     parent_path: str | None
     """The nearest object above this one, or None."""
     box: Box | None
-    """World AABB of all geometry below the prim, including nested objects; None without geometry."""
+    """World AABB of all geometry at and below the prim, nested objects included, else of its `extentsHint`; or None."""
     own_box: Box | None
     """The same without nested objects."""
     part_boxes: tuple[Box, ...]

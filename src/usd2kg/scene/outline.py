@@ -84,9 +84,9 @@ class PrimRecord:
     first_instance: str | None = None
     """For an instance, the path of the first instance of the prototype."""
     gprim_count: int = 0
-    """Visible gprims at and below it with default or render purpose."""
+    """Visible gprims and point instancers at and below it with default or render purpose."""
     hidden_gprim_count: int = 0
-    """Gprims at and below it with guide or proxy purpose."""
+    """Gprims and point instancers at and below it with guide or proxy purpose."""
     known_prim: Any = None
     known_as_asset: bool | None = None
 
