@@ -39,7 +39,7 @@ _OTHER = "other"
 
 @dataclass
 class TreeObject:
-    """An object below what contains it, else supports it, else has it as a part, else is jointed to it."""
+    """An object; its parent is its container, else its supporter, else its whole, else the object it is jointed to."""
 
     iri: str
     path: str
@@ -48,7 +48,7 @@ class TreeObject:
     class_label: str
     confidence: float | None
     size: str
-    """"width × depth × height cm" of the world box; empty without one."""
+    """`width × depth × height cm` of the world box; empty without one."""
     parent: str | None
     tie: str
     """Relation to the parent: in, on, part or joint; empty for a root."""

@@ -28,8 +28,8 @@ class _Card(NamedTuple):
 def draw_room(store: GraphStore, title: str) -> str:
     """Return an SVG diagram of all objects of a graph.
 
-    The object with the most objects on it, usually the floor, is the header. Each object on it has a card, as has each
-    other root with children. Similar objects share a line.
+    The root with the most descendants, usually the floor, is the header if it carries enough of the objects. Each
+    object on it with children has a card, and so has each other root with children. Similar objects share a line.
     """
     objects = read_object_tree(store)
     roots = [obj for obj in objects.values() if obj.parent is None]
@@ -127,7 +127,7 @@ def _detail(line: CardLine, depth: int) -> str:
 
 
 def _columns(cards: list[_Card], width: float) -> list[list[_Card]]:
-    """Return the cards in columns of similar height, for about the wanted aspect ratio."""
+    """Return the cards in columns of similar height; their number approximates the configured aspect ratio."""
     total = sum(card.height + ROOM.gap for card in cards)
     count = max(1, min(len(cards), round((ROOM.aspect_ratio * total / (width + ROOM.gap)) ** 0.5)))
     columns: list[list[_Card]] = [[] for _ in range(count)]

@@ -80,7 +80,7 @@ def _cut(lines: Sequence[CardLine]) -> tuple[CardLine, ...]:
 def _near(
     store: GraphStore, obj: TreeObject, objects: dict[str, TreeObject], excluded: set[str]
 ) -> tuple[CardLine, ...]:
-    """Return the lines of nearby objects outside its support tree, nearest first, with distances."""
+    """Return the lines of nearby objects outside the object's support tree, nearest first, with distances."""
     answer = store.answer("close-to", {"thing": obj.path, "distance": f"{SURROUNDINGS.max_distance_m:g} m"})
     by_path = {t.path: t for t in objects.values()}
     lines: list[CardLine] = []
@@ -133,7 +133,7 @@ class _Layout(NamedTuple):
         return self.middle_left + self.middle_width + near + SURROUNDINGS.margin
 
     def extent(self, panel: _Panel) -> float:
-        """Return the height above or below the middle when `panel` is above or below the box."""
+        """Return the height that the side of the box with `panel`, above or below, needs from its centre."""
         own = SURROUNDINGS.object_height / 2 + (panel.height + SURROUNDINGS.gap if panel.lines else 0.0)
         return max(own, self.left_height / 2, self.near.height / 2 if self.near.lines else 0.0)
 

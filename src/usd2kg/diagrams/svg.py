@@ -32,7 +32,7 @@ def _em(c: str) -> float:
 
 
 def shorten(text: str, limit: int = TEXT.max_label_letters) -> str:
-    """Return a text elided in the middle beyond a length, without control characters."""
+    """Return a text elided in the middle if longer than `limit`; unprintable characters become U+FFFD."""
     text = "".join(c if c.isprintable() else "\ufffd" for c in text)
     return text if len(text) <= limit else f"{text[: limit // 2]}…{text[len(text) - limit + limit // 2 + 1 :]}"
 

@@ -1,4 +1,4 @@
-"""AnchorMap: relations before and after, where the path of the anchor has changed."""
+"""AnchorMap: compare relations before and after, even if the path of the anchor has changed."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -36,7 +36,12 @@ class AnchorMap:
         return tuple(gained), tuple(lost)
 
     def carriers(self, match: ObjectMatch, kinds: Iterable[str]) -> list[str]:
-        """Return the new paths of the anchors of these kinds and of the ancestors that are the same as before."""
+        """Return the new paths of the objects that may carry this one: unchanged anchors, then unchanged ancestors.
+
+        Args:
+            match: the object.
+            kinds: the kinds of relations in which an anchor carries the object.
+        """
         new = {link.anchor for link in match.new.links if link.kind in kinds}
         kept = {self._objects.get(link.anchor) for link in match.old.links if link.kind in kinds} & new
         new_ancestors = set(ancestor_paths(match.new.prim_path))
@@ -45,7 +50,7 @@ class AnchorMap:
         return [path for path in (*sorted(filter(None, kept)), *kept_ancestors) if path is not None]
 
     def _old_key(self, anchor: str) -> tuple[str, str]:
-        """Return what an anchor is and its new path; equal to a `_new_key` if the anchors are the same."""
+        """Return the type of an old anchor and its new path; equal to the `_new_key` of the same anchor."""
         if anchor in self._objects:
             return "object", self._objects[anchor]
         return ("removed", anchor) if anchor in self._removed else ("group", self._groups.get(anchor, anchor))
@@ -57,7 +62,7 @@ class AnchorMap:
 
 
 def _group_anchors(states: Sequence[ObjectState]) -> set[str]:
-    """Return the anchors that are no objects: groups that are rooms."""
+    """Return the anchors that are not objects: room groups."""
     return {link.anchor for state in states for link in state.links} - {state.prim_path for state in states}
 
 

@@ -23,12 +23,12 @@ class AnnotatedStatement(NamedTuple):
     property: Term
     target: Term
     is_reified: bool
-    """Whether by rdf:reifies (RDF 1.2); otherwise as an annotated OWL axiom."""
+    """Whether the node annotates it by rdf:reifies (RDF 1.2); otherwise as an owl:Axiom."""
 
 
 @dataclass(frozen=True)
 class Component:
-    """Statements connected by blank nodes, which no other statement uses."""
+    """Statements connected by blank nodes that no other statement uses."""
 
     triples: tuple[ox.Triple, ...]
     nodes: tuple[ox.BlankNode, ...]
@@ -45,7 +45,7 @@ class Component:
 
     @property
     def annotated(self) -> AnnotatedStatement | None:
-        """The statement that a single node annotates, if that node is used for nothing else; else None."""
+        """The statement that the only node annotates; None if that is not one, or the node is also an object."""
         found = list(self.find_annotated())
         is_alone = len(self.nodes) == 1 and all(triple.subject == self.nodes[0] for triple in self.triples)
         return found[0] if len(found) == 1 and is_alone else None

@@ -18,7 +18,7 @@ __all__ = ["USUAL_KINDS", "Change", "Changes", "Move", "compare_objects"]
 USUAL_KINDS = ("on", "inside", "part-of", "room")
 """The kinds of relations that are compared by default."""
 _CARRYING_KINDS = ("on", "inside", "part-of")
-"""Relations in which the anchor takes the object along."""
+"""Relations in which a moving anchor carries the object."""
 
 
 class Move(NamedTuple):
@@ -32,7 +32,7 @@ class Move(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """The differences of a matched object; None, 0 or empty if there is none."""
+    """The differences between the two states of a matched object; None, 0 or empty where nothing differs."""
 
     match: ObjectMatch
     move: Move | None = None
@@ -66,7 +66,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Changes:
-    """The differences of two graphs or scenes."""
+    """The differences between two graphs or scenes."""
 
     changed: tuple[Change, ...]
     """By new path."""
@@ -110,7 +110,7 @@ def compare_objects(
     tolerances: Tolerances = DEFAULT_TOLERANCES,
     kinds: Iterable[str] = USUAL_KINDS,
 ) -> Changes:
-    """Return the differences; exchanging old and new gives the mirror image.
+    """Return the differences between two scenes; swapping old and new gives the mirror image.
 
     Args:
         old: the objects of one scene, each prim path once.
@@ -133,7 +133,7 @@ def _select_links(state: ObjectState, kinds: frozenset[str]) -> ObjectState:
 
 
 class _Comparison:
-    """Compares matched objects: first each with itself, then with its nested objects and carriers."""
+    """Compares matched objects: first the two states of each, then the effects of nested objects and carriers."""
 
     def __init__(self, matching: Matching, tolerances: Tolerances, kinds: frozenset[str], has_classes: bool) -> None:
         self._matching = matching
@@ -182,7 +182,7 @@ class _Comparison:
         return None if is_same_size(before, after, self._tolerances) else (old, new)
 
     def _ancestors_of_changes(self, own: Iterable[Change]) -> set[str]:
-        """Return the old and new paths of all prims above an object that was added, removed, moved or resized."""
+        """Return the old and new paths above objects that were added, removed, renamed, moved, turned or resized."""
         unmatched = (*self._matching.removed, *self._matching.added)
         changed = (c.match for c in own if c.move or c.turned_degrees or c.resized or c.is_renamed)
         paths = {state.prim_path for state in unmatched}

@@ -20,7 +20,7 @@ def rotation_angle(old: Quaternion | None, new: Quaternion | None) -> float:
 
 
 def is_same_size(old: Sequence[float], new: Sequence[float], tolerances: Tolerances) -> bool:
-    """Return whether corresponding sides agree."""
+    """Return whether corresponding sides agree within the tolerances."""
     return old == new or all(abs(a - b) <= tolerances.side_limit(max(a, b)) for a, b in zip(old, new, strict=True))
 
 
@@ -30,8 +30,8 @@ def distance_between(old: Vector | None, new: Vector | None) -> float:
 
 
 def transform_rigidly(point: Vector, old: ObjectState, new: ObjectState) -> Vector | None:
-    """Return where a point is after the motion of an object from its old to its new state; None if that is unknown."""
-    # A frame rotates about its origin; with the centre alone, only the translation is known.
+    """Return a point moved rigidly with an object from its old to its new state; None if that motion is unknown."""
+    # A frame rotates about its origin; the centre alone gives only the translation.
     has_frame = old.position is not None and new.position is not None
     start, end = (old.position, new.position) if has_frame else (old.center, new.center)
     if start is None or end is None:

@@ -33,14 +33,14 @@ _READ_PROPERTIES = {
     *KIND_OF_INVERSE,
 }
 _RUN = "-run"
-"""End of the IRI of the grounding run; the base IRI is before it."""
+"""Suffix of the IRI of the grounding run; the rest is the base IRI."""
 
 
 def read_statements(path: Path) -> frozenset[ox.Triple]:
     """Return the statements of all named graphs in a file, with literals in their original lexical form.
 
     Raises:
-        GraphError: the file cannot be read, its ending names no RDF format, or its syntax is wrong.
+        GraphError: the file cannot be read, its extension is not that of an RDF format, or its syntax is wrong.
     """
     syntax = rdf_format(path)
     try:
@@ -104,7 +104,7 @@ def objects_of_graph(statements: Iterable[ox.Triple], source: str) -> tuple[Obje
 
 
 class _StateReader:
-    """Looks up the values of a property of a subject."""
+    """Reads object states from statements, which it indexes by property and subject."""
 
     def __init__(self, statements: Iterable[ox.Triple]) -> None:
         self._values: dict[ox.NamedNode, dict[Any, list[Any]]] = {name: {} for name in _READ_PROPERTIES}

@@ -1,4 +1,4 @@
-"""match_objects: which new object is which old one, by prim path, or else by asset, size, name and place.
+"""match_objects: identify old objects among the new, by prim path, or else by asset, size, name and place.
 
 Matching is one to one, in rounds; each round considers the objects that the earlier rounds left:
 
@@ -35,7 +35,7 @@ _Predicate = Callable[[ObjectTable, Index, Index], Mask]
 
 @dataclass(frozen=True, slots=True)
 class ObjectMatch:
-    """An old object and the new object that is the same."""
+    """An old object and the new object that is identified with it."""
 
     old: ObjectState
     new: ObjectState
@@ -58,7 +58,7 @@ class Matching:
 def match_objects(
     old: Sequence[ObjectState], new: Sequence[ObjectState], tolerances: Tolerances = DEFAULT_TOLERANCES
 ) -> Matching:
-    """Return which new object is which old one; exchanging old and new gives the mirror image.
+    """Return the matched and unmatched objects; swapping old and new gives the mirror image.
 
     Rounds 4 and 5 search within a radius that doubles at each step. Within a step, pairs with equal names and classes
     come first, then the nearest.
@@ -208,7 +208,7 @@ def _is_similar(table: ObjectTable, i: Index, j: Index) -> Mask:
 
 
 def _is_replaced(old: ObjectState, new: ObjectState, tolerances: Tolerances) -> bool:
-    """Return whether another object has the path now: asset and size differ, and the class unless it is unknown."""
+    """Return whether another object has the path now: asset and size differ, and the class if both are known."""
     if not (old.assets and new.assets and old.assets.isdisjoint(new.assets)) or old.size is None or new.size is None:
         return False
     is_resized = not is_same_size(sorted(old.size), sorted(new.size), tolerances)

@@ -1,4 +1,4 @@
-"""ObjectState: one object of a graph or scene, as far as the comparison needs it."""
+"""ObjectState: the properties of one object of a graph or scene that a comparison needs."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -23,7 +23,7 @@ class Link(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ObjectState:
-    """One object in one version of a scene, in metres, kilograms and the z-up world frame. None is unknown."""
+    """One object in one version of a scene, in metres, kilograms and the z-up world frame. None means unknown."""
 
     prim_path: str
     iri: str = ""
@@ -63,7 +63,7 @@ class ObjectState:
 
 
 def objects_of_scene(scene: Scene) -> tuple[ObjectState, ...]:
-    """Return the objects of a scene by prim path, without IRIs, classes and relations."""
+    """Return the objects of a scene sorted by prim path, without IRIs, classes and relations."""
     states = (
         ObjectState(
             obj.prim_path,

@@ -28,7 +28,7 @@ class AssetAgreement(IntEnum):
 
 
 class ObjectTable:
-    """Old and new objects. Methods about pairs take rows of the old and of the new objects."""
+    """Old and new objects as columns. Pairs are given by rows `i` of old objects and rows `j` of new ones."""
 
     def __init__(self, old: Sequence[ObjectState], new: Sequence[ObjectState], tolerances: Tolerances) -> None:
         self._tolerances = tolerances
@@ -100,7 +100,7 @@ def _compare_assets(old: frozenset[str], new: frozenset[str]) -> AssetAgreement:
 
 
 def _encode(values: Iterable[Hashable], count: int) -> tuple[Index, Index]:
-    """Return an integer for each distinct value, -1 for None; of the first `count` values and of the others."""
+    """Return the values as integer codes, -1 for None: of the first `count` values, and of the others."""
     numbers: dict[Hashable, int] = {}
     codes = [_UNKNOWN if v is None else numbers.setdefault(v, len(numbers)) for v in values]
     both = np.array(codes, dtype=np.int64)

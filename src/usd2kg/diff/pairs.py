@@ -96,7 +96,7 @@ def _join(lefts: list[Index], right: Index) -> Iterator[Pairs]:
 
 
 def _chunks(counts: Index) -> Iterator[Index]:
-    """Yield runs of rows by the number of pairs of each row."""
+    """Yield runs of rows with a bounded total number of pairs, given the number of each row."""
     chunk = np.cumsum(counts) // MEMORY.pairs_per_chunk
     ends = np.flatnonzero(np.diff(chunk)) + 1
     yield from (rows for rows in np.split(np.arange(len(counts)), ends) if counts[rows].any())

@@ -1,4 +1,4 @@
-"""Settings of the comparison, from `knowledge/settings/diff.toml`; `tolerances` has the section of that name."""
+"""Settings of the comparison, from `knowledge/settings/diff.toml`, except for the section `tolerances`."""
 
 from dataclasses import dataclass
 

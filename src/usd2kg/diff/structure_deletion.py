@@ -39,7 +39,7 @@ def _node_tests(names: list[str]) -> Iterator[str]:
 
 
 def _no_other_statement(name: str, pattern: list[tuple[str, ...]]) -> str:
-    """Return filters that a node is subject and object only of the statements of the pattern."""
+    """Return filters that require that a node occurs in no statement outside the pattern."""
     as_subject = [f"(sameTerm(?p, {p}) && sameTerm(?o, {o}))" for s, p, o in pattern if s == name]
     as_object = [f"(sameTerm(?p, {p}) && sameTerm(?s, {s}))" for s, p, o in pattern if o == name]
     outward = f"FILTER NOT EXISTS {{ {name} ?p ?o . FILTER(!({' || '.join(as_subject) or 'false'})) }}\n"

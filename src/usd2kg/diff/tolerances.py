@@ -25,7 +25,7 @@ class Tolerances:
     resized_m: float
     """Difference of a side, metres."""
     resized_percent: float
-    """Difference of a side, percent of the longer one. The smaller of both limits counts, at least the noise."""
+    """Difference of a side, percent of the longer one. The smaller of both limits applies, but at least `noise_m`."""
     match_within_m: float
     """Distance within which objects with another path and name are matched, metres."""
 

@@ -35,7 +35,7 @@ class GraphUpdate:
 
 
 def make_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str | None = None) -> GraphUpdate:
-    """Return the update that turns a store with the graph `old` into a store with `new`.
+    """Return the update that replaces the statements `old` of a graph in a store by `new`.
 
     Args:
         old: the current statements.
@@ -120,7 +120,7 @@ class _OperationWriter:
                 yield f"{verb} {{ GRAPH <{self._graph}> {{\n{lines}}} }}"
 
     def insert_components(self, components: Sequence[Component]) -> Iterator[str]:
-        """Yield insertions with unique blank node names; a component is never split, since names end at operations."""
+        """Yield insertions with unique blank node labels, whose scope is one operation: components are never split."""
         count = 0
         chunk: list[ox.Triple] = []
         for component in components:

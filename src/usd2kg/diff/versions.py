@@ -45,7 +45,7 @@ def is_stage(path: Path) -> bool:
 
 
 def read_objects(path: Path, options: ReadOptions) -> tuple[ObjectState, ...]:
-    """Return the things of a graph or a stage; those of a stage without classes.
+    """Return the objects of a graph or a stage; those of a stage have no classes.
 
     Raises:
         Usd2kgError: the file cannot be read.
@@ -60,7 +60,7 @@ def read_versions(
 ) -> tuple[Version, Version]:
     """Return both versions; the graph of a stage is built with base, profile and annotations of the other graph.
 
-    `open_tbox` is called if one of them is a stage.
+    `open_tbox` is called only if one of them is a stage.
 
     Raises:
         Usd2kgError: a file cannot be read.

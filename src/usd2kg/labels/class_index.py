@@ -78,7 +78,7 @@ class ClassIndex:
             self._parents[target].add(subject)
 
     def find(self, name: str) -> frozenset[ClassIRI]:
-        """Return the classes with a name, regardless of case and separators; deprecated ones only if alone."""
+        """Return the classes with a name, regardless of case and separators; deprecated only if no other has it."""
         found = self._by_name.get(normalize_name(name), set())
         return frozenset(found - self.deprecated.keys() or found)
 

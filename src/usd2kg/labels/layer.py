@@ -24,7 +24,7 @@ _ENDINGS = (".usda", ".usdc", ".usd")
 _MARK = "usd2kg"
 """Key in `customLayerData` that identifies label layers."""
 _NOT_COPIED = frozenset("comment documentation layerRelocates primChildren primOrder subLayerOffsets subLayers".split())
-"""Metadata of a root layer that composes from sublayers or describes only that layer."""
+"""Metadata of a root layer that OpenUSD composes from its sublayers, or that describes only that layer."""
 
 
 def write_labels(
@@ -140,7 +140,7 @@ def _label_prims(stage: Any, labels: Mapping[str, ClassLabel], layer: Any, optio
 
 
 class _LabelAuthor:
-    """Authors labels in a layer. The specs of unlabelled prims depend only on the class, so they are copied."""
+    """Authors labels in a layer. Specs of unlabelled prims depend only on the class and are copied from templates."""
 
     def __init__(self, stage: Any, layer: Any, options: LabelOptions) -> None:
         self.class_prims = ClassPrims(stage, layer)
@@ -154,7 +154,7 @@ class _LabelAuthor:
     def author_label(self, target: LabelTarget, path: str, label: ClassLabel) -> LabelOpinions:
         """Author the label of the prim at `path`, and return its opinions."""
         is_labelled = bool(semantic_names(target.prim))
-        # In mode `overwrite`, applied schemas are deleted, which also differ between prims without labels.
+        # Mode `overwrite` deletes applied schemas, which can differ even between prims without labels.
         if not is_labelled and self._options.mode != "overwrite":
             return self._copy_template(target, path, label)
         opinions = plan_opinions(target.prim, label, self._options, self._time)

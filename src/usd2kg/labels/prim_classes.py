@@ -26,7 +26,7 @@ class PrimClass:
 
     prim_path: str
     class_iri: ClassIRI | None
-    """None if the prim has no class; `status` says why."""
+    """None if the prim has no class; `status` gives the reason."""
     confidence: float | None
     """Probability that the class is right; None if unknown."""
     status: str

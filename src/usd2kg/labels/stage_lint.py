@@ -36,7 +36,7 @@ _EXPECTED = {
     "tag-target-no-class": "a class prim with rdf:conceptName",
     "unreadable": "labels that OpenUSD can read",
 }
-"""Rule for single prims → what was expected, if the problem itself does not say it."""
+"""Rule for single prims → what was expected, if the problem itself does not state it."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ def _quote(labels: Iterable[Label]) -> str:
 
 
 def _lint_names(survey: LabelSurvey, classes: ClassIndex) -> Iterator[Finding]:
-    """Yield labels that name no class of the ontology or a deprecated one, each label once."""
+    """Yield a finding for each distinct label that names no class of the ontology, or a deprecated one."""
     for value, paths in _group_prims((prim, _class_names(prim.labels)) for prim in survey.labelled).items():
         named = classes.find(value)
         for iri in sorted(named & classes.deprecated.keys()):
@@ -147,7 +147,7 @@ def _lint_names(survey: LabelSurvey, classes: ClassIndex) -> Iterator[Finding]:
 
 
 def _lint_iris(survey: LabelSurvey, classes: ClassIndex) -> Iterator[Finding]:
-    """Yield IRIs that are no class of the ontology or a deprecated one, each IRI once."""
+    """Yield a finding for each distinct IRI that is not a class of the ontology, or is a deprecated one."""
     for iri, paths in _group_prims((prim, _class_iris(prim.labels)) for prim in survey.labelled).items():
         if iri in classes.deprecated:
             found = f"the class <{iri}> is deprecated{_prim_count(paths)}"
@@ -174,7 +174,7 @@ def _unknown_iri_finding(iri: ClassIRI, paths: list[str], classes: ClassIndex) -
 
 
 def _lint_spellings(survey: LabelSurvey) -> Iterator[Finding]:
-    """Yield labels that differ from a more frequent one only in case or separators."""
+    """Yield a finding for each label that differs from a more frequent one only in case or separators."""
     spellings: dict[tuple[str, str], dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
     for prim in survey.labelled:
         for label in prim.labels:
@@ -193,7 +193,7 @@ def _lint_spellings(survey: LabelSurvey) -> Iterator[Finding]:
 
 
 def _lint_invisible(survey: LabelSurvey) -> Iterator[Finding]:
-    """Yield labelled prims without geometry."""
+    """Yield a finding for each labelled prim without geometry."""
     for prim in survey.labelled:
         if not prim.has_geometry:
             found = f"labelled {_quote(prim.labels)}, but neither the prim nor its descendants have geometry"
@@ -202,7 +202,7 @@ def _lint_invisible(survey: LabelSurvey) -> Iterator[Finding]:
 
 
 def _lint_inherited(survey: LabelSurvey) -> Iterator[Finding]:
-    """Yield prims whose class label is inherited by objects without one."""
+    """Yield a finding for each prim whose class label is inherited by objects without one."""
     labelled = {prim.prim_path: prim for prim in survey.labelled}
     for path, objects in survey.inheriting.items():
         prim = labelled.get(path)
@@ -218,7 +218,7 @@ def _lint_inherited(survey: LabelSurvey) -> Iterator[Finding]:
 
 
 def _lint_class_and_iri(prim: LabelledPrim, classes: ClassIndex) -> Iterator[Finding]:
-    """Yield class labels of a prim that name another class than its IRI."""
+    """Yield a finding for each class label of a prim that contradicts its IRI label."""
     for iri in (iri for iri in _class_iris(prim.labels) if iri in classes.iris):
         # The synonyms of superclasses are too general to compare with; their local names are not.
         words = classes.words(iri).union(*(class_words(up) for up in classes.superclasses(iri)))
@@ -242,7 +242,7 @@ def _classes_and_words(labels: Iterable[Label], classes: ClassIndex) -> tuple[fr
 
 
 def _lint_same_geometry(survey: LabelSurvey, classes: ClassIndex) -> Iterator[Finding]:
-    """Yield prims that have the same geometry as a labelled ancestor but another class."""
+    """Yield a finding for each prim with the same geometry as a labelled ancestor but an unrelated class."""
     labels = {prim.prim_path: prim.labels for prim in survey.labelled}
     for prim in survey.labelled:
         if prim.same_as is None:
@@ -265,7 +265,7 @@ def _are_compatible(one: Iterable[ClassIRI], other: Iterable[ClassIRI], classes:
 
 
 def _lint_stale(survey: LabelSurvey, classes: ClassIndex, grounded: PrimClasses) -> Iterator[Finding]:
-    """Yield prims whose labels name another class than the grounded one."""
+    """Yield a finding for each prim whose labels name a class unrelated to the grounded one."""
     for prim in survey.labelled:
         entry = grounded.by_path.get(prim.prim_path)
         if entry is None or entry.class_iri is None:

@@ -1,4 +1,4 @@
-"""survey_labels: all labels of a stage, with what the linter needs to know about the labelled prims."""
+"""survey_labels: all labels of a stage, with the facts about labelled prims that the linter needs."""
 
 from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ class LabelSurvey:
     labelled: tuple[LabelledPrim, ...]
     """In traversal order."""
     problems: tuple[LabelProblem, ...]
-    """Problems that are visible on a single prim, in traversal order."""
+    """Problems that concern a single prim, in traversal order."""
     inheriting: Mapping[str, tuple[str, ...]]
     """Path of a prim with a class label → the objects below it that have no class label and inherit this one."""
 
@@ -109,7 +109,7 @@ def _gprims(node: PrimRecord) -> int:
 
 
 def _find_same_geometry(node: PrimRecord, chosen: Mapping[str, str], paths: Set[str]) -> str | None:
-    """Return the nearest of `paths` above a node that has no other gprims, up to the object's own prim."""
+    """Return the nearest of `paths` above a prim that has the same gprims, up to the object's prim; None if none."""
     count = _gprims(node)
     above = node.parent
     while count and above is not None and _gprims(above) == count:

@@ -20,13 +20,14 @@ class Camera:
     """A pinhole camera in the z-up world frame; lengths in metres."""
 
     eye: Array
+    """(3,): position of the camera."""
     axes: Array
     """(3, 3): rows are the unit vectors right, up and forward."""
     width: int
     """Pixels."""
     height: int
     focal: float
-    """Pixels."""
+    """Focal length in pixels."""
     near: float
     """Near clipping distance along the view direction, in metres."""
 
@@ -69,8 +70,8 @@ def aim(
 
     Args:
         points: (n, 3), world, at least one.
-        azimuth: camera direction in degrees from the x axis, counter-clockwise seen from above.
-        elevation: degrees above the horizon.
+        azimuth: direction from the points to the camera, degrees from the x axis, counter-clockwise seen from above.
+        elevation: degrees of that direction above the horizon.
         size: width and height of the picture in pixels.
         margin: empty border, as a share of the shorter side of the picture.
     """

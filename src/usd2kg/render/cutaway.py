@@ -42,7 +42,7 @@ def without_ground(soup: TriangleSoup) -> TriangleSoup:
 
 
 def open_room(soup: TriangleSoup, azimuth: float, kept_meshes: int = 0) -> TriangleSoup:
-    """Return the triangles without the ceiling and without the walls towards `azimuth` and what hangs on them.
+    """Return the triangles without the ceiling and without the walls towards `azimuth` and objects on them.
 
     The first `kept_meshes` meshes are always kept.
     """

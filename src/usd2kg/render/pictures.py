@@ -47,7 +47,7 @@ def picture_of_object(soup: TriangleSoup, size: Size) -> Pixels:
     is_flat = height < VIEWPOINT.flat_object_ratio * max(width, depth)
     elevation = VIEWPOINT.flat_object_elevation if is_flat else VIEWPOINT.object_elevation
     views = [aim(points, VIEWPOINT.front + turn, elevation, size) for turn in VIEWPOINT.corner_turns]
-    # Doors and knobs are at the front, and have more edges than the back.
+    # The front has doors and knobs, and so more edges than the back.
     detail = [_detail(view.scaled(_OBJECT_PREVIEW / max(size)), soup, is_smooth=True) for view in views]
     camera = views[_first_clearly_best(detail, VIEWPOINT.object_gain)]
     return _downsample(draw(camera.scaled(PICTURE.samples), soup).over(_BACKGROUND))
@@ -79,7 +79,7 @@ def choose_scene_view(soup: TriangleSoup, size: Size) -> SceneView:
 def picture_in_context(soup: TriangleSoup, own_meshes: int, size: Size) -> Pixels:
     """Return the object in warm colours among grey surroundings, from the view that hides least of it.
 
-    Where most of it stays hidden (a spoon in a closed drawer), the hidden part is blended in.
+    If most of it stays hidden (a spoon in a closed drawer), the hidden part is blended in.
 
     Args:
         soup: the object and everything near it.
@@ -137,7 +137,7 @@ def _choose_context_view(soup: TriangleSoup, own_meshes: int, size: Size) -> Sce
 
 
 def _first_clearly_best(values: list[float], factor: float) -> int:
-    """Return the index that remains when a later value replaces an earlier one only if `factor` times as large.
+    """Return the index of the best value; a later one must exceed the best so far by `factor` to replace it.
 
     >>> _first_clearly_best([10, 11, 20, 21], 1.3)
     2

@@ -30,7 +30,7 @@ class Hits(NamedTuple):
 def rasterise(camera: Camera, points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Hits:
     """Return the nearest triangle at each pixel centre; triangles are two-sided.
 
-    Of triangles at equal distance, the last one wins.
+    Among triangles at equal distance, the last one wins.
     """
     corners, source = _in_front(camera, points, triangles)
     buffer = np.full(camera.width * camera.height, -1, np.int64)
@@ -73,7 +73,7 @@ def _at_near(a: Array, b: Array, near: float) -> Array:
 
 
 def _kept(pixels: Array, source: Indices, camera: Camera) -> tuple[Array, Indices, Indices, Indices]:
-    """Return the triangles that cover a pixel centre, with their first row and number of rows."""
+    """Return triangles whose bounds contain a pixel centre, their sources, first rows and numbers of rows."""
     # numpy reduces slowly over short axes: use three columns.
     (x0, x1, x2), (y0, y1, y2), _ = np.moveaxis(pixels, (2, 1), (0, 1))
     left = np.clip(np.ceil(np.minimum(np.minimum(x0, x1), x2) - 0.5), 0, camera.width)

@@ -104,7 +104,7 @@ class Renderer:
         return self._all_meshes
 
     def meshes_below(self, prim_path: str) -> list[ObjectMesh]:
-        """Return the visible meshes at and below a prim, or of one point instance (`path[index]`).
+        """Return the visible meshes at and below a prim, or of one copy of a point instancer (`path[id]`).
 
         Raises:
             SceneError: there is no such prim.

@@ -37,9 +37,9 @@ class ShadedImage(NamedTuple):
 
 
 def draw(camera: Camera, soup: TriangleSoup, *, is_smooth: bool = True) -> ShadedImage:
-    """Return the shaded triangles; the nearest transparent layer is blended over the solid one.
+    """Return the shaded triangles; the nearest transparent surface is blended over the solid ones.
 
-    Without `is_smooth`, every triangle is flat, which is faster.
+    Without `is_smooth`, triangles are shaded flat, which is faster.
     """
     is_solid = soup.opacity >= 1
     solid = _shade(camera, soup.part(is_solid), is_smooth)

@@ -23,9 +23,9 @@ _MAX_SINE = 1e-6
 _MIN_SCALE = 1e-9
 """Smaller scales, relative volumes and quaternion lengths have no usable rotation."""
 _ROUNDING = 1e-12
-"""Smaller lengths and relative quaternion parts are rounding errors."""
+"""Smaller lengths and relative quaternion components are rounding errors."""
 _MIN_POINTS = 3
-"""Finite points that a mesh must have to be measured."""
+"""Finite points that a mesh needs to be measured; all of them if it has fewer."""
 _UP_ROTATIONS: dict[str, Quaternion] = {"Z": (0.0, 0.0, 0.0, 1.0), "Y": (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))}
 """Up axis → rotation (x, y, z, w) of the stage's frame in the z-up world."""
 
@@ -56,7 +56,13 @@ class BoxReader:
     """
 
     def __init__(self, frame: StageFrame, time: Usd.TimeCode, endless: frozenset[str] = frozenset()) -> None:
-        """Create a reader; OpenUSD is never asked for the bounds of the prims at the paths `endless`."""
+        """Create a reader.
+
+        Args:
+            frame: units and up axis of the stage.
+            time: time code at which geometry and transforms are read.
+            endless: paths of prims whose bounds OpenUSD is never asked for; see `paths_above_endless`.
+        """
         self._frame = frame
         self._endless = endless
         self.time = time
@@ -85,7 +91,7 @@ class BoxReader:
             return None
 
     def read_hint(self, record: PrimRecord) -> Box | None:
-        """Return the box of the authored `extentsHint`, for a prim whose geometry cannot be measured."""
+        """Return the box of the authored `extentsHint`, for a prim whose geometry cannot be measured; None if none."""
         return self._box(self._hints, record)
 
     def _measure(self, record: PrimRecord) -> Box | None:
@@ -244,7 +250,7 @@ class BoxReader:
     def read_pose(self, record: PrimRecord) -> tuple[Vector | None, Quaternion | None]:
         """Return world position (metres) and rotation (x, y, z, w) of a prim's own frame, z-up.
 
-        The rotation excludes scale and mirroring. A part that is not finite or not defined is None.
+        The rotation excludes scale and mirroring. Either is None if it is not finite or not defined.
         """
         matrix = self._local_to_world(record)
         if not record.may_be_turned:
@@ -275,12 +281,12 @@ def _upwards(record: PrimRecord) -> Iterable[PrimRecord]:
 
 
 def is_measurable(record: PrimRecord) -> bool:
-    """Return whether a prim is visible geometry itself."""
+    """Return whether a prim is itself a gprim or point instancer with default or render purpose."""
     return (record.is_gprim or record.is_instancer) and not record.is_hidden
 
 
 def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
-    """Return the points (n, 3) of a mesh or of the surface of a solid, in the prim's frame; none if mistyped."""
+    """Return the points (n, 3) of a mesh or of the surface of a solid, in the prim's frame; empty if mistyped."""
     if prim.GetTypeName() in ROUND_SOLIDS:
         surface = solid_surface(prim, time, SOLIDS.box_segments)
         return surface[0] if surface else np.empty((0, 3))
@@ -295,12 +301,12 @@ def _is_aligned(matrix: _Matrix) -> bool:
 
 
 def _is_near(numbers: _Matrix) -> NDArray[np.bool_]:
-    """Return for each number whether it is a possible coordinate, neither NaN nor `MAX_COORDINATE` or larger."""
+    """Return for each number whether its magnitude is below `MAX_COORDINATE`; False for NaN."""
     return np.abs(numbers) < MAX_COORDINATE
 
 
 def _is_range(lower: Sequence[float], upper: Sequence[float]) -> bool:
-    """Return whether a range is not empty and has possible coordinates."""
+    """Return whether a range is not empty and its coordinates are below `MAX_COORDINATE` in magnitude."""
     return all(-MAX_COORDINATE < low <= high < MAX_COORDINATE for low, high in zip(lower, upper, strict=True))
 
 
@@ -349,7 +355,7 @@ def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion |
 
 
 def _is_singular(matrix: Any) -> bool:
-    """Return whether the linear part of a matrix has no rotation, because it maps space to a plane or less."""
+    """Return whether the linear part of a matrix is singular, so that its rotation is undefined."""
     rows = [matrix.GetRow3(i) for i in range(3)]
     lengths = [row.GetLength() for row in rows]
     volume = abs(Gf.Dot(Gf.Cross(rows[0], rows[1]), rows[2]))
@@ -357,7 +363,7 @@ def _is_singular(matrix: Any) -> bool:
 
 
 def _canonical(quaternion: Any) -> Quaternion | None:
-    """Return the unit quaternion whose first non-zero part, beginning with w, is positive."""
+    """Return the unit quaternion whose first non-zero component of w, x, y, z is positive; None if its length is 0."""
     length = quaternion.GetLength()
     if not math.isfinite(length) or length < _MIN_SCALE:
         return None

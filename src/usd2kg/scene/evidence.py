@@ -17,7 +17,7 @@ from usd2kg.scene.stage import read_value
 __all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_records", "part_names", "read_mass"]
 
 _CACHE_SIZE = 10_000
-"""Paths of asset files kept; many objects reference the same few files."""
+"""Asset paths that each cache keeps; many objects reference the same few files."""
 _COLORS = (Vt.Vec3fArray, Vt.Vec3dArray, Vt.Vec3hArray)
 
 

@@ -20,7 +20,7 @@ COPY = "copy of a point instancer"
 
 
 def count_copies(records: list[PrimRecord], time: Usd.TimeCode) -> Instances | None:
-    """Return the number of copies of an object's point instancers; None if it has none."""
+    """Return the number of visible copies and the prototypes of an object's point instancers; None if it has none."""
     instancers = [record.prim for record in records if record.is_instancer]
     if not instancers:
         return None
@@ -34,7 +34,7 @@ def is_endless(prim: Any, known: dict[Any, list[Any]]) -> bool:
     OpenUSD crashes with infinite recursion when asked for the bounds of such a prim.
 
     Args:
-        prim: where to search.
+        prim: root of the subtree that is searched.
         known: cache, path → point instancers at and below that prim; shared prototypes are traversed once.
     """
     graph: dict[Any, list[Any]] = {}

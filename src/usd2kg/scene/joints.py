@@ -32,7 +32,7 @@ _WITH_AXIS = frozenset({"revolute", "prismatic", "spherical"})
 _MIN_LENGTH = 1e-9
 """Shorter directions and rotations are undefined."""
 _FLOAT32_NOISE = 1e-6
-"""Smaller components of a unit vector are rounding errors of 32-bit rotations."""
+"""Smaller components of a unit vector are rounding errors of 32-bit quaternions."""
 _MIN_COSINE = math.cos(math.radians(JOINTS.max_axis_angle))
 
 
@@ -193,7 +193,7 @@ class _JointReader:
 def _framed_side(bodies: list[Any]) -> int | None:
     """Return the side whose joint frame is used; None if neither can be.
 
-    Both sides describe the same line. An existing body is preferred to the world (None), side 0 to side 1.
+    Both joint frames have the same axis. An existing body is preferred to the world (None), side 0 to side 1.
     """
     sides = [side for side in (0, 1) if bodies[side]] or [side for side in (0, 1) if bodies[side] is None]
     return sides[0] if sides else None

@@ -77,7 +77,7 @@ def isaac_schema(instance: str) -> str:
 
 
 def isaac_property(instance: str, half: str) -> str:
-    """Return the property of one half of an Isaac label: `Type` for the taxonomy, `Data` for the value."""
+    """Return the property name of one half of an Isaac label: `Type` for the taxonomy, `Data` for the value."""
     return f"semantic:{instance}:params:semantic{half}"
 
 

@@ -1,4 +1,4 @@
-"""Problems of the labels on single prims.
+"""Lint semantic labels prim by prim.
 
 Labels are evidence, not truth: published assets carry placeholders and leftovers.
 """
@@ -45,7 +45,7 @@ _LIKE_ISAAC = re.compile(r"semantics?:(?:(.+?):)?(?:params?:)?semantics?_?(type|
 _LIKE_TAG = re.compile(r"semantics?_?tags?:.*", re.IGNORECASE)
 _MAX_QUOTED = 4
 _MAX_QUOTED_LENGTH = 60
-"""Values and characters of each that a message quotes."""
+"""Number of values that a message quotes, and characters of each."""
 
 
 class LabelProblem(NamedTuple):
@@ -145,7 +145,7 @@ def _api_schemas(spec: Any) -> list[str]:
 
 
 def _lint_types(prim: Any, names: Sequence[str]) -> Iterator[_Problem]:
-    """Yield labels of OpenUSD's encoding that OpenUSD itself ignores because of their type."""
+    """Yield a problem for each label in OpenUSD's encoding that OpenUSD ignores because of its type."""
     for name in names:
         found = property_type(prim, name)
         if name.startswith(USD_PREFIX) and found != USD_LABEL_TYPE:
@@ -182,7 +182,7 @@ def _lint_values(entry: LabelProperty, taxonomies: set[str]) -> Iterator[_Proble
 
 
 def _lint_pairs(entries: Sequence[LabelProperty], names: Sequence[str]) -> Iterator[_Problem]:
-    """Yield Isaac labels with one half missing, or with halves whose instance names differ in spelling."""
+    """Yield a problem for each Isaac label with one half missing, or with halves whose instance names are misspelt."""
     halves: dict[str, list[tuple[str, str]]] = {"Type": [], "Data": []}
     for entry in entries:
         instance = isaac_instance(entry.property_name) or ""
@@ -223,7 +223,7 @@ def _lint_targets(prim: Any, name: str) -> Iterator[_Problem]:
 
 
 def _lint_schemas(names: list[str], schemas: list[str]) -> Iterator[_Problem]:
-    """Yield schemas without their properties, and properties without their schema, which tools ignore."""
+    """Yield problems of schemas without their properties and of properties without their schema, which tools ignore."""
     expected = {schema: name for name in reversed(names) if (schema := schema_of(name))}
     unused = [schema for schema in schemas if schema not in expected]
     bare = {schema: name for schema, name in sorted(expected.items()) if schema not in schemas}
@@ -272,7 +272,7 @@ def _words(values: list[str]) -> set[str]:
 
 
 def _lint_name(name: str) -> Iterator[_Problem]:
-    """Yield a property whose name is a misspelling of a label property."""
+    """Yield a problem if the name of a property is a misspelling of a label property."""
     if meant := meant_property(name):
         yield _Problem("property-misspelt", name, f"{name} is no label that any tool reads", meant, "rename it")
 

@@ -67,7 +67,8 @@ def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
     """Return the labels authored on `prim` itself at `time`, in all encodings, whether or not a schema is applied.
 
     Blank values, values longer than 200 characters and labels that a stronger layer blocks are left out;
-    `lint_labels` reports the first two. A missing Multiverse class prim is read from its path.
+    `lint_labels` reports the first two. If a Multiverse class prim is missing, its path gives taxonomy and
+    class name.
     """
     names = semantic_names(prim)
     if not names:

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 def holds_others(boxes: Sequence[Box | None]) -> list[bool]:
-    """Return for each box whether another box has its bottom within its height and over its footprint.
+    """Return for each box whether the bottom of another box is within its height and over its footprint.
 
     Only these few objects can have others on an inner level; reading the levels of all would be slow.
 
@@ -73,7 +73,7 @@ def _levels_of(record: PrimRecord, own_box: Box, boxes: BoxReader, frame: StageF
 
 
 def find_levels(points: Array, triangles: NDArray[Any], footprint: float) -> list[Box]:
-    """Return the broad horizontal faces of a mesh that face up, as flat boxes with their height and extent.
+    """Return the broad horizontal faces of a mesh that face up, as boxes without height, from the bottom up.
 
     A level covers at least 5 % of the footprint and at least 30 % of its own bounding rectangle. Inverted winding of a
     closed mesh is detected.

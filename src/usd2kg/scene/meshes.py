@@ -70,14 +70,15 @@ def iterate_meshes(
     *,
     diagnostics: list[Diagnostic] | None = None,
 ) -> Iterator[ObjectMesh]:
-    """Yield the visible gprims with default or render purpose at and below `root_paths`, in traversal order.
+    """Yield the meshes of visible gprims with default or render purpose at and below `root_paths`, in traversal order.
 
     Polygons are triangulated as fans; subdivision and holes are ignored; instances are traversed. The copies of a point
     instancer are one mesh per gprim of the prototype; beyond a limit, an even selection of copies is returned.
 
     Args:
         opened: the stage.
-        root_paths: where to start; overlapping subtrees are traversed once.
+        root_paths: where to start; overlapping subtrees are traversed once. `path[id]` is one copy of a point
+            instancer.
         time: time code; default: the earliest.
         diagnostics: receives a note for each gprim that is left out because its data are broken.
 
@@ -321,7 +322,7 @@ def _rgb(color: Any) -> Vector:
 
 
 def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
-    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if it is broken.
+    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if empty or broken.
 
     Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
     """

@@ -35,7 +35,7 @@ _TECHNICAL_KEYS = word_set("scene", "technical_keys")
 _SWITCHES = word_set("scene", "switches")
 _MIN_TEXT_LENGTH = 2
 _MIN_WORD_LENGTH = 4
-"""Letters of a part of a text that counts as a word when base64 is detected."""
+"""Letters that a fragment needs to count as a word in the detection of base64."""
 _HEX = re.compile(r"(?:[a-z0-9]+:)?(?:0x)?(?=[a-f-]*[0-9])[0-9a-f-]{8,}|[0-9a-f]{16,}", re.IGNORECASE)
 """Hashes, UUIDs, colours and addresses, with or without a prefix such as `sha256:`."""
 _BASE64 = re.compile(r"[A-Za-z0-9+/]{15,}={0,2}")
@@ -62,10 +62,10 @@ def variant_selections(prim: Any) -> tuple[tuple[str, str], ...]:
 
 
 def text_attributes(prim: Any, time: Any = None) -> tuple[tuple[str, str], ...]:
-    """Return (name, text) of the free text on a prim outside of schemas: at most 20, each text once.
+    """Return (name, text) of the free texts on a prim that belong to no schema: at most 20, each text once.
 
-    String and token attributes by name (lists are joined), then `customData:<key>`, then `assetInfo:<key>`. Texts have
-    2 to 200 characters with words; paths, URLs, numbers, switches, hashes and encoded data are left out.
+    String and token attributes by name (arrays are joined), then `customData:<key>`, then `assetInfo:<key>`. Texts have
+    2 to 200 characters and at least one word; paths, URLs, numbers, switches, hashes and encoded data are left out.
 
     Args:
         prim: the prim, possibly an instance proxy.
@@ -153,13 +153,13 @@ def _is_free_text(text: str) -> bool:
 def _is_base64(text: str) -> bool:
     if not _BASE64.fullmatch(text):
         return False
-    # Identifiers consist of words, encoded bytes of short fragments.
+    # Identifiers consist of words, base64 of short fragments.
     parts = [part for part in split_identifier(text) if len(part) >= _MIN_WORD_LENGTH and part.isalpha()]
     return text.endswith("=") or sum(map(len, parts)) < TEXTS.min_word_share * len(text)
 
 
 class MaterialReader:
-    """Reads the materials of objects at one time; each material is read once, also if instances share it."""
+    """Reads the materials of objects at one time; each material is read once, even if instances share it."""
 
     def __init__(self, time: Any, *, has_purpose_bindings: bool = True) -> None:
         self._time = time
@@ -184,7 +184,7 @@ class MaterialReader:
         """Return the materials of the visible geometry among `records`, in order of appearance.
 
         Bindings are resolved by UsdShade (direct, inherited, collection-based, by strength) for the purposes `full` and
-        `preview`, including geometry subsets. A binding to a missing material gives its name.
+        `preview`, including geometry subsets. A binding to a missing material gives its name and path only.
         """
         root, twin = records[0], records[0].twin
         if twin is None or root.is_bound or twin.is_bound:
@@ -314,7 +314,7 @@ def _value(attribute: Any, time: Any) -> Any:
         return value_of(attribute, time)
     shader = UsdShade.Shader(attribute.GetPrim())
     value = shader.GetInput("value") if shader else None
-    # MaterialX has constants as nodes: ND_constant_color3, ND_constant_float.
+    # MaterialX represents constants as nodes: ND_constant_color3, ND_constant_float.
     if not value or value.HasConnectedSource() or not str(shader.GetShaderId()).startswith("ND_constant"):
         return None
     return value_of(value, time)
@@ -330,7 +330,7 @@ def vector_of(value: Any) -> Vector | None:
 
 
 def _number(value: Any) -> float | None:
-    # MaterialX has opacity as a colour; grey is a number.
+    # Opacity is a colour in MaterialX; a grey one is read as a number.
     parts = [value] if isinstance(value, int | float) else list(vector_of(value) or ())
     is_one = len(set(parts)) == 1 and math.isfinite(parts[0])
     return float(f"{parts[0]:.6g}") if is_one else None

@@ -60,7 +60,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """A problem of the stage that did not stop reading."""
+    """A problem of a stage that did not prevent reading it."""
 
     code: str
     """Short and stable: `composition`, `units`, `transform`, `empty-box`, `openusd`, and so on."""
@@ -83,7 +83,7 @@ class StageFrame:
     kilograms_per_unit: float
     """Mass of one stage unit in kilograms."""
     is_authored: bool
-    """Whether the length unit is authored; if not, it is OpenUSD's fallback of one centimetre."""
+    """Whether the length unit is authored or overridden; if not, it is OpenUSD's fallback of one centimetre."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +137,7 @@ NO_LABELS = ObjectLabels((), (), ())
 
 @dataclass(frozen=True, slots=True)
 class MaterialDetails:
-    """A material with its constant surface parameters; None if a texture or network decides, or nothing is authored."""
+    """A material with its constant surface parameters; None if a shading network computes one, or none is authored."""
 
     name: str
     """Name of the material prim."""
@@ -185,7 +185,7 @@ class Joint:
     """Authored joint position: radians for revolute, metres for prismatic joints."""
     is_enabled: bool
     is_excluded_from_articulation: bool
-    """Whether it closes a loop and is not in the tree of links."""
+    """Whether it is excluded from the articulation, as a joint that closes a kinematic loop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,7 +208,7 @@ class SceneObject:
     parent_path: str | None
     """The nearest object above this one, or None."""
     box: Box | None
-    """World AABB of all geometry below the prim, including nested objects; None without geometry."""
+    """World AABB of all geometry at and below the prim, nested objects included, else of its `extentsHint`; or None."""
     own_box: Box | None
     """The same without nested objects."""
     part_boxes: tuple[Box, ...]
@@ -216,7 +216,7 @@ class SceneObject:
     position: Vector | None
     """World translation of the prim's own frame; None if its transform is not finite."""
     orientation: Quaternion | None
-    """World rotation (x, y, z, w) of the prim's own frame; None if undefined (shear, zero scale)."""
+    """World rotation (x, y, z, w) of the prim's own frame; None if undefined (singular transform)."""
     mass_kg: float | None
     """Authored mass of the prim, or the sum over its parts."""
     display_name: str
@@ -268,11 +268,11 @@ class Scene:
     source: str
     """The file as the user named it."""
     content_hash: str
-    """`sha256:` of all layers of the stage."""
+    """`sha256:` and the digest of all layers of the stage."""
     frame: StageFrame
     """Authored units and up axis."""
     time: float | None
-    """The time code that was read; None for the default time."""
+    """Requested time code, else the start time code of the stage; None if it has no authored time range."""
     prim_count: int
     """Number of traversed prims, including instance proxies."""
     objects: tuple[SceneObject, ...]

@@ -1,8 +1,8 @@
 """Select the prims that are objects: what a person would point at and name.
 
-In order: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads, instances), and for all
-other geometry its nearest ancestor that is not a mere grouping. The rules only see the outline, and boxes of unnamed
-geometry.
+In order of precedence: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads, instances),
+and for all other geometry its nearest ancestor that is not a mere grouping. The rules only see the outline, and boxes
+of unnamed geometry.
 """
 
 import re
@@ -28,7 +28,7 @@ _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
 _GROUPING_WORDS = word_set("scene", "grouping_words")
 _MIN_NESTED_ASSETS = 2
-"""Nested assets from which a referenced prim is a set of objects."""
+"""Least number of nested assets that make a referenced prim a set of objects."""
 _MAX_LISTED = 3
 """Objects that an explanation lists."""
 
@@ -187,7 +187,10 @@ def _nearest_below(record: PrimRecord, candidates: dict[str, str]) -> list[PrimR
 
 
 def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
-    """Resolve candidates without own geometry: one replaces a single nested candidate, and gives way to several."""
+    """Resolve candidates without geometry of their own, which wrap nested candidates.
+
+    A wrapper replaces a single nested candidate. Several nested candidates replace a wrapper without authored kind.
+    """
     for record in reversed(outline.records):
         if record.path not in candidates or record.is_instancer or record.is_gprim:
             continue

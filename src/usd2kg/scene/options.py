@@ -9,7 +9,7 @@ __all__ = ["ReadOptions", "SelectionOverrides"]
 
 @dataclass(frozen=True, slots=True)
 class SelectionOverrides:
-    """Overrides of the rules by which prims are objects."""
+    """Overrides of the rules that select objects."""
 
     include: tuple[str, ...] = ()
     """Path patterns (`*` within a name, `**` across names) of prims that are objects regardless of the rules."""
@@ -18,7 +18,7 @@ class SelectionOverrides:
     kinds: tuple[str, ...] = ()
     """Model kinds of objects, instead of `component`."""
     only: tuple[str, ...] = ()
-    """Paths of the only objects."""
+    """Paths of the objects; if given, the rules and the other overrides are ignored."""
     is_every_prim: bool = False
     """Whether every prim that is or contains visible geometry is an object."""
 

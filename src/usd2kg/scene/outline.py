@@ -44,7 +44,7 @@ NOTHING_AUTHORED = Authored(
 
 @dataclass(slots=True)
 class PrimRecord:
-    """One prim that is or contains geometry."""
+    """One prim that was not pruned."""
 
     stage: Any
     path: str
@@ -84,9 +84,9 @@ class PrimRecord:
     first_instance: str | None = None
     """For an instance, the path of the first instance of the prototype."""
     gprim_count: int = 0
-    """Visible gprims at and below it with default or render purpose."""
+    """Visible gprims and point instancers at and below it with default or render purpose."""
     hidden_gprim_count: int = 0
-    """Gprims at and below it with guide or proxy purpose."""
+    """Gprims and point instancers at and below it with guide or proxy purpose."""
     known_prim: Any = None
     known_as_asset: bool | None = None
 
@@ -129,8 +129,8 @@ class PrimRecord:
 class Outline:
     """The tree of records, with counts and reasons of pruned prims.
 
-    As a context manager, it breaks the reference cycles between records at the end, which releases the stage: OpenUSD
-    would return the cached layers of a stage still in use although the file has changed.
+    As a context manager, it breaks the reference cycles between records on exit, which releases the stage: while a
+    stage is in use, OpenUSD returns its cached layers even if the file has changed.
     """
 
     root: PrimRecord

@@ -42,7 +42,7 @@ __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 logger = logging.getLogger(__name__)
 
 _MAX_REASONS = 4
-"""Reasons that the error message of a stage without objects lists."""
+"""Number of reasons listed in the error message for a stage without objects."""
 _BATCH = 1000
 """Objects whose materials are computed together; affects speed only."""
 _NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}

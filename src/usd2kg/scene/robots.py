@@ -1,4 +1,4 @@
-"""Robots: the rigid bodies of an arm, a chain of revolute joints, are one object."""
+"""Merge the rigid bodies of a robot arm, a chain of revolute joints, into one object."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -78,7 +78,7 @@ def _arm_base(body: str, moved: Mapping[str, JointLink]) -> str | None:
 
 
 def _moved_with(base: str, moves: Mapping[str, list[str]]) -> set[str]:
-    """Return a body and all bodies that joints connect below it."""
+    """Return a body and all bodies that joints attach to it, directly or indirectly."""
     found, pending = {base}, [base]
     while pending:
         for body in moves.get(pending.pop(), ()):

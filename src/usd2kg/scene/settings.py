@@ -29,12 +29,12 @@ __all__ = [
 ]
 
 MAX_COORDINATE = 1e30
-"""OpenUSD marks empty ranges, infinite planes and unlimited joints with numbers from here on."""
+"""OpenUSD marks empty ranges, infinite planes and unlimited joints with numbers of this magnitude or larger."""
 
 
 @dataclass(frozen=True)
 class LimitSettings:
-    """Numbers and lengths that are kept."""
+    """Limits on evidence, messages and stage units."""
 
     max_part_boxes: int
     max_part_labels: int
@@ -68,7 +68,7 @@ class MeshSettings:
 
 @dataclass(frozen=True)
 class LevelSettings:
-    """Level faces within meshes."""
+    """Support levels within meshes."""
 
     margin: float
     min_overlap_ratio: float

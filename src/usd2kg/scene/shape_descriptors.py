@@ -92,7 +92,7 @@ class _KnownShape(NamedTuple):
 class _ShapeCache:
     """The shapes measured so far, by triangles; points are compared up to a rotation about z.
 
-    A hash of the points would not do: their rounding depends on where the instance is.
+    Points cannot be hashed, because their rounding depends on the position of the instance.
     """
 
     def __init__(self) -> None:

@@ -55,7 +55,7 @@ class OpenedStage:
 
 
 def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedStage:
-    """Open `source` with all payloads loaded; an already open stage is used as it is.
+    """Return the stage of a file with all payloads loaded; an already open stage is used as it is.
 
     Raises:
         SceneError: the file is missing, corrupt, or not a USD file.
@@ -148,7 +148,7 @@ def read_targets(prim: Any, name: str) -> list[Any]:
 
 
 def time_code(time: float | None) -> Usd.TimeCode:
-    """Return the time code of a number; the earliest time for None, at which unanimated attributes have their value."""
+    """Return a time code; for None the earliest, at which attributes without time samples have their default value."""
     return Usd.TimeCode.EarliestTime() if time is None else Usd.TimeCode(time)
 
 

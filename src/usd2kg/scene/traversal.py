@@ -147,7 +147,7 @@ class _Outliner:
         return record
 
     def _is_new(self, prim: Any) -> bool:
-        """Return whether no other instance of the prim was met before."""
+        """Return whether the prim has not been met in another instance of its prototype."""
         if not prim.IsInstanceProxy():
             return True
         shared = prim.GetPrimInPrototype().GetPath()
@@ -323,7 +323,7 @@ def _is_a(prim: Any, schema: str) -> bool:
 
 
 def paths_above_endless(outline: Outline) -> frozenset[str]:
-    """Return the paths of prims with a point instancer below them that contains itself."""
+    """Return the paths of prims with a point instancer at or below them that contains itself."""
     if not outline.left_out[ENDLESS]:
         return frozenset()
     endless = (Sdf.Path(path) for path, reason in outline.pruned.items() if reason == ENDLESS)

@@ -38,7 +38,7 @@ class _Content:
 
     pieces: list[PrimRecord] = field(default_factory=list)
     is_pure: bool = True
-    """Whether there is nothing else, and no piece has a name."""
+    """Whether the prim contains no other objects, and no piece has a descriptive name."""
 
 
 def merge_unnamed_pieces(
@@ -46,8 +46,9 @@ def merge_unnamed_pieces(
 ) -> None:
     """Merge and split unnamed prims in `owners`, the prims that own geometry outside of any model.
 
-    An unnamed group becomes one object if its pieces are unnamed, are connected, have one mesh each (most of them), and
-    are together no larger than furniture. An unnamed group that is larger and disconnected is replaced by its meshes.
+    An unnamed group becomes one object if its pieces are unnamed and connected, most of them have a single mesh, and
+    together they are no larger than furniture. An unnamed group that is larger and disconnected is replaced by its
+    meshes.
     """
     if not any(is_unnamed(path.rpartition("/")[2]) for path in owners):
         return
@@ -124,7 +125,7 @@ class _PieceBoxes:
         """id of a list of pieces → whether they are one object; nested groups with one child share their list."""
 
     def are_one_object(self, pieces: list[PrimRecord]) -> bool:
-        """Return whether most pieces are one mesh, and all are connected and no larger than furniture."""
+        """Return whether most pieces have a single mesh, and all are connected and no larger than furniture."""
         if id(pieces) not in self._answers:
             self._answers[id(pieces)] = self._compare(pieces)
         return self._answers[id(pieces)]

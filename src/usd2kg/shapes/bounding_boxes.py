@@ -47,7 +47,7 @@ def minimum_rectangle(points: Array, height: float = 0.0) -> tuple[Array, tuple[
 
 
 def minimum_box(points: Array, normals: Array) -> Size:
-    """Return the sides, longest first, of the box of least surface around points (n, 3) that stands on a given plane.
+    """Return the sides, longest first, of the box of least surface around points (n, 3) on one of the given planes.
 
     Least surface instead of volume, because all boxes around a flat object have volume 0.
 

@@ -14,7 +14,7 @@ Indices = NDArray[np.int64]
 _SMALLEST_CELL = 0.02
 """Side of the cells of level 0 in metres; affects speed only."""
 _HIGHEST_LEVEL = 20
-"""Each level doubles the side of the cells."""
+"""Largest level; each level doubles the side of the cells."""
 _BRUTE_FORCE_PAIRS = 200_000
 """Number of pairs up to which comparing all is faster than sorting."""
 _CHUNK = 1 << 20

@@ -44,7 +44,7 @@ def _weld(mesh: TriangleMesh) -> tuple[Array, Indices]:
 
 
 def _connected_parts(triangles: Indices, count: int) -> Indices:
-    """Return the number of the connected part of each triangle."""
+    """Return the index of the connected part of each triangle."""
     from scipy.sparse import coo_array  # noqa: PLC0415 - optional
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
 
@@ -70,7 +70,7 @@ def _sums(part: Indices, values: Array) -> Array:
 
 
 def _are_cavities(corners: Array, part: Indices, volume: Array) -> NDArray[np.bool_]:
-    """Return for each part whether its faces point the other way than those of the smallest part around it."""
+    """Return for each part whether its winding is opposite to that of the smallest part around it."""
     is_cavity = np.zeros(len(volume), np.bool_)
     if (volume > 0).all() or (volume < 0).all():
         return is_cavity

@@ -71,7 +71,7 @@ def hull_area(points: Array) -> float:
 
 
 def _scale(points: Array) -> float:
-    """Return the largest extent, or 1 if all points coincide: Qhull's tolerances assume coordinates near 1."""
+    """Return the largest extent, or 1 if all points coincide; Qhull's tolerances assume coordinates near 1."""
     return float(np.ptp(points, axis=0).max()) or 1.0
 
 

@@ -48,7 +48,7 @@ class _NormalizedMesh(NamedTuple):
 
 
 def measure_vessel(points: Array, triangles: Indices, plan: Array) -> Vessel:
-    """Return how much water triangles hold after vertical rain.
+    """Return the water that triangles hold after vertical rain.
 
     Depressions of the height field over the footprint are filled up to their spill level (Planchon & Darboux 2001;
     equivalent to priority flood, Barnes et al. 2014), but no higher than to where they leak sideways through gaps in
@@ -198,12 +198,13 @@ def _sample_lines(lines: _Lines) -> Iterator[tuple[Indices, Indices, Array]]:
 def _leak_levels(corners: Array, cells: int) -> Array:
     """Return for each cell the highest water level above the visible surface that does not leak sideways, 0 to 1.
 
-    A height field cannot tell a rail from a wall, or a cage from a tub. Therefore the box is divided into voxels:
-    voxels with a surface in them are solid, and water passes all others. Gaps of one voxel may remain undetected.
+    A height field cannot distinguish a rail from a wall, or a cage from a tub. Therefore the box is divided into
+    voxels: those with a surface in them are solid, and water passes all others. Gaps of one voxel may remain
+    undetected.
 
     Args:
         corners: (m, 3, 3), scaled to 0 … 1 along each side of the box.
-        cells: of the height field along each side, without its border.
+        cells: number of cells of the height field along each side, without its border.
     """
     side = cells // VESSEL.coarse_factor
     while True:

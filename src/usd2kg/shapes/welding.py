@@ -1,4 +1,4 @@
-"""Points that coincide."""
+"""Group points that coincide."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ __all__ = ["WeldedPoints", "weld_points"]
 
 
 class WeldedPoints(NamedTuple):
-    """Which points coincide."""
+    """Groups of coincident points."""
 
     first: NDArray[np.int64]
     """(k,), index of the first point of each group of coincident points."""
