@@ -15,7 +15,7 @@ class ScoredClass(NamedTuple):
     """A class that one kind of evidence supports."""
 
     group: str
-    """The evidence group."""
+    """The evidence group, such as `name` or `geometry`; see `EVIDENCE_GROUPS`."""
     class_iri: ClassIRI
     score: float
     explain: Callable[[], str]
@@ -30,7 +30,7 @@ def combine_evidence(
     *,
     is_masked: bool,
 ) -> list[ScoredClass]:
-    """Return the classes by all evidence together, best first.
+    """Return the classes with their scores by all evidence together, best first.
 
     A product of experts (Hinton, 2002) of the words and the context. The context is a mixture: the object is either of
     a neighbour's class or drawn from the posterior by size and place. Floors keep one expert from excluding a class:
@@ -42,7 +42,7 @@ def combine_evidence(
     Args:
         by_words: the classes that words support, spelled out or abbreviated.
         by_neighbours: the classes of neighbours, each once; the scores add up to 1 at most.
-        posterior: class → its probability by size and place, in descending order.
+        posterior: class → its probability given size and place, in descending order.
         explain_posterior: returns the sentence for a class that size and place support.
         is_masked: whether the naming regime masks the name; then the power is 1.
     """

@@ -1,1 +1,1 @@
-"""What things are, whatever the ontology: senses, hypernyms, usual sizes and places."""
+"""Knowledge about nouns that no ontology is needed for: senses, hypernyms, usual sizes and places."""

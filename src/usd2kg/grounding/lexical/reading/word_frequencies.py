@@ -39,10 +39,10 @@ _TOTAL_WEIGHT = 2509746.600651732
 """Sum of the weights of the vocabulary, stored because it takes half a second to compute; a test verifies it."""
 
 _OTHER_WEIGHT = 0.003
-"""The same for domains outside the taxonomy (acts, times) and for other parts of speech."""
+"""Frequency relative to artifacts for domains outside the taxonomy (acts, times) and for other parts of speech."""
 
 _NEW_WEIGHT = 0.5
-"""The same for a word outside WordNet that ends a label of the home TBox (`cooktop`)."""
+"""Frequency relative to artifacts for a word outside WordNet that ends a label of the home TBox (`cooktop`)."""
 
 _UNLISTED = f"{10 * UNKNOWN_FREQUENCY:.0f}/"
 """The entry of an unlisted word."""
@@ -87,7 +87,7 @@ def log_prior(word: str) -> float:
 
 @lru_cache(maxsize=8192)
 def _prior(entry: str, kinds: str) -> float:
-    """Return the prior by entry and senses, which many words share."""
+    """Return the log prior by entry and senses, which many words share."""
     tenths, _, percent = entry.partition("/")
     weight = float(10 ** (_DISCOUNT * (int(tenths) / 10)) * _thing_share(percent, kinds))
     return math.log(weight / _TOTAL_WEIGHT)

@@ -100,7 +100,7 @@ class WordKinds:
     def may_modify_parent(self, word: str) -> bool:
         """Return whether a word beside those of the parent's name may only modify them: a `desk_oak` below `Desk`.
 
-        Substances do, unless objects are often named so.
+        Substances do, unless objects are often named after them.
         """
         if self.is_modifier(word):
             return True
