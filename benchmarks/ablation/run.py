@@ -2,7 +2,7 @@
 
 Usage: python -m benchmarks.ablation.run [--workers N] [--only TEXT] [--set TEXT ...]
 
-Counts exact answers gained and lost without the rule, on material that may be learned from: every eighth training name
+Counts exact answers gained and lost without the rule, on training data only: every eighth training name
 in the home TBox (spelled out, and every 24th abbreviated), all training lists with other ontologies, and the labelled
 training scenes. Without --only the table is written to README.md beside this file. `--set` switches rules off together.
 """
@@ -82,7 +82,7 @@ def samples_of_ontologies() -> Iterator[Sample]:
 
 
 def samples_of_scenes() -> Iterator[Sample]:
-    """Yield the labelled scenes that are no tests, spelled out and abbreviated."""
+    """Yield the labelled scenes that are not test scenes, spelled out and abbreviated."""
     for spec in tomllib.loads(MATRIX.read_text("utf-8"))["scene"]:
         path = MATRIX.parent / spec["path"]
         if not path.exists() or "test" in spec["name"]:

@@ -61,8 +61,8 @@ class FloorPlan:
     def is_laid_out(self) -> bool:
         """Whether positions are meaningful: the assets of a library may all be at the origin.
 
-        They are not if more than half of about 64 sampled objects overlap with most of their eight nearest: each centre
-        is within the other's footprint, and more than half the height of the lower box is level with the other.
+        They are not if more than half of a sample of at most 127 objects overlap with most of their eight nearest: each
+        centre is within the other's footprint, and the heights overlap by more than half of the lower box.
         """
         known = np.flatnonzero(~np.isnan(self._grounds))
         sample = known[:: max(1, len(known) // PLACEMENT.layout_sample)].tolist()
@@ -89,7 +89,7 @@ class FloorPlan:
     def nearest(self, index: int, most: int) -> tuple[_Indices, _Floats]:
         """Return the nearest objects except descendants, and the distances between box centres in metres.
 
-        Around a target with more than 2,000 objects, only an even sample of them is searched.
+        Of 2,000 or more objects around it, only an even sample is searched.
         """
         if self._objects[index].box is None or not self.is_laid_out:
             return np.empty(0, int), np.empty(0)
