@@ -37,7 +37,7 @@ def combine_evidence(
 
         (words + 0.02) · (neighbours · (posterior + 0.04)^½ + (1 - Σ neighbours) · posterior + 0.01)^power
 
-    The power is 1 less the best score of the words: the more a name says, the less the context counts.
+    The power is 1 less the best score of the words: the more informative the words, the less the context counts.
 
     Args:
         by_words: the classes that words support, spelled out or abbreviated.

@@ -61,7 +61,7 @@ class LexicalGrounder:
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
     def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
-        """Return the classes that say little about an object: the roots, and the default class."""
+        """Return the uninformative classes: the roots and the default class."""
         return _object_grounder(tbox, self._use_home_synonyms).general_classes
 
     def score_views(

@@ -115,7 +115,7 @@ class ObjectGrounder:
 def _with_default_class(
     tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]
 ) -> tuple[TBox, Lexicon]:
-    """Return the TBox below one class that is true of most things, and its lexicon.
+    """Return the TBox below one class that is true of most objects, and its lexicon.
 
     A TBox without a general class gets an artificial root. In a list of labels with a residual class, such as
     `otherprop`, the residual class becomes the superclass of the other roots.

@@ -61,7 +61,7 @@ class Lexicon:
     default_class: ClassIRI | None
     """The class of objects without a more specific one, see `find_default_class`."""
     general_classes: frozenset[ClassIRI]
-    """Classes that say little about an object: the roots and the default class."""
+    """Uninformative classes: the roots and the default class."""
     borrowed_terms: Mapping[str, Term]
     """Term without spaces → the class labelled like a superclass in the home vocabulary: a charger is an appliance.
 

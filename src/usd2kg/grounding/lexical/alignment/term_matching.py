@@ -176,7 +176,7 @@ class TermMatcher:
         if self._lexicon.borrowed_terms and all(
             match.class_iri == self._lexicon.default_class for match in found.matches
         ):
-            # A class borrowed from the home vocabulary says more than the default class.
+            # A class borrowed from the home vocabulary is more informative than the default class.
             borrowed = {start: self._lexicon.borrowed_terms.get(key) for start, key in keys.items()}
             start = next((start for start, term in borrowed.items() if term is not None), None)
             if start is not None:

@@ -3,7 +3,7 @@
 The reading of a name maximises P(words) · P(written | words) (Shannon's noisy channel; for spelling: Kernighan, Church
 and Gale, COLING 1990). P(words) is a bigram model whose unigrams mix the prior of nouns, words of names in scenes, the
 terms of the TBox, the words of other names on the stage, and those of the parent's name. P(written | words) models how
-words are shortened: vowels dropped, truncated, or both, and mostly all words of a name alike.
+words are shortened: vowels dropped, truncated, or both, and usually all words of a name in one way.
 """
 
 import math

@@ -53,7 +53,7 @@ def usual_abbreviations() -> dict[str, str]:
 
 
 def may_be_short(word: str) -> bool:
-    """Return whether an unknown word looks abbreviated: few letters, or hardly any vowel. Brands mostly do not.
+    """Return whether an unknown word looks abbreviated: few letters, or hardly any vowel. Brands usually do not.
 
     >>> may_be_short("cush"), may_be_short("wrkbnch"), may_be_short("granito")
     (True, True, False)
