@@ -15,7 +15,7 @@ class ScoredClass(NamedTuple):
     """A class that one kind of evidence supports."""
 
     group: str
-    """The evidence group, such as `name` or `geometry`; see `EVIDENCE_GROUPS`."""
+    """Kind of evidence: name, asset, labels, documentation, hierarchy, parts, neighbours or geometry."""
     class_iri: ClassIRI
     score: float
     explain: Callable[[], str]

@@ -55,7 +55,7 @@ def head_noun_of(label: str) -> str:
 
 
 def jargon_prefixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
-    """Return first words that are jargon of the ontology: many classes share them, and no noun begins with them.
+    """Return first words that are jargon of the ontology: many labels begin with them, and none of these is a noun.
 
     “designed” is jargon; the “cooking” of “cooking appliance” is not, since the compound is a noun of the taxonomy.
     """

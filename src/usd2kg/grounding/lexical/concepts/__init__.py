@@ -1,1 +1,1 @@
-"""Knowledge about nouns that no ontology is needed for: senses, hypernyms, usual sizes and places."""
+"""Ontology-independent knowledge about nouns: senses, hypernyms, usual sizes and places."""

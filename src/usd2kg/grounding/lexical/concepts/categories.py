@@ -20,7 +20,7 @@ class Category(NamedTuple):
 
 
 def members_of(category: str, taxonomy: Taxonomy) -> Iterator[tuple[int, int]]:
-    """Yield (synset, number of synsets in the category) for each member of the category of a name without spaces."""
+    """Yield (synset, number of synsets in the category) for each member; `category` is a name without spaces."""
     found = _load_categories().get(category)
     if found is not None:
         synsets = (find_synset(member, taxonomy) for member in found.members)

@@ -49,7 +49,7 @@ class WordKinds:
         return word in PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word)
 
     def _is_participle(self, word: str) -> bool:
-        """Return whether a word looks like a participle of a known noun and is not a noun itself: `lidded`, `docking`."""
+        """Return whether a word looks like a participle of a known noun, without being a noun: `lidded`, `docking`."""
         ending = next((ending for ending in ("ed", "ing") if word.endswith(ending)), "")
         if not ending or len(word) < MODIFIER.min_participle_letters or word in self._taxonomy:
             return False
