@@ -1,4 +1,4 @@
-"""Scenes of objects with no evidence but name, place in the tree and size."""
+"""Scenes whose objects have no evidence except name, ancestors, position and size."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ __all__ = ["bare_object", "bare_scene"]
 def bare_object(
     path: str, size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> SceneObject:
-    """Return an object.
+    """Return an object without other evidence.
 
     Args:
         path: prim path; its last part is the name.

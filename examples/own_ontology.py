@@ -3,7 +3,7 @@
 Run: python examples/own_ontology.py [FOLDER]     (default: build/examples)
 """
 
-# %% Load the ontology: all its classes of physical things are candidates
+# %% Load the ontology: all its classes of physical objects are candidates
 import sys
 from collections import Counter
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Build the data file of general kinds and their members from `knowledge/categories.csv`.
+"""Build the data file of categories (general kinds) and their members from `knowledge/categories.csv`.
 
 Drops members that the taxonomy already has below the kind or below another member, and kinds that are too general to
 be evidence. Reads the noun taxonomy of the package: run `make data` after `python -m tools.build_wordnet`.

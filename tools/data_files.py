@@ -1,4 +1,4 @@
-"""Paths and formats that the scripts which write package data share."""
+"""Paths and formats shared by the scripts that write package data."""
 
 import csv
 import gzip
@@ -12,10 +12,10 @@ DATA = ROOT / "src/usd2kg/data"
 
 
 class SourceError(ValueError):
-    """A source file, or a line of it, is not what its schema says."""
+    """A source file, or a line of it, does not match its schema."""
 
     def __init__(self, path: Path, problem: str, line: int | None = None) -> None:
-        """Say where the problem is: file, line, what was found and what was expected."""
+        """Create the error; `problem` states what was found and what was expected."""
         shown = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path
         super().__init__(f"{shown}: {problem}" if line is None else f"{shown}:{line}: {problem}")
 

@@ -96,7 +96,7 @@ def sample_list(names: Sequence[LabelledName], tbox: TBox, weight: float = TRAIN
 def decide(
     scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox
 ) -> dict[str, tuple[Prediction, ClassPosterior]]:
-    """Return prim path → the uncalibrated prediction and the likelihoods of the object."""
+    """Return prim path → (uncalibrated prediction, class posterior by appearance)."""
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime)}
     answers = LexicalGrounder().score_views([(path, views[path]) for path in paths], tbox)
     return dict(zip(paths, answers, strict=True))

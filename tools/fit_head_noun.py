@@ -1,9 +1,9 @@
-"""Fit which word of a name is its head, on the training lists of names and scenes.
+"""Fit the choice of the head noun of a name, on the training lists of names and scenes.
 
 Usage: python -m tools.fit_head_noun
 
 Writes `src/usd2kg/data/head_noun.json`: the weights of a conditional logit over the words that may be the head noun,
-and the cross-validated share of names whose likeliest head noun has an accepted class.
+and the cross-validated share of names whose most probable head noun has an accepted class.
 """
 
 from collections.abc import Iterator, Sequence
@@ -35,7 +35,7 @@ SCENE_COPIES = 3
 
 
 class Name(NamedTuple):
-    """The ends of one name."""
+    """The ends of one name: the words that may be its head noun."""
 
     text: str
     features: Array
@@ -130,7 +130,7 @@ def fit(names: Sequence[Name]) -> Array:
 
 
 def is_right(name: Name, weights: Array) -> bool:
-    """Return whether the likeliest end has an accepted class."""
+    """Return whether the most probable end has an accepted class."""
     return bool(name.is_accepted[int(np.argmax(name.features @ weights))])
 
 

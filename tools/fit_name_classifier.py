@@ -1,4 +1,4 @@
-"""Fit the class of a name from its words, on the names of the home vocabulary.
+"""Fit the classifier of names by their words, on the names of the home vocabulary.
 
 Usage: python -m tools.fit_name_classifier
 

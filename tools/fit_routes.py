@@ -1,4 +1,4 @@
-"""Fit which class of an ontology a noun means, on the training lists of `benchmarks/ontologies`.
+"""Fit the ranking of the classes that a noun may mean, on the training lists of `benchmarks/ontologies`.
 
 Usage: python -m tools.fit_routes
 
@@ -75,7 +75,7 @@ def main() -> None:
 
 
 def read_nouns(names: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
-    """Yield the routes of the likeliest end of each name that has any; none if the TBox has home classes."""
+    """Yield the routes of the most probable head noun of each name; none if the TBox has home classes."""
     taxonomy = load_taxonomy()
     lexicon = build_lexicon(tbox, taxonomy, home_names())
     if not lexicon.home_classes.isdisjoint(tbox.by_iri):

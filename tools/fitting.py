@@ -1,4 +1,4 @@
-"""What the scripts that fit weights share: conditional logits and the files of weights."""
+"""Functions shared by the scripts that fit weights: conditional logits, and files of weights."""
 
 import json
 from collections.abc import Mapping, Sequence

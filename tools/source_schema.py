@@ -74,7 +74,7 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Schema:
-    """What `knowledge/schema.toml` says."""
+    """The contents of `knowledge/schema.toml`."""
 
     sources: Mapping[str, Source]
     data: Mapping[str, Mapping[str, str]]
@@ -116,7 +116,7 @@ def validate_source(path: Path, source: Source) -> None:
     """Check one source file.
 
     Raises:
-        SourceError: the file cannot be parsed, or the first cell that does not match the schema.
+        SourceError: the file cannot be parsed, or a cell does not match the schema; the first one is reported.
     """
     try:
         text = path.read_bytes().decode("utf-8")

@@ -1,4 +1,4 @@
-"""Write docs/questions.md: the prepared questions, each with its answer for the demo kitchen.
+"""Write docs/questions.md: the predefined questions, each with its answer for the demo kitchen.
 
 Usage: python -m tools.write_questions_docs [--check]
 """

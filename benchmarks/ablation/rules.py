@@ -1,4 +1,4 @@
-"""The rules of the lexical grounder that a fitted model does not weigh, and how to switch each one off."""
+"""The rules of the lexical grounder that no fitted model weighs, and how to switch each one off."""
 
 import importlib
 from collections.abc import Callable, Iterator, Sequence
@@ -11,7 +11,7 @@ PACKAGE = "usd2kg.grounding.lexical"
 
 
 class Rule(NamedTuple):
-    """A rule and what takes its place when it is off."""
+    """A rule and its replacement while it is off."""
 
     name: str
     """What the rule does, as in the table."""

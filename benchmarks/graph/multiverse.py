@@ -1,10 +1,10 @@
-"""Compare the graph that Multiverse wrote of a kitchen with ours of the same stage, by the same SPARQL on both.
+"""Compare the graph that Multiverse wrote of a kitchen with that of usd2kg for the same stage, by the same SPARQL.
 
 Usage: python -m benchmarks.graph.multiverse SHARED
 
-SHARED is the folder of scenes and ontologies that may not be redistributed: of scenes/dlr_kitchen,
-tagged_flattened.usda is the stage after Multiverse's dictionary, multiverse_abox.owl what Multiverse made of it. Prints
-a Markdown table. A query names the terms of both graphs wherever the two say the same thing in different ways.
+SHARED is the folder of scenes and ontologies that may not be redistributed. In scenes/dlr_kitchen,
+tagged_flattened.usda is the stage tagged with Multiverse's dictionary, and multiverse_abox.owl is Multiverse's ABox of
+it. Prints a Markdown table. Where the graphs use different terms for the same fact, a query names both.
 """
 
 import sys

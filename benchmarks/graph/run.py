@@ -3,8 +3,8 @@
 Usage: python benchmarks/graph/run.py [--without-relations] [--profile soma|plain] [OBJECTS...]
 
 The default is 1000, 10000 and 100000 objects: tables with nine cups each, with the usual metadata of a stage. Files are
-written in turns by usd2kg and pyoxigraph in one process; the ratio counts. Times are processor time on one core. Memory
-is the peak of the process.
+written alternately by usd2kg and pyoxigraph in one process; compare the ratio. Times are processor time on one core.
+Memory is the peak of the process.
 """
 
 import argparse

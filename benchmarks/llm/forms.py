@@ -1,11 +1,11 @@
-"""Measure cost and accuracy of prompt forms with one model on one scene, and the effect of row order and batch size.
+"""Measure cost and accuracy of prompt forms with one model on one scene, and the effect of class order and batch size.
 
 Usage: python -m benchmarks.llm.forms MODEL SCENE GOLD [FORM …] [--every N] [--completions FOLDER]
 
 MODEL is a model string such as `gguf:FILE` or `openai:NAME@URL`. All forms ask about the same labelled objects. Prints
 a Markdown table: input tokens per object, cached ones among them, seconds per object, exact match with a 95 % interval,
 accepted answers, hierarchical F1, and the number of objects with another class than in the first form. Completions are
-stored in one file per form; an interrupted run resumes, and its tokens and seconds are then those of the rest.
+stored in one file per form; an interrupted run resumes, and its tokens and seconds then cover the remaining prompts.
 """
 
 import argparse

@@ -79,7 +79,7 @@ def measure(model: str, text: str, count: int, times: int) -> list[Cost]:
         ask_library()
         with asking_bare(port, sent()) as ask_bare:
             ways: list[Callable[[], object]] = [ask_bare, ask_library, lambda: client.complete(request)]
-            # In turn, so that what else the machine does falls on all alike.
+            # Alternately, so that other load on the machine affects all alike.
             rounds = [tuple(clock(ask) for ask in ways) for _ in range(times)]
     columns = zip(*((bare, library - bare, ours - library) for bare, library, ours in rounds), strict=True)
     return [Cost(*map(statistics.median, zip(*column, strict=True))) for column in columns]
@@ -128,7 +128,7 @@ def asking_the_library(model: str, request: Request) -> Iterator[Callable[[], ob
 
 
 def clock(work: Callable[[], object]) -> Cost:
-    """Return the cost."""
+    """Return the wall time and processor time of a call."""
     wall, cpu = time.perf_counter(), time.process_time()
     work()
     return Cost(1000 * (time.perf_counter() - wall), 1000 * (time.process_time() - cpu))

@@ -2,7 +2,7 @@
 
 Usage: python benchmarks/reading/run.py [PRIMS...] (default 1000 10000 100000)
 
-Both run in turns in one process on the same file. Prints their ratio and the memory retained per object.
+Both run alternately in one process on the same file. Prints their ratio and the memory retained per object.
 """
 
 import gc

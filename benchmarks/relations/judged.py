@@ -2,7 +2,7 @@
 
 Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
-The lists are in `judged`; that of the demo kitchen is what it was built with. The two real scenes are read from the
+The lists are in `judged`; that of the demo kitchen is written with the scene. The two real scenes are read from the
 folder that the variable USD2KG_SHARED names, `../shared` by default; a missing one is skipped.
 """
 

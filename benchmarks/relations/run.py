@@ -3,7 +3,7 @@
 Usage: python benchmarks/relations/run.py [OBJECTS...] (default 1000 10000 100000)
 
 Scenes are built in memory, without a stage. For each size, times each kind alone and the default set, as the minimum of
-a few runs. All kinds but part-of include `inside` and `on`, on which they depend.
+a few runs. All kinds except part-of include `inside` and `on`, on which they depend.
 """
 
 import gc

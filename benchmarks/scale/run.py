@@ -1,10 +1,10 @@
-"""Time the whole pipeline from file to graph on furnished flats and a warehouse, and its growth with objects.
+"""Time the whole pipeline from file to graph on furnished flats and a warehouse, and its growth with scene size.
 
 Usage: python benchmarks/scale/run.py [--places flats warehouse] [--profiles soma plain] [OBJECTS...]
 
 The default is 1000, 10000 and 100000 objects of five prims each. Each run has its own process, for its peak memory.
 Seconds are processor time, which other load affects little; wall time is in brackets. "Ours / its own" compares writing
-Turtle with pyoxigraph's serialiser on the same triples, in turns. The exponent is the slope of log seconds over log
+Turtle with pyoxigraph's serialiser on the same triples, alternately. The exponent is the slope of log seconds over log
 objects: 1 is linear.
 """
 

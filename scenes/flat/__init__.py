@@ -1,4 +1,4 @@
-"""Student flat, kept aside as test scene: Z up, metres, one layer."""
+"""Student flat, held out as test scene: Z up, metres, one layer."""
 
 import csv
 from pathlib import Path

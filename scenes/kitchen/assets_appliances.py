@@ -1,4 +1,4 @@
-"""Devices; centimetres, front towards +z; fitted ones have their back at z = 0."""
+"""Appliances; centimetres, front towards +z; fitted ones have their back at z = 0."""
 
 from scenes.writer.assets import Asset, Hinge, asset
 from scenes.writer.mesh import copies, merge, moved

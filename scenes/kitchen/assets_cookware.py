@@ -96,7 +96,7 @@ def knife_block(a: Asset) -> None:
 
 
 def _blade(a: Asset, length: float, width: float) -> None:
-    """A knife with its tip down on y = 0 and the handle up; the blade lies in the yz plane."""
+    """Add a knife with its tip down on y = 0 and the handle up; the blade lies in the yz plane."""
     outline = [
         (-width / 2, 0.0),
         (-width / 2 + 0.4, 0.0),

@@ -8,7 +8,7 @@ from scenes.writer.shapes import box, cylinder, ellipsoid, lathe, sheet, sweep, 
 
 
 def _leg(foot: Vec3, head: Vec3, thin: float, thick: float) -> Mesh:
-    """A square leg, `thin` at the foot and `thick` at the head (half widths)."""
+    """Return a square leg, `thin` at the foot and `thick` at the head (half widths)."""
     square = [(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
     return sweep([foot, head], square, widths=[thin, thick], up=(0, 0, 1))
 

@@ -215,7 +215,7 @@ def floor_plant(a: Asset) -> None:
 
 
 def _book(a: Asset, size: tuple[float, float, float], cover: str) -> None:
-    """A book lying flat, spine towards -x."""
+    """Add a book lying flat, spine towards -x."""
     x, y, z = size[0] / 2, size[1], size[2] / 2
     covers = [box((-x, 0, -z), (x, 0.25, z)), box((-x, y - 0.25, -z), (x, y, z))]
     covers.append(box((-x, 0.25, -z), (-x + 0.25, y - 0.25, z)))

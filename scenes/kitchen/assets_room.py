@@ -1,4 +1,4 @@
-"""The room shell and what is fixed to it; centimetres, wall-hung things have their back at z = 0."""
+"""The room shell and objects fixed to it; centimetres, wall-hung objects have their back at z = 0."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ WALL = 14.0
 
 
 def _facing(profile: list[tuple[float, float]], segments: int = 28) -> Mesh:
-    """A lathe shape turned so that its axis points into the room (+z)."""
+    """Return a lathe shape turned so that its axis points into the room (+z)."""
     return moved(lathe(profile, segments), turn=(90, 0, 0))
 
 
@@ -37,7 +37,7 @@ def floor_tiles(a: Asset) -> None:
     a.surfaces["top"] = 0.0
 
 
-# Shell faces towards the outside are left out: with back-face culling a camera outside looks in.
+# Outward faces of the shell are omitted: with back-face culling, a camera outside sees the room.
 @asset()
 def ceiling_panel(a: Asset) -> None:
     slab = moved(panel((ROOM[0], ROOM[2], 2), [], open_back=True), turn=(90, 0, 0))

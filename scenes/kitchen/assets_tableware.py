@@ -134,7 +134,7 @@ def water_carafe(a: Asset) -> None:
 
 
 def _handle(length: float, end: float, rise: float) -> Mesh:
-    """A flat cutlery handle along z, from z = 0 to `length`, widest at the far end."""
+    """Return a flat cutlery handle along z, from z = 0 to `length`, widest at the far end."""
     line = [
         (0.0, rise, 0.0),
         (0.0, rise + 0.15, length * 0.3),

@@ -10,7 +10,7 @@ BOARD = 1.6
 
 
 def _bow_handle(length: float, reach: float = 3.0) -> Mesh:
-    """A horizontal bow handle on a front at z = 0."""
+    """Return a horizontal bow handle on a front at z = 0."""
     x = length / 2
     left = bend((-x, 0, 0), (-x, 0, reach), (-x + reach, 0, reach), 4)
     right = bend((x - reach, 0, reach), (x, 0, reach), (x, 0, 0), 4)

@@ -1,4 +1,4 @@
-"""The shell of the office and what is fixed to it; centimetres, wall-hung things have their back at z = 0."""
+"""The shell of the office and objects fixed to it; centimetres, wall-hung objects have their back at z = 0."""
 
 from scenes.writer.assets import Asset, asset
 from scenes.writer.mesh import Mesh, copies, merge, moved
@@ -12,7 +12,7 @@ WINDOWS = (70.0, 350.0, 630.0)
 
 
 def facing(profile: list[tuple[float, float]], segments: int = 0) -> Mesh:
-    """A lathe shape turned so that its axis points into the room (+z)."""
+    """Return a lathe shape turned so that its axis points into the room (+z)."""
     return moved(lathe(profile, segments), turn=(90, 0, 0))
 
 
@@ -91,7 +91,7 @@ def blind(a: Asset) -> None:
 
 @asset("door_office_100")
 def door(a: Asset) -> None:
-    """Door leaf: 98 wide, 208 high, 4.5 deep, standing in the middle of the origin."""
+    """Door leaf: 98 wide, 208 high, 4.5 deep, its middle at x = 0, its front at z = -3.5."""
     a.add("leaf", box((-49, 0.5, -8), (49, 208.5, -3.5), 0.3), "laminate_maple")
     a.add("pane", box((22, 60, -8.2), (36, 190, -3.3)), "window_glass")
 

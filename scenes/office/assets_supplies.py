@@ -1,4 +1,4 @@
-"""Stationery and personal things; centimetres, standing on y = 0, front towards +z."""
+"""Stationery and personal items; centimetres, standing on y = 0, front towards +z."""
 
 import numpy as np
 
@@ -91,7 +91,7 @@ def calculator(a: Asset) -> None:
 
 @asset("ofc_031")
 def letter_tray(a: Asset) -> None:
-    """Three paper trays on each other: 26 wide, 19 high, 34 deep, open to the front."""
+    """Three stacked paper trays: 26 wide, 19 high, 34 deep, open to the front."""
     level = [box((-13, 0, -17), (13, 0.4, 17)), box((-13, 0.4, -17), (13, 4, -16.6))]
     level += [box((x, 0.4, -16.6), (x + 0.4, 4, 17)) for x in (-13.0, 12.6)]
     a.add("trays", copies(merge(*level), [(0, 6.5 * k, 0) for k in range(3)]), "plastic_black")
@@ -102,7 +102,7 @@ def letter_tray(a: Asset) -> None:
 
 @asset("TissueBox_150")
 def tissue_box(a: Asset) -> None:
-    """Tissue box with a tissue looking out: 23 wide, 13 high, 12 deep."""
+    """Tissue box with a tissue sticking out: 23 wide, 13 high, 12 deep."""
     a.add("carton", box((-11.5, 0, -6), (11.5, 8, 6), 0.2), "carton_blue")
     a.add(
         "tissue",

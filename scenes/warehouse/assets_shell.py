@@ -1,4 +1,4 @@
-"""The hall itself and what is fixed to it; centimetres, y up, front towards +z."""
+"""The hall and objects fixed to it; centimetres, Y up, front towards +z."""
 
 from scenes.writer.assets import Asset, asset
 from scenes.writer.forms import block, disc, legs, rod, turned

@@ -96,7 +96,7 @@ def saw(a: Asset) -> None:
 
 @asset("tl_0058", "TapeMeasure", has_kind=False)
 def tape_measure(a: Asset) -> None:
-    """Measuring tape, a little drawn out."""
+    """Tape measure, slightly extended."""
     a.add("case", block((7.5, 7, 3.6), bevel=1), "MI_SafetyYellow")
     a.add("tape", block((9, 0.15, 2.2), (7.5, 0.4, 0)), "paper")
     a.add("hook", block((0.2, 1.4, 2.2), (12, 0, 0)), "galvanised")

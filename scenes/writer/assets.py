@@ -1,4 +1,4 @@
-"""Assets of a scene: their parts in memory, and what their files look like."""
+"""Assets of a scene: their parts in memory, and the conventions of their files."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -43,7 +43,7 @@ class Asset:
     subcomponents: list[str] = field(default_factory=list)
     """Paths of Xforms with kind `subcomponent`."""
     surfaces: dict[str, float] = field(default_factory=dict)
-    """Name → height above the origin where things can stand; `top` defaults to the highest point."""
+    """Name → height above the origin at which objects can stand; `top` defaults to the highest point."""
     hinges: list[Hinge] = field(default_factory=list)
     documentation: str = ""
 
@@ -68,7 +68,7 @@ class Asset:
 
 @dataclass(frozen=True)
 class AssetFile:
-    """One asset and the habits of whoever wrote its file."""
+    """One asset and the conventions of its file."""
 
     build: Callable[[Asset], None]
     file: str
@@ -101,7 +101,7 @@ def asset(
 ) -> Callable[[Callable[[Asset], None]], AssetFile]:
     """Return a decorator that turns a function that fills an empty asset into an `AssetFile`.
 
-    The file is named as the function unless `file` is given, the default prim as the file unless `root` is given.
+    The file is named after the function unless `file` is given, the default prim after the file unless `root` is given.
     """
 
     def describe(build: Callable[[Asset], None]) -> AssetFile:

@@ -42,7 +42,7 @@ class Placement(NamedTuple):
 
 @dataclass(frozen=True)
 class AuthoredScene:
-    """What sets one scene apart from the others: conventions of its files, and content outside the tables."""
+    """One scene: its tables and assets, and the conventions of its files."""
 
     root: str
     """Path of the default prim."""

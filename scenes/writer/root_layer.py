@@ -9,7 +9,7 @@ from scenes.writer.asset_file import write_collision
 from scenes.writer.layout import Layout, Placement, open_stage
 
 AddExtras = Callable[[Usd.Stage, Layout], None]
-"""Adds what readers leave out: cameras, lights, helpers."""
+"""Adds prims that are not objects: cameras, lights, helpers."""
 
 
 def write_root_layer(layout: Layout, path: Path, add_extras: AddExtras) -> None:
@@ -38,7 +38,7 @@ def write_root_layer(layout: Layout, path: Path, add_extras: AddExtras) -> None:
 
 
 def write_object(stage: Usd.Stage, layout: Layout, placement: Placement) -> Usd.Prim:
-    """Author one object by the habits of its area; return its prim."""
+    """Author one object by the conventions of its area; return its prim."""
     area, file = layout.spec.area(placement.path), layout.files[placement.asset]
     if area and file.has_kind:
         raise ValueError(f"{placement.path}: asset {placement.asset} has a kind, but the area has none; drop the kind")

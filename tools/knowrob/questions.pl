@@ -1,12 +1,12 @@
-% Asks a graph, in SWI-Prolog's semantic-web library, what KnowRob asks of one.
+% Asks a graph the questions that KnowRob asks, with SWI-Prolog's semantic-web library.
 %
 % Usage: swipl tools/knowrob/questions.pl GRAPH...
 %
 % KnowRob's names and meanings (its src/model/SOMA.pl): object_dimensions has the depth along x, the width along y and
 % the height along z, metres, by ROS's REP 103; object_shape_type and object_mesh_path follow the same regions. A
-% relation holds if it is stated, by a property below it or by its inverse; a type is stated, or above a stated one.
+% relation holds if it is stated by its property, a subproperty or an inverse; a type is stated, or a superclass of one.
 %
-% Prints one line for each answer, fields parted by tabs:
+% Prints one line for each answer, fields separated by tabs:
 %   loaded      FILE       TRIPLES
 %   dimensions  OBJECT     DEPTH  WIDTH  HEIGHT
 %   mesh        OBJECT     FILE

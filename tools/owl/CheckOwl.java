@@ -1,10 +1,10 @@
-// Checks one ontology as the OWL API and HermiT see it.
+// Checks one ontology with the OWL API and HermiT.
 //
 // Usage: CheckOwl [--reason] [--limit=SECONDS] [--map=IRI=FILE]... FILE
 //
-// Prints one line for each finding, fields parted by tabs:
+// Prints one line for each finding, fields separated by tabs:
 //   missing   IRI        an import that no --map names; it is left out
-//   violation TEXT       of the OWL 2 DL profile, in FILE itself; those of its imports are not ours
+//   violation TEXT       of the OWL 2 DL profile, in FILE itself; those of its imports are not reported
 //   axioms    NUMBER     logical axioms in FILE
 //   verdict   consistent | inconsistent | undecided
 
@@ -47,7 +47,7 @@ public class CheckOwl {
             } else if (argument.startsWith("--limit=")) {
                 limit = Long.parseLong(argument.substring("--limit=".length()));
             } else if (argument.startsWith("--map=")) {
-                // Neither the IRIs of ontologies nor their places here hold an equals sign.
+                // Neither the IRIs of ontologies nor the file paths contain an equals sign.
                 String[] parts = argument.split("=", 3);
                 IRI document = IRI.create(new File(parts[2]));
                 manager.getIRIMappers().add(new SimpleIRIMapper(IRI.create(parts[1]), document));

@@ -124,7 +124,7 @@ def _choose_targets(scenes: list[Path], output: Path | None) -> list[Path]:
 
     Raises:
         OutputError: a file cannot be written, or two scenes have the same one.
-        GraphError: its ending names no format.
+        GraphError: the ending of a file names no format.
     """
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.graph import graph_format  # noqa: PLC0415

@@ -22,7 +22,7 @@ _RELATION_NAMES = {
     "right": "right of",
 }
 _PLACE_KINDS = frozenset({"on", "inside", "part-of", "room"})
-"""Relations that say where an added or removed object is."""
+"""Relations that locate an added or removed object."""
 
 
 def changes_text(changes: "Changes", tolerances: "Tolerances", title: str, *, is_complete: bool) -> str:

@@ -1,4 +1,4 @@
-"""A grounder for one scene as the options ask for it: one grounder, or a cascade, with the decisions of a person."""
+"""The grounder that the options define for one scene: one grounder, or a cascade, with the decisions of a person."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
@@ -23,7 +23,7 @@ __all__ = ["GrounderSession", "open_session"]
 
 @dataclass(frozen=True)
 class GrounderSession:
-    """A grounder that is ready, with its parts."""
+    """An open grounder with its parts."""
 
     options: GroundingOptions
     grounder: "Grounder"

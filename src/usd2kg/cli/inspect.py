@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["inspect_command"]
 
 _VARIABLE_PART = re.compile(r"""'[^']*'|"[^"]*"|<[^>]*>|/\S+|\w+(?::\w+)+|[-+]?\d[\d.,e+-]*""")
-"""What differs between similar messages: quotations, paths, property names, numbers."""
+"""Parts that differ between similar messages: quotations, paths, property names, numbers."""
 
 
 @expand_bundles

@@ -1,4 +1,4 @@
-"""How much the commands show before they cut."""
+"""Limits on how much the commands show."""
 
 __all__ = [
     "CELL_WIDTH",

@@ -20,7 +20,7 @@ __all__ = [
 ]
 
 _MIN_OPENNESS = 0.005
-"""Openness below which an object is not shown as a vessel; what it holds is between its parts."""
+"""Openness below which an object is not shown as a vessel; its capacity is then only gaps between its parts."""
 _UNROTATED = 1 - 1e-9
 """Real part of a unit quaternion from which an orientation counts as the identity."""
 

@@ -114,7 +114,7 @@ def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -
 
 
 def _shorten(text: str) -> str:
-    """Return text cut to `CELL_WIDTH`; a third is its start, since the end of a path says most."""
+    """Return text cut to `CELL_WIDTH`; a third is its start, since the end of a path identifies it best."""
     if len(text) <= CELL_WIDTH:
         return text
     head = CELL_WIDTH // 3

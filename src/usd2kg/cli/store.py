@@ -25,7 +25,7 @@ def open_for_loading(place: str, update: str | None = None, data: str | None = N
     """Return a store after a check that graphs can be loaded into it.
 
     Raises:
-        StoreError: they cannot.
+        StoreError: the store cannot be changed.
     """
     from usd2kg.stores import open_store  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
@@ -45,7 +45,7 @@ def check_graph_names(iris: Sequence[str]) -> None:
     """Check that no two graphs have the same IRI; the second would replace the first.
 
     Raises:
-        OutputError: two have.
+        OutputError: two graphs have the same IRI.
     """
     repeated = sorted({iri for iri in iris if iris.count(iri) > 1})
     if repeated:

@@ -15,7 +15,7 @@ _FORMAT = "usd2kg-calibration/1"
 
 @dataclass(frozen=True, slots=True)
 class PlattScaling:
-    """p = 1 / (1 + exp(-(intercept + slope · logit(confidence))))."""
+    """Probability that a prediction is correct: p = 1 / (1 + exp(-(intercept + slope · logit(confidence))))."""
 
     intercept: float
     slope: float

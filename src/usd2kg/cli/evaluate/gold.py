@@ -1,4 +1,4 @@
-"""usd2kg eval annotate and eval agreement: gold labels, and how far two annotators agree."""
+"""usd2kg eval annotate and eval agreement: gold labels, and the agreement of two annotators."""
 
 from pathlib import Path
 from typing import Annotated

@@ -13,7 +13,7 @@ from usd2kg.errors import EvaluationError
 __all__ = ["calibrate_command", "compare_command"]
 
 _SMALLEST_P = 0.0001
-"""p-values below this are not printed in digits."""
+"""p-values below this are printed as an upper bound."""
 
 
 def calibrate_command(

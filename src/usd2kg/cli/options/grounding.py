@@ -1,4 +1,4 @@
-"""The options that set which classes objects get."""
+"""The options that set how objects are grounded."""
 
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -19,7 +19,7 @@ MODEL_NAMES = (
     "google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server with OpenAI's protocol, or gguf:FILE for "
     "local weights"
 )
-"""What names a language model, for help texts."""
+"""Forms of a model string, for help texts."""
 
 CompletionCacheFile = Annotated[
     Path | None,

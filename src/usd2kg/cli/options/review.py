@@ -1,4 +1,4 @@
-"""The options of classes that a person decides."""
+"""The options of a person's decisions."""
 
 from dataclasses import dataclass
 from pathlib import Path

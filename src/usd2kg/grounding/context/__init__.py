@@ -1,4 +1,4 @@
-"""What surrounds an object: its neighbours, its placement, and the naming regime through which a grounder sees it."""
+"""The context of an object: its neighbours, its placement, and its view under a naming regime."""
 
 from usd2kg.grounding.context.neighbours import Nearness, Neighbour, Neighbourhood, size_distance
 from usd2kg.grounding.context.placement import Appearance, FloorPlan, PlacedObject, Placement

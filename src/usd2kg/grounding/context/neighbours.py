@@ -78,7 +78,7 @@ class _StageIndex:
         self.siblings: dict[str, list[int]] = {}
         """Path of a parent prim → its objects."""
         self.places: list[int] = []
-        """Object → its place among its siblings."""
+        """Object → its index among its siblings."""
         self.log_extents = [None if size is None else _log_extents(size) for size in map(_size_of, scene.objects)]
         self._votes: dict[Vote[Any], dict[int, Any]] = {}
         for index, obj in enumerate(scene.objects):
@@ -111,7 +111,7 @@ class _StageIndex:
 class Neighbourhood:
     """The neighbours of one object.
 
-    It never reveals the object's own name, so that masked regimes stay leave-one-out.
+    It never reveals the object's own name, so masked regimes stay leave-one-out.
     """
 
     def __init__(self, stage: _StageIndex, index: int) -> None:

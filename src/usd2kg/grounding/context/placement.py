@@ -59,10 +59,10 @@ class FloorPlan:
 
     @cached_property
     def is_laid_out(self) -> bool:
-        """Whether positions mean something: the assets of a library may all be at the origin.
+        """Whether positions are meaningful: the assets of a library may all be at the origin.
 
-        They do not if more than half of up to 64 sampled objects overlap with most of their eight nearest: each centre
-        is within the other's footprint, and half of the lower box is beside the other.
+        They are not if more than half of a sample of at most 127 objects overlap with most of their eight nearest: each
+        centre is within the other's footprint, and the heights overlap by more than half of the lower box.
         """
         known = np.flatnonzero(~np.isnan(self._grounds))
         sample = known[:: max(1, len(known) // PLACEMENT.layout_sample)].tolist()
@@ -87,9 +87,9 @@ class FloorPlan:
         return own - lowest
 
     def nearest(self, index: int, most: int) -> tuple[_Indices, _Floats]:
-        """Return the nearest objects but descendants, and the distances of the boxes' centres in metres.
+        """Return the nearest objects except descendants, and the distances between box centres in metres.
 
-        In a crowd of more than 2,000 objects an even sample of them.
+        Of 2,000 or more objects around it, only an even sample is searched.
         """
         if self._objects[index].box is None or not self.is_laid_out:
             return np.empty(0, int), np.empty(0)
@@ -127,7 +127,7 @@ class FloorPlan:
 
     @cached_property
     def _grounds(self) -> _Floats:
-        """(objects,), metres: height of the ground that an object stands on or is; NaN without a box."""
+        """(objects,), metres: height of an object's bottom, or of its top if it is a floor; NaN without a box."""
         grounds = np.full(len(self._objects), np.nan)
         for index, obj in enumerate(self._objects):
             if obj.box is not None:
@@ -197,11 +197,11 @@ class Placement:
 
     @property
     def is_laid_out(self) -> bool:
-        """Whether positions in the scene mean something, see `FloorPlan.is_laid_out`."""
+        """Whether positions in the scene are meaningful, see `FloorPlan.is_laid_out`."""
         return self._plan.is_laid_out
 
     def around(self, score: Score, most: int) -> tuple[NDArray[np.float32], _Floats]:
-        """Return the scores of the nearest objects, one row each, and the distances of the boxes' centres in metres.
+        """Return the scores of the nearest objects, one row each, and the distances between box centres in metres.
 
         `score` is called once for each object of the scene. Descendants are left out: they have the object's name among
         their parents.

@@ -67,7 +67,7 @@ class FormWords(Generic[R, G]):
                 self._words.setdefault(form, []).append((word, score))
 
     def without_object(self, name: str) -> Callable[[str], G | None]:
-        """Return a function from a form to the result for all objects but one, given by its name; None for no word."""
+        """Return a function from a form to its result without one object called `name`; None for an unused form."""
         own = frozenset(words_of(name))
         own_forms = {form for word in own for form in self._forms[word]}
 

@@ -52,7 +52,7 @@ class NamingRegime(StrEnum):
 
 
 class _Siblings(Sequence[str]):
-    """The names of the siblings under one prim but one; the list is stored once for all of them."""
+    """The names of the objects under one prim except one; the list is stored once for all of them."""
 
     def __init__(self, names: Sequence[str], left_out: int) -> None:
         self._names = names
@@ -256,7 +256,7 @@ class _Families:
     anonymous: dict[str, list[str]]
     """The same with running numbers instead of names."""
     places: dict[str, tuple[str, int]]
-    """Path of an object → path of its parent, and place among its siblings."""
+    """Path of an object → path of its parent, and its index among its siblings."""
 
 
 def _families(scene: Scene) -> _Families:

@@ -15,8 +15,8 @@ __all__ = ["choose_superclass", "reconcile_copies"]
 def choose_superclass(scores: Mapping[ClassIRI, float], tbox: TBox) -> ClassIRI:
     """Return the class with the highest expected hierarchical F1 (Silla and Freitas, 2011) over the candidates.
 
-    With P(k) ∝ score(k)², the class c among the candidates and their superclasses that maximises
-    Σ_k P(k) · F1(↑c, ↑k), where ↑ is the closure of superclasses. Ties go to the more general class.
+    Maximises Σ_k P(k) · F1(↑c, ↑k) over the candidates and their superclasses c, with P(k) ∝ score(k)² and ↑ the
+    closure of superclasses. Ties go to the more general class.
     """
     total = sum(score**ABSTENTION.score_power for score in scores.values())
     shares = {iri: score**ABSTENTION.score_power / total for iri, score in scores.items()}
@@ -34,10 +34,10 @@ def choose_superclass(scores: Mapping[ClassIRI, float], tbox: TBox) -> ClassIRI:
 
 
 def reconcile_copies(views: Sequence[ObjectView], predictions: Sequence[Prediction], tbox: TBox) -> list[Prediction]:
-    """Return the predictions with copies of one asset assigned the class that has the most confidence in total.
+    """Return the predictions, with copies of one asset assigned the class with the largest summed confidence.
 
-    Copies come from the same asset and have the same size. A copy keeps a subclass of that class: a steak knife among
-    knives. Masked regimes do not reveal assets, so that their predictions stay as they are.
+    Copies come from the same asset and have the same size. A copy keeps its own class if that is a subclass: a steak
+    knife among knives. Masked regimes hide assets, so their predictions are unchanged.
     """
     instances: dict[tuple[str, ...], list[int]] = {}
     for index, view in enumerate(views):

@@ -38,10 +38,10 @@ _CONTEXT_GROUPS = frozenset({"neighbours", "geometry"})
 
 
 def general_class_log_odds(predictions: Iterable[Prediction], general: Container[ClassIRI]) -> float:
-    """Return the log-odds that an object of the stage whose words were understood is of a general class.
+    """Return the log-odds of a general class among the predictions that words decided.
 
-    An ontology made for the domain has specific classes, so that a general answer is mostly a missed one. An ontology
-    made for another domain has general answers that are mostly right. Smoothed with a beta prior.
+    In an ontology of the stage's own domain, a general answer is usually a missed specific class; in an ontology of
+    another domain, it is usually right. Smoothed with a beta prior.
 
     Args:
         predictions: the predictions of a stage.
@@ -69,14 +69,14 @@ def features_of(
     - `is_by_context`: whether neighbours, size or place decided rather than words;
     - `is_foreign`: whether the class is not one of the built-in home TBox;
     - `foreign_margin`, `foreign_general`, `foreign_subclasses`: the features above, for foreign classes only;
-    - `foreign_general_log_odds`: `general_class_log_odds`, for foreign general classes that words decided;
+    - `foreign_general_log_odds`: `general_class_log_odds`, for foreign general classes that were chosen by words;
     - `context_score`: the score, where the context decided;
-    - `posterior`: logarithm of the probability by size and place over a reference of 0.1; 0 where the size is unknown,
+    - `posterior`: log of the probability given size and place, relative to 0.1; 0 where the size is unknown,
       where the context decided, and for foreign classes.
 
     Args:
         prediction: the prediction with the scores of its candidates.
-        posterior: the classes by size, stance, and the places named above.
+        posterior: class probabilities given size, stance and the places that names above mention.
         tbox: the classes.
         general: the general ones among them.
         log_odds: see `general_class_log_odds`, for the predictions of the stage.

@@ -56,7 +56,7 @@ class ContextEvidence:
         self._matcher = matcher
         # Copies of one model have the same size and stance.
         self._posterior_by_appearance = lru_cache(maxsize=8192)(self._compute_posterior_by_appearance)
-        # Scenes cache the results of these two functions by identity, so that each is one object.
+        # Scenes cache results by the identity of the function, and each access to a method creates a new object.
         self._vote, self._place = self._vote_of_neighbour, self._log_places_of_neighbour
 
     @cached_property
@@ -64,7 +64,7 @@ class ContextEvidence:
         return PosteriorModel(self._words.match)
 
     def posterior_by_appearance(self, view: ObjectView) -> ClassPosterior:
-        """Return the classes by size, stance and the places that names above mention, regardless of the name."""
+        """Return class probabilities given size, stance and the places that names above mention; ignores the name."""
         seen = view.appearance
         if seen is None:
             return NO_POSTERIOR
@@ -75,7 +75,7 @@ class ContextEvidence:
         return self._model.posterior(log_likelihoods, place_probabilities(np.zeros(len(PLACES)), named))
 
     def posterior(self, view: ObjectView) -> ClassPosterior:
-        """Return the classes by size, stance, the objects around it, and the places that names above mention."""
+        """Return class probabilities given size, stance, surrounding objects and places that names above mention."""
         if view.appearance is None:
             return NO_POSTERIOR
         places = place_probabilities(self._log_places_around(view), places_named(view.parents))
@@ -121,7 +121,7 @@ class ContextEvidence:
         return None if is_generated_name(name) else vote_of(self._words.match(name, parents, size))
 
     def _log_places_around(self, view: ObjectView) -> Floats:
-        """Return the log likelihood of each kind of place by the objects around, (places,)."""
+        """Return the log likelihood of each kind of place given the surrounding objects, (places,)."""
         if view.placement is not None:
             logs, metres = view.placement.around(self._place, VOTE.max_placed)
             return neighbour_weights(metres) @ logs if len(logs) else np.zeros(len(PLACES))
@@ -129,7 +129,7 @@ class ContextEvidence:
         return sum(siblings, start=np.zeros(len(PLACES))) * neighbour_weights(VOTE.sibling_distance)
 
     def _log_places_of_neighbour(self, other: PlacedObject) -> Floats:
-        """Return the log likelihood of each kind of place by one object's name, or else its size, (places,)."""
+        """Return the log likelihood of each kind of place given one object's name, or else its size, (places,)."""
         by_name = self._log_places_of_name(other.name, other.parents)
         if by_name.any():
             return by_name

@@ -15,7 +15,7 @@ class ScoredClass(NamedTuple):
     """A class that one kind of evidence supports."""
 
     group: str
-    """The evidence group."""
+    """Kind of evidence: name, asset, labels, documentation, hierarchy, parts, neighbours or geometry."""
     class_iri: ClassIRI
     score: float
     explain: Callable[[], str]
@@ -30,19 +30,19 @@ def combine_evidence(
     *,
     is_masked: bool,
 ) -> list[ScoredClass]:
-    """Return the classes by all evidence together, best first.
+    """Return the classes with their scores by all evidence together, best first.
 
     A product of experts (Hinton, 2002) of the words and the context. The context is a mixture: the object is either of
     a neighbour's class or drawn from the posterior by size and place. Floors keep one expert from excluding a class:
 
         (words + 0.02) · (neighbours · (posterior + 0.04)^½ + (1 - Σ neighbours) · posterior + 0.01)^power
 
-    The power is 1 less the best score of the words: the more a name says, the less the context counts.
+    The power is 1 less the best score of the words: the more informative the words, the less the context counts.
 
     Args:
         by_words: the classes that words support, spelled out or abbreviated.
         by_neighbours: the classes of neighbours, each once; the scores add up to 1 at most.
-        posterior: class → its probability by size and place, in descending order.
+        posterior: class → its probability given size and place, in descending order.
         explain_posterior: returns the sentence for a class that size and place support.
         is_masked: whether the naming regime masks the name; then the power is 1.
     """

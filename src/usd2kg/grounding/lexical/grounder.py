@@ -61,13 +61,13 @@ class LexicalGrounder:
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
     def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
-        """Return the classes that say little about an object: the roots, and the default class."""
+        """Return the uninformative classes: the roots and the default class."""
         return _object_grounder(tbox, self._use_home_synonyms).general_classes
 
     def score_views(
         self, views: Sequence[tuple[str, ObjectView]], tbox: TBox
     ) -> list[tuple[Prediction, ClassPosterior]]:
-        """Return for each (prim path, view) a prediction with an uncalibrated score, and the posterior by size."""
+        """Return (prediction with an uncalibrated score, posterior by appearance) for each (prim path, view)."""
         grounder = _object_grounder(tbox, self._use_home_synonyms)
         scored = [grounder.predict(path, view) for path, view in views]
         if not self._abstains:
@@ -76,7 +76,7 @@ class LexicalGrounder:
 
 
 def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
-    """Return the prediction with the superclass of its candidates, where that is the better answer."""
+    """Return the prediction, generalised to the superclass that `choose_superclass` returns."""
     if prediction.class_iri is None:
         return prediction
     iri = choose_superclass({candidate.class_iri: candidate.score for candidate in prediction.candidates}, tbox)
@@ -89,5 +89,5 @@ def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
 
 @lru_cache(maxsize=4)
 def _object_grounder(tbox: TBox, use_home_synonyms: bool) -> ObjectGrounder:
-    """Return the grounder of a TBox; it holds nothing of a scene, so that one serves all scenes."""
+    """Return the grounder of a TBox; it has no state from scenes, so all scenes share it."""
     return ObjectGrounder(tbox, home_names() if use_home_synonyms else {})

@@ -52,7 +52,7 @@ class NameEvidence:
         """(text, names above, extents in metres or None) → matches of the text, best first."""
 
     def score_words(self, view: ObjectView) -> list[ScoredClass]:
-        """Return the classes that words support, best first; later sources are read only if none is clear before."""
+        """Return the classes that words support, best first; reading stops at the first clear source."""
         scored: list[ScoredClass] = []
         for group, text in texts_of(view):
             if group in {"hierarchy", "parts"} and self.names_known_noun(view.name):
@@ -118,7 +118,7 @@ class NameEvidence:
         """Return the classes of the readings of a name, weighted by probability and fit of the size."""
         shares: dict[ClassIRI, float] = {}
         best: dict[ClassIRI, tuple[float, Reading, Match]] = {}
-        # The remaining probability is that the letters are no word at all.
+        # The remaining probability is that the letters abbreviate no word.
         total = ABBREVIATED_NAME.unmatched_weight * (1 - sum(reading.probability for reading in readings))
         for reading in readings:
             phrase = self._reader.phrase(reading.words)

@@ -39,13 +39,13 @@ class VoteCount(NamedTuple, Generic[V]):
     """The votes of all neighbours."""
 
     shares: dict[ClassIRI, float]
-    """Class → its share; the shares add up to less than 1, the rest is the probability that neighbours say nothing."""
+    """Class → its share; the shares add up to less than 1, the rest is the share of the prior."""
     heaviest: dict[ClassIRI, Voter[V]]
     """Class → the voter with the largest weight."""
 
 
 def siblings_as_neighbours(names: Iterable[str], parents: tuple[str, ...]) -> list[Neighbour]:
-    """Return siblings known by name only, which is what the study shows; at most 48."""
+    """Return at most 48 siblings as neighbours known by name only, which is all that the study shows."""
     return [Neighbour(name, parents, Nearness.SIBLING, None) for name in islice(names, VOTE.max_siblings)]
 
 

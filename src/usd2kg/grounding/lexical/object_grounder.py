@@ -1,4 +1,4 @@
-"""Ground one object: ask the name, then the other evidence, and choose the class with the best score."""
+"""Ground one object: score classes by its name, then by other evidence, and choose the class with the best score."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -45,7 +45,7 @@ class ObjectGrounder:
         self._context = ContextEvidence(self._tbox, self._words, reader, matcher)
 
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
-        """Return the class of a view with an uncalibrated score, and the classes by its size regardless of its name."""
+        """Return the class of a view with an uncalibrated score, and the posterior by its appearance."""
         posterior = self._context.posterior_by_appearance(view)
         scored, word_score = self._score(view)
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
@@ -115,7 +115,7 @@ class ObjectGrounder:
 def _with_default_class(
     tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]
 ) -> tuple[TBox, Lexicon]:
-    """Return the TBox below one class that is true of most things, and its lexicon.
+    """Return the TBox below one class that is true of most objects, and its lexicon.
 
     A TBox without a general class gets an artificial root. In a list of labels with a residual class, such as
     `otherprop`, the residual class becomes the superclass of the other roots.

@@ -103,7 +103,7 @@ def _budget_reasoning(reference: ModelReference, provider_model: "Model[Any]", r
 def _toggle_reasoning(reference: ModelReference, is_thinking: bool) -> dict[str, Any]:
     """Return the request field that turns reasoning on or off, whose name depends on the server.
 
-    There is none to turn it off, except for Qwen models, which reason by default.
+    Reasoning is turned off explicitly only for Qwen models, which reason by default.
     """
     if not is_thinking and "qwen" not in reference.name.lower():
         return {}

@@ -160,7 +160,7 @@ class HttpClient:
         return outcome
 
     def _send(self, request: Request) -> Completion | Failure:
-        """Send a request, again without each feature that the server rejects; it is never requested again."""
+        """Send a request; repeat it without each feature that the server rejects, which is not requested again."""
         features = self._capabilities
         if not accepts_temperature(self._provider_model, request.is_thinking):
             features = replace(features, logprobs=False)

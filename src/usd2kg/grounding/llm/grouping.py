@@ -20,8 +20,8 @@ def make_shortlists(views: Sequence[ObjectView], tbox: TBox, size: int) -> list[
 def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
     """Return the indices of views in groups that share one answer: they differ only in a number and in position.
 
-    For strategy A the name alone counts; for B and C also the names of the parents and the size, to the centimetre.
-    A masked view is a group by itself, since masking can make different objects look alike.
+    For strategy A the name alone counts; for B and C also the names of the parents, the size to the centimetre, the
+    mass and the asset. A masked view is a group by itself, since masking can make different objects look alike.
     """
     groups: dict[object, list[int]] = {}
     for index, view in enumerate(views):

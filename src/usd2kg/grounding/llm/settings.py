@@ -18,7 +18,7 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True)
 class DegenerationSettings:
-    """When a completion counts as degenerate."""
+    """Criteria for a degenerate completion."""
 
     window_characters: int
     check_interval_characters: int
@@ -41,14 +41,14 @@ class DecodingSettings:
 
 @dataclass(frozen=True, slots=True)
 class SamplingSettings:
-    """Several completions of a prompt."""
+    """Sampling of several completions of a prompt."""
 
     temperature: float
 
 
 @dataclass(frozen=True, slots=True)
 class EstimateSettings:
-    """Token counts before a server has counted them."""
+    """Estimates of token counts, for use before a server has counted them."""
 
     bytes_per_token: int
     pixels_per_token: int

@@ -1,1 +1,1 @@
-"""Which class of a TBox a noun phrase belongs to."""
+"""Alignment of noun phrases with the classes of a TBox."""

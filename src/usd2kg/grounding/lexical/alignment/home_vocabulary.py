@@ -11,7 +11,7 @@ __all__ = ["borrow_terms", "lend_terms"]
 
 _CONTAINER, _BUILDING = "DesignedContainer", "Building"
 _NOT_CONTAINERS = frozenset(["Appliance", "DesignedFurniture"])
-"""SOMA has buildings, ovens and cupboards below the containers; elsewhere they are buildings, appliances, furniture."""
+"""SOMA classifies buildings, ovens and cupboards as containers; other ontologies do not."""
 
 
 def lend_terms(
@@ -21,10 +21,10 @@ def lend_terms(
     taxonomy: Taxonomy,
     synonyms: Mapping[ClassIRI, tuple[str, ...]],
 ) -> Iterator[Term]:
-    """Yield names of leaf classes of the home TBox for the classes of another ontology with the same label.
+    """Yield names of leaf classes of the home TBox as terms of the classes of another ontology with the same label.
 
-    General classes lend nothing: what counts as furniture differs between ontologies. Names that the ontology has
-    another class for are left out, with those that end in them: where freezers are a class, a chest freezer is no
+    General classes lend nothing: what counts as furniture differs between ontologies. A name is left out if the
+    ontology has another class for it or for its last words: where freezers are a class, a chest freezer is not a
     refrigerator.
     """
     home = load_home_tbox()
@@ -61,7 +61,7 @@ def borrow_terms(
     taxonomy: Taxonomy,
     synonyms: Mapping[ClassIRI, tuple[str, ...]],
 ) -> dict[str, Term]:
-    """Return names of home classes for the class with the label of their nearest home superclass, by `term_key`."""
+    """Return `term_key` → term: names of home classes, for the class labelled like their nearest home superclass."""
     home = load_home_tbox()
     borrowed: dict[str, Term] = {}
     for iri, names in synonyms.items():

@@ -28,7 +28,7 @@ _EQUIPMENT = (
 """Head nouns that ontologies use interchangeably, most frequent first; the order decides which one is tried first."""
 _MEASURES = word_set("lexical", "measure_nouns")
 _MIN_JARGON_CLASSES = 3
-"""Classes that share a first word from which it may be jargon."""
+"""Least number of classes that share a first word for it to be jargon."""
 
 
 def words_of_label(text: str) -> list[str]:
@@ -55,7 +55,7 @@ def head_noun_of(label: str) -> str:
 
 
 def jargon_prefixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
-    """Return first words that are jargon of the ontology: many classes share them, and they are no part of a noun.
+    """Return first words that are jargon of the ontology: many labels begin with them, and none of these is a noun.
 
     “designed” is jargon; the “cooking” of “cooking appliance” is not, since the compound is a noun of the taxonomy.
     """
@@ -91,7 +91,7 @@ def equivalent_nouns(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[s
 
 
 def paraphrases(label: str, taxonomy: Taxonomy) -> list[str]:
-    """Return a normalised label and texts of the same meaning, words joined: printing machine → printingdevice, …"""
+    """Return a normalised label and its paraphrases, words joined: printing machine → printingdevice, …"""
     *before, last = label.split()
     heads = _EQUIPMENT if before and last in _EQUIPMENT else ()
     alternatives = _split_alternatives(label.split())

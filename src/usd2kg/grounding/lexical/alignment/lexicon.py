@@ -33,7 +33,7 @@ from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
 __all__ = ["CategoryMember", "Lexicon", "build_lexicon", "home_names", "physical_classes"]
 
 _NATURAL_DOMAINS = frozenset(["animal", "object", "person", "plant"])
-"""WordNet domains of things that are not made."""
+"""WordNet domains of natural objects."""
 _TOP_NOUNS = word_set("lexical", "top_nouns")
 _UNSPECIFIC_NOUNS = _TOP_NOUNS | word_set("lexical", "unspecific_nouns")
 _CONJUNCTIONS = frozenset(["and", "of", "or"])
@@ -41,11 +41,11 @@ _EVENT_NOUNS = word_set("lexical", "event_nouns")
 
 
 class CategoryMember(NamedTuple):
-    """A class that people count a synset among, although WordNet has it elsewhere."""
+    """A class that has a synset as a member in common usage, although WordNet has it elsewhere."""
 
     aligned: AlignedClass
     synset_count: int
-    """Number of synsets that people count among the class."""
+    """Number of synsets in the category."""
 
 
 @dataclass(frozen=True)
@@ -61,21 +61,21 @@ class Lexicon:
     default_class: ClassIRI | None
     """The class of objects without a more specific one, see `find_default_class`."""
     general_classes: frozenset[ClassIRI]
-    """Classes that say little about an object: the roots and the default class."""
+    """Uninformative classes: the roots and the default class."""
     borrowed_terms: Mapping[str, Term]
     """Term without spaces → the class labelled like a superclass in the home vocabulary: a charger is an appliance.
 
-    For ontologies that share no class with the home TBox, where nothing else is known of the noun.
+    Used where a noun matches nothing but the default class; empty for the home TBox itself.
     """
     home_classes: frozenset[ClassIRI]
     """Classes of the TBox that the home vocabulary has synonyms for."""
     category_members: Mapping[int, Sequence[CategoryMember]]
-    """Synset → classes that people count it among, though it is not their hyponym."""
+    """Synset → classes that have it as a member in common usage, though it is not their hyponym."""
 
 
 @lru_cache(maxsize=1)
 def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
-    """Return the names of objects by class of the built-in home TBox: labels, synonyms, and `data/home_names.csv`."""
+    """Return class of the built-in home TBox → names of its objects: labels, synonyms, and `data/home_names.csv`."""
     home = load_home_tbox()
     names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
     by_local_name = {cls.local_name: cls.iri for cls in home.classes}
@@ -146,7 +146,7 @@ def _texts_of(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[s
 
 
 def physical_classes(tbox: TBox) -> Sequence[OntologyClass]:
-    """Return the classes but those of events, activities and the like; all classes if nothing is left."""
+    """Return the classes except those of events, activities and the like; all classes if none are left."""
     events = {cls.iri for cls in tbox.classes if head_noun_of(cls.label) in _EVENT_NOUNS}
     return [cls for cls in tbox.classes if events.isdisjoint(tbox.closure(cls.iri))] or tbox.classes
 
@@ -185,7 +185,7 @@ def _align_noun(
     taxonomy: Taxonomy,
     sense_classes: dict[int, AlignedClass],
 ) -> None:
-    """Align the senses of a noun with the class of a term: those meant, and at less weight others of their domain."""
+    """Align senses of a noun with the class of a term: those meant, and with less weight others of their domain."""
 
     def align(sense: Sense, weight: float) -> None:
         known = sense_classes.get(sense.synset)
@@ -217,10 +217,10 @@ def _align_noun(
 
 
 def _meant_senses(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:
-    """Return the senses of a term that the ontology means, by the first criterion that any sense meets; maybe none.
+    """Return the senses of a term that the ontology means, by the first criterion that any sense meets; or none.
 
-    Below the hypernym in the class's sense key; below the label of a superclass; below a noun in the class's comment or
-    a superclass's label; below any name of a superclass.
+    The criteria: the sense is below the hypernym in the class's sense key; below the label of a superclass; below a
+    noun in the class's comment or a superclass's label; below any name of a superclass.
     """
     cls, superclasses = tbox.by_iri[term.class_iri], tbox.closure(term.class_iri)
     hypernyms = {
@@ -266,7 +266,7 @@ def _category_members(
     taxonomy: Taxonomy,
     home_classes: frozenset[ClassIRI],
 ) -> dict[int, list[CategoryMember]]:
-    """Return synset → classes that people count it among: by `categories.csv`, or by the head noun of the label."""
+    """Return synset → classes that it is a member of, by `categories.csv` or by the head noun of the label."""
     members: dict[int, list[CategoryMember]] = {}
     aligned = {found.class_iri for found in sense_classes.values()}
     for key, term in terms.items():

@@ -28,7 +28,7 @@ class _ClassScore(NamedTuple):
     """Its best match."""
     score: float
     share: float
-    """1 if it is as good as the best class, less for a rarer sense."""
+    """1 if the score is close to that of the best class, else the score."""
 
 
 class HeadCandidate(NamedTuple):
@@ -55,7 +55,7 @@ class _WordTraits(NamedTuple):
     log_not_modifier: float
     """Logarithm of the probability that the word, last in a name of several words, is not a modifier."""
     log_not_modifier_within: float
-    """The same before the last word."""
+    """The same for a word before the last."""
     log_odds: float
     """See `head_log_odds`."""
     kinds: tuple[str, ...]
@@ -172,7 +172,7 @@ class PhraseMatcher:
     def _inverted_compounds(
         self, phrase: NamePhrase, heads: Sequence[HeadCandidate], is_corrected: bool
     ) -> Iterator[tuple[int, HeadCandidate]]:
-        """Yield compounds whose head noun comes first, as in `plate_dinner`, as (number of words, meaning).
+        """Yield (number of words, meaning) of compounds whose head noun comes first, as in `plate_dinner`.
 
         In camel case (`BowlSalad`) only the first two words are tried, unless they are a known compound as written.
         """
@@ -264,8 +264,8 @@ class PhraseMatcher:
     ) -> float | None:
         """Return the bounded log-likelihood ratio of a size for a noun; None if its usual size is unknown.
 
-        A compound has its own usual size only: a spice rack is not of a rack's. A single noun may have that of a
-        compound with any word before it, or else of a hypernym.
+        A compound has only its own usual size: a spice rack is not the size of a rack. A single noun may have the usual
+        size of a compound with any word before it, or else that of a hypernym.
         """
         is_single = len(words) == 1
         if is_single and traits.is_place and max(size) < HEAD_NOUN.min_place_size:

@@ -1,4 +1,4 @@
-"""The default class of a TBox: the class that is true of most objects, or that is labelled as the rest."""
+"""The default class of a TBox: the class that is true of most objects, or a residual class such as “other”."""
 
 from collections import Counter
 
@@ -17,18 +17,18 @@ _ANYTHING = GENERAL_NOUNS | word_set("lexical", "residual_objects")
 _NEGATIONS = word_set("lexical", "negating_prefixes")
 _NOT_RESIDUAL = word_set("lexical", "never_residual_nouns")
 _ARTIFACT = "artifact"
-"""Lemma of the synset above everything made."""
+"""Lemma of the synset above all made objects."""
 
 
 def residue_of(label: str, taxonomy: Taxonomy) -> str | None:
-    """Return the kind that a label for the rest covers, in the singular; None for any other label.
+    """Return the kind that the label of a residual class covers, in the singular; None for any other label.
 
     >>> from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
     >>> residue_of("other furniture", load_taxonomy()), residue_of("furniture", load_taxonomy())
     ('furniture', None)
 
     Returns:
-        Empty for the rest of everything: “Sundries”, “otherprop”.
+        Empty where the label covers objects of any kind: “Sundries”, “otherprop”.
     """
     words = words_of_label(label)
     if len(words) == 1:
@@ -44,17 +44,17 @@ def residue_of(label: str, taxonomy: Taxonomy) -> str | None:
 
 
 def is_residual(cls: OntologyClass, taxonomy: Taxonomy) -> bool:
-    """Return whether a class is labelled as the rest of everything."""
+    """Return whether a class is labelled as a residual class for objects of any kind."""
     return residue_of(cls.label, taxonomy) == ""
 
 
 def align_default(
     default: ClassIRI | None, tbox: TBox, taxonomy: Taxonomy, sense_classes: dict[int, AlignedClass]
 ) -> None:
-    """Align the artifact synset with the default class, unless a class is aligned with it or above.
+    """Align the artifact synset with the default class, unless a class is aligned with it or with a hypernym.
 
-    Then a wall is recognised in an ontology without walls, and gets the default class instead of the class of a rarer
-    sense or of a similar size. Rooms, vehicles and the like are not in a residual class; they get its root.
+    A wall then gets the default class in an ontology without walls, instead of the class of a rarer sense or of a
+    similar size. Rooms, vehicles and the like are not in a residual class; they are aligned with its root.
     """
     made = taxonomy.senses(_ARTIFACT)[0].synset
     is_covered = not sense_classes.keys().isdisjoint(up for up, _ in taxonomy.walk_up(made))
@@ -70,8 +70,8 @@ def align_default(
 def find_default_class(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
     """Return the class of objects without a more specific one; None if there is none.
 
-    A class labelled as the rest (“sundry item”, “otherprop”), if it is a root or below the root that is true of most
-    objects; else that root.
+    A residual class (“sundry item”, “otherprop”) if it is a root or below the root that is true of most objects; else
+    that root.
     """
     root = _most_general_root(tbox, taxonomy)
     residual = [
@@ -86,8 +86,8 @@ def _most_general_root(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
     """Return the root that is true of most objects; None in a list of specific classes.
 
     A root labelled artifact, object or the like, else the root with the most subclasses labelled as artifacts: the
-    largest root may be of activities or states. If another root's label negates it (`UnControllable`), that one covers
-    what is not known to be of the first.
+    largest root may be of activities or states. If another root's label negates it (`UnControllable`), that root is
+    returned: it covers what is not known to be in the first.
     """
 
     def is_made(label: str) -> bool:

@@ -1,7 +1,7 @@
 """Rank the classes that a noun may mean in an ontology that shares no class with the home vocabulary.
 
-A route leads from a noun to a class: by a term of the class, or by a sense of the noun and a hypernym, or by a category
-that people count it among. Nouns at the end of a compound add their routes. A conditional logit (McFadden, 1974) ranks
+A route leads from a noun to a class: by a term of the class, by a hypernym of a sense of the noun, or by a category
+of common usage. Nouns at the end of a compound contribute routes too. A conditional logit (McFadden, 1974) ranks
 the classes: the share of a class is Σ exp(Σ weight · feature) over its routes, normalised over all routes of the noun.
 `tools/fit_routes.py` fits the weights and writes them to `data/routes.json`.
 """

@@ -82,7 +82,7 @@ class TermMatcher:
         return (*filter(self._begins_term, context), *self._places_of_parents(parents))
 
     def whole_words(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the last words of the name of a whole that form a term with the words of its part; mostly none.
+        """Return the last words of the name of a whole that form a term with the words of its part; usually none.
 
         The `seat_left` of a couch is a couch seat. An unknown word or an area may follow: a fork in the `diningArea` is
         a dining fork.
@@ -176,7 +176,7 @@ class TermMatcher:
         if self._lexicon.borrowed_terms and all(
             match.class_iri == self._lexicon.default_class for match in found.matches
         ):
-            # A class borrowed from the home vocabulary says more than the default class.
+            # A class borrowed from the home vocabulary is more informative than the default class.
             borrowed = {start: self._lexicon.borrowed_terms.get(key) for start, key in keys.items()}
             start = next((start for start, term in borrowed.items() if term is not None), None)
             if start is not None:
@@ -186,12 +186,12 @@ class TermMatcher:
     def _match_longest(self, words: tuple[str, ...], keys: Mapping[int, str], places: tuple[str, ...]) -> HeadMatches:
         """Return the longest known compound and its matches.
 
-        A shorter one wins if it means a subclass: a sofa cushion is an artifact at home, but a cushion where cushions
-        are a class.
+        A shorter one wins if its class is more specific: a sofa cushion is an artifact in the home vocabulary, but a
+        cushion where the ontology has a class of cushions.
 
         Args:
             words: the words, the head noun last.
-            keys: first word → key of the compound from there, longest first.
+            keys: index of the first word → key of the compound from there, longest first.
             places: words of the names above.
         """
         longest, is_term = _NO_MATCHES, False
@@ -211,7 +211,7 @@ class TermMatcher:
         by_hypernym = tuple(self._match_hypernyms(key, is_compound))
         by_term = self._match_term(self._lexicon.terms.get(key))
         if by_term and by_term[0].score < MATCHING.term_score:
-            # A synonym does not stand against a more specific foreign class of the noun's hypernyms.
+            # A synonym yields to a more specific foreign class that is aligned with a hypernym of the noun.
             specific = (match.class_iri for match in by_hypernym)
             if any(self._is_more_specific(iri, by_term[0].class_iri) for iri in specific):
                 by_term = ()
@@ -219,10 +219,10 @@ class TermMatcher:
         return (*self._match_in_place(key, head, matches, places), *matches) if matches else ()
 
     def _is_more_specific(self, foreign: ClassIRI, home: ClassIRI) -> bool:
-        """Return whether a class that the home TBox lacks says more than one of the home TBox.
+        """Return whether a class that the home TBox lacks is more specific than a class of the home TBox.
 
-        A subclass does, and against a general home class any class but its superclasses: the home vocabulary has
-        artifacts without a class of their own, which the other ontology may have.
+        A subclass is. Any class but a superclass counts as more specific than a general home class: the other ontology
+        may have a class for artifacts that have none of their own in the home TBox.
         """
         if home not in self._lexicon.home_classes or foreign in self._lexicon.home_classes:
             return False
@@ -279,7 +279,8 @@ class TermMatcher:
                 is_rarer = lacks_usual and sense is not usual
                 score *= weight * (MATCHING.general_factor if is_rarer else 1.0)
             if aligned.class_iri in self._lexicon.general_classes:
-                # A near match with a root says least: a remote kind probably has no class of its own.
+                # A near match with a root is weaker evidence than a distant one: a noun far below the root probably
+                # has no class of its own.
                 decay = MATCHING.step_decay ** max(0, MATCHING.root_steps - steps)
                 score *= MATCHING.general_factor * decay
             else:
@@ -289,8 +290,8 @@ class TermMatcher:
     def _nearest_class(self, synset: int) -> tuple[int, int, AlignedClass] | None:
         """Return the nearest aligned hypernym, its steps and its class.
 
-        In a TBox with classes that the home TBox lacks, a more remote hypernym counts if its class is a subclass: the
-        home vocabulary has a teddy bear among the artifacts, the ontology may have toys below them.
+        In a TBox with classes that the home TBox lacks, a more distant hypernym wins if its class is a subclass: a
+        teddy bear is an artifact in the home vocabulary, and the ontology may have a class of toys below artifacts.
         """
         nearest: tuple[int, int, AlignedClass] | None = None
         for up, steps in self._taxonomy.walk_up(synset):
@@ -344,7 +345,7 @@ class TermMatcher:
 
 @lru_cache(maxsize=1)
 def _short_home_names() -> frozenset[str]:
-    """Names of the home vocabulary with too few letters for other nouns: a TV, a PC."""
+    """Return the names of the home vocabulary that are shorter than nouns usually must be: a TV, a PC."""
     names = (name.lower() for names in home_names().values() for name in names)
     return frozenset(name for name in names if len(name) < READING.min_noun_letters)
 

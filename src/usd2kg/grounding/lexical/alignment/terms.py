@@ -21,7 +21,7 @@ class TermKind(Enum):
     LENT = "lent"
     """A name of the home vocabulary, for a class of another ontology with the same label."""
     BORROWED = "borrowed"
-    """The same for a superclass of the home class."""
+    """A name of the home vocabulary, for a class of another ontology with the label of a home superclass."""
     HEAD = "head"
     """The head noun of a longer label."""
 
@@ -68,6 +68,6 @@ def keep_best(terms: dict[str, Term], term: Term) -> None:
     if not key:
         return
     known = terms.get(key)
-    # Callers pass classes from general to special: of two equal claims the more general class's stays.
+    # Callers pass classes from general to specific: at equal weight, the term of the more general class stays.
     if known is None or known.kind.weight < term.kind.weight:
         terms[key] = term

@@ -1,1 +1,1 @@
-"""What things are, whatever the ontology: senses, hypernyms, usual sizes and places."""
+"""Ontology-independent knowledge about nouns: senses, hypernyms, usual sizes and places."""

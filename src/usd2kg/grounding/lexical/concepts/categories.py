@@ -1,4 +1,4 @@
-"""Members of categories that WordNet has elsewhere: staplers are stationery to an office."""
+"""Categories of common usage whose members WordNet has elsewhere: a stapler is office stationery."""
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
@@ -20,7 +20,7 @@ class Category(NamedTuple):
 
 
 def members_of(category: str, taxonomy: Taxonomy) -> Iterator[tuple[int, int]]:
-    """Yield (synset, number of synsets in the category) for the members of a category, its name without spaces."""
+    """Yield (synset, number of synsets in the category) for each member; `category` is a name without spaces."""
     found = _load_categories().get(category)
     if found is not None:
         synsets = (find_synset(member, taxonomy) for member in found.members)

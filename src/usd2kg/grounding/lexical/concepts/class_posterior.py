@@ -40,7 +40,7 @@ class ClassPosterior(NamedTuple):
     """The probabilities of classes for one object."""
 
     columns: Mapping[ClassIRI, int]
-    """Class → its place in `probabilities`."""
+    """Class → its index in `probabilities`."""
     probabilities: Floats
     """(classes,)"""
     place: str | None

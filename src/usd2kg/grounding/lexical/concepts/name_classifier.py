@@ -1,4 +1,4 @@
-"""Classify names that are no term of the home vocabulary, with a model of its names.
+"""Classify names that are not terms of the home vocabulary, with a model fitted to its names.
 
 A multinomial logit (McFadden, 1974) over the words of a name, their hypernyms, and the letters of the head noun: a
 spice shaker is a container because other shakers are. The weights are in `data/name_classifier.npz`, which
@@ -87,7 +87,7 @@ def _modifier_features(modifiers: Iterable[str]) -> dict[str, float]:
     return features
 
 
-# Names share their parts, so that the logits of each part are cached.
+# Names share parts, so the logits of each part are cached.
 
 
 @lru_cache(maxsize=4096)
@@ -116,7 +116,7 @@ def _sum_logits(features: Mapping[str, float]) -> Logits | None:
 
 @lru_cache(maxsize=2048)
 def _sum_rows(known: tuple[tuple[int, float], ...]) -> Logits:
-    # Cached: most pairs have the one feature that they are a pair.
+    # Cached: `modified` is the only known feature of most pairs.
     model = _load_model()
     rows, values = zip(*known, strict=True)
     logits: Logits = np.array(values) @ model.weights[list(rows)]
@@ -129,7 +129,7 @@ def _kinds(role: str, word: str) -> Mapping[str, float]:
     """Return the hypernyms of the usual senses of a word as features."""
     taxonomy = load_taxonomy()
     noun = taxonomy.singular(word)
-    # Most pairs of words are no noun: only nouns are cached.
+    # Most pairs of words are not nouns: only nouns are cached.
     return _kinds_of(role, noun) if noun in taxonomy else {}
 
 

@@ -1,4 +1,4 @@
-"""Likelihood of an object's place and stance for everyday objects: evidence where the name says nothing.
+"""Likelihood of an object's place and stance for everyday objects: evidence where the name is uninformative.
 
 The columns `places`, `stands` and `up` of `data/everyday_objects.csv` are common sense, written by hand.
 """

@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 _BROAD_DENSITY = SIZE.broad_share * math.factorial(3) / math.log(SIZE.max_extent / SIZE.min_extent) ** 3
-"""Ordered triples are a sixth of all triples, so that the uniform density over them is six times as high."""
+"""Ordered triples are a sixth of all triples, so the uniform density over them is six times as high."""
 _PEAK_DENSITY = 0.375
 """Density of Student's t with 4 degrees of freedom and scale 1 at its centre: Γ(5/2) / (Γ(2) √(4π))."""
 _BLOCK = 8
@@ -157,7 +157,7 @@ def _log_extents(extents: _Floats) -> _Floats:
 
 
 def _densities(logs: _Floats) -> _Floats:
-    """Return p(x | thing) for boxes of the log extents `logs`, (n, 3), longest first; (n, nouns)."""
+    """Return p(x | noun) for boxes, (n, nouns); `logs` are their log extents, (n, 3), longest first."""
     table = _load_table()
     offsets = logs[:, :, np.newaxis] * table.half_rates
     offsets -= table.scaled_centres

@@ -18,7 +18,7 @@ class TaxonomyColumns(NamedTuple):
     adjectives: bytes
     """Words that are adjectives more often than nouns."""
     domains: bytes
-    """WordNet's lexicographer files; a sense names the first `a`, the next `b`…"""
+    """WordNet's lexicographer files; a sense refers to the first as `a`, to the next as `b`…"""
     synset_names: bytes
     """The lemma that WordNet lists first, with its spaces."""
     synset_hypernyms: bytes

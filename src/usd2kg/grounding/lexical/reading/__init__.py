@@ -1,1 +1,1 @@
-"""A name as noun phrases with probabilities: tokens, spelling, abbreviations, languages."""
+"""Reading of a name as noun phrases with probabilities: tokens, spelling, abbreviations, languages."""

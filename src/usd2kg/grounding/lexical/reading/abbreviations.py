@@ -3,7 +3,7 @@
 The reading of a name maximises P(words) · P(written | words) (Shannon's noisy channel; for spelling: Kernighan, Church
 and Gale, COLING 1990). P(words) is a bigram model whose unigrams mix the prior of nouns, words of names in scenes, the
 terms of the TBox, the words of other names on the stage, and those of the parent's name. P(written | words) models how
-words are shortened: vowels dropped, truncated, or both, and mostly all words of a name alike.
+words are shortened: vowels dropped, truncated, or both, and usually all words of a name in one way.
 """
 
 import math
@@ -74,7 +74,7 @@ class AbbreviationReader:
         self._taxonomy = taxonomy
         self._tbox_words = {word: count for word, count in lexicon.vocabulary.items() if len(word) > 1}
         self._tbox_total = sum(self._tbox_words.values())
-        # Scenes cache the results of these two functions by identity, so that each is one object.
+        # Scenes cache results by the identity of the function, and each access to a method creates a new object.
         self._rate, self._gather = self._rate_word, self._gather_words
         self._bonuses = lru_cache(maxsize=4096)(self._follower_bonuses)
         self._parent_choices = lru_cache(maxsize=1024)(self._choices_of_parent)
@@ -121,7 +121,7 @@ class AbbreviationReader:
         return _readings(scored)
 
     def _near(self, neighbourhood: Neighbourhood | None, parent: str) -> _Near:
-        """Return a function from a form to what it may be by other names of the stage; None for nothing."""
+        """Return a function from a form to its piece by other names of the stage, None for an unknown form."""
         if neighbourhood is None:
             by_stage: _Near = _nothing_near
         else:
@@ -146,7 +146,7 @@ class AbbreviationReader:
         return found
 
     def _pieces(self, letters: str, start: int, border: int, near: _Near) -> Iterator[tuple[int, Piece]]:
-        """Yield (end, what the letters from `start` to it may be)."""
+        """Yield (end, piece) for the runs of letters that begin at `start`."""
         is_begun = True
         for end in range(start + 1, min(border, start + CHANNEL.max_piece_letters) + 1):
             form = letters[start:end]
@@ -161,7 +161,7 @@ class AbbreviationReader:
                 yield end, _NO_WORD
 
     def _known_piece(self, form: str) -> Piece | None:
-        """Return what a form may be without the stage; None if it begins no form either."""
+        """Return the piece of a form without words of the stage; None if no known form begins with it."""
         choices = self._index.choices(form)
         usual = usual_abbreviations().get(form)
         if usual is not None:
@@ -171,7 +171,7 @@ class AbbreviationReader:
         return _with_choices(None, choices or ())
 
     def _gather_words(self, form: str, written: list[_StageWord]) -> Piece:
-        """Return what a form may be, with words of the stage."""
+        """Return the piece of a form, with words of the stage."""
         return _with_choices(self._known(form), [Expansion(-found.loss, found.noun) for found in written])
 
     @cached_property
@@ -246,5 +246,5 @@ def _readings(scored: list[tuple[float, tuple[str, ...]]]) -> list[Reading]:
     weights = [math.exp(score - scored[0][0]) for score, _ in scored]
     total = sum(weights)
     readings = [Reading(words, weight / total) for (_, words), weight in zip(scored, weights, strict=True)]
-    # One reading is that the letters are no word; it keeps its share.
+    # The reading without words is left out; its share is the probability that the letters abbreviate none.
     return [reading for reading in readings if reading.words]

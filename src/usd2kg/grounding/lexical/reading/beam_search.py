@@ -1,7 +1,7 @@
 """Beam search for the best readings of letters as words, from left to right, ten paths at each letter.
 
-Most of the time of reading abbreviations is spent here. Paths that cannot be among the ten are skipped by admissible
-bounds, so that the result equals that of scoring every path.
+Most of the time for reading abbreviations is spent here. Admissible bounds skip paths that cannot be among the ten, so
+the result equals that of scoring every path.
 """
 
 import math
@@ -51,7 +51,7 @@ ROOT: Path = (0.0, 0, 0)
 
 
 class Piece(NamedTuple):
-    """What a run of letters may be."""
+    """The words that a run of letters may abbreviate."""
 
     words: Sequence[tuple[float, str]]
     """(log probability by all reasons, word), best first."""
@@ -119,7 +119,7 @@ class Beam:
         rest = math.log(1 + len(arcs) * math.exp(-_IGNORED_LOSS))
         paths: list[tuple[float, int, _Key]] = []
         guess = likely - self._spread
-        # The second score is always low enough; the first mostly is and costs less.
+        # The second score is always low enough; the first usually is, and costs less.
         for needed in (guess, certain - rest) if guess > certain - rest > hopeless else (certain - rest, guess - _STEP):
             if needed > hopeless and not paths:
                 paths = self._add_up(self._reach(arcs, counts, needed), arcs, counts, needed + rest)
@@ -137,8 +137,8 @@ class Beam:
     def _reach(self, arcs: Sequence[Arc], counts: Mapping[int, int], needed: float) -> _Found:
         """Return words → score by the paths that may reach the needed score.
 
-        Words that are not returned have less by all paths together: paths by a word share the needed score among the
-        arcs after the same words; paths by no word may add a little.
+        Words that are not returned score less even by all their paths together. The needed score is divided among the
+        arcs after the same words; paths by pieces that are no word may add a little.
         """
         found: _Found = {}
         lowest = needed - math.log(max(counts.values()))
@@ -149,7 +149,7 @@ class Beam:
         return found
 
     def _pass_over(self, arc: Arc, least: float, found: _Found) -> None:
-        """Add the words that a piece leads to as no word."""
+        """Add the words of the paths on which a piece is no word."""
         unread, letters = arc.unread
         for start in arc.starts.ordered:
             score = start[0] + unread + letters
@@ -159,7 +159,7 @@ class Beam:
             found[key] = (log_sum(found[key][0], score) if key in found else score), None, ()
 
     def _reach_words(self, arc: Arc, counts: Mapping[int, int], needed: float, lowest: float, found: _Found) -> None:
-        """Add the words that a piece leads to as a word; `lowest` is the smallest score needed of any."""
+        """Add the words of the paths on which a piece is a word; `lowest` is the smallest score that any needs."""
         (ordered, _), _, (words, reasons, _) = arc
         most, nodes = words[0][0], self._nodes
         for start in ordered:

@@ -35,7 +35,7 @@ class NamePhrase:
     glued: tuple[bool, ...] = field(default=(), compare=False)
     """For each word whether it follows without a separator, as in `RoomWindow`; empty if unknown."""
     is_head_last: bool = field(default=False, compare=False)
-    """Whether the last word is certainly the head noun: by the grammar of a language that puts it first."""
+    """Whether the last word is certainly the head noun: the name is translated from a language that puts it first."""
 
     def is_glued(self, at: int) -> bool:
         """Return whether the word at an index follows without a separator."""

@@ -30,7 +30,7 @@ _WAYS = (SHORTENING.full_share, *(style * share for style in _STYLES for _, shar
 """Share of each way, see `ways_of`."""
 _LONGEST_FORM = len(_LENGTHS)
 _CACHED_LETTERS = 4
-"""First letters of a form whose range of words is cached: about 10,000 exist, and few words share each."""
+"""Length of the prefixes whose range of words is cached: about 10,000 exist, and few words share each."""
 _NONE, _BEGINNING, _WHOLE = range(3)
 """Relation of a form to the letters of a word in one style, before truncation."""
 _WITHOUT_VOWELS = str.maketrans("", "", _VOWELS)
@@ -53,7 +53,7 @@ def usual_abbreviations() -> dict[str, str]:
 
 
 def may_be_short(word: str) -> bool:
-    """Return whether an unknown word looks abbreviated: few letters, or hardly any vowel. Brands mostly do not.
+    """Return whether an unknown word looks abbreviated: few letters, or hardly any vowel. Brands usually do not.
 
     >>> may_be_short("cush"), may_be_short("wrkbnch"), may_be_short("granito")
     (True, True, False)
@@ -150,7 +150,7 @@ class FormIndex:
         return word in self._priors
 
     def choices(self, form: str) -> list[Expansion] | None:
-        """Return the most probable words for a form, best first; None if it begins no form either."""
+        """Return the most probable words for a form, best first; None if no form of a word begins with it."""
         places = self._find(form)
         if places is None:
             return None
@@ -195,7 +195,7 @@ class FormIndex:
 
 
 class _Places(NamedTuple):
-    """Ranges of what begins with a form, their ends exclusive."""
+    """Ranges of the words and of the letters that begin with a form, their ends exclusive."""
 
     first: int
     last: int
@@ -206,7 +206,7 @@ class _Places(NamedTuple):
 
 
 def _skeletons(word: str) -> Iterator[tuple[str, str, int]]:
-    """Yield (letters without vowels, word, code of the styles); the code times a relation adds up to `_code`."""
+    """Yield (letters without vowels, word, code of the styles); `_code` is the sum of code · relation."""
     skeleton, with_first_vowel, _ = _styled(word)
     if skeleton == with_first_vowel:
         yield skeleton, word, _code(1, 1, 0)

@@ -45,7 +45,7 @@ class SpellingCorrector:
         return found or (word,)
 
     def _words_of_term(self, word: str) -> tuple[str, ...]:
-        """Return the words of a term whose joined form is no noun: `slidecabinet`."""
+        """Return the words of a term whose joined form is not a noun (`slidecabinet`); else the word itself."""
         term = self._lexicon.terms.get(word)
         words = tuple(term.text.split()) if term is not None and word not in self._taxonomy else ()
         return words if "".join(words) == word else (word,)
@@ -104,8 +104,8 @@ class SpellingCorrector:
     def _is_plausible_slip(self, word: str, *, is_foreign: bool, is_doubled: bool, is_anagram: bool) -> bool:
         """Return whether a word may be a misspelling of a noun with these relations to it.
 
-        Short words only lack a doubled letter or are similar to the TBox's own words: among all nouns too many are
-        similar. A participle is not a misspelt noun unless its letters are swapped.
+        Short words are corrected only to words of the TBox, and the shortest only by a doubled letter: too many other
+        nouns are similar. A participle is not a misspelt noun unless its letters are swapped.
         """
         if is_foreign and len(word) < SPELLING.min_foreign_letters:
             return False

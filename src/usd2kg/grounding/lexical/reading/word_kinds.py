@@ -49,7 +49,7 @@ class WordKinds:
         return word in PLACEMENTS or word in self._taxonomy.adjectives or self._is_participle(word)
 
     def _is_participle(self, word: str) -> bool:
-        """Return whether a word looks like a participle of a known noun, and is no noun itself: `lidded`, `docking`."""
+        """Return whether a word looks like a participle of a known noun, without being a noun: `lidded`, `docking`."""
         ending = next((ending for ending in ("ed", "ing") if word.endswith(ending)), "")
         if not ending or len(word) < MODIFIER.min_participle_letters or word in self._taxonomy:
             return False
@@ -100,7 +100,7 @@ class WordKinds:
     def may_modify_parent(self, word: str) -> bool:
         """Return whether a word beside those of the parent's name may only modify them: a `desk_oak` below `Desk`.
 
-        Substances do, unless objects are often named so.
+        Substances do, unless objects are often named after them.
         """
         if self.is_modifier(word):
             return True
