@@ -25,7 +25,7 @@ __all__ = ["EmbeddedStore"]
 logger = logging.getLogger(__name__)
 
 _ROCKSDB_FILE = "CURRENT"
-"""Present in every Oxigraph folder."""
+"""A file in every Oxigraph folder."""
 _STORE_FILES = re.compile(
     r"usd2kg\.(lock|pending|damaged).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
 )
@@ -169,7 +169,7 @@ class EmbeddedStore:
                 "created"
             )
         if (self._folder / PENDING_NAME).exists():
-            # Another process has died while loading, or is still loading; the lock tells which.
+            # Another process died while loading, or is still loading; the lock distinguishes the two.
             self.check()
         with lock_shared(self._folder, self._wait_s), self._damage_reported():
             try:
