@@ -115,7 +115,7 @@ class EmbeddedStore:
         """Return the answer to a query over the union of the given graphs.
 
         Raises:
-            GraphError: the query does not parse, or is an update.
+            GraphError: the query does not parse, is an update, is too complex, or contacts another server.
             StoreError: the folder is not a store, or another process writes to it.
         """
         return self.fetch(graphs).sparql(sparql)
