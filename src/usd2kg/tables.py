@@ -24,15 +24,16 @@ _AXES = "xyz"
 class Tables(NamedTuple):
     """Data frames with one row per object, relation, candidate and joint.
 
-    Lengths are metres, masses kilograms, angles radians, in the z-up world frame. Unknown values are NaN in pandas and
-    null in Polars.
+    Lengths are metres, masses kilograms and joint angles radians, in the z-up world frame. Unknown values are NaN in
+    pandas and null in Polars.
     """
 
     objects: Any
     """`path`, `iri`, `name`, `class_iri`, `class_name`, `confidence`, `status`, `grounder`, `explanation`, `parent`,
     `center_x` … `size_z` of the box with all descendants, `position_x` … `position_z`, `qx` … `qw`, `mass_kg`."""
     relations: Any
-    """`kind`, `target`, `anchor`, `other_anchor`, `rule`, `confidence`, and one column per measured number."""
+    """`kind`, prim paths `target`, `anchor` and `other_anchor`, `rule`, `confidence`, and one column per measurement
+    (`gap`, `distance`…; `angle` in degrees)."""
     candidates: Any
     """`path`, `rank` (from 1), `class_iri`, `class_name`, `score`."""
     joints: Any

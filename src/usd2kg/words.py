@@ -1,4 +1,4 @@
-"""Split identifiers into words: `SM_CupCBlue_01` is "cup blue"."""
+"""Split identifiers into words: `SM_CupCBlue_01` becomes "cup blue"."""
 
 import re
 import unicodedata
@@ -11,7 +11,7 @@ __all__ = ["is_content_word", "split_identifier", "words_of"]
 _PRODUCTION_TOKENS = word_set("identifiers", "production_tokens")
 
 _ASCII_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+")
-"""The rule of `_is_border` for ASCII, the common case, many times faster."""
+"""Equivalent of `_is_border` for ASCII text, the common case; many times faster."""
 
 
 def split_identifier(identifier: str) -> tuple[str, ...]:

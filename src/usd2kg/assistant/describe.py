@@ -1,4 +1,4 @@
-"""Descriptions of objects: everything that a graph states about a thing, and lists of objects."""
+"""Descriptions and lists of the objects of a graph."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -38,12 +38,14 @@ _Row = Mapping[str, Any]
 def list_objects(
     graph: GraphStore, class_name: str | None = None, *, limit: int = RESULTS.max_listed, start: int = 0
 ) -> dict[str, Any]:
-    """Return one page of the objects with class and confidence, in the order of prim paths.
+    """Return one page of the objects with class and confidence, ordered by prim path.
+
+    An object with several classes has several rows; `count` is the number of rows on all pages.
 
     Args:
         graph: the graph.
-        class_name: only objects of this class, subclasses included.
-        limit: rows of the page.
+        class_name: only objects of this class or a subclass.
+        limit: maximum number of rows on the page.
         start: index of the first row.
 
     Raises:
@@ -63,7 +65,7 @@ def describe_objects(graph: GraphStore, thing: str, *, limit: int = RESULTS.max_
     Args:
         graph: the graph.
         thing: prim path, label, class or words, see `GraphStore.find`.
-        limit: objects that are described; all are counted.
+        limit: maximum number of objects that are described; `count` includes the others.
 
     Raises:
         GraphError: no object matches.
@@ -98,7 +100,7 @@ def describe_objects(graph: GraphStore, thing: str, *, limit: int = RESULTS.max_
 
 
 def _related_objects(graph: GraphStore, path: str) -> dict[str, Any]:
-    """Return the supporters, containers, neighbours, parts and contents of an object by name of the relation."""
+    """Return relation name → labels of the supporters, containers, contents, neighbours and parts of an object."""
     location = _to_rows(graph.where_is(path))
     related: dict[str, Any] = {
         "stands_on": sorted({row["on"] for row in location if row.get("on")}),

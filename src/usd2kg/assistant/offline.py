@@ -81,7 +81,7 @@ def _answer(graph: GraphStore, phrase: Phrase) -> InterpretedAnswer:
 
 
 def _ready_question(graph: GraphStore, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
-    """Return the answer to a question of `usd2kg query --list`."""
+    """Return the answer to one of the questions that `usd2kg query --list` lists."""
     values = {name: _normalize(name, value) for name, value in given.items()}
     text = next(q.text for q in list_questions() if q.id == question)
     parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
@@ -90,7 +90,7 @@ def _ready_question(graph: GraphStore, question: str, given: Mapping[str, str]) 
 
 
 def _normalize(name: str, value: str) -> str:
-    """Return a parameter with symbols for units and without commas."""
+    """Return a parameter value with unit symbols for unit names; a position without commas."""
     if name == "position":
         return " ".join(value.replace(",", " ").split())
     if name in {"distance", "mass"}:
@@ -101,7 +101,7 @@ def _normalize(name: str, value: str) -> str:
 
 
 def _related_objects(graph: GraphStore, verb: str, relation: str, given: Mapping[str, str]) -> InterpretedAnswer:
-    """Return the objects of a class, or with a name, that are on or in a thing, directly or indirectly."""
+    """Return the objects with a class or name that are on or in another object, directly or indirectly."""
     find = graph.on if relation == "on" else graph.inside
     related = find(given["thing"], is_direct=False)
     answer = _restrict(related, set(_column(graph.where_is(given["class"]), "path")))

@@ -37,7 +37,7 @@ def make_server(
     Args:
         graph: the graph.
         run: runs a SPARQL query; by default `GraphStore.sparql`, which has no time limit.
-        picture: returns a PNG of the object with a name; None omits the tool.
+        picture: returns a PNG of the object with the given name; None omits the tool `show`.
     """
     server = MCPServer("usd2kg", instructions=_INSTRUCTIONS, version=version("usd2kg"), log_level="WARNING")
     run_query = run or graph.sparql
@@ -86,7 +86,7 @@ def _add_picture(tool: Callable[[Callable[..., Any]], None], picture: Callable[[
 
 
 def _call(function: Callable[[], _T]) -> _T:
-    """Return the result of a call; translate our errors to tool errors of one line, which the assistant reads."""
+    """Return the result of a call; translate package errors to one-line tool errors for the assistant."""
     try:
         return function()
     except Usd2kgError as error:

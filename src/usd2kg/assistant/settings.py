@@ -9,7 +9,7 @@ __all__ = ["PROMPT", "RESULTS", "PromptSettings", "ResultSettings"]
 
 @dataclass(frozen=True)
 class ResultSettings:
-    """Sizes of the results of tools."""
+    """Limits on the results of tools."""
 
     max_rows: int
     max_listed: int
@@ -18,7 +18,7 @@ class ResultSettings:
 
 @dataclass(frozen=True)
 class PromptSettings:
-    """Sizes of the parts of a prompt, in characters unless stated otherwise."""
+    """Limits on the parts of a prompt and on repairs; `max_question` to `max_example` are numbers of characters."""
 
     max_tokens: int
     max_terms: int

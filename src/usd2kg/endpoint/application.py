@@ -61,15 +61,15 @@ def make_app(
     hosts: Iterable[str] = (),
     origins: Iterable[str] = (),
 ) -> Starlette:
-    """Return the application.
+    """Return the ASGI application.
 
     Args:
         pool: the workers that answer queries.
-        limits: the limits of a request.
+        limits: limits on each request.
         title: heading of the page.
         graphs: IRIs of the named graphs.
         examples: queries that the page offers.
-        when_ready: called when queries can be answered.
+        when_ready: called once all workers have started.
         hosts: host names that are served in addition to localhost and IP addresses.
         origins: origins whose pages may send queries, such as https://my.lab, or *.
     """
@@ -126,7 +126,7 @@ def _page_policy(page: str) -> str:
 
 
 async def _handle(request: Request, pool: WorkerPool, limits: EndpointLimits) -> Response:
-    """Answer one request of the SPARQL 1.1 Protocol (section 2.1)."""
+    """Return the response to one request of the SPARQL 1.1 Protocol (section 2.1)."""
     if request.method == "OPTIONS":
         return Response(status_code=204, headers={"Allow": "GET, POST, OPTIONS"})
     try:

@@ -1,4 +1,4 @@
-"""BoundedQueries: run untrusted queries in a process that is killed at its limits."""
+"""BoundedQueries: run untrusted queries in a process that is killed if it exceeds its limits."""
 
 import asyncio
 import tempfile
@@ -23,7 +23,7 @@ _ACCEPT = "application/sparql-results+json, application/n-triples"
 
 
 class BoundedQueries:
-    """Runs queries on a copy of a graph within limits; a context manager."""
+    """Runs queries on a copy of a graph within limits of time and memory; a context manager."""
 
     def __init__(self, graph: GraphStore, limits: EndpointLimits | None = None) -> None:
         self._limits = limits or EndpointLimits(workers=1)

@@ -22,8 +22,8 @@ class EndpointLimits:
     queued_per_worker: int = 8
     """Queries that wait for each worker; further ones are refused."""
     answer_bytes: int = 64 << 20
-    """Size of one result table; the rest is cut."""
+    """Size of one SELECT result; the rest is cut."""
     orphan_grace_s: float = 5.0
-    """Seconds after `seconds` when a worker without its server terminates itself."""
+    """Seconds beyond `seconds` after which a worker terminates itself, in case its server is gone."""
     shutdown_s: int = 3
     """Seconds that running requests have to finish when the server stops."""

@@ -1,4 +1,4 @@
-"""ExampleQuery queries of the page: the ready questions, with parameters from the served graph."""
+"""Example queries of the page: the ready questions, with parameters from the served graph."""
 
 import re
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; 
 GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
 _POSITION = "0 0 1"
 _FIRST = "count"
-"""Question that the page opens with; every graph has an answer."""
+"""Id of the question that the page opens with; every graph answers it."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class ExampleQuery:
 
 
 def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
-    """Return the ready questions as queries, with each parameter replaced by a term of the store."""
+    """Return the ready questions as queries, with each parameter replaced by a term of the store or its default."""
     terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
     questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
     return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)

@@ -1,4 +1,4 @@
-"""render: query results in the media types of SPARQL and RDF, cut at a number of rows."""
+"""render: query results in the media types of SPARQL and RDF, cut at the limits of rows and bytes."""
 
 import itertools
 import json
@@ -47,7 +47,7 @@ class Rendered(NamedTuple):
 
 
 def render(found: Any, media_type: str, limits: EndpointLimits) -> Rendered:
-    """Return pyoxigraph's results in a media type, cut at the limits of rows and bytes."""
+    """Return pyoxigraph's results in a media type, cut at the limit of rows; tables also at the limit of bytes."""
     if isinstance(found, ox.QueryBoolean):
         return Rendered(_boolean(bool(found), media_type).encode(), 1, False)
     if isinstance(found, ox.QueryTriples):
@@ -78,7 +78,7 @@ class _Writer(NamedTuple):
 
 
 def _json(names: list[str]) -> _Writer:
-    """Write SPARQL 1.1 Query Results JSON Format."""
+    """Return a writer of the SPARQL 1.1 Query Results JSON Format."""
 
     def line(row: Row) -> str:
         return json.dumps({name: _json_term(term) for name, term in zip(names, row, strict=True) if term is not None})
@@ -102,7 +102,7 @@ def _json_term(term: Any) -> dict[str, Any]:
 
 
 def _xml(names: list[str]) -> _Writer:
-    """Write SPARQL Query Results XML Format."""
+    """Return a writer of the SPARQL Query Results XML Format."""
 
     def line(row: Row) -> str:
         bound = ((name, term) for name, term in zip(names, row, strict=True) if term is not None)
@@ -140,7 +140,7 @@ def _xml_term(term: Any) -> str:
 
 
 def _csv(names: list[str]) -> _Writer:
-    """Write SPARQL 1.1 Query Results CSV: values without types."""
+    """Return a writer of SPARQL 1.1 Query Results CSV: values without types."""
 
     def cell(term: Any) -> str:
         text = "" if term is None else _plain(term)
@@ -156,7 +156,7 @@ def _plain(term: Any) -> str:
 
 
 def _tsv(names: list[str]) -> _Writer:
-    """Write SPARQL 1.1 Query Results TSV: terms in SPARQL syntax."""
+    """Return a writer of SPARQL 1.1 Query Results TSV: terms in SPARQL syntax."""
 
     def line(row: Row) -> str:
         return "\t".join("" if term is None else str(term).replace("\t", "\\t") for term in row) + "\n"

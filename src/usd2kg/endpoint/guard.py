@@ -24,8 +24,8 @@ _STRICT = "default-src 'none'; frame-ancestors 'none'"
 class Guard:
     """Checks Host and Origin of each request, and adds security headers to each response.
 
-    In DNS rebinding, another site lets its own host name resolve to this machine, which makes its requests same-origin.
-    Therefore only known host names are served. IP addresses are not resolved and cannot be rebound.
+    In DNS rebinding, another site makes its own host name resolve to this machine, so that browsers treat its requests
+    as same-origin. Therefore only known host names are served. IP addresses are not resolved and cannot be rebound.
     """
 
     def __init__(self, app: ASGIApp, hosts: Iterable[str], origins: Iterable[str]) -> None:

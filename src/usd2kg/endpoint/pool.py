@@ -1,4 +1,4 @@
-"""WorkerPool: processes that answer queries, killed if a query exceeds its time or memory."""
+"""WorkerPool: processes that answer queries, killed if a query exceeds its time or memory limit."""
 
 import asyncio
 import json
@@ -22,11 +22,11 @@ class BusyError(Exception):
 
 
 class TimeLimitError(Exception):
-    """The query exceeded its time and was stopped."""
+    """The query exceeded its time limit and was stopped."""
 
 
 class WorkerLostError(Exception):
-    """The worker died because the query exceeded its memory."""
+    """The worker died, presumably because the query exceeded its memory limit."""
 
 
 class WorkerAnswer(NamedTuple):
@@ -37,7 +37,7 @@ class WorkerAnswer(NamedTuple):
 
 
 class WorkerPool:
-    """Workers over one folder. A killed worker is replaced when it is next needed."""
+    """Workers over one store folder. A killed worker is replaced when it is next needed."""
 
     def __init__(self, folder: Path, limits: EndpointLimits) -> None:
         self._folder = folder
@@ -51,8 +51,8 @@ class WorkerPool:
 
         Raises:
             BusyError: too many requests are waiting.
-            TimeLimitError: the query exceeded its time.
-            WorkerLostError: the query exceeded its memory.
+            TimeLimitError: the query exceeded its time limit.
+            WorkerLostError: the worker died, presumably at its memory limit.
         """
         if self._waiting >= self._limits.queued_per_worker * self._limits.workers:
             raise BusyError

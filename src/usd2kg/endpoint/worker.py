@@ -105,7 +105,7 @@ def _write(answers: BinaryIO, header: dict[str, Any], body: bytes) -> None:
 
 
 def _terminate_after(seconds: float) -> None:
-    """Let the system end this process, in case the server that would kill it is gone; 0 cancels."""
+    """Make the system end this process after a time, in case the server that would kill it is gone; 0 cancels."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_REAL, seconds)
 

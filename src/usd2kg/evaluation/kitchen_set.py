@@ -28,7 +28,7 @@ _CONVERSION = (
 
 @dataclass(frozen=True, slots=True)
 class KitchenSet:
-    """A readable download."""
+    """A download of the Kitchen Set that the installed OpenUSD can read."""
 
     root: Path
     """The root layer."""

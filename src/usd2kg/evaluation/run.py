@@ -64,7 +64,7 @@ def score_grounding(grounding: Grounding, gold: Sequence[GoldLabel], tbox: TBox,
 
 
 def score_scene_selection(scene: Scene, gold: Sequence[GoldLabel]) -> SelectionScore:
-    """Return how well the selection rules find the labelled prims, without the paths that were requested."""
+    """Return recall and precision of the selection rules on the labelled prims; prims read on request do not count."""
     selected = [obj.prim_path for obj in scene.objects if obj.selected_by != ASKED_FOR]
     return score_selection(selected, (label.prim_path for label in gold))
 

@@ -30,7 +30,7 @@ class CellResult:
     cell: Cell
     evaluation: Evaluation
     was_stored: bool
-    """Whether the answers were read from the store."""
+    """Whether the answers were read from a file, not computed."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def run_matrix(
 ) -> list[SceneResult]:
     """Return the results of all runs, scene by scene.
 
-    Each answer is stored in `folder/runs` as soon as it is known. Runs with stored answers are only scored.
+    The answers of each run are stored in `folder/runs` when the run ends. Runs with stored answers are only scored.
 
     Args:
         matrix: the runs. Optional scenes with missing files are skipped.
@@ -114,7 +114,7 @@ def _run_cell(
 
 
 def _key(cell: Cell, scene: Scene, gold: tuple[GoldLabel, ...], tbox: TBox, grounder: Grounder) -> str:
-    """Return a file name that hashes everything the answers depend on."""
+    """Return a file name: a hash of everything that the answers depend on."""
     evidence = ",".join(sorted(cell.evidence)) if cell.evidence is not None else "all"
     parts = [
         scene.content_hash,

@@ -1,4 +1,4 @@
-"""Scores: the gold class of each object and the answer it was given."""
+"""Scores: the gold class of each object and the answer of the grounder."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -43,7 +43,7 @@ class PlattFitSettings:
 
 @dataclass(frozen=True, slots=True)
 class ReportSettings:
-    """How much reports list."""
+    """Limits on the length of tables and plots in reports."""
 
     max_names: int
     max_confusions: int

@@ -18,7 +18,7 @@ class _Color(NamedTuple):
 
 
 def _color(obj: SceneObject) -> _Color | None:
-    """Return the first constant base colour of a material, else the display colour."""
+    """Return the first constant base colour of a material, else the display colour; None if there is neither."""
     for material in obj.material_details:
         if material.base_color is not None:
             return _Color(material.base_color, material.name)
@@ -51,7 +51,7 @@ def usd_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
 def knowrob_color(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     """Yield the colour as a SOMA quality with a region, as KnowRob queries it.
 
-    soma:Color is unsatisfiable (SOMA 5d27187 with DUL), so that the graph is inconsistent.
+    soma:Color is unsatisfiable (SOMA 5d27187 with DUL), so the graph is inconsistent.
     """
     color = _color(obj)
     if color is not None:

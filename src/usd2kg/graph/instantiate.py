@@ -79,7 +79,7 @@ def instantiate(
         relations: the spatial relations; by default found from the boxes.
 
     Raises:
-        GraphError: the base is no absolute IRI, or the profile or a kind of relation is unknown.
+        GraphError: the base is not an absolute IRI, or the profile is unknown.
     """
     base = check_base(base or default_base(scene.source))
     options = options or GraphOptions()
@@ -176,7 +176,7 @@ class _GraphBuilder:
             yield ox.Triple(*triple)
 
     def _blocks(self) -> Iterator[Iterable[Triple]]:
-        """Yield disjoint blocks of triples."""
+        """Yield blocks of triples that have no triple in common."""
         yield self._provenance()
         yield self._members()
         yield self._rooms()

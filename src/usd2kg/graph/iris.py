@@ -12,9 +12,9 @@ from usd2kg.errors import GraphError
 __all__ = ["check_base", "default_base", "individual_iri", "prim_path_of"]
 
 _SEPARATOR = "."
-"""Replaces the slash between prim names; dots in names are percent-encoded."""
+"""Replaces the slash between prim names; percent-encoded in prim names."""
 _PART = "-"
-"""Precedes the name of an aspect; percent-encoded in names."""
+"""Precedes the name of an aspect; percent-encoded in prim names."""
 
 
 def default_base(source: str) -> str:
@@ -30,7 +30,7 @@ def check_base(base: str) -> str:
     """Return `base` unchanged.
 
     Raises:
-        GraphError: the base is not an absolute IRI that ends in `/` or `#`.
+        GraphError: the base is not an absolute IRI that ends in `/`, `#` or `:`.
     """
     try:
         is_valid = base.endswith(("/", "#", ":")) and base.isprintable() and bool(re.match(r"[A-Za-z][\w+.-]*:", base))

@@ -32,11 +32,11 @@ class JointIndividual(NamedTuple):
     joint: Joint
     node: ox.NamedNode
     parent: ox.NamedNode | None
-    """Fixed object; None for the world, for a body that is no object, and for a joint within one object."""
+    """Fixed object; None for the world, a body that does not belong to an object, and a joint within one object."""
     child: ox.NamedNode | None
-    """Moved object; None likewise."""
+    """Moved object; None in the same cases."""
     whole: ox.NamedNode | None
-    """Object that both bodies belong to, such as a robot."""
+    """Object that both bodies belong to, such as a robot; None if there is none."""
 
 
 def resolve_joints(scene: Scene, base: str) -> Iterator[JointIndividual]:

@@ -8,9 +8,9 @@ from usd2kg.errors import GraphError
 __all__ = ["ANNOTATIONS", "COLORS", "GraphOptions", "read_epoch", "read_time"]
 
 ANNOTATIONS = ("owl", "rdf12")
-"""OWL 2 axiom annotations, or RDF 1.2 triple terms, which OWL tools do not read."""
+"""OWL 2 axiom annotations, or RDF 1.2 reifiers, which OWL tools do not read."""
 COLORS = ("usd", "knowrob")
-"""Colours of the soma profile: USD.owl qualities, or SOMA qualities for KnowRob, which are inconsistent."""
+"""Colours of the soma profile: USD.owl qualities, or SOMA qualities for KnowRob, which make the graph inconsistent."""
 
 
 @dataclass(frozen=True)

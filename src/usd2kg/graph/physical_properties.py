@@ -1,7 +1,7 @@
 """Size, pose and mass of objects: as quality nodes with regions (SOMA), or as datatype properties (u2k).
 
 SOMA: hasShape → Shape → hasRegion → BoxShape, with hasLength and hasDepth for KnowRob; a geometry file is a second
-region, a MeshShape. Quality nodes belong to one object each: a shared quality is inconsistent.
+region, a MeshShape. Each quality node belongs to one object: a shared quality makes the graph inconsistent.
 """
 
 from collections.abc import Iterator
@@ -28,7 +28,7 @@ def declare_individual(node: ox.NamedNode, cls: ox.NamedNode) -> Iterator[Triple
 
 
 def shared_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield what all profiles share: centre of mass, oriented size, number of copies."""
+    """Yield the properties that all profiles share: centre of mass, oriented size, number of copies."""
     if obj.center_of_mass is not None:
         yield node, U2K.centerOfMass, text(vector_text(obj.center_of_mass))
     if obj.oriented_size is not None:

@@ -1,7 +1,7 @@
 """Modelling profiles: `soma` with the patterns of SOMA, DUL and USD.owl, and `plain` for any ontology.
 
-The soma profile was checked with HermiT against SOMA 5d27187, DUL and USD.owl: a Stage has members, since one with
-parts is inconsistent, and quality nodes are never shared between objects.
+The soma profile was checked with HermiT against SOMA 5d27187, DUL and USD.owl: a Stage has members, since parts would
+be inconsistent, and objects never share quality nodes.
 """
 
 from collections.abc import Callable, Iterable, Iterator

@@ -95,7 +95,7 @@ def rdf_format(path: Path) -> ox.RdfFormat:
 
 
 def open_rdf(path: Path) -> BinaryIO:
-    """Open a file for reading, decompressed if its name ends in .gz.
+    """Return a file opened for reading, decompressed if its name ends in .gz.
 
     Raises:
         SyntaxError: the file is RDF/XML with an entity expansion attack.
@@ -153,7 +153,7 @@ def _ontology(triples: Sequence[ox.Triple]) -> str:
 
 
 def _base(parts: tuple[GraphPart, ...]) -> str:
-    """Return the namespace of the individuals, which extends the graph IRI."""
+    """Return the namespace of the individuals, which is a graph IRI with `/` or `#`; empty if there is none."""
     for part in parts:
         for end in "/#":
             base = part.iri + end

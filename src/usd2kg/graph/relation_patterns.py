@@ -75,14 +75,14 @@ def _inverse(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, ancho
 
 
 def relation_annotations(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
-    """Return rule, measurements and confidence of a relation as annotations."""
+    """Return the rule, measurements and confidence of a relation as annotations."""
     numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
     confidence = [] if relation.confidence is None else [(SSSOM.confidence, number(relation.confidence))]
     return [(U2K.rule, text(relation.rule)), *numbers, *confidence]
 
 
 def describe_between(relation: Relation, base: str) -> Iterator[Triple]:
-    """Yield an n-ary relation node for `between`: OWL properties are binary."""
+    """Yield an n-ary relation node for `between`, since OWL properties are binary."""
     assert relation.other_anchor is not None, "between has two anchors"
     node = ox.NamedNode(individual_iri(base, relation.target, "between"))
     yield node, RDF.type, OWL.NamedIndividual

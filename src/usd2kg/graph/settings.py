@@ -1,4 +1,4 @@
-"""Settings of graph construction, from `knowledge/settings/graph.toml`."""
+"""Settings of graph construction, read from `knowledge/settings/graph.toml`."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Namespaces, prefixes and literals."""
+"""Namespaces of RDF terms, prefixes, and constructors of literals and IRIs."""
 
 from collections.abc import Iterable
 

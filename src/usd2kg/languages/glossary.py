@@ -64,7 +64,7 @@ class Glossary:
         return self.links.get(fold(word, self.language))
 
     def add(self, entry: Entry) -> None:
-        """Add an entry; phrases must come after their words."""
+        """Add an entry; phrases must be added after their words."""
         if entry.role in {"link", "with"}:
             self.links[fold(entry.word, entry.language)] = entry
         elif " " in entry.word:

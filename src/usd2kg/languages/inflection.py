@@ -15,7 +15,7 @@ _PARTS_OF_SPEECH = {"": "noun", "adjective": "adjective"}
 """Role of an entry → name of its word lists."""
 
 _Kind = tuple[str, str]
-"""Language and role, which determine the endings."""
+"""Language and role, which determine the inflection."""
 _ENDINGS: Mapping[_Kind, tuple[str, ...]] = {
     (language, role): tuple(sorted(word_set("languages", f"{language}_{name}_endings")))
     for language in ("de", "es", "fr")
@@ -60,7 +60,7 @@ class Form(NamedTuple):
 
 
 def fold(word: str, language: str) -> str:
-    """Return the spelling without accents; German umlauts become ae, oe, ue."""
+    """Return a lower-case word without accents; German ä, ö, ü and ß become ae, oe, ue and ss."""
     if word.isascii():
         return word
     text = unicodedata.normalize("NFC", word)
@@ -98,7 +98,7 @@ def compound_forms(entry: Entry) -> Iterator[tuple[str, Form]]:
 
 
 def _spellings(word: str, entry: Entry, cost: int, *, is_homograph: bool | None = None) -> Iterator[tuple[str, Form]]:
-    """Yield a word folded and, if it has umlauts, without them, as some exporters write it."""
+    """Yield the folded spelling of a word and, for German umlauts, one without them, as some exporters write it."""
     reveals_language = not (entry.is_homograph if is_homograph is None else is_homograph)
     text = fold(word, entry.language)
     yield text, Form(entry, cost, reveals_language)

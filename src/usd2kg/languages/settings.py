@@ -1,4 +1,4 @@
-"""Settings of foreign names, one class per section of `knowledge/settings/languages.toml`."""
+"""Settings of the translation of names, one class per section of `knowledge/settings/languages.toml`."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class CompoundSettings:
 
 @dataclass(frozen=True, slots=True)
 class PhraseSettings:
-    """Listed phrases."""
+    """Limits of listed phrases."""
 
     max_words: int
 

@@ -91,7 +91,7 @@ def _read(words: tuple[str, ...], lexicon: Glossary, is_expected: bool) -> _Read
     revealing = sum(term.reveals_language for term in others)
     if known == size > 1:
         revealing += sum(link.reveals_language for link in links)
-    # One foreign word next to an English one is more often a brand than a mixture, unless the language is expected.
+    # One foreign word next to an English one is more often a brand than a mixed name, unless the language is expected.
     is_mixed = revealing + is_expected <= sum(term.role == "english" for term in others)
     if not known or 2 * known < size or is_mixed:
         return None

@@ -62,7 +62,7 @@ def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:
 
 
 def format_catalog(files: Mapping[str, str]) -> str:
-    """Return a catalog that maps IRIs to files in its folder."""
+    """Return the XML of a catalog that maps IRIs to files in its folder."""
     lines = [f"  <uri name={quoteattr(iri)} uri={quoteattr(file)}/>" for iri, file in files.items()]
     return "\n".join(
         [

@@ -45,9 +45,10 @@ _NOTHING = f"{OWL}Nothing"
 
 @dataclass
 class Annotations:
-    """Annotations of one class: property IRI → (language or empty, text)."""
+    """Annotations of one class."""
 
     texts: dict[str, set[tuple[str, str]]] = field(default_factory=lambda: defaultdict(set))
+    """Property IRI → pairs of language tag (may be empty) and text."""
     items: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
     """Property IRI → Wikidata items."""
     is_deprecated: bool = False
@@ -80,6 +81,7 @@ class ClassAxioms:
     """Class → named classes stated to be equivalent; symmetric, not transitively closed."""
     annotations: dict[str, Annotations] = field(default_factory=lambda: defaultdict(Annotations))
     dispositions: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    """Class → dispositions stated by `hasDisposition some …`."""
     classes: set[str] = field(default_factory=set)
     """All named classes, declared or used."""
     declared: set[str] = field(default_factory=set)
@@ -132,7 +134,7 @@ class ClassAxioms:
             self.link(subject, name, text)
 
     def link(self, subject: str, name: str, target: str) -> None:
-        """Add a link to an IRI; it is kept if it is a Wikidata item that may denote the same class."""
+        """Add the IRI that an annotation links to; only Wikidata items that may denote the same class are kept."""
         item = item_in(target)
         if item is not None and is_mapping(name):
             self.annotations[subject].items[name].add(item)

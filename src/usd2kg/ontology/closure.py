@@ -1,4 +1,4 @@
-"""read_closure: an ontology with its imports closure as triples, for self-contained graphs."""
+"""read_closure: the imports closure of an ontology as triples, for self-contained graphs."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
 """fetch_ontology: download the documents of a known ontology into a folder for offline use.
 
-Nothing else in this package uses the network.
+Nothing else in `usd2kg.ontology` uses the network.
 """
 
 import hashlib
@@ -121,7 +121,7 @@ def shown_address(address: str) -> str:
 
 def _download(address: str) -> bytes:
     shown = shown_address(address)
-    # Plain http is accepted because some ontologies have nothing else; the hash protects the content.
+    # Plain http is accepted because some ontologies are not served otherwise; the hash protects the content.
     if address.partition(":")[0].lower() not in _SCHEMES:
         raise OntologyError(f"{shown}: is not a web address; expected https://… or http://…")
     try:

@@ -26,7 +26,7 @@ class DownloadLimits:
     """Download of one document."""
 
     timeout_s: float = 60.0
-    """Seconds without a response."""
+    """Longest time without a response."""
     document_bytes: int = 200_000_000
 
 

@@ -28,13 +28,13 @@ _SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
 def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes: Iterable[str] | None = None) -> TBox:
     """Return the candidate classes of an ontology.
 
+    Equivalent classes are represented by one of them, see `equivalence.choose_representatives`.
+
     Args:
         source: an ontology in functional syntax, RDF/XML, OWL/XML, Turtle, N-Triples, JSON-LD or Manchester
             syntax, detected by content. Imports are resolved by the catalog or in the folder of the file.
         roots: IRIs or CURIEs; the scope is these classes and all below them.
         classes: IRIs or CURIEs; the scope is exactly these classes.
-
-    Equivalent classes are represented by one of them, see `equivalence.choose_representatives`.
 
     Raises:
         OntologyError: the file cannot be read, or no class is in scope.

@@ -62,7 +62,7 @@ class OntologyNote:
     """A problem of an ontology that did not stop loading."""
 
     code: str
-    """`missing-import`, `cycle`, `deprecated`…"""
+    """`missing-import` or `cycle`."""
     message: str
 
 
@@ -82,7 +82,7 @@ class TBox:
     """IRIs of the other documents of the imports closure, sorted."""
     notes: tuple[OntologyNote, ...] = ()
     isolated: tuple[ClassIRI, ...] = ()
-    """Classes of the file without any subclass axiom, sorted; the default scope excludes them."""
+    """Classes of the file without any subclass axiom, which the default scope excludes; empty for other scopes."""
 
     def __hash__(self) -> int:
         # TBoxes are cache keys; hashing every class would take a millisecond.

@@ -21,7 +21,7 @@ def write_functional_syntax(n_triples: str, prefixes: Mapping[str, str], source:
     Raises:
         OntologyError: the triples are not an ontology.
     """
-    # Its type hints omit the RDF syntaxes.
+    # The type hints of py-horned-owl omit the RDF syntaxes.
     turtle: Any = "ttl"
     try:
         ontology = pyhornedowl.open_ontology_from_string(n_triples, turtle)

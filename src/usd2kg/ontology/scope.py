@@ -20,7 +20,7 @@ PHYSICAL_ROOTS = (
     f"{OBO}BFO_0000040",  # material entity
     "https://spec.industrialontologies.org/ontology/core/Core/MaterialArtifact",
 )
-"""Upper-level classes of physical objects."""
+"""Classes of physical objects in upper ontologies."""
 
 
 def ancestors(superclasses: Mapping[str, set[str]], iri: str) -> set[str]:
@@ -31,7 +31,7 @@ def ancestors(superclasses: Mapping[str, set[str]], iri: str) -> set[str]:
 def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     """Return the classes that `own` places in the hierarchy and that `closure` classifies as physical objects.
 
-    If none is below a known upper-level class of physical objects, all are kept.
+    If none is below a class of `PHYSICAL_ROOTS`, all are kept.
     """
     # A flat list of classes has no subclass axioms.
     placed = (own.linked() or own.classes) | set(own.equivalents)
@@ -40,7 +40,7 @@ def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     subclasses = _invert(superclasses)
     physical: set[str] = set()
     for root in PHYSICAL_ROOTS:
-        # Equivalents of an upper-level class are as general as that class, and not candidates.
+        # Equivalents of a root are as general as the root, and not candidates.
         physical |= reachable(subclasses, [root]) - {root, *ancestors(superclasses, root)}
     return placed & physical or placed
 

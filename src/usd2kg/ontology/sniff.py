@@ -14,7 +14,7 @@ _IN_SUBSET = re.compile(r"<!--|\]\s*>")
 def sniff_syntax(text: str) -> str | None:
     """Return the syntax of a document, `ofn`, `omn`, `owx`, `rdf`, `ttl` or `jsonld`; None if it is unknown.
 
-    File endings are ignored: `.owl` is used for at least three syntaxes.
+    File extensions are ignored: `.owl` is used for at least three syntaxes.
 
     >>> sniff_syntax("# a comment\\nPrefix(:=<http://x#>)")
     'ofn'
@@ -57,7 +57,7 @@ def _after(text: str, end: str, start: int) -> int:
 
 
 def _after_subset(text: str, start: int) -> int:
-    """Return the end of a DOCTYPE; its internal subset may contain text that looks like elements."""
+    """Return the index after a DOCTYPE; its internal subset may contain text that looks like elements."""
     if not text.startswith("[", start):
         return start
     at = start

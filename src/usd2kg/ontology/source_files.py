@@ -30,7 +30,7 @@ def decode_text(path: Path, data: bytes, expected: str = "an ontology") -> str:
     """Return the text of UTF-8 bytes, with or without a byte order mark.
 
     Raises:
-        OntologyError: the bytes are not UTF-8; `expected` says what the file should be.
+        OntologyError: the bytes are not UTF-8; the message names `expected`.
     """
     try:
         return data.decode("utf-8-sig")

@@ -31,7 +31,7 @@ def item_in(text: str) -> str | None:
 
 
 def is_mapping(property_iri: str) -> bool:
-    """Return whether this property may map a class to an equivalent item."""
+    """Return whether a property may map a class to an equivalent item."""
     if property_iri in _SAME:
         return True
     return not property_iri.startswith((OWL, RDF, RDFS)) and property_iri not in _OTHER_ITEMS

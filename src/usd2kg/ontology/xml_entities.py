@@ -28,7 +28,7 @@ _AMPERSAND = re.compile(r"&#(?:0*38|[xX]0*26);")
 class _Size(NamedTuple):
     characters: int
     depth: int
-    """Nesting depth, itself included."""
+    """Nesting depth; 1 for an entity without references."""
 
 
 def refuse_entity_bomb(text: str) -> None:

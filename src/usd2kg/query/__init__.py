@@ -1,4 +1,4 @@
-"""Queries over a graph: SPARQL, measuring functions, and ready questions in English."""
+"""Queries over a graph: SPARQL, geometric functions, and ready questions in English."""
 
 from usd2kg.query.answer import Answer
 from usd2kg.query.functions import FUNCTION_NAMESPACE, FUNCTIONS

@@ -21,7 +21,7 @@ class Answer:
     rows: tuple[tuple[str | None, ...], ...]
     """Cells as text; None for an unbound variable."""
     values: tuple[tuple[Value, ...], ...]
-    """The same cells, with numbers and booleans as such."""
+    """The same cells, with numbers and booleans not converted to text."""
     sparql: str
     """The query that was run."""
 
@@ -55,14 +55,14 @@ def join_answers(answers: Sequence[Answer]) -> Answer:
 
 
 def make_answer(columns: tuple[str, ...], rows: Sequence[tuple[Any, ...]], query: str) -> Answer:
-    """Return query solutions, rows of terms, as a table of plain values; None is an unbound variable."""
+    """Return query solutions (rows of terms) as a table of plain values; None is an unbound variable."""
     texts = tuple(tuple(_plain(term) for term in row) for row in rows)
     values = tuple(tuple(_value(term) for term in row) for row in rows)
     return Answer(columns, texts, values, query)
 
 
 def _value(term: Any) -> Value:
-    """Return a term as a JSON value: numbers and booleans as such, everything else as text."""
+    """Return a term as a JSON value: a number, a boolean, or else text."""
     datatype = term.datatype.value.rpartition("#")[2] if isinstance(term, ox.Literal) else ""
     if datatype in {"double", "float", "decimal"} and math.isfinite(float(term.value)):
         return float(term.value)

@@ -57,7 +57,7 @@ class Body:
     extents: tuple[float, float, float] | None
     """Metres, ascending; along the object's own axes if known."""
     mass: float | None
-    """Kilograms."""
+    """Kilograms; None if unknown."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +69,7 @@ class JointMotion:
     child: str | None
     """IRI of the object that it moves; None if it moves a part of `whole`."""
     whole: str | None
+    """IRI of the object that contains both bodies; None if the joint connects two objects."""
     is_revolute: bool
     """False for a prismatic joint."""
     axis: Vector

@@ -1,4 +1,4 @@
-"""Queries too deep or too long for the engine, whose stack overflow would end the process."""
+"""check_complexity: reject queries that would overflow the stack of the engine and so kill the process."""
 
 import re
 from collections import Counter
@@ -23,12 +23,12 @@ _TOKEN = re.compile(
 
 
 def check_complexity(sparql: str, *, is_update: bool = False) -> None:
-    """Refuse a query or update that would overflow the engine's stack; the data of an update may be long.
+    """Raise GraphError for a query or update that would overflow the engine's stack; an update may be of any length.
 
-    Brackets and operators in strings, comments and IRIs with `://` are not counted. Only the grammar decides whether
-    `<2>` is an IRI or two comparisons: opening brackets in it are counted, closing ones are not. If it contains a `#`
-    or a quote, the text behind it could be a comment or a string; from there on everything is counted and nothing
-    closes, so that no bracket can be hidden.
+    Brackets and operators in strings, comments and IRIs with `://` are not counted. Without a parser, `<2>` may be an
+    IRI or two comparisons: opening brackets in it are counted, closing ones are not. If it contains a `#` or a quote,
+    the text after it could be a comment or a string; from there on, all operators and opening brackets are counted and
+    no closing ones, so that no bracket can be hidden.
 
     Raises:
         GraphError: brackets are nested too deep; or a query has too many operators and clauses, or triple patterns.

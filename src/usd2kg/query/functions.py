@@ -1,4 +1,4 @@
-"""SPARQL functions that measure: a graph holds positions as text, which SPARQL cannot compute with.
+"""SPARQL functions for distances, extents and joint motions: positions are text, which SPARQL cannot compute with.
 
 Objects are measured by their boxes. A function is unbound for an object without a box and for wrong arguments.
 """
@@ -33,7 +33,7 @@ FUNCTIONS = {
 }
 """Function → its arguments and result."""
 _DECIMALS = 4
-"""Of all results: a tenth of a millimetre is finer than any scene is modelled."""
+"""Decimals of all results; 0.1 mm is finer than any scene is modelled."""
 _NO_BODY = Body(None, None, None, None)
 
 
@@ -99,7 +99,7 @@ def _literal(value: float | None) -> ox.Literal | None:
 
 
 def _gap(a: Body, b: Body) -> float | None:
-    """Return the distance of two boxes in metres, 0 if they meet; None if one has no box."""
+    """Return the distance between two boxes in metres, 0 if they meet; None if one has no box."""
     if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
         return None
     return float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0)))

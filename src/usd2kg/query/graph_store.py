@@ -21,7 +21,7 @@ __all__ = ["GraphStore"]
 
 _PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 _Term = ox.NamedNode | ox.Literal
-"""What a parameter of a question is bound to."""
+"""A term to which a parameter of a question is bound."""
 
 
 class GraphStore:
@@ -38,7 +38,7 @@ class GraphStore:
 
     @property
     def store(self) -> ox.Store:
-        """The triples; do not modify."""
+        """The triples; read-only."""
         return self._store
 
     @property
@@ -113,32 +113,32 @@ class GraphStore:
         return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], query)
 
     def on(self, thing: str, *, is_direct: bool = True) -> Answer:
-        """Return the objects on a thing.
+        """Return the objects on `thing`.
 
         Args:
             thing: prim path, label, class or words, see `find`.
-            is_direct: whether to exclude objects on other objects on the thing.
+            is_direct: whether to return only objects directly on it; otherwise also those on other objects on it.
         """
         return self._about(templates.ON if is_direct else templates.ALL_ON, thing)
 
     def inside(self, thing: str, *, is_direct: bool = True) -> Answer:
-        """Return the objects inside a thing or room; if not `is_direct`, also objects on or in those."""
+        """Return the objects inside `thing`, which may be a room; if not `is_direct`, also objects on or in those."""
         return self._about(templates.INSIDE if is_direct else templates.ALL_INSIDE, thing)
 
     def where_is(self, thing: str) -> Answer:
-        """Return the location of a thing: centre of its box in metres, supporters, containers and room."""
+        """Return the location of `thing`: centre of its box in metres, supporters, containers and room."""
         return self._about(templates.WHERE_IS, thing)
 
     def near(self, thing: str) -> Answer:
-        """Return the objects near, next to or touching a thing, nearest first."""
+        """Return the objects near, next to or touching `thing`, nearest first."""
         return self._about(templates.NEAR, thing)
 
     def above(self, thing: str) -> Answer:
-        """Return the objects above a thing, or above something on it."""
+        """Return the objects above `thing`, or above an object on it."""
         return self._about(templates.ABOVE, thing)
 
     def parts_of(self, thing: str) -> Answer:
-        """Return the parts of a thing, recursively."""
+        """Return the parts of `thing`, recursively."""
         return self._about(templates.PARTS_OF, thing)
 
     def all_of(self, name: str) -> Answer:

@@ -127,7 +127,8 @@ class Lookup:
 def term_list(nodes: Iterable[ox.NamedNode]) -> str:
     """Return nodes in SPARQL syntax, for VALUES.
 
-    Nodes come from the store and escape themselves, so that no text of a user or a stage becomes part of a query.
+    Nodes come from the store and are escaped by their serialisation, so no text of a user or a stage becomes part of a
+    query.
     """
     return " ".join(str(node) for node in nodes)
 

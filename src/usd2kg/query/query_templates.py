@@ -26,7 +26,7 @@ _WITHIN = f"{_INSIDE}|u2k:inRoom"
 _NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
-"""The graph states only the nearest anchor: what is above an object on the table is above the table."""
+"""The graph states only the nearest anchors, but an object above another on the table is also above the table."""
 
 _RELATED = """
 SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
@@ -92,20 +92,20 @@ class QueryTemplate:
     """Whether the query is about a class."""
 
     def fill(self, things: str) -> str:
-        """Return the query about things, given as SPARQL terms (see `term_list`)."""
+        """Return the query about objects or classes, given as SPARQL terms (see `term_list`)."""
         return self.text.format(things=things, **self.terms)
 
 
 ON = QueryTemplate(_RELATED, {"predicate": _ON, "number": "u2k:gap"}, {"number": "gap_m"})
 INSIDE = QueryTemplate(_RELATED, {"predicate": _WITHIN, "number": "u2k:insideRatio"}, {"number": "inside_ratio"})
 ALL_ON = QueryTemplate(_RELATED, {"predicate": f"({_ON})+", "number": "u2k:gap"}, {"number": "gap_m"})
-"""On a thing, or on something on it."""
+"""On an object, directly or via objects on it."""
 ALL_INSIDE = QueryTemplate(
     _RELATED,
     {"predicate": f"({_ON}|{_INSIDE})*/({_WITHIN})", "number": "u2k:insideRatio"},
     {"number": "inside_ratio"},
 )
-"""Inside a thing, or on or in something inside it."""
+"""Inside an object, or on or in objects inside it."""
 ABOVE = QueryTemplate(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
 NEAR = QueryTemplate(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
 PARTS_OF = QueryTemplate(_PARTS, {"predicate": _PART_OF})

@@ -18,8 +18,8 @@ _LOAD = re.compile(rf"LOAD{_BLANK}(?:SILENT{_BLANK})?(?:<[^>]*>|[^\s{{}}<>\"']*:
 def has_remote_clause(sparql: str) -> bool:
     """Return whether a query or update may contain a SERVICE or LOAD clause.
 
-    Only the grammar decides what is a comment, a string or an IRI: `FILTER(1<2)SERVICE#>` contains no IRI. The search
-    therefore includes comments and strings: it can report a string that reads like a clause, but misses no clause.
+    Only a parser can distinguish comments, strings and IRIs: `FILTER(1<2)SERVICE#>` contains no IRI. Therefore the
+    search includes comments and strings: it may report a string that looks like a clause, but misses no clause.
 
     >>> has_remote_clause("SELECT * { SERVICE <http://10.0.0.1/> { ?s ?p ?o } }")
     True

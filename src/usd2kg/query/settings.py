@@ -1,4 +1,4 @@
-"""Settings of questions to a graph, read from `knowledge/settings/query.toml`."""
+"""Settings of graph queries, read from `knowledge/settings/query.toml`."""
 
 from dataclasses import dataclass
 
@@ -30,7 +30,7 @@ class LookupSettings:
 
 @dataclass(frozen=True)
 class ComplexitySettings:
-    """The largest queries that the engine can run."""
+    """Limits of queries that the engine can run without a stack overflow."""
 
     max_nesting: int
     max_operators: int

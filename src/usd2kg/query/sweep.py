@@ -13,11 +13,11 @@ __all__ = ["find_obstacles"]
 Array = NDArray[np.float64]
 
 _EPSILON = 1e-9
-"""Shorter cross products are those of parallel axes."""
+"""Length below which a cross product counts as that of parallel axes."""
 
 
 class _Box(NamedTuple):
-    """A box whose sides are parallel to the world's axes, in metres."""
+    """An axis-aligned box; metres, world frame."""
 
     center: Array
     half: Array
@@ -35,8 +35,8 @@ class _PosedBox(NamedTuple):
 def find_obstacles(bodies: BodyIndex, motion: JointMotion) -> dict[str, float]:
     """Return the objects that a joint's moving part collides with on its way to the farther limit.
 
-    All objects are boxes. Not obstacles: objects that move along, the object that the joint is fixed to, and objects
-    that the part overlaps from the start, such as its frame.
+    Objects are represented by their boxes. Objects that move with the part, the object that the joint is fixed to, and
+    objects that the part overlaps at the start, such as its frame, are not obstacles.
 
     Returns:
         Object IRI → joint position at the collision relative to the start, in radians or metres, signed.
@@ -99,7 +99,7 @@ def _overlaps(part: _PosedBox, center: Array, half: Array) -> NDArray[np.bool_]:
 
 
 def _moving_box(bodies: BodyIndex, motion: JointMotion) -> _Box | None:
-    """Return the box that moves; for a part that is no object, the side of its body that opens."""
+    """Return the box that moves: the child, or the opening side of `whole` if the moving part is not an object."""
     body = bodies.by_iri.get(motion.child or motion.whole or "")
     if body is None or body.lower is None or body.upper is None:
         return None

@@ -14,13 +14,13 @@ __all__ = ["OntologyReport", "check_ontology"]
 
 @dataclass(frozen=True)
 class OntologyReport:
-    """Counts and findings for an ontology."""
+    """Counts and findings for an ontology; only classes in scope are counted, unless stated otherwise."""
 
     source: str
     classes: int
     """Classes in scope."""
     documents: int
-    """The ontology and its imports, as far as they were found."""
+    """The ontology and those of its imports that were found."""
     labelled: int
     """Classes with a label of their own."""
     described: int
@@ -28,12 +28,12 @@ class OntologyReport:
     with_synonyms: int
     """Classes with more than one name."""
     meant: int
-    """Classes aligned with a synset, or with a list of names."""
+    """Classes aligned with a synset, a category of synsets, or a list of names."""
     found_by_name: int
     """Classes that the default grounder returns for an object whose only evidence is the best name of the class."""
     roots: int
     depth: int
-    """Longest path from a class to its root."""
+    """Number of edges of the longest path from a class to a root."""
     several_parents: int
     """Classes with more than one superclass."""
     deprecated: int

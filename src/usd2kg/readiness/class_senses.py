@@ -1,4 +1,4 @@
-"""Faults of senses: classes that the default grounder does not understand or confuses."""
+"""Faults of senses: classes that the default grounder aligns with no sense, or confuses."""
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
@@ -58,7 +58,7 @@ class ClassSenses:
         return {prediction.prim_path: prediction.class_iri for prediction in found}
 
     def rival(self, cls: OntologyClass) -> Term | None:
-        """Return the term of another class that claims the label of a class; None if there is no such term."""
+        """Return the term of another class that takes precedence for the label of a class; None if there is none."""
         return None if cls.iri in self.names else self._lexicon.terms.get(term_key(cls.label, self._taxonomy))
 
     def common_noun(self, cls: OntologyClass) -> str:
@@ -75,7 +75,7 @@ def _as_name(text: str) -> str:
 
 
 def find_sense_faults(tbox: TBox, senses: ClassSenses) -> Iterator[Finding]:
-    """Yield the classes that are never an answer, that match only their exact words, or that lose their name."""
+    """Yield the classes that are never an answer, that match only exact words, or whose name another class takes."""
     yield from _non_objects(tbox)
     for cls in tbox.classes:
         answer = senses.answers.get(cls.iri, cls.iri)

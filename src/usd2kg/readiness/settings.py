@@ -1,4 +1,4 @@
-"""Settings of the readiness check, from `knowledge/settings/readiness.toml`."""
+"""Settings of the readiness check, read from `knowledge/settings/readiness.toml`."""
 
 from dataclasses import dataclass
 

@@ -25,7 +25,7 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _PREFIX = 4
-"""Candidates per kept anchor of a target: the intermediate objects are among the nearest."""
+"""Candidate anchors tested per anchor kept; intermediate objects are among the nearest candidates."""
 
 
 class _StackedPairs(NamedTuple):
@@ -38,16 +38,16 @@ class _StackedPairs(NamedTuple):
 
 
 def find_above(boxed: BoxedObjects, is_chosen: Mask, frame: Indices, supporter: Indices, rule: AboveRule) -> Links:
-    """Return the `above` links between objects with the same whole or container, or without any.
+    """Return the `above` links between objects with the same whole or container, or with neither.
 
     Pairs that follow from an intermediate object are omitted: a lamp above a tray on a table is not linked to the
-    table, nor a book on a shelf to what the shelf is above.
+    table, nor a book on a shelf to the objects below the shelf.
 
     Args:
         boxed: the objects.
         is_chosen: mask of the objects to relate.
         frame: index of the whole or container of each object, -1 for none.
-        supporter: index of what each object is on, -1 for none.
+        supporter: index of the supporter of each object, -1 for none.
         rule: the thresholds.
     """
     pairs = _candidates(boxed, np.flatnonzero(is_chosen), frame, rule)
@@ -70,7 +70,7 @@ def _candidates(boxed: BoxedObjects, chosen: Indices, frame: Indices, rule: Abov
         one, other = chosen[i], chosen[j]
         is_upper = boxed.lower[one, 2] >= boxed.upper[other, 2] + rule.min_gap
         is_lower = boxed.lower[other, 2] >= boxed.upper[one, 2] + rule.min_gap
-        # Of two flat objects at one height, neither is above the other.
+        # Neither of two flat objects at the same height is above the other.
         is_good = (is_upper != is_lower) & (frame[one] == frame[other])
         target, anchor = np.where(is_upper, one, other)[is_good], np.where(is_upper, other, one)[is_good]
         gap, ratio = boxed.lower[target, 2] - boxed.upper[anchor, 2], _overlap_ratio(boxed, target, anchor)

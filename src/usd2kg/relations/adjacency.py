@@ -86,7 +86,7 @@ def find_touching(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules)
     gaps = box_gaps(boxed, pairs.one, pairs.other)
     smaller = np.minimum(boxed.size[pairs.one], boxed.size[pairs.other])
     shares = ratios(-gaps, smaller)
-    # The boxes are apart along this axis; along the others their faces overlap.
+    # Along this axis the boxes are apart or overlap least; along the others their faces overlap.
     axis = gaps.argmax(axis=1)
     rows = np.arange(len(axis))
     gap = gaps[rows, axis]
@@ -111,7 +111,7 @@ def _meets_protrusion(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRu
 def find_next_to(
     boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rules: RelationRules
 ) -> tuple[Links, Mask]:
-    """Return the unblocked pairs side by side, as links and as a mask of the given pairs."""
+    """Return the unblocked pairs that are side by side, as links and as a mask of the given pairs."""
     rule = rules.next_to
     limit = np.minimum(*(_limits(boxed, rule)[side] for side in (pairs.one, pairs.other)))
     gaps = box_gaps(boxed, pairs.one, pairs.other)
@@ -170,9 +170,9 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
     filled = np.minimum(boxed.upper[third], high) - np.maximum(boxed.lower[third], low)
     shares = ratios(np.clip(filled, 0, None), high - low)
     is_gap = edges[0] > edges[1]
-    # A blocker reaches into the gap, and fills a share of it across.
+    # A blocker reaches into the gap along the axes that have one, and fills a share of the overlap along the others.
     blocks = np.where(is_gap, filled > 0, shares >= rule.min_fill_ratio).all(axis=1)
-    # The box around walls in one mesh contains the two; it is not between them.
+    # The box of a mesh of several walls may contain both objects; it is not between them.
     for index in (one, other):
         middle = boxed.middle[index]
         blocks &= ~((middle > boxed.lower[third]) & (middle < boxed.upper[third])).all(axis=1)
@@ -181,6 +181,6 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
 
 
 def _nearest_of_each(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Indices:
-    """Return for each object the indices of its nearest pairs; pairs where it is second follow the others."""
+    """Return the indices of the nearest pairs of each object; from n on, index i is pair i - n seen from its second."""
     from_, to = np.concatenate([pairs.one, pairs.other]), np.concatenate([pairs.other, pairs.one])
     return first_of_each_group(from_, (boxed.rank[to], np.tile(rounded(pairs.distance), 2)), most)

@@ -88,10 +88,10 @@ def is_on_cycle(after: Indices, starts: Indices) -> Mask:
 
 
 def rounded(values: Array) -> Array:
-    """Return sort keys rounded to micrometres, so that rounding errors of a translated scene change no order."""
+    """Return sort keys rounded to micrometres, so that translating a scene does not change the order."""
     return np.asarray(values.round(_DECIMALS))
 
 
 def ratios(parts: Array, wholes: Array) -> Array:
-    """Return parts / wholes; a whole of 0 counts as tiny."""
+    """Return parts / wholes; wholes smaller than 1e-12 count as 1e-12."""
     return np.asarray(parts / np.maximum(wholes, _SMALLEST))

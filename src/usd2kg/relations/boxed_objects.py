@@ -61,7 +61,7 @@ class Footprints(NamedTuple):
     half_sides: Array
     """(n, 2), metres."""
     direction: Array
-    """Unit vector of the first side, (n, 2)."""
+    """(n, 2), unit vector of the first side."""
 
 
 class BoxedObjects:
@@ -95,7 +95,7 @@ class BoxedObjects:
     def feet(self) -> tuple[Array, Array]:
         """Lower and upper corners (n, 3) of the box around the feet of each object; its own box if it has no parts.
 
-        A tap stands on its foot, not on what is below its spout.
+        A tap stands on its foot, not on the surface below its spout.
         """
         lower, upper = self.lower.copy(), self.upper.copy()
         for index, obj in enumerate(self.objects):
@@ -108,7 +108,7 @@ class BoxedObjects:
 
     @cached_property
     def parts(self) -> tuple[Indices, Array, Array]:
-        """Start index of the parts of each object (n + 1), and their corners; by default the own box."""
+        """Start index of each object's parts (n + 1,), and the parts' corners; an object without parts is one part."""
         own = [obj.part_boxes or (obj.own_box,) for obj in self.objects]
         starts = np.cumsum([0, *(len(boxes) for boxes in own)])
         lower, upper = corners_of([box for boxes in own for box in boxes if box is not None])
@@ -118,7 +118,7 @@ class BoxedObjects:
     def footprints(self) -> Footprints:
         """The footprint of each object as a rectangle.
 
-        It is rotated if the extents along the prim's own axes reproduce the measured box; else it is that of the box.
+        It is rotated if the extents along the prim's own axes reproduce the measured AABB; else it is that of the AABB.
         """
         is_rotated = np.zeros(len(self), np.bool_)
         half, along = self.size[:, :2] / 2, np.tile([1.0, 0.0], (len(self), 1))
@@ -161,6 +161,6 @@ def corners_of(boxes: Sequence[Box]) -> tuple[Array, Array]:
 
 
 def overlap_areas(lower: Array, upper: Array, others_lower: Array, others_upper: Array) -> Array:
-    """Return the pairwise overlap areas of footprints in square metres."""
+    """Return the overlap area of each row of footprints with the same row of the others, in square metres."""
     sides = np.clip(np.minimum(upper, others_upper)[:, :2] - np.maximum(lower, others_lower)[:, :2], 0, None)
     return np.asarray(sides[:, 0] * sides[:, 1])

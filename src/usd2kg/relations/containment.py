@@ -34,6 +34,7 @@ class _ContainmentPairs(NamedTuple):
     ratio: Array
     confidence: Array
     sticks_out: Mask
+    """Whether the target stands in the container and protrudes at its top."""
 
 
 def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, rules: RelationRules) -> Containment:
@@ -74,7 +75,7 @@ def _no_pairs() -> _ContainmentPairs:
 
 
 def _overlap_as_parts(target: Indices, anchor: Indices, wholes: Indices, is_drawer: Mask) -> Mask:
-    """Return whether boxes overlap as parts: a cabinet in its drawer, a drawer behind another's tall front."""
+    """Return for each pair whether it overlaps as parts do: a cabinet in its drawer, a drawer behind a taller front."""
     are_beside = is_drawer[target] & is_drawer[anchor] & (wholes[target] >= 0) & (wholes[target] == wholes[anchor])
     return np.asarray((wholes[anchor] == target) | are_beside)
 
@@ -90,7 +91,7 @@ def _shares(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Array:
     low = np.maximum(boxed.lower[target], boxed.lower[anchor])
     high = np.minimum(boxed.upper[target], boxed.upper[anchor])
     size = boxed.size[target]
-    # A flat extent is in or out, so that a napkin can be in a drawer.
+    # An extent of 0 is either in or out, so that a flat napkin can be in a drawer.
     share = np.where(size > 0, np.clip(high - low, 0, None) / np.where(size > 0, size, 1.0), high >= low)
     return np.asarray(share, np.float64)
 

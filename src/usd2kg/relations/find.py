@@ -34,7 +34,7 @@ def find_relations(
 ) -> tuple[Relation, ...]:
     """Return the relations of all objects that have a box, sorted by target in scene order, then kind and anchor.
 
-    Boxes exclude the objects nested below. Symmetric relations are listed once.
+    The box of an object excludes the objects nested below it. Symmetric relations are listed once.
     """
     options = options or RelationOptions()
     kinds = options.chosen_kinds
@@ -57,7 +57,7 @@ class _Finder:
         """Paths of the group prims that are rooms."""
 
     def find(self, kinds: frozenset[str]) -> Iterator[Links]:
-        """Yield the links of the kinds, possibly of others too; indices count all objects, then the groups."""
+        """Yield the links of the kinds, and possibly of others; indices count all objects, then the groups."""
         parts = find_parts(self.scene, self.boxed, self.classes, self.rules.part_of)
         yield from parts
         if len(self.boxed) and kinds - {"part-of"}:

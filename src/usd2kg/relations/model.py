@@ -47,7 +47,7 @@ class Relation(NamedTuple):
     target: str
     """Prim path of the object that is on, inside, near…"""
     anchor: str
-    """Prim path of the reference object; for `room` possibly a group prim, which is no object."""
+    """Prim path of the reference object; for `room` possibly a group prim, which is not an object."""
     rule: str
     """Id of the rule in `knowledge/spatial.toml`."""
     numbers: Mapping[str, float]
@@ -118,12 +118,12 @@ def margin_below(value: Array, most: Array | float) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Viewpoint:
-    """Viewer's position and optional gaze for left, right, front and behind."""
+    """The viewer's position and optional gaze direction, for left, right, front and behind."""
 
     position: Vector
     """Metres, world frame, z-up."""
     direction: Vector | None = None
-    """Gaze direction, of which z is ignored; by default towards each pair of objects."""
+    """Gaze direction, whose z is ignored; None to look towards each pair of objects."""
 
     def __post_init__(self) -> None:
         numbers = (*self.position, *(self.direction or (1.0, 0.0, 0.0)))

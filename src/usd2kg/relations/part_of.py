@@ -1,4 +1,4 @@
-"""`part-of`: parthood from joints, kinds, classes and fit. A group prim is no whole."""
+"""`part-of`: parthood from joints, kinds, classes and fit. A group prim is not a whole."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -21,7 +21,7 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _MOVING = frozenset({"revolute", "prismatic", "spherical"})
-"""Joint types between a part and its body; a fixed joint may just anchor a robot to the floor."""
+"""Joint types that connect a part to its whole; a fixed joint may just anchor a robot to the floor."""
 _PART_KIND = "subcomponent"
 
 
@@ -37,7 +37,7 @@ class PartLinks(NamedTuple):
 
 
 def find_parts(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, rule: PartOfRule) -> PartLinks:
-    """Return the `part-of` links; each object has one whole at most."""
+    """Return the `part-of` links; each object has at most one whole."""
     is_whole = ~classes.are_in("not_wholes")
     number = {obj.prim_path: index for index, obj in enumerate(scene.objects)}
     stated: dict[int, int] = {}

@@ -13,8 +13,8 @@ __all__ = ["has_protrusion"]
 def has_protrusion(boxed: BoxedObjects, rules: RelationRules) -> NDArray[np.bool_]:
     """Return for each object whether something thin protrudes above its broad top.
 
-    Nothing rests on or touches the top of its box then. The broad top is in the upper third: the rim of a pot rises
-    above its bottom and still supports a lid.
+    If so, nothing rests on or touches the top of its box. The broad top must be in the upper third: the rim of a pot
+    rises above its bottom and still supports a lid.
     """
     return np.array([_has_protrusion(obj, rules) for obj in boxed.objects], np.bool_)
 

@@ -1,4 +1,4 @@
-"""Numerical accuracy of relations, one class per section of `knowledge/settings/relations.toml`."""
+"""Numerical settings of relation finding, one class per section of `knowledge/settings/relations.toml`."""
 
 from dataclasses import dataclass
 

@@ -26,7 +26,7 @@ class StrongerRelations:
         self.frame = containment.container.copy()
         """The whole of each object, else its container; -1 for neither."""
         self.supporter = np.full(len(boxed), -1)
-        """The supporter of each object, one of several; -1 for none."""
+        """One supporter of each object; -1 for none."""
         self._part_keys = np.concatenate([self._keep_parts(*boxed_ends(boxed, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
         moved, _ = boxed_ends(boxed, parts.stated)
@@ -53,7 +53,7 @@ class StrongerRelations:
         return links.where(~self._are_related(links.target, links.anchor))
 
     def in_same_frame(self, pairs: NearbyPairs) -> NearbyPairs:
-        """Return the pairs with the same whole or container, or without any."""
+        """Return the pairs with the same whole or container, or with neither."""
         return select_rows(pairs, self.frame[pairs.one] == self.frame[pairs.other])
 
     def drop_related(self, pairs: NearbyPairs) -> NearbyPairs:

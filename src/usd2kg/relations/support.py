@@ -55,8 +55,8 @@ def find_support(
 ) -> list[Links]:
     """Return the `on` links: with one anchor, with several that bear the target jointly, or across a small gap.
 
-    The surface that begins highest wins: a book on a tray on a table is on the tray. An object inside a container
-    only rests on objects in the same container, and not on the container itself.
+    The surface with the highest underside wins: a book on a tray on a table is on the tray. An object inside a
+    container only rests on objects in the same container, and not on the container itself.
 
     Args:
         boxed: the objects.
@@ -81,7 +81,7 @@ def find_support(
     )
     is_left[several.target] = False
     is_left &= container < 0
-    # The box around all walls of a house says nothing about their places.
+    # The box of a mesh of several walls does not locate the walls.
     is_wall = classes.are_in("walls")[boxed.scene_index] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
     is_left[_near_walls(boxed, np.flatnonzero(is_left), is_wall, rules)] = False
     return [single, several, _hovering(boxed, surfaces, select_rows(near, is_left[near.target]), rules)]
@@ -102,7 +102,7 @@ def _support_surfaces(boxed: BoxedObjects, can_support: Mask, rules: RelationRul
     lower, upper = corners_of(boxes)
     number, level = np.array(owner, np.int64), np.array(is_level, np.bool_)
     thickness = upper[:, 2] - lower[:, 2]
-    # A level has no thickness of its own: it begins where the object begins, below whatever is on it.
+    # A level has no thickness of its own: its underside is that of the object, below whatever is on it.
     lower[level, 2] = boxed.lower[number[level], 2]
     # Objects may penetrate a sheet, such as a floor without thickness.
     is_sheet = ~level & (boxed.size[number, 2] < rules.geometry.sheet_thickness)
@@ -128,7 +128,7 @@ def _find_contacts(
             (owner != target)
             & (gap <= highest[target])
             & (-gap <= may_sink)
-            # A supporter begins below the target's bottom; objects beside it do not.
+            # The underside of a supporter is below the target's bottom; that of an object beside it is not.
             & (surfaces.lower[number, 2] < boxed.lower[target, 2])
             & (container[owner] == container[target])
         )
@@ -149,7 +149,7 @@ def _on_single(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts, ru
     fits = boxed.area[contacts.target] < rule.max_area_ratio * surfaces.area[contacts.surface]
     best = _best(boxed, surfaces, select_rows(contacts, (contacts.ratio > rule.min_overlap_ratio) & fits))
     is_round = is_on_cycle(_pointers(boxed, surfaces, best), best.target)
-    # Of two sheets at one height, each sunk into the other, the larger one carries.
+    # If two sheets at the same height support each other, the larger one is the supporter.
     best = select_rows(best, ~is_round | (boxed.area[best.target] < surfaces.area[best.surface]))
     best = select_rows(best, ~is_on_cycle(_pointers(boxed, surfaces, best), best.target))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
@@ -163,7 +163,7 @@ def _pointers(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> 
 
 
 def _best(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> _Contacts:
-    """Return the surface of each target that begins highest; rounded, so that translations change nothing."""
+    """Return each target's contact with the surface whose underside is highest."""
     owner, lowest = surfaces.owner[contacts.surface], surfaces.lower[contacts.surface, 2]
     keys = (boxed.rank[owner], -rounded(contacts.ratio), rounded(np.abs(contacts.gap)), -rounded(lowest))
     return select_rows(contacts, first_of_each_group(contacts.target, keys))

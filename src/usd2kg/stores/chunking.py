@@ -55,7 +55,7 @@ def group_by_blank_nodes(triples: Sequence[ox.Triple]) -> list[list[ox.Triple]]:
 
 
 def _blanks(triple: ox.Triple) -> list[str]:
-    """Return the labels of the blank nodes in a triple, including those of a quoted triple."""
+    """Return the labels of the blank nodes in a triple, including those of a triple term."""
     found = []
     for term in (triple.subject, triple.object):
         if isinstance(term, ox.BlankNode):

@@ -25,7 +25,7 @@ __all__ = ["EmbeddedStore"]
 logger = logging.getLogger(__name__)
 
 _ROCKSDB_FILE = "CURRENT"
-"""Present in every Oxigraph folder."""
+"""A file in every Oxigraph folder."""
 _STORE_FILES = re.compile(
     r"usd2kg\.(lock|pending|damaged).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
 )
@@ -115,7 +115,7 @@ class EmbeddedStore:
         """Return the answer to a query over the union of the given graphs.
 
         Raises:
-            GraphError: the query does not parse, or is an update.
+            GraphError: the query does not parse, is an update, is too complex, or contacts another server.
             StoreError: the folder is not a store, or another process writes to it.
         """
         return self.fetch(graphs).sparql(sparql)
@@ -169,7 +169,7 @@ class EmbeddedStore:
                 "created"
             )
         if (self._folder / PENDING_NAME).exists():
-            # Another process has died while loading, or is still loading; the lock tells which.
+            # Another process died while loading, or is still loading; the lock distinguishes the two.
             self.check()
         with lock_shared(self._folder, self._wait_s), self._damage_reported():
             try:

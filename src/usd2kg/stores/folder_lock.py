@@ -1,4 +1,4 @@
-"""Lock of a folder: one writer or many readers, on every platform, released when a process dies."""
+"""Lock on a folder: one writer or many readers, on every platform, released when a process dies."""
 
 import sqlite3
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ LOCK_NAME = "usd2kg.lock"
 
 @contextmanager
 def lock_exclusive(folder: Path, seconds: float) -> Iterator[None]:
-    """Hold a folder exclusively; wait up to `seconds` for other processes.
+    """Lock a folder exclusively; wait up to `seconds` for other processes.
 
     Raises:
         StoreError: another process still uses the folder, or it is not writable.
@@ -31,14 +31,14 @@ def lock_exclusive(folder: Path, seconds: float) -> Iterator[None]:
 
 @contextmanager
 def lock_shared(folder: Path, seconds: float) -> Iterator[None]:
-    """Hold a folder against writers; wait up to `seconds` for a writer.
+    """Lock a folder against writers; wait up to `seconds` for a writer.
 
     Raises:
         StoreError: a writer still uses the folder.
     """
     path = folder / LOCK_NAME
     if not path.exists():
-        # Without a lock file no writer of ours ever used the folder, which may be read-only.
+        # Without a lock file, usd2kg has never written to the folder, which may be read-only.
         yield
         return
     with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, timeout=seconds)) as lock:

@@ -25,7 +25,7 @@ __all__ = ["HttpRequest", "HttpResponse", "OutcomeUnknownError", "SparqlClient"]
 logger = logging.getLogger(__name__)
 
 _TRANSIENT = frozenset({429, 500, 502, 503, 504})
-"""Status codes that are worth a retry."""
+"""Status codes of failures that may be transient."""
 _NOT_PROCESSED = frozenset({429, 503})
 """Status codes of a server that rejected the request before processing it."""
 _BLOCK_BYTES = 1 << 20
@@ -52,7 +52,7 @@ class HttpRequest:
 
     @property
     def shown_url(self) -> str:
-        """The address for messages."""
+        """The address without secrets, for messages."""
         return redact_address(self.url)
 
 
@@ -66,18 +66,18 @@ class HttpResponse:
 
 
 class _TransientError(Exception):
-    """A failure that is worth a retry."""
+    """A failure that may be transient."""
 
     def __init__(self, reason: str, *, may_be_processed: bool, pause_s: float | None = None) -> None:
         super().__init__(reason)
         self.may_be_processed = may_be_processed
         """Whether the server may have processed the request."""
         self.pause_s = pause_s
-        """Pause that the server requests; None if it does not say."""
+        """Pause in seconds that the server requests; None if it requests none."""
 
 
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
-    """Follows no redirects: credentials and scenes must not go to a server that the user did not name."""
+    """Does not follow redirects: credentials and scenes must not go to a server that the user did not name."""
 
     # `redirect_request` is too late: the base class parses the new address first, and fails if it is malformed.
     def http_error_302(self, req: object, fp: object, code: object, msg: object, headers: object) -> None:
@@ -151,7 +151,7 @@ class SparqlClient:
             self._has_warned = True
 
     def _pause(self, attempt: int, requested_s: float | None) -> float:
-        """Return seconds to wait: what the server requests, else an exponential backoff with jitter."""
+        """Return the pause in seconds: what the server requests, at most `max_pause_s`, else backoff with jitter."""
         if requested_s is not None:
             return min(requested_s, self._limits.max_pause_s)
         longest: float = self._limits.first_pause_s * 2**attempt
@@ -160,7 +160,7 @@ class SparqlClient:
     def _read(
         self, request: HttpRequest, status: int, response: http.client.HTTPResponse | urllib.error.HTTPError
     ) -> HttpResponse:
-        """Return a response, decompressed block by block, since a small body can expand beyond the memory."""
+        """Return a response, decompressed block by block, since a small body can expand beyond available memory."""
         is_gzip = response.headers.get("Content-Encoding", "").lower() == "gzip"
         source = gzip.GzipFile(fileobj=response) if is_gzip else response
         body = bytearray()

@@ -12,7 +12,7 @@ __all__ = ["Select", "StoredGraph", "choose_graph", "list_graphs", "read_number"
 Select = Callable[[str], list[dict[str, str | None]]]
 """Runs a SELECT over all graphs of a store and returns rows: variable → text."""
 
-# Each graph of ours states that it is an ontology with its own IRI. That excludes graphs of other programs and
+# Each usd2kg graph declares itself an owl:Ontology with its own IRI. That excludes graphs of other programs and
 # unfinished uploads without reading them.
 _GRAPHS = f"""
 SELECT ?g (SAMPLE(?l) AS ?label) (SAMPLE(?r) AS ?run) WHERE {{

@@ -65,7 +65,7 @@ def is_store(place: str) -> bool:
 
 
 def open_store(place: str, *, update: str | None = None, data: str | None = None) -> SceneStore:
-    """Return the store in a folder or at an address; `update` and `data` are other endpoints of the server.
+    """Return the store in a folder or at an address; `update` and `data` are endpoints not to be discovered.
 
     Raises:
         StoreError: the address or the credentials in the environment are invalid.

@@ -66,7 +66,7 @@ def set_aside_damaged(folder: Path) -> bool:
 
 
 def _find_damage(path: Path) -> str | None:
-    """Return what is wrong with a pending file; None if it is complete."""
+    """Return how a pending file is damaged; None if it is complete."""
     if not path.is_file():
         return "it is not a file"
     with path.open("rb") as file:

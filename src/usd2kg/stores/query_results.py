@@ -1,4 +1,4 @@
-"""Conversion between our answers and the SPARQL protocol of servers."""
+"""Conversion of queries and answers to and from the SPARQL Protocol."""
 
 import re
 

@@ -36,7 +36,7 @@ _TRIPLES = "application/n-triples"
 
 
 class _UploadLostError(StoreError):
-    """The server holds other triples than were sent; the upload must start again."""
+    """The server does not hold exactly the triples that were sent; the upload must start again."""
 
 
 class RemoteStore:

@@ -24,7 +24,7 @@ def check_address(url: str) -> str:
         StoreError: the address is invalid, or contains a password; the message does not contain the password.
     """
     shown = redact_address(url)
-    # The limits of a password in a malformed address are unclear, so reject every @.
+    # Where a password begins and ends in a malformed address is ambiguous, so reject every @.
     if "@" in url:
         raise StoreError(
             f"store {shown}: its address contains a user or password before an @, which would appear in logs; set "

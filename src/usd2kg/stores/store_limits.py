@@ -11,15 +11,15 @@ class HttpLimits:
     """Limits of requests to a server."""
 
     timeout_s: float = 120.0
-    """Time without any data from the server."""
+    """Longest time without any data from the server."""
     attempts: int = 5
     """Attempts for a request whose failure may be transient."""
     first_pause_s: float = 0.5
-    """Longest pause after the first failure; doubles with each further one."""
+    """Longest pause after the first failure; doubles with each further failure."""
     max_pause_s: float = 30.0
     """Longest pause that a server can request by Retry-After."""
     max_response_bytes: int = 1 << 30
-    """Size of an uncompressed response: about 7 million triples."""
+    """Size of a response after decompression: about 7 million triples."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class UploadLimits:
     attempts: int = 3
     """Attempts for a chunk, for the final move, and for the whole upload."""
     stale_after: timedelta = timedelta(days=1)
-    """Age from which an unfinished upload is considered dead and removed."""
+    """Age at which an unfinished upload is considered dead and removed."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from usd2kg.ontology.components import Components, find_components
 __all__ = ["Alternatives", "AxiomIndex", "Disjointness"]
 
 Alternatives = tuple[str, ...]
-"""IRIs of a class, or of the members of a union."""
+"""IRI of a class, or IRIs of the members of a union."""
 _CLASS_KINDS = {OWL.Class, RDFS.Class}
 _LANGUAGES = ("en", "")
 
@@ -172,7 +172,7 @@ class AxiomIndex:
         return frozenset(named | {inverse for iri in named for inverse in self._inverses.get(iri, ())})
 
     def ends(self, iri: str, *, is_subject: bool) -> list[tuple[str, Alternatives]]:
-        """Return the domains of a property, or its ranges, including inherited and inverse ones.
+        """Return the domains (`is_subject`) or ranges of a property, including those of superproperties and inverses.
 
         Returns:
             Pairs of the property with the axiom (`iri`, a superproperty or an inverse) and the alternatives.
@@ -213,6 +213,6 @@ class AxiomIndex:
         return ranked[0][1] if ranked else compact_iri(iri)
 
     def named(self, iri: str) -> str:
-        """Return the label and the CURIE or IRI of a term, “Cup” (soma:Cup); without a label only the latter."""
+        """Return the label and the CURIE or IRI of a term: “Cup” (soma:Cup); only the latter if it has no label."""
         label, short = self.label(iri), compact_iri(iri)
         return short if label == short else f"“{label}” ({short})"

@@ -50,7 +50,7 @@ def find_clashes(
 
 
 def _types(store: ox.Store) -> dict[Any, _Types]:
-    """Return individual → its classes; equal sets are the same object, which makes hashing cheap."""
+    """Return individual → its classes; equal sets are the same Python object, whose hash is computed once."""
     known: dict[_Types, _Types] = {}
     found = {}
     for node, values in values_of(store, RDF.type).items():
@@ -120,7 +120,7 @@ def _unfit(
 def _verdict(
     axioms: AxiomIndex, iri: str, end: str, own: _Types, demands: list[tuple[str, tuple[str, ...]]]
 ) -> tuple[str, str] | None:
-    """Return the found and expected texts if all alternatives of a domain or range are disjoint with a class."""
+    """Return the texts found and expected if a class is disjoint with all alternatives of a domain or range."""
     for stated, alternatives in demands:
         for cls in sorted(own):
             clashes = [(other, axioms.clash(cls, other)) for other in alternatives]

@@ -1,4 +1,4 @@
-"""ask_elk: check the consistency of a graph with its ontology by the reasoner ELK, in a Java subprocess.
+"""ask_elk: check whether a graph is consistent with its ontology, by the reasoner ELK in a Java subprocess.
 
 ELK (Kazakov, Krötzsch and Simančík, The Incredible ELK, 2014) decides OWL 2 EL and ignores axioms beyond it. An
 inconsistency that it reports is real; a graph that it calls consistent can still contradict an ignored axiom.

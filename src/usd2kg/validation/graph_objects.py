@@ -1,4 +1,4 @@
-"""GraphObject: the objects of a graph as records, from either profile."""
+"""GraphObject: the objects of a graph in either profile as records."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -16,7 +16,7 @@ _GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
 _MAX_EXTENT = 100_000.0
 """Metres; the limit of the shapes in `shapes-*.ttl`."""
 _MAX_STEPS = 4
-"""Properties between an object and the farthest node that belongs to it: joint limits and box regions."""
+"""Number of properties between an object and the farthest nodes that belong to it: joint limits and box regions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,14 +31,14 @@ class GraphObject:
     size: Vector | None
     """Extents of the world box along x, y and z, metres."""
     center: Vector | None
-    """Of the world box, metres, world frame."""
+    """Centre of the world box, metres, world frame."""
     oriented_size: Vector | None
     """Extents along the object's own axes, metres; None if those are the world's."""
     orientation: tuple[float, ...] | None
     """Quaternion x y z w."""
     mass_kg: float | None
     confidence: float | None
-    """Of its class, 0 to 1."""
+    """Confidence of the class, 0 to 1; None if it has none."""
     supporters: tuple[str, ...]
     """IRIs of the objects that it is on, sorted."""
     containers: tuple[str, ...]

@@ -112,7 +112,7 @@ def _support_smaller(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObj
 
 
 def _has_legs(scene: CheckedScene, obj: GraphObject) -> bool:
-    """Return whether an object is on several supporters that are all smaller: a table top can have slim legs."""
+    """Return whether an object is on several supporters that are all smaller, as a table top on slim legs."""
     supports = [scene.by_iri[iri] for iri in obj.supporters if iri in scene.by_iri]
     return len(supports) > 1 and all(
         support.size is not None and obj.size is not None and _volume(support.size) < _volume(obj.size)
@@ -138,7 +138,7 @@ def _support_odd(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject,
 
 
 def _inside_smaller(scene: CheckedScene, rule: Rule) -> Iterator[tuple[GraphObject, str, str]]:
-    """Yield objects too large for their container. The longest extent is ignored, since spoons stick out of pots."""
+    """Yield objects too large for their container; the longest extent alone is no reason: spoons stick out of pots."""
     slack, ratio = rule.number("slack"), rule.number("volume_ratio")
     for obj in scene.objects:
         for container in (scene.by_iri[iri] for iri in obj.containers if iri in scene.by_iri):

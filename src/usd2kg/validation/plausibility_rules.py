@@ -1,4 +1,4 @@
-"""Rules of plausibility: `plausibility.toml`, with a user's overrides."""
+"""Plausibility rules: `plausibility.toml` with a user's overrides."""
 
 import math
 import tomllib
@@ -44,7 +44,7 @@ Rules = Mapping[str, Rule]
 
 
 def read_rules(path: Path | str | None = None) -> Rules:
-    """Return the rules of plausibility, with single values overridden by the TOML file at `path`.
+    """Return the plausibility rules, with single values overridden by the TOML file at `path`.
 
     Raises:
         GraphError: the file cannot be read, or contains an unknown table or key, or a value of the wrong type.

@@ -1,8 +1,8 @@
 """Compile the package's SHACL shapes to SPARQL, which is much faster than a SHACL processor.
 
-Supported is the subset of SHACL Core that those shapes use: targets by class, subjects and objects of a property;
-predicate, sequence and inverse paths; counts, bounds, patterns, node kinds, lessThanOrEquals, qualified shapes with
-sh:class or sh:not sh:in, and sh:or of properties with a minimum count.
+The compiler supports the subset of SHACL Core that those shapes use: targets by class, subjects and objects of a
+property; predicate, sequence and inverse paths; counts, bounds, patterns, node kinds, lessThanOrEquals, qualified
+shapes with sh:class or sh:not sh:in, and sh:or of properties with a minimum count.
 """
 
 from collections.abc import Iterator

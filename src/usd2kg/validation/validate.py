@@ -1,4 +1,4 @@
-"""validate_graph: check a graph against shapes, its ontology and rules of plausibility."""
+"""validate_graph: check a graph against shapes, its ontology and plausibility rules."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ _CORRECT_STATEMENT = "Correct the class with a decision (usd2kg build --decision
 
 @dataclass(frozen=True)
 class ValidationReport:
-    """The findings of a graph."""
+    """The findings about a graph."""
 
     profile: str
     objects: int
@@ -40,7 +40,7 @@ class ValidationReport:
 
 
 def ontology_of(graph: GraphStore) -> str | None:
-    """Return the IRI of the ontology that a graph states to be grounded to; None if it states none."""
+    """Return the IRI of the ontology that a graph was grounded to; None if the graph does not state it."""
     return next((value.value for values in values_of(graph.store, U2K.ontologyIri).values() for value in values), None)
 
 
@@ -61,7 +61,7 @@ def validate_graph(
         graph: the graph.
         closure: the ontology that its objects were grounded to, with its imports; without it, contradictions with the
             ontology are not checked, and superclasses are those in the graph.
-        rules: the rules of plausibility; by default those of `plausibility.toml`.
+        rules: the plausibility rules; by default those of `plausibility.toml`.
         answer: the result of a reasoner, see `ask_elk`; None for no reasoner.
 
     Raises:
@@ -119,7 +119,7 @@ class _Run:
             )
 
     def implausible(self, rules: Rules) -> Iterator[Finding]:
-        """Yield the violations of the rules of plausibility."""
+        """Yield the violations of the plausibility rules."""
         calibrated = values_of(self._store, U2K.isCalibrated).values()
         has_probabilities = not any(value.value in {"false", "0"} for values in calibrated for value in values)
         scene = CheckedScene(self.objects, ObjectClasses(self._store, self._axioms, self.objects), has_probabilities)

@@ -15,7 +15,7 @@ class Agreement(NamedTuple):
     """Agreement on the prims that both annotators labelled."""
 
     n: int
-    """Number of these prims."""
+    """Number of prims that both annotators labelled."""
     exact: float
     """Share with the same class."""
     kappa: float | None

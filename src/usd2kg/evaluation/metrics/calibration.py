@@ -25,7 +25,7 @@ class ReliabilityBin:
 
 
 def reliability_bins(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> tuple[ReliabilityBin, ...]:
-    """Return the non-empty bins of equal width, lowest first; objects without an answer are in none."""
+    """Return the non-empty bins of equal width, lowest first, without the answers that have no confidence."""
     members: dict[int, list[Score]] = {}
     for score in scores:
         if score.confidence is not None:
@@ -45,7 +45,7 @@ def _bin(index: int, bins: int, members: list[Score]) -> ReliabilityBin:
 
 
 def calibration_error(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> float | None:
-    """Return the expected calibration error Σ (n_b / n) |accuracy_b - confidence_b|; None without answers.
+    """Return the expected calibration error Σ (n_b / n) |accuracy_b - confidence_b|; None without confidences.
 
     Guo et al. 2017, On Calibration of Modern Neural Networks, equation 3.
     """
@@ -57,8 +57,8 @@ def calibration_error(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> f
 def risk_coverage_curve(scores: Sequence[Score], *, accepting: bool = False) -> tuple[tuple[float, float], ...]:
     """Return the points (coverage, risk) as the confidence threshold falls; ties enter together.
 
-    Coverage is the share of all objects whose answer is accepted, risk the share of wrong answers among these. Objects
-    without an answer are never covered.
+    Coverage is the share of all objects whose answer reaches the threshold, risk the share of wrong answers among
+    these. Answers without a confidence are never covered.
 
     Args:
         scores: the scores.

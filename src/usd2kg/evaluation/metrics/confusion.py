@@ -23,12 +23,12 @@ class ClassReport:
 
     @property
     def precision(self) -> float | None:
-        """Share of its answers that are right; None if it was never answered."""
+        """Share of its answers that are right; None if it was never the answer."""
         return self.correct / self.answered if self.answered else None
 
     @property
     def recall(self) -> float | None:
-        """Share of its objects that were found; None if there are none."""
+        """Share of the objects with this target that have this answer; None if there are none."""
         return self.correct / self.support if self.support else None
 
 

@@ -20,7 +20,7 @@ class SelectionScore(NamedTuple):
 
 
 def score_selection(selected: Iterable[str], labelled: Iterable[str]) -> SelectionScore:
-    """Return recall and precision of a selection of prim paths.
+    """Return the recall and precision of a selection of prim paths.
 
     Raises:
         ValueError: nothing is labelled.

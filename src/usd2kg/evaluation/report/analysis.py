@@ -89,7 +89,7 @@ def name_counts(scores: Iterable[Score]) -> tuple[tuple[str, int], ...]:
 
 
 class SizeDistinctive(NamedTuple):
-    """The objects that are recognised by the size of their box alone."""
+    """The objects that are grounded correctly by the size of their box alone."""
 
     found: tuple[Score, ...]
     """Right from geometry alone, but not without evidence; in gold order."""

@@ -16,9 +16,9 @@ class Table:
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     note: str = ""
-    """A caveat for the reader of the numbers."""
+    """A caveat, printed below the table; may be empty."""
     is_long: bool = False
-    """Whether formats that can fold a table should."""
+    """Whether to collapse the table in formats that support it."""
 
 
 @dataclass(frozen=True, slots=True)

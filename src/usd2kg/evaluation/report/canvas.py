@@ -21,7 +21,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 _LONGEST_LABEL = 40
 _SETTINGS: Mapping[Any, Any] = {
     "svg.hashsalt": "usd2kg",
-    # Keep text as text: sharp, searchable, and rendered with the viewer's fonts if ours lacks a script.
+    # Keep text as text: sharp, searchable, and rendered with the viewer's fonts if this font lacks a script.
     "svg.fonttype": "none",
     # A dollar sign in a name must not start a formula.
     "text.parse_math": False,

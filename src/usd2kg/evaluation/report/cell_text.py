@@ -59,7 +59,7 @@ def p_value_text(value: float) -> str:
 
 
 def significant_digits(value: float, digits: int = 2) -> str:
-    """Return a number with some significant digits and no exponent.
+    """Return a number with at most `digits` significant digits and no exponent.
 
     >>> significant_digits(0.0000134), significant_digits(12.3)
     ('0.000013', '12')

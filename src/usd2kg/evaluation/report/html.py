@@ -53,7 +53,7 @@ def escape_html(text: str) -> str:
 
 
 def format_html(title: str, sections: Sequence[Section]) -> str:
-    """Return the page."""
+    """Return the report as an HTML page."""
     contents = " ".join(f'<a href="#s{i}">{escape_html(s.title)}</a>' for i, s in enumerate(sections, 1))
     body = "\n".join(_section(section, index) for index, section in enumerate(sections, 1))
     return (

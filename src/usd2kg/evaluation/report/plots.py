@@ -71,7 +71,7 @@ def _mean_ema(repeats: Sequence[CellResult]) -> float:
 
 
 def plot_ablation(result: SceneResult, file: str) -> Figure | None:
-    """Return bars of EMA by condition, with one panel for the study's conditions and one for ours.
+    """Return bars of EMA by condition, with one panel each for `STUDY_ABLATION` and `OWN_ABLATION`.
 
     None if no ablation was run.
     """

@@ -108,7 +108,7 @@ def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
 
 
 def timing_table(results: Sequence[SceneResult]) -> Table:
-    """Return seconds per object of each method and regime; the only table that differs between equal runs."""
+    """Return seconds per object of each method and regime; the only table that differs between identical runs."""
     rows = []
     for result in results:
         runs = group_repeats(result)
@@ -142,7 +142,7 @@ def ablation_table(result: SceneResult) -> Table | None:
 
 
 def own_ablation_table(result: SceneResult) -> Table | None:
-    """Return our conditions × methods, under authored names; None if none was run."""
+    """Return the conditions of `OWN_ABLATION` × methods, under authored names; None if none was run."""
     if not _has_any(result, OWN_ABLATION):
         return None
     rows = tuple(_ablation_row(result, condition) for condition in OWN_ABLATION)

@@ -16,8 +16,8 @@ _HEAD = """<?xml version="1.0" encoding="UTF-8"?>
 def graphml_pieces(graph: PropertyGraph) -> Iterator[bytes]:
     """Yield the file in chunks.
 
-    Node keys include `label`, the name that viewers show, and `labels`, the classes (`:Object:Crockery:Cup`); the
-    `label` of an edge is its type. Characters that are illegal in XML become U+FFFD.
+    Node keys include `label`, the name that viewers show, and `labels`, the node labels (`:Thing:Object:Crockery:Cup`);
+    the `label` of an edge is its type. Characters that are illegal in XML become U+FFFD.
     """
     nodes = {"label": str, "labels": str, **graph.property_types(of_edges=False)}
     edges = {"label": str, **graph.property_types(of_edges=True)}

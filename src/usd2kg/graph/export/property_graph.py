@@ -41,7 +41,7 @@ class PropertyNode(NamedTuple):
     id: str
     """IRI."""
     labels: tuple[str, ...]
-    """`Thing`, then `Object`, `Room` or `Joint`, then the superclasses and the class, most general first."""
+    """`Thing`, then `Object`, `Room` or `Joint`, then the joint type, or superclasses and class, most general first."""
     properties: Mapping[str, Value]
     """Metres, kilograms and radians; world frame, z-up."""
 
@@ -169,7 +169,7 @@ class _NodeReader:
         return self._named(node, U2K.definingPrim) | self._measured(node)
 
     def _joint_labels(self, node: ox.NamedNode) -> tuple[str, ...]:
-        """Return the joint type as a label that both profiles share."""
+        """Return the joint type as at most one label that both profiles share."""
         kinds = {_text(kind).rpartition("#")[2] for kind in self._graph.values(node, RDF.type)}
         kinds = {"RevoluteJoint" if kind in {"HingeJoint", "ContinuousJoint"} else kind for kind in kinds}
         own = ("RevoluteJoint", "PrismaticJoint", "FixedJoint", "SphericalJoint", "DistanceJoint")

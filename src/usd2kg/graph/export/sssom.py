@@ -73,7 +73,7 @@ def format_sssom(
         mapping_date: ISO date such as 2026-07-15; None omits it, which keeps the output reproducible.
 
     Raises:
-        GraphError: the base or the licence is no IRI, or the date is invalid.
+        GraphError: the base or the licence is not an absolute IRI, or the date is invalid.
     """
     base = check_base(base or default_base(grounding.scene))
     if named_node(license_iri) is None:

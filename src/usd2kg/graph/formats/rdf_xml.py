@@ -33,7 +33,7 @@ _RESERVED = {
     "parseType",
     "resource",
 }
-"""Local names of the RDF namespace that are no property elements (RDF 1.1 XML Syntax, section 6.2)."""
+"""Local names of the RDF namespace that cannot be property elements (RDF 1.1 XML Syntax, section 6.2)."""
 _PREFIX = re.compile(r"[A-Za-z_][\w.-]*\Z", flags=re.ASCII)
 _SUBJECTS = 10_000
 """Runs of triples per chunk."""
@@ -116,7 +116,7 @@ def _reference(node: ox.NamedNode | ox.BlankNode | ox.Triple, attribute: str) ->
 
 
 def _node_id(label: str) -> str:
-    """Return an NCName for a blank node label, injectively."""
+    """Return an NCName for a blank node label; different labels have different names."""
     found = _NAME.match(label)
     is_name = found is not None and not found[1] and not label.startswith("b_")
     return label if is_name else f"b_{label}"

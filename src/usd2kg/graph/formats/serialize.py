@@ -48,7 +48,7 @@ def graph_format(path: Path) -> GraphFormat:
 
 
 def serialize_graph(graph: KnowledgeGraph | GraphDocument, rdf_format: ox.RdfFormat) -> bytes:
-    """Return the graph in an RDF syntax, deterministically.
+    """Return the graph in an RDF syntax; the same graph gives the same bytes.
 
     Raises:
         GraphError: the syntax cannot represent the graph.

@@ -53,14 +53,14 @@ class Question:
 
     id: str
     text: str
-    """In English, with the parameters in braces."""
+    """The question in English, with the parameters in braces."""
     parameters: tuple[Parameter, ...]
     note: str
     """Method and limits of the answer; may be empty."""
     sparql: str
 
     def fill(self, given: Mapping[str, str]) -> dict[Parameter, str]:
-        """Return the value of each parameter, as text.
+        """Return parameter → value as text, with defaults for omitted parameters.
 
         Raises:
             GraphError: a parameter is unknown, or one without a default is missing.
