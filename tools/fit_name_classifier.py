@@ -21,7 +21,7 @@ from sklearn.pipeline import make_pipeline
 
 from tools.data_files import DATA
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
-from usd2kg.grounding.lexical.concepts.name_classifier import features_of
+from usd2kg.grounding.lexical.concepts.name_classifier import name_features
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 
 OUTPUT = DATA / "name_classifier.npz"
@@ -50,7 +50,7 @@ def read_vocabulary() -> tuple[list[dict[str, float]], list[str]]:
     """Return the features and the class of each name."""
     singular = load_taxonomy().singular
     rows = [(name.lower().split(), iri) for iri, names in home_names().items() for name in names]
-    features = [features_of((*modifiers, singular(head))) for (*modifiers, head), _ in rows]
+    features = [name_features((*modifiers, singular(head))) for (*modifiers, head), _ in rows]
     counts = Counter(name for found in features for name in found)
     kept = [{k: v for k, v in found.items() if counts[k] >= MIN_COUNT} for found in features]
     return kept, [iri for _, iri in rows]

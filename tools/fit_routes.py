@@ -88,7 +88,7 @@ def read_nouns(names: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
         parents = tuple(labelled.obj.prim_path.split("/")[1:-1])
         read = matcher.head_candidates(reader.read(labelled.obj.name, parents), parents, labelled.obj.box.size)
         # Inverted names such as `plate_dinner` are looked up as a term.
-        ends = [(features, named) for _, features, named in read if not features.turned]
+        ends = [(features, named) for _, features, named in read if not features.inverted]
         if not ends:
             continue
         _, named = max(ends, key=lambda end: head_likelihood(end[0]))

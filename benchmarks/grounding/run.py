@@ -32,7 +32,7 @@ LOAD = """
 import resource, sys, time
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import load_home_tbox
-from usd2kg.scene import ObjectView
+from usd2kg.grounding import ObjectView
 
 imported = time.process_time()
 LexicalGrounder().ground_views([("/cup", ObjectView(name="coffee_mug"))], load_home_tbox())

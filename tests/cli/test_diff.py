@@ -104,7 +104,7 @@ def test_reports_versions_without_classes(run: Run, graph: Path, room: Path) -> 
     [
         (["--format", "xml"], "format 'xml' is unknown; expected one of text, json, sparql"),
         (["--graph", "https://my.lab/g"], "--graph names the graph of an update; use it with --format sparql"),
-        (["--graph", "g", "--format", "sparql"], "graph 'g' is no absolute IRI"),
+        (["--graph", "g", "--format", "sparql"], "graph 'g' is not an absolute IRI"),
         (["--relations", "on,under"], "relations: kind 'under' is unknown; expected a list of on, inside"),
         (["--moved", "-1"], "moved m -1.0: expected a number that is not negative"),
         (["-o", "no/such/file"], "the folder no/such does not exist"),

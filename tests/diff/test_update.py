@@ -168,5 +168,5 @@ def test_splits_a_large_update_into_operations() -> None:
 
 
 def test_rejects_a_graph_name_that_is_not_an_iri() -> None:
-    with pytest.raises(GraphError, match="'my graph' is no absolute IRI"):
+    with pytest.raises(GraphError, match="'my graph' is not an absolute IRI"):
         make_update([], [], "my graph")

@@ -99,7 +99,7 @@ class TestEvidence:
         prediction = ground_view(ObjectView(), home_tbox)
         assert local(prediction) == "DesignedArtifact"
         assert prediction.status is Status.SUPERCLASS
-        assert "DesignedArtifact is true of most things" in prediction.explanation
+        assert "DesignedArtifact applies to most objects" in prediction.explanation
         assert prediction.confidence < ground_view(ObjectView(name="Spoon"), home_tbox).confidence
 
     @pytest.mark.parametrize("name", ["xqzv_12", "pCube3", "polySurface12", "Box_0012"])
@@ -172,7 +172,7 @@ class TestNeighbours:
         assert local(prediction) in {"Dishwasher", "Stove"}
         assert prediction.evidence == ("geometry",)
         assert prediction.candidates[0].score < 0.5
-        assert "0.0 m above the ground, in what seems a kitchen, it is likeliest" in prediction.explanation
+        assert "0.0 m above the ground, in what seems a kitchen, it is most probably" in prediction.explanation
 
     def test_objects_of_unknown_class_do_not_vote_for_the_root(self):
         scene = make_scene(*(sized(f"/Quay/{name}", (0.4, 0.3, 0.2)) for name in ("qwrtzx_1", "Bollard", "Bollard_02")))

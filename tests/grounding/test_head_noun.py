@@ -24,12 +24,12 @@ def test_likelihood_is_the_exponential_of_the_weighted_sum():
     assert head_likelihood(HeadFeatures(behind=2.0, size=0.5)) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize(("name", "sign"), [("score", 1), ("compound", 1), ("size", 1), ("glued", -1), ("guessed", -1)])
+@pytest.mark.parametrize(("name", "sign"), [("score", 1), ("compound", 1), ("size_log_ratio", 1), ("glued", -1), ("corrected", -1)])
 def test_weights_have_the_expected_sign(name: str, sign: int):
     assert sign * WEIGHTS[name] > 0
 
 
-def test_propensity_is_the_log_odds_of_ending_a_compound():
+def test_last_log_odds_is_the_log_odds_of_ending_a_compound():
     names = [name.lower().split() for found in home_names().values() for name in found]
     ends = sum(1 for words in names if len(words) > 1 and words[-1] == "oil")
     within = sum(words[:-1].count("oil") for words in names)

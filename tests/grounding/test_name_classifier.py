@@ -3,17 +3,17 @@
 import pytest
 
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
-from usd2kg.grounding.lexical.concepts.name_classifier import features_of, likely_classes, similar_name
+from usd2kg.grounding.lexical.concepts.name_classifier import likely_classes, name_features, similar_name
 from usd2kg.ontology import TBox
 
 
 def test_features_are_words_hypernyms_and_letters():
-    features = features_of(("paprika", "shaker"))
+    features = name_features(("paprika", "shaker"))
     assert features["head shaker"] == features["modifier paprika"] == features["pair paprika shaker"] == 1.0
     assert features["ending ker"] == features["ending haker"] == 0.7
     assert features["beginning shak"] == 0.5
     assert features["head container"] in {1.0, 0.5}
-    assert not any(name.startswith("modifier") for name in features_of(("shaker",)))
+    assert not any(name.startswith("modifier") for name in name_features(("shaker",)))
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def test_there_is_a_weight_for_each_feature():
 
 @pytest.mark.parametrize(
     ("name", "sign"),
-    [("term", 1), ("label", 1), ("usual", 1), ("partial", -1), ("steps", -1), ("steps_to_root", -1), ("passed", -1)],
+    [("term", 1), ("label", 1), ("usual", 1), ("partial", -1), ("steps", -1), ("steps_to_general", -1), ("has_more_specific", -1)],
 )
 def test_weights_have_the_expected_sign(name: str, sign: int):
     assert sign * WEIGHTS[name] > 0
@@ -56,13 +56,13 @@ def test_a_label_is_a_route_without_steps():
     assert route.features == RouteFeatures(term=1.0, label=1.0, usual=1.0, log_below=0.0)
 
 
-def test_superclasses_of_a_reached_class_are_marked_as_passed():
-    passed = {route.class_iri: route.features.passed for route in routes_of("teacup")}
+def test_superclasses_of_a_reached_class_have_a_more_specific_class():
+    passed = {route.class_iri: route.features.has_more_specific for route in routes_of("teacup")}
     assert (passed[LAB + "Cup"], passed[LAB + "Artifact"]) == (0.0, 1.0)
 
 
-def test_steps_to_roots_are_counted_separately():
-    routes = [route for route in routes_of("teacup") if not route.features.counted]
+def test_steps_to_general_classes_are_a_feature_of_their_own():
+    routes = [route for route in routes_of("teacup") if not route.features.by_category]
     cup = next(route for route in routes if route.class_iri == LAB + "Cup")
     assert (cup.features.steps, cup.features.steps_to_root) == (1.0, 0.0)
     root = next(route for route in routes if route.class_iri == LAB + "Artifact")

@@ -46,7 +46,7 @@ def make_update(old: Iterable[ox.Triple], new: Iterable[ox.Triple], graph: str |
         GraphError: `graph` is not an absolute IRI.
     """
     if graph is not None and named_node(graph) is None:
-        raise GraphError(f"graph {graph!r} is no absolute IRI; expected one like https://my.lab/kitchen")
+        raise GraphError(f"graph {graph!r} is not an absolute IRI; expected one like https://my.lab/kitchen")
     with paused_collection():
         return _make_update(split_graph(old), split_graph(new), graph)
 

@@ -274,7 +274,7 @@ def _words(values: list[str]) -> set[str]:
 def _lint_name(name: str) -> Iterator[_Problem]:
     """Yield a problem if the name of a property is a misspelling of a label property."""
     if meant := meant_property(name):
-        yield _Problem("property-misspelt", name, f"{name} is no label that any tool reads", meant, "rename it")
+        yield _Problem("property-misspelt", name, f"{name} is not a label that any tool reads", meant, "rename it")
 
 
 def meant_property(name: str) -> str | None:

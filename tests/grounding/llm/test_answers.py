@@ -126,13 +126,13 @@ class TestClasses:
     @pytest.mark.parametrize(
         ("written", "problem"),
         [
-            ("Teacup", '"Teacup" is no class of the list'),
-            ("", '"" is no class of the list'),
+            ("Teacup", '"Teacup" is not a class of the list'),
+            ("", '"" is not a class of the list'),
             ("Vase", '"Vase" may mean onto:Vase or things:Vase'),
             ("Pan", '"Pan" may mean PAN or pan'),
-            (["Cup"], '"[\\"Cup\\"]" is no name of a class'),
-            (7, '"7" is no name of a class'),
-            ("a\n</objects>", '"a\\n\\u003c/objects\\u003e" is no class of the list'),
+            (["Cup"], '"[\\"Cup\\"]" is not a class name'),
+            (7, '"7" is not a class name'),
+            ("a\n</objects>", '"a\\n\\u003c/objects\\u003e" is not a class of the list'),
         ],
     )
     def test_an_unknown_class_is_unreadable(self, written: object, problem: str) -> None:
@@ -203,7 +203,7 @@ class TestRepair:
             + "\nAn earlier answer to this could not be used. What was wrong with it, quoted as data:\n"
             "<problems>\n"
             'the answer began: "{\\"1\\": \\"Cup\\", \\"2\\": \\"Tea\\\\n\\u003c/problems\\u003ecup\\"}"\n'
-            'object 2: "Tea\\n\\u003c/problems\\u003ecup" is no class of the list\n'
+            'object 2: "Tea\\n\\u003c/problems\\u003ecup" is not a class of the list\n'
             "object 3: the answer has no row for it\n"
             "</problems>\n"
             "Answer again for all of the objects, as one JSON object in the form above, "

@@ -53,8 +53,8 @@ class GroundingOptions(OptionBundle):
         str | None,
         Option(
             "--evidence",
-            help="Comma-separated evidence groups to use: name, geometry, position, hierarchy, asset, materials, "
-            "parts; default: all.",
+            help="Comma-separated evidence groups to use: name, geometry, position, hierarchy, asset, labels, "
+            "materials, neighbours, parts; default: all.",
         ),
     ] = None
     model: ModelOptions = field(default_factory=ModelOptions)

@@ -61,7 +61,7 @@ class DictionaryGrounder:
         try:
             iri = tbox.resolve(class_name)
         except OntologyError:
-            text = f"the dictionary says {class_name}, which is no class of the TBox"
+            text = f"the dictionary says {class_name}, which is not a class of the TBox"
             return Prediction(path, None, None, Status.UNREADABLE, self.name, text)
         text = f"“{view.name}” is in the dictionary as {class_name}"
         return Prediction(path, iri, 1.0, Status.GROUNDED, self.name, text, ("name",), (Candidate(iri, 1.0),))

@@ -19,7 +19,7 @@ SAME_SIZE = NEIGHBOURS.same_size
 R = TypeVar("R", bound=tuple[Any, ...])
 G = TypeVar("G")
 V = TypeVar("V")
-Vote = Callable[[str, tuple[str, ...], Vector | None], V | None]
+AskVote = Callable[[str, tuple[str, ...], Vector | None], V | None]
 """Returns the vote of an object by its name, the names above it and its extents; None for no vote."""
 
 
@@ -80,7 +80,7 @@ class _StageIndex:
         self.places: list[int] = []
         """Object → its index among its siblings."""
         self.log_extents = [None if size is None else _log_extents(size) for size in map(_size_of, scene.objects)]
-        self._votes: dict[Vote[Any], dict[int, Any]] = {}
+        self._votes: dict[AskVote[Any], dict[int, Any]] = {}
         for index, obj in enumerate(scene.objects):
             siblings = self.siblings.setdefault(_parent_path(obj), [])
             self.places.append(len(siblings))
@@ -103,7 +103,7 @@ class _StageIndex:
                 above = above.rpartition("/")[0]
         return frozenset(found)
 
-    def votes(self, vote: Vote[V]) -> dict[int, V | None]:
+    def votes(self, vote: AskVote[V]) -> dict[int, V | None]:
         """Return object → its vote, for those asked so far."""
         return self._votes.setdefault(vote, {})
 
@@ -140,7 +140,7 @@ class Neighbourhood:
         """Return the siblings and the objects of equal or similar size, each once."""
         return [self.neighbour(other, nearness, distance) for other, (nearness, distance) in self._find().items()]
 
-    def votes(self, vote: Vote[V]) -> list[tuple[V, Nearness, float | None, int]]:
+    def votes(self, vote: AskVote[V]) -> list[tuple[V, Nearness, float | None, int]]:
         """Return (vote, nearness, size distance, index in the scene) of each neighbour that votes.
 
         `vote` is called once for each object of the stage.

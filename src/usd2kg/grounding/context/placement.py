@@ -45,7 +45,7 @@ class PlacedObject(NamedTuple):
     appearance: Appearance
 
 
-Score = Callable[[PlacedObject], _Floats]
+ScoreObject = Callable[[PlacedObject], _Floats]
 """Returns scores of one object, always of the same shape."""
 
 
@@ -55,7 +55,7 @@ class FloorPlan:
     def __init__(self, scene: Scene) -> None:
         self._objects = scene.objects
         self._elevations: dict[int, float | None] = {}
-        self._scores: dict[tuple[Score, bool], NDArray[np.float32]] = {}
+        self._scores: dict[tuple[ScoreObject, bool], NDArray[np.float32]] = {}
 
     @cached_property
     def is_laid_out(self) -> bool:
@@ -98,7 +98,7 @@ class FloorPlan:
         kept = [not self._objects[other].prim_path.startswith(below) for other in others.tolist()]
         return others[kept], metres[kept]
 
-    def scores(self, score: Score, indices: _Indices, *, is_anonymous: bool) -> NDArray[np.float32]:
+    def scores(self, score: ScoreObject, indices: _Indices, *, is_anonymous: bool) -> NDArray[np.float32]:
         """Return the scores of objects with boxes, one row each; `score` is called once for each object."""
         known = self._scores.get((score, is_anonymous))
         missing = indices.tolist() if known is None else indices[np.isnan(known[indices, 0])].tolist()
@@ -200,7 +200,7 @@ class Placement:
         """Whether positions in the scene are meaningful, see `FloorPlan.is_laid_out`."""
         return self._plan.is_laid_out
 
-    def around(self, score: Score, most: int) -> tuple[NDArray[np.float32], _Floats]:
+    def around(self, score: ScoreObject, most: int) -> tuple[NDArray[np.float32], _Floats]:
         """Return the scores of the nearest objects, one row each, and the distances between box centres in metres.
 
         `score` is called once for each object of the scene. Descendants are left out: they have the object's name among

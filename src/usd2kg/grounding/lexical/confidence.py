@@ -10,6 +10,7 @@ from functools import lru_cache
 
 from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.concepts.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS
 from usd2kg.grounding.lexical.settings import CONFIDENCE
 from usd2kg.grounding.model import Prediction
 from usd2kg.knowledge import read_text
@@ -34,7 +35,6 @@ FEATURES = (
     "posterior",
 )
 """Names of the features."""
-_CONTEXT_GROUPS = frozenset({"neighbours", "geometry"})
 
 
 def general_class_log_odds(predictions: Iterable[Prediction], general: Container[ClassIRI]) -> float:
@@ -53,7 +53,7 @@ def general_class_log_odds(predictions: Iterable[Prediction], general: Container
 
 
 def _is_by_words(prediction: Prediction) -> bool:
-    return bool(prediction.evidence) and _CONTEXT_GROUPS.isdisjoint(prediction.evidence)
+    return bool(prediction.evidence) and CONTEXT_GROUPS.isdisjoint(prediction.evidence)
 
 
 def features_of(
@@ -87,7 +87,7 @@ def features_of(
     is_general = iri in general
     has_subclasses = iri is not None and bool(tbox.children[iri])
     is_foreign = iri is not None and iri not in home_names()
-    is_by_context = not _CONTEXT_GROUPS.isdisjoint(prediction.evidence)
+    is_by_context = not CONTEXT_GROUPS.isdisjoint(prediction.evidence)
     return {
         "intercept": 1.0,
         "score": first,

@@ -87,7 +87,7 @@ class ContextEvidence:
         where = "" if elevation is None else f", {elevation:.1f} m above the ground"
         among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
         label = self._tbox.by_iri[iri].readable_name
-        return f"its name does not say; of its size{where}{among}, it is likeliest {label}"
+        return f"its name does not identify it; by its size{where}{among}, it is most probably {label}"
 
     def score_neighbours(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes of neighbours with their share of the votes."""

@@ -8,7 +8,10 @@ from typing import NamedTuple
 from usd2kg.grounding.lexical.settings import COMBINATION
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["ScoredClass", "combine_evidence"]
+__all__ = ["CONTEXT_GROUPS", "ScoredClass", "combine_evidence"]
+
+CONTEXT_GROUPS = frozenset({"neighbours", "geometry"})
+"""Evidence groups of the context: other objects, or size and place."""
 
 
 class ScoredClass(NamedTuple):

@@ -11,7 +11,7 @@ from usd2kg.grounding.lexical.alignment.residual_class import is_residual
 from usd2kg.grounding.lexical.concepts.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
-from usd2kg.grounding.lexical.evidence_combination import ScoredClass, combine_evidence
+from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
@@ -22,8 +22,6 @@ from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 __all__ = ["ObjectGrounder"]
 
 _GROUNDER = "lexical"
-_CONTEXT_GROUPS = frozenset(["neighbours", "geometry"])
-"""Groups of evidence that are about other objects, or about size and place."""
 _NO_CLASS = "no class of the ontology"
 _OTHER_IRI = f"urn:usd2kg:{_NO_CLASS}"
 """IRI of a root added to TBoxes without a general class; it is never an answer."""
@@ -49,11 +47,11 @@ class ObjectGrounder:
         posterior = self._context.posterior_by_appearance(view)
         scored, word_score = self._score(view)
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
-            return self._default(prim_path, "what is known about it does not say what it is"), posterior
+            return self._default(prim_path, "the evidence does not determine its class"), posterior
         best = scored[0]
         if best.class_iri == _OTHER_IRI:
             return _refusal(prim_path, best.explain()), posterior
-        if best.group in _CONTEXT_GROUPS and self._is_fallback(best.class_iri):
+        if best.group in CONTEXT_GROUPS and self._is_fallback(best.class_iri):
             # Two unidentified objects are no evidence for each other.
             return self._default(prim_path, best.explain()), posterior
         scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != _OTHER_IRI}
@@ -100,14 +98,14 @@ class ObjectGrounder:
     def _default(self, prim_path: str, reason: str) -> Prediction:
         iri = self._lexicon.default_class
         if iri is None or iri == _OTHER_IRI:
-            return _refusal(prim_path, f"{reason}; {_NO_CLASS} is true of most things")
+            return _refusal(prim_path, f"{reason}; {_NO_CLASS} applies to most objects")
         return Prediction(
             prim_path=prim_path,
             class_iri=iri,
             confidence=EVIDENCE.default_confidence,
             status=Status.SUPERCLASS,
             grounder=_GROUNDER,
-            explanation=f"{reason}; {self._tbox.by_iri[iri].readable_name} is true of most things",
+            explanation=f"{reason}; {self._tbox.by_iri[iri].readable_name} applies to most objects",
             candidates=(Candidate(iri, EVIDENCE.default_confidence),),
         )
 

@@ -75,7 +75,7 @@ def _read_value(row: Any, batch: Batch, tbox: TBox) -> ParsedAnswer:
     if value is None:
         return ParsedAnswer(None, Status.REFUSED, reasoning, "the model named no class")
     if not isinstance(value, str):
-        return ParsedAnswer(None, Status.UNREADABLE, reasoning, f"{quote(json.dumps(value))} is no name of a class")
+        return ParsedAnswer(None, Status.UNREADABLE, reasoning, f"{quote(json.dumps(value))} is not a class name")
     class_iri, problem = _resolve(value.strip(), batch, tbox)
     if class_iri is None and value.strip().casefold() in _REFUSALS:
         return ParsedAnswer(None, Status.REFUSED, reasoning, f"the model named no class but {quote(value)}")
@@ -95,7 +95,7 @@ def _resolve(name: str, batch: Batch, tbox: TBox) -> tuple[ClassIRI | None, str]
     try:
         iri = tbox.resolve(name)
     except OntologyError:
-        return None, f"{quote(name)} is no class of the list"
+        return None, f"{quote(name)} is not a class of the list"
     if iri in batch.classes.values():
         return iri, ""
     return None, f"{quote(name)} is a class, but not one of the list"

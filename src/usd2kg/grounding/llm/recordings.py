@@ -44,7 +44,7 @@ def read_line(path: Path, number: int, line: bytes) -> CacheEntry:
             raise ValueError("the key is not that of its model and request")
     except UNREADABLE as error:
         raise GroundingError(
-            f"{path}: line {number} is no recorded completion ({error}); nothing was imported;"
+            f"{path}: line {number} is not a recorded completion ({error}); nothing was imported;"
             " expected the file as the cache exported it: export it again or remove the line"
         ) from error
     return entry

@@ -37,13 +37,13 @@ class RouteFeatures(NamedTuple):
     """Whether the sense is the noun's first; 1 for terms."""
     steps: float = 0.0
     """Hypernym steps to a class that is not general; 0 for categories."""
-    steps_to_root: float = 0.0
+    steps_to_general: float = 0.0
     """Hypernym steps to a general class; 0 for categories."""
-    counted: float = 0.0
+    by_category: float = 0.0
     """Whether the route is by a category."""
-    log_counted: float = 0.0
+    log_category_size: float = 0.0
     """Logarithm of the number of synsets in the category."""
-    passed: float = 0.0
+    has_more_specific: float = 0.0
     """Whether the same sense also leads to a subclass."""
     log_below: float = 0.0
     """Logarithm of the number of subclasses, the class included."""
@@ -121,10 +121,10 @@ class Routes:
                 partial=float(is_partial),
                 usual=float(is_usual),
                 steps=0.0 if is_general else counted_steps,
-                steps_to_root=counted_steps if is_general else 0.0,
-                counted=float(is_category),
-                log_counted=math.log(synset_count) if synset_count is not None else 0.0,
-                passed=float(iri in passed),
+                steps_to_general=counted_steps if is_general else 0.0,
+                by_category=float(is_category),
+                log_category_size=math.log(synset_count) if synset_count is not None else 0.0,
+                has_more_specific=float(iri in passed),
             )
             yield Route(iri, features, (synset, up, aligned))
 

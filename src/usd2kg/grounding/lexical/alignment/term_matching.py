@@ -37,7 +37,7 @@ class Match(NamedTuple):
     def explanation(self) -> str:
         """One sentence for a person."""
         words, corrections = self.phrase.words, self.phrase.corrections
-        behind = f" (the thing in “{' '.join(words)}”)" if words[self.end :] else ""
+        behind = f" (the head noun of “{' '.join(words)}”)" if words[self.end :] else ""
         read = "".join(f" (“{written}” read as “{read}”)" for written, read in corrections)
         return self.reason() + behind + read
 
@@ -322,7 +322,7 @@ class TermMatcher:
     def _explain_classifier(self, words: tuple[str, ...], iri: ClassIRI) -> str:
         similar = similar_name(words, iri)
         example = f", like “{similar}”," if similar else ""
-        return f"a name like “{' '.join(words)}”{example} mostly means {self._label(iri)}"
+        return f"a name like “{' '.join(words)}”{example} usually means {self._label(iri)}"
 
     def _explain_term(self, term: Term) -> str:
         named = "is the label of" if term.kind is TermKind.LABEL else "is a name for"

@@ -19,7 +19,7 @@ from usd2kg.grounding.lexical.settings import CLASSIFIER
 from usd2kg.knowledge import data_file
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["features_of", "likely_classes", "similar_name"]
+__all__ = ["likely_classes", "name_features", "similar_name"]
 
 Logits = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ def likely_classes(words: tuple[str, ...]) -> tuple[tuple[ClassIRI, float], ...]
     return tuple((model.classes[place], float(shares[place])) for place in best)
 
 
-def features_of(words: tuple[str, ...]) -> dict[str, float]:
+def name_features(words: tuple[str, ...]) -> dict[str, float]:
     """Return feature → value of a name: its words, their hypernyms, and the letters of the head noun."""
     *modifiers, head = words
     if not modifiers:

@@ -23,35 +23,35 @@ class HeadFeatures(NamedTuple):
 
     score: float = 0.0
     """Logarithm of the score of the best class."""
-    telling: float = 0.0
+    log_not_modifier: float = 0.0
     """Logarithm of the probability that a single word is not a modifier."""
     compound: float = 0.0
     """Whether a known compound ends here."""
-    compound_within: float = 0.0
+    compound_before: float = 0.0
     """Whether a known compound ends here and words are behind it: the sink area of `sink_area_drawer`."""
-    size: float = 0.0
+    size_log_ratio: float = 0.0
     """Log-likelihood ratio of the size for such an object."""
     no_usual_size: float = 0.0
     """Whether the size is known and the usual size of such an object is not."""
-    guessed: float = 0.0
+    corrected: float = 0.0
     """Whether the spelling was corrected: brands and foreign words may look like the noun."""
     behind: float = 0.0
     """Whether words are behind it."""
     glued: float = 0.0
     """Number of words that follow without a separator, as in `RoomWindow`."""
-    propensity: float = 0.0
+    last_log_odds: float = 0.0
     """`head_log_odds` of a single word."""
-    propensity_behind: float = 0.0
+    last_log_odds_behind: float = 0.0
     """Mean `head_log_odds` of the words behind it."""
-    linked: float = 0.0
+    inside_compound: float = 0.0
     """Whether a later compound contains it: the swab of `cotton_swab_jar`."""
-    turned: float = 0.0
+    inverted: float = 0.0
     """Whether its modifier is behind it, as in `plate_dinner`."""
     place: float = 0.0
     """Whether it is a place, which names often begin with."""
-    shared: float = 0.0
+    repeats_parent: float = 0.0
     """Whether the parent's name has the words up to it: below `fridge_main` the fridge of `fridge_interior_lamp`."""
-    repeated: float = 0.0
+    in_parent: float = 0.0
     """Whether the parent's name has it and words are before it: below `sinkUnit` the sink of `doorSink`."""
 
 
