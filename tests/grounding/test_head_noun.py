@@ -24,7 +24,9 @@ def test_likelihood_is_the_exponential_of_the_weighted_sum():
     assert head_likelihood(HeadFeatures(behind=2.0, size=0.5)) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize(("name", "sign"), [("score", 1), ("compound", 1), ("size_log_ratio", 1), ("glued", -1), ("corrected", -1)])
+@pytest.mark.parametrize(
+    ("name", "sign"), [("score", 1), ("compound", 1), ("size_log_ratio", 1), ("glued", -1), ("corrected", -1)]
+)
 def test_weights_have_the_expected_sign(name: str, sign: int):
     assert sign * WEIGHTS[name] > 0
 

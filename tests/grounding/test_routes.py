@@ -29,7 +29,15 @@ def test_there_is_a_weight_for_each_feature():
 
 @pytest.mark.parametrize(
     ("name", "sign"),
-    [("term", 1), ("label", 1), ("usual", 1), ("partial", -1), ("steps", -1), ("steps_to_general", -1), ("has_more_specific", -1)],
+    [
+        ("term", 1),
+        ("label", 1),
+        ("usual", 1),
+        ("partial", -1),
+        ("steps", -1),
+        ("steps_to_general", -1),
+        ("has_more_specific", -1),
+    ],
 )
 def test_weights_have_the_expected_sign(name: str, sign: int):
     assert sign * WEIGHTS[name] > 0

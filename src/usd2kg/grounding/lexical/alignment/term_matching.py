@@ -291,18 +291,25 @@ class TermMatcher:
         """Return the nearest aligned hypernym, its steps and its class.
 
         In a TBox with classes that the home TBox lacks, a more distant hypernym wins if its class is a subclass: a
-        teddy bear is an artifact in the home vocabulary, and the ontology may have a class of toys below artifacts.
+        teddy bear is an artifact in the home vocabulary, and the ontology may have a class of toys below artifacts. Of
+        hypernyms at the same distance the one with the deepest class wins: a range hood is a kitchen appliance rather
+        than a covering.
         """
         nearest: tuple[int, int, AlignedClass] | None = None
         for up, steps in self._taxonomy.walk_up(synset):
             aligned = self._lexicon.sense_classes.get(up)
             if aligned is None or (nearest is not None and aligned.class_iri == self._lexicon.default_class):
                 continue
-            if nearest is None or self._is_strict_subclass(aligned.class_iri, nearest[2].class_iri):
+            if nearest is None or self._is_preferred(aligned, steps, nearest):
                 nearest = up, steps, aligned
             if not self._has_foreign:
                 break
         return nearest
+
+    def _is_preferred(self, aligned: AlignedClass, steps: int, nearest: tuple[int, int, AlignedClass]) -> bool:
+        iri, other = aligned.class_iri, nearest[2].class_iri
+        is_deeper = steps == nearest[1] and len(self._tbox.closure(iri)) > len(self._tbox.closure(other))
+        return is_deeper or self._is_strict_subclass(iri, other)
 
     def _is_strict_subclass(self, iri: ClassIRI, other: ClassIRI) -> bool:
         return iri != other and self._tbox.is_subclass(iri, other)
