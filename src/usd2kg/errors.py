@@ -24,6 +24,7 @@ __all__ = [
     "SceneError",
     "StoreError",
     "Usd2kgError",
+    "one_line",
 ]
 
 
@@ -57,3 +58,12 @@ class StoreError(Usd2kgError):
 
 class OutputError(Usd2kgError):
     """A result cannot be written."""
+
+
+def one_line(error: object) -> str:
+    """Return the text of an error without line breaks, for messages of one line.
+
+    >>> one_line(ValueError("line 1:\\n  expected a comma"))
+    'line 1: expected a comma'
+    """
+    return " ".join(str(error).split())

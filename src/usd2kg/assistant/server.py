@@ -15,7 +15,7 @@ from mcp.types import ToolAnnotations
 from usd2kg.assistant.describe import describe_objects, list_objects
 from usd2kg.assistant.offline import ask_offline
 from usd2kg.assistant.settings import RESULTS
-from usd2kg.errors import Usd2kgError
+from usd2kg.errors import Usd2kgError, one_line
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.questions import Question, list_questions
 
@@ -90,7 +90,7 @@ def _call(function: Callable[[], _T]) -> _T:
     try:
         return function()
     except Usd2kgError as error:
-        raise ToolError(" ".join(str(error).split())) from error
+        raise ToolError(one_line(error)) from error
 
 
 def _describe_question(question: Question) -> dict[str, Any]:

@@ -53,8 +53,8 @@ def build_command(
         Option(
             "--output",
             "-o",
-            help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .owl, .jsonld, .ofn or .graphml, compressed if .gz follows; "
-            "a folder for several scenes; default: SCENE.ttl in the current folder, or no file with --store.",
+            help="Graph to write: .ttl, .trig, .nt, .nq, .rdf, .owl, .jsonld, .ofn or .graphml, compressed if .gz "
+            "follows; a folder for several scenes; default: SCENE.ttl in the current folder, or no file with --store.",
         ),
     ] = None,
     store: OptionalStore = None,

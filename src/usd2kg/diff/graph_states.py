@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import pyoxigraph as ox
 
 from usd2kg.diff.object_state import Link, ObjectState, Quaternion, Vector
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, one_line
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
@@ -54,7 +54,7 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
     except MemoryError as error:
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
-        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        reason = one_line(getattr(error, "strerror", None) or error)
         raise GraphError(f"{path}: cannot be read as {syntax.name} ({reason}); build the graph again") from error
 
 

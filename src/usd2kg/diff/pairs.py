@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.diff.settings import MEMORY
+from usd2kg.shapes.ragged import ragged_indices
 
 __all__ = ["GroupedPoints", "Index", "Pairs", "close_pairs", "equal_pairs", "pick_pairs"]
 
@@ -104,6 +105,5 @@ def _chunks(counts: Index) -> Iterator[Index]:
 
 def _expand(rows: Index, starts: Index, counts: Index) -> Pairs:
     """Return each row with each of the `counts` positions from its start."""
-    before = np.cumsum(counts) - counts
-    steps = np.arange(counts.sum()) - np.repeat(before, counts)
-    return np.repeat(rows, counts), np.repeat(starts, counts) + steps
+    row, step = ragged_indices(counts)
+    return rows[row], starts[row] + step

@@ -17,7 +17,7 @@ import pyoxigraph as ox
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
 from usd2kg.endpoint.negotiation import negotiate
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, one_line
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.functions import FUNCTION_NAMESPACE, make_functions
@@ -78,10 +78,10 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: End
         return media_type, render(found, media_type, limits)
     except (SyntaxError, ValueError) as error:
         raise GraphError(
-            f"query: not valid SPARQL ({_line(error)}); expected SELECT, ASK, CONSTRUCT or DESCRIBE"
+            f"query: not valid SPARQL ({one_line(error)}); expected SELECT, ASK, CONSTRUCT or DESCRIBE"
         ) from error
     except (RuntimeError, OSError) as error:
-        raise GraphError(f"query: cannot be answered ({_line(error)})") from error
+        raise GraphError(f"query: cannot be answered ({one_line(error)})") from error
 
 
 def _dataset(request: dict[str, Any]) -> dict[str, Any]:
@@ -93,10 +93,6 @@ def _dataset(request: dict[str, Any]) -> dict[str, Any]:
         "default_graph": [ox.NamedNode(iri) for iri in default],
         "named_graphs": [ox.NamedNode(iri) for iri in named],
     }
-
-
-def _line(error: BaseException) -> str:
-    return " ".join(str(error).split())
 
 
 def _write(answers: BinaryIO, header: dict[str, Any], body: bytes) -> None:

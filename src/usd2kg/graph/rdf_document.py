@@ -10,7 +10,7 @@ from typing import BinaryIO, NamedTuple, cast
 
 import pyoxigraph as ox
 
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, one_line
 from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
 from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
@@ -131,7 +131,7 @@ def read_document(path: Path) -> GraphDocument:
         # pyoxigraph's parser buffers at most 16 MiB per token.
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
-        reason = " ".join(str(error).split())
+        reason = one_line(error)
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
     base = _base(parts)
     return GraphDocument(parts, {**PREFIXES, **({"": base} if base else {}), **prefixes}, str(path))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, one_line
 from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.query.graph_store import GraphStore
 
@@ -32,6 +32,6 @@ def load_graph(path: Path | str) -> GraphStore:
         # pyoxigraph raises this for a literal above 16 MiB, its parser's limit.
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
-        reason = " ".join(str(error).split())
+        reason = one_line(error)
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
     return GraphStore(store, str(path))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pyoxigraph as ox
 
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, one_line
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query import query_templates as templates
 from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns, without_columns
@@ -100,7 +100,7 @@ class GraphStore:
                 custom_functions=self._functions,
             )
         except SyntaxError as error:
-            reason = " ".join(str(error).split())
+            reason = one_line(error)
             raise GraphError(
                 f"query: not valid SPARQL ({reason}); expected SELECT, ASK, CONSTRUCT or DESCRIBE"
             ) from error

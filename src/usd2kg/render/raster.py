@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.render.camera import Camera
+from usd2kg.shapes.ragged import ragged_indices
 
 __all__ = ["Hits", "rasterise"]
 
@@ -100,15 +101,9 @@ def _chunks(pixels: Array, source: Indices, top: Indices, count: Indices) -> Ite
     starts = [0, *(np.flatnonzero(np.diff(part)) + 1).tolist(), len(part)]
     for start, end in pairwise(starts):
         counts = count[start:end]
-        of = np.repeat(np.arange(len(counts)), counts)
-        y = np.repeat(top[start:end], counts) + _within(counts)
+        of, line = ragged_indices(counts)
+        y = np.repeat(top[start:end], counts) + line
         yield _Rows(pixels[start:end], source[start:end], of, y)
-
-
-def _within(counts: Indices) -> Indices:
-    """Return 0, 1, … count - 1 for each count: [2, 3] gives 0 1 0 1 2."""
-    ends = np.cumsum(counts)
-    return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def _draw(rows: _Rows, camera: Camera, buffer: Indices) -> None:
@@ -131,7 +126,7 @@ def _draw(rows: _Rows, camera: Camera, buffer: Indices) -> None:
     nearness, slope = _planes(rows.pixels)
     begin = nearness[of, 0] + slope[of, 0] * (start + 0.5 - rows.pixels[of, 0, 0])
     begin += slope[of, 1] * (middle[kept] - rows.pixels[of, 0, 1])
-    step = _within(counts)
+    step = ragged_indices(counts).column
     values = np.repeat(begin, counts) + step * np.repeat(slope[of, 0], counts)
     # The plane of a sliver is ill-conditioned: clamp to the depth of its corners.
     np.clip(values, np.repeat(nearness[of].min(axis=1), counts), np.repeat(nearness[of].max(axis=1), counts), values)

@@ -6,6 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.shapes.ragged import ragged_indices
+
 __all__ = ["overlapping_pairs"]
 
 Array = NDArray[np.float64]
@@ -125,5 +127,5 @@ def _expand_ranges(owner: Indices, start: Indices, end: Indices) -> Iterator[tup
     portion = np.cumsum(count) // _CHUNK
     for part in np.split(np.arange(len(some)), np.flatnonzero(np.diff(portion)) + 1):
         number = count[part]
-        nth = np.arange(number.sum()) - np.repeat(np.cumsum(number) - number, number)
-        yield np.repeat(owner[part], number), np.repeat(start[part], number) + nth
+        row, nth = ragged_indices(number)
+        yield owner[part][row], start[part][row] + nth

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.shapes.ragged import ragged_indices
 from usd2kg.shapes.settings import VESSEL
 
 __all__ = ["NO_VESSEL", "Vessel", "measure_vessel"]
@@ -135,7 +136,7 @@ def _covered_rows(corners: Array) -> _Rows:
 
 def _covered_spans(corners: Array, rows: _Rows) -> _Spans:
     """Return the spans of triangles (m, 3, 3), x and y in cells."""
-    of, nth = _spread(rows.number)
+    of, nth = ragged_indices(rows.number)
     row = rows.first[of] + nth
     low, high = _crossings(corners[of], np.asarray(row + 0.5, np.float64))
     column = np.ceil(low[:, 0] - 0.5 - _EDGE_TOLERANCE)
@@ -166,7 +167,7 @@ def _crossings(corners: Array, y: Array) -> tuple[Array, Array]:
 def _sample_spans(spans: _Spans) -> Iterator[tuple[Indices, Indices, Array]]:
     """Yield column, row and z of the cells whose centres a triangle covers."""
     for chosen in _chunks(spans.number):
-        of, nth = _spread(spans.number[chosen])
+        of, nth = ragged_indices(spans.number[chosen])
         of = chosen[of]
         yield spans.first[of] + nth, spans.row[of], spans.z[of] + nth * spans.slope[of]
 
@@ -189,7 +190,7 @@ def _sample_lines(lines: _Lines) -> Iterator[tuple[Indices, Indices, Array]]:
     """Yield column, row and z of the cells that lines pass; consecutive cells touch, so that a wall has no gaps."""
     for chosen in _chunks(lines.steps + 1):
         steps = lines.steps[chosen]
-        _, nth = _spread(steps + 1)
+        _, nth = ragged_indices(steps + 1)
         start, end = lines.start[chosen].T, lines.end[chosen].T
         x, y, z = np.repeat(start, steps + 1, axis=1) + nth * np.repeat((end - start) / steps, steps + 1, axis=1)
         yield x.astype(np.int64), y.astype(np.int64), z
@@ -232,7 +233,7 @@ def _scan_lines(corners: Array) -> _Lines:
     order = (edges.argmin(axis=1)[:, None] + np.arange(3)) % 3
     tip, a, b = np.moveaxis(np.take_along_axis(corners, order[..., None], axis=1), 1, 0)
     cuts = np.maximum(_half_cell_steps(a - tip), _half_cell_steps(b - tip))
-    of, nth = _spread(cuts + 1)
+    of, nth = ragged_indices(cuts + 1)
     share = (nth / cuts[of])[:, None]
     start, end = tip[of] + share * (a - tip)[of], tip[of] + share * (b - tip)[of]
     return _Lines(start, end, _half_cell_steps(end - start))
@@ -248,12 +249,6 @@ def _chunks(counts: Indices) -> Iterator[Indices]:
     some = np.flatnonzero(counts)
     part = np.cumsum(counts[some]) // _CHUNK
     yield from (chosen for chosen in np.split(some, np.flatnonzero(np.diff(part)) + 1) if len(chosen))
-
-
-def _spread(counts: Indices) -> tuple[Indices, Indices]:
-    """Return for each item the index of its count, and its number within it: [2, 1] gives 0 0 1 and 0 1 0."""
-    of = np.repeat(np.arange(len(counts)), counts)
-    return of, np.arange(len(of)) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def _fill_depressions(ground: NDArray[Any], water: NDArray[Any]) -> NDArray[Any]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.errors import GraphError, StoreError
+from usd2kg.errors import GraphError, StoreError, one_line
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer
 from usd2kg.query.complexity import check_complexity
@@ -67,7 +67,7 @@ class EmbeddedStore:
                 write_pending(self._folder, graph.iri, relabel_blank_nodes(graph))
                 self._finish(store)
             except OSError as error:
-                raise StoreError(f"{self._folder}: cannot be written ({_reason(error)}); free disk space") from error
+                raise StoreError(f"{self._folder}: cannot be written ({one_line(error)}); free disk space") from error
 
     def remove(self, iri: str) -> None:
         """Remove a graph.
@@ -94,9 +94,9 @@ class EmbeddedStore:
                 store.update(sparql, prefixes=PREFIXES)
                 store.flush()
             except SyntaxError as error:
-                raise GraphError(f"update: not valid SPARQL ({_reason(error)})") from error
+                raise GraphError(f"update: not valid SPARQL ({one_line(error)})") from error
             except (RuntimeError, OSError) as error:
-                raise GraphError(f"update: failed, nothing was changed ({_reason(error)})") from error
+                raise GraphError(f"update: failed, nothing was changed ({one_line(error)})") from error
 
     def graphs(self) -> tuple[StoredGraph, ...]:
         """Return the graphs of scenes and ontologies."""
@@ -175,7 +175,7 @@ class EmbeddedStore:
             try:
                 store = ox.Store.read_only(str(self._folder))
             except OSError as error:
-                raise StoreError(f"{self._folder}: cannot be read as a store ({_reason(error)})") from error
+                raise StoreError(f"{self._folder}: cannot be read as a store ({one_line(error)})") from error
             yield store
 
     @contextmanager
@@ -185,7 +185,7 @@ class EmbeddedStore:
             yield
         except RuntimeError as error:
             raise StoreError(
-                f"{self._folder}: the store is damaged ({_reason(error)}); restore the folder from a backup, or load "
+                f"{self._folder}: the store is damaged ({one_line(error)}); restore the folder from a backup, or load "
                 "its scenes into a new folder"
             ) from error
 
@@ -198,7 +198,7 @@ class EmbeddedStore:
                     f"{self._folder}: is in use by another program, such as an Oxigraph server; stop it, or give its "
                     "address with --store http://…"
                 ) from error
-            raise StoreError(f"{self._folder}: cannot be opened as a store ({_reason(error)})") from error
+            raise StoreError(f"{self._folder}: cannot be opened as a store ({one_line(error)})") from error
 
     def _is_store(self) -> bool:
         return (self._folder / _ROCKSDB_FILE).is_file()
@@ -219,7 +219,3 @@ class EmbeddedStore:
             store.bulk_extend(ox.parse(file, format=ox.RdfFormat.N_QUADS))
         store.flush()
         path.unlink()
-
-
-def _reason(error: BaseException) -> str:
-    return " ".join(str(error).split())

@@ -11,6 +11,8 @@ from typing import BinaryIO
 
 import pyoxigraph as ox
 
+from usd2kg.errors import one_line
+
 __all__ = ["PENDING_NAME", "read_name", "set_aside_damaged", "write_pending"]
 
 logger = logging.getLogger(__name__)
@@ -75,7 +77,7 @@ def _find_damage(path: Path) -> str | None:
             if any(quad.graph_name != node for quad in ox.parse(file, format=ox.RdfFormat.N_QUADS)):
                 return "it contains other graphs than its first line names"
         except (ValueError, SyntaxError) as error:
-            return " ".join(str(error).split())
+            return one_line(error)
         file.seek(-min(len(_END), path.stat().st_size), os.SEEK_END)
         return None if file.read() == _END else "it is truncated"
 
