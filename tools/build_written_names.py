@@ -12,7 +12,8 @@ from itertools import groupby
 
 from benchmarks.names.lists import AUTHORS, HOME_TABLE, ONTOLOGY_TABLE, PUBLIC_ONTOLOGIES, read_names
 from tools.data_files import write_data_file
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading.english_words import is_english_word
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader

@@ -8,10 +8,11 @@ Usage: python -m tools.explain_name NAME [--parents World/Kitchen] [--size 0.26 
 import argparse
 from pathlib import Path
 
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
-from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import TBox

@@ -19,7 +19,7 @@ from benchmarks.names.lists import LabelledName, iter_ontology_lists, resolve_ho
 from tools import build_written_names
 from tools.fitting import Array, write_weights
 from usd2kg.grounding import NamingRegime, view_objects
-from usd2kg.grounding.lexical.concepts.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.confidence import FEATURES, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Prediction

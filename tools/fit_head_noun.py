@@ -17,10 +17,11 @@ from benchmarks.labelled_scenes import iter_training_scenes
 from benchmarks.names.lists import resolve_home_lists
 from tools.fitting import Array, fit_conditional_logit, write_weights
 from usd2kg.grounding import view_objects
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
-from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox

@@ -20,7 +20,7 @@ from sklearn.model_selection import cross_val_score
 from sklearn.pipeline import make_pipeline
 
 from tools.data_files import DATA
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.name_classifier import name_features
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 

@@ -13,10 +13,11 @@ import numpy as np
 
 from benchmarks.names.lists import SHARED_ONTOLOGIES, LabelledName, iter_ontology_lists, resolve_list
 from tools.fitting import Array, fit_conditional_logit, write_weights
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
-from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.alignment.routes import RouteFeatures, Routes
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.routes import RouteFeatures, Routes
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox

@@ -49,7 +49,7 @@ def switched_off(rules: Sequence[Rule]) -> Iterator[None]:
             setattr(owner, name, value)
 
 
-LEXICON, TERMS, PHRASES = "alignment.lexicon", "alignment.term_matching", "alignment.phrase_matching"
+LEXICON, TERMS, PHRASES = "alignment.lexicon", "matching.term_matching", "matching.phrase_matching"
 RESIDUAL, TEXTS, READER = "alignment.residual_class", "reading.evidence_texts", "reading.noun_phrase"
 SPELLING, KINDS, ABBREVIATIONS = "reading.spelling", "reading.word_kinds", "reading.abbreviations"
 

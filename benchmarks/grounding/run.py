@@ -21,7 +21,7 @@ from benchmarks.bare import bare_object, bare_scene
 from benchmarks.names.lists import HOME_TABLE, read_names
 from usd2kg.grounding import NamingRegime, ground
 from usd2kg.grounding.context.views import abbreviate
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import Scene
 from usd2kg.words import words_of

@@ -9,8 +9,7 @@ from tests.grounding.ontologies import parse_outline
 from tests.grounding.records import ground_view, local, make_object, make_scene
 from usd2kg.grounding import NamingRegime, ObjectView, view_objects
 from usd2kg.grounding.context import Appearance
-from usd2kg.grounding.lexical.alignment.term_matching import Match
-from usd2kg.grounding.lexical.concepts.class_posterior import (
+from usd2kg.grounding.lexical.class_posterior import (
     ClassPosterior,
     PosteriorModel,
     log_likelihoods_of_appearance,
@@ -18,6 +17,7 @@ from usd2kg.grounding.lexical.concepts.class_posterior import (
 )
 from usd2kg.grounding.lexical.concepts.places import PLACES, log_stance_likelihoods, place_probabilities, stance_of
 from usd2kg.grounding.lexical.concepts.sizes import Size, size_log_likelihoods
+from usd2kg.grounding.lexical.matching.term_matching import Match
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
 

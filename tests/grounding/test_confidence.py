@@ -8,7 +8,7 @@ import pytest
 from tests.grounding.ontologies import parse_outline
 from tests.grounding.records import LAB
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.lexical.concepts.class_posterior import NO_POSTERIOR
+from usd2kg.grounding.lexical.class_posterior import NO_POSTERIOR
 from usd2kg.grounding.lexical.confidence import features_of, general_class_log_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Prediction, Status

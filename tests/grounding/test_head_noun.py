@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures, head_likelihood, head_log_odds
 from usd2kg.knowledge import read_text
 

@@ -2,7 +2,7 @@
 
 import re
 
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier

@@ -5,7 +5,8 @@ Which class single names are grounded to is scored in `regression.csv`, groups `
 
 from tests.grounding.ontologies import load_ontology
 from tests.grounding.records import LAB, ground_names, local, make_class, make_tbox
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.ontology import TBox
 

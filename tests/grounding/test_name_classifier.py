@@ -2,7 +2,7 @@
 
 import pytest
 
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.name_classifier import likely_classes, name_features, similar_name
 from usd2kg.ontology import TBox
 

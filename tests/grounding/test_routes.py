@@ -8,9 +8,9 @@ import pytest
 from tests.grounding.ontologies import parse_outline
 from tests.grounding.records import LAB
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
-from usd2kg.grounding.lexical.alignment.routes import Route, RouteFeatures, Routes, class_shares, route_strength
 from usd2kg.grounding.lexical.alignment.terms import Term
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.matching.routes import Route, RouteFeatures, Routes, class_shares, route_strength
 from usd2kg.knowledge import read_text
 
 FITTED = json.loads(read_text("routes.json"))

@@ -4,8 +4,9 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, home_names, physical_classes
+from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, physical_classes
 from usd2kg.grounding.lexical.alignment.terms import Term, TermKind, term_key
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox, compact_iri

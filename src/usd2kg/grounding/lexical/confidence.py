@@ -8,8 +8,8 @@ import math
 from collections.abc import Container, Iterable, Mapping
 from functools import lru_cache
 
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
-from usd2kg.grounding.lexical.concepts.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS
 from usd2kg.grounding.lexical.settings import CONFIDENCE
 from usd2kg.grounding.model import Prediction

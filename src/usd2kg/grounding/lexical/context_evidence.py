@@ -7,8 +7,7 @@ import numpy as np
 from usd2kg.grounding.context.neighbours import SAME_SIZE, Nearness, Neighbour, Neighbourhood
 from usd2kg.grounding.context.placement import PlacedObject
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.concepts.class_posterior import (
+from usd2kg.grounding.lexical.class_posterior import (
     NO_POSTERIOR,
     ClassPosterior,
     PosteriorModel,
@@ -29,6 +28,7 @@ from usd2kg.grounding.lexical.concepts.places import (
 )
 from usd2kg.grounding.lexical.concepts.sizes import Size, round_size, size_log_likelihoods
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
+from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.neighbour_vote import Vote, count_votes, siblings_as_neighbours, vote_of
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name

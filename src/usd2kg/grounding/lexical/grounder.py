@@ -10,9 +10,9 @@ from functools import lru_cache
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
-from usd2kg.grounding.lexical.concepts.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.confidence import calibrate, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.object_grounder import ObjectGrounder
 from usd2kg.grounding.model import Prediction, Status

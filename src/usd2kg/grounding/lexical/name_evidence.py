@@ -5,11 +5,11 @@ from functools import cached_property, lru_cache, partial
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
-from usd2kg.grounding.lexical.alignment.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.alignment.term_matching import Match
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
+from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.term_matching import Match
 from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader, Reading
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.lexical.reading.evidence_texts import texts_of

@@ -1,1 +1,1 @@
-"""Alignment of noun phrases with the classes of a TBox."""
+"""Alignment of the classes of a TBox with terms and WordNet synsets."""

@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.home_vocabulary import borrow_terms, lend_terms
@@ -27,10 +26,10 @@ from usd2kg.grounding.lexical.concepts.categories import members_of
 from usd2kg.grounding.lexical.concepts.senses import sense_weight, usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy
 from usd2kg.grounding.lexical.settings import ALIGNMENT
-from usd2kg.knowledge import read_rows, word_set
-from usd2kg.ontology import ClassIRI, OntologyClass, TBox, load_home_tbox
+from usd2kg.knowledge import word_set
+from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 
-__all__ = ["CategoryMember", "Lexicon", "build_lexicon", "home_names", "physical_classes"]
+__all__ = ["CategoryMember", "Lexicon", "build_lexicon", "physical_classes"]
 
 _NATURAL_DOMAINS = frozenset(["animal", "object", "person", "plant"])
 """WordNet domains of natural objects."""
@@ -71,17 +70,6 @@ class Lexicon:
     """Classes of the TBox that the home vocabulary has synonyms for."""
     category_members: Mapping[int, Sequence[CategoryMember]]
     """Synset → classes that have it as a member in common usage, though it is not their hyponym."""
-
-
-@lru_cache(maxsize=1)
-def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
-    """Return class of the built-in home TBox → names of its objects: labels, synonyms, and `data/home_names.csv`."""
-    home = load_home_tbox()
-    names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
-    by_local_name = {cls.local_name: cls.iri for cls in home.classes}
-    for row in read_rows("home_names.csv"):
-        names[by_local_name[row["class"]]].append(row["name"])
-    return {iri: tuple(found) for iri, found in names.items()}
 
 
 def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> Lexicon:

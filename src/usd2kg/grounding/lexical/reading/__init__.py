@@ -1,1 +1,1 @@
-"""Reading of a name as noun phrases with probabilities: tokens, spelling, abbreviations, languages."""
+"""Reading of a name as a noun phrase: tokens, spelling, abbreviations, languages, head noun."""

@@ -12,7 +12,7 @@ from itertools import chain
 from operator import mul
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.lexicon import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.knowledge import read_text
 
 __all__ = ["HeadFeatures", "head_likelihood", "head_log_odds"]

@@ -2,7 +2,8 @@
 
 from functools import lru_cache
 
-from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, home_names
+from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.reading.name_bigrams import load_name_bigrams

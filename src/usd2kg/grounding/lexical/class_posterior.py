@@ -12,7 +12,6 @@ import numpy as np
 import numpy.typing as npt
 
 from usd2kg.grounding.context.placement import Appearance
-from usd2kg.grounding.lexical.alignment.term_matching import Match
 from usd2kg.grounding.lexical.concepts.places import (
     PLACES,
     Floats,
@@ -21,6 +20,7 @@ from usd2kg.grounding.lexical.concepts.places import (
     stance_of,
 )
 from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_nouns, size_log_likelihoods
+from usd2kg.grounding.lexical.matching.term_matching import Match
 from usd2kg.grounding.lexical.settings import PLACE
 from usd2kg.ontology import ClassIRI
 

@@ -6,10 +6,10 @@ from math import log
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
-from usd2kg.grounding.lexical.alignment.term_matching import HeadMatches, Match, TermMatcher
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_object_row, size_log_likelihood_ratio
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.matching.term_matching import HeadMatches, Match, TermMatcher
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures, head_likelihood, head_log_odds
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
 from usd2kg.grounding.lexical.settings import HEAD_NOUN

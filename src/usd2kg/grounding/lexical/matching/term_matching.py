@@ -5,12 +5,13 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, home_names
-from usd2kg.grounding.lexical.alignment.routes import Route, Routes
+from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.name_classifier import likely_classes, similar_name
 from usd2kg.grounding.lexical.concepts.senses import sense_weight, usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.matching.routes import Route, Routes
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
 from usd2kg.grounding.lexical.reading.word_kinds import AREAS
 from usd2kg.grounding.lexical.settings import MATCHING, READING

@@ -1,0 +1,20 @@
+"""Names of objects by class of the built-in home TBox."""
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from usd2kg.knowledge import read_rows
+from usd2kg.ontology import ClassIRI, load_home_tbox
+
+__all__ = ["home_names"]
+
+
+@lru_cache(maxsize=1)
+def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
+    """Return the names of objects by class of the built-in home TBox: labels, synonyms, and `data/home_names.csv`."""
+    home = load_home_tbox()
+    names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
+    by_local_name = {cls.local_name: cls.iri for cls in home.classes}
+    for row in read_rows("home_names.csv"):
+        names[by_local_name[row["class"]]].append(row["name"])
+    return {iri: tuple(found) for iri, found in names.items()}

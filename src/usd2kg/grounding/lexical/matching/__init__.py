@@ -1,0 +1,1 @@
+"""Match the noun phrase of a name with the classes of a TBox."""
