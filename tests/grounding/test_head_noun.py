@@ -20,8 +20,8 @@ def test_there_is_a_weight_for_each_feature():
 
 def test_likelihood_is_the_exponential_of_the_weighted_sum():
     assert head_likelihood(HeadFeatures()) == 1.0
-    expected = math.exp(2 * WEIGHTS["behind"] + 0.5 * WEIGHTS["size"])
-    assert head_likelihood(HeadFeatures(behind=2.0, size=0.5)) == pytest.approx(expected)
+    expected = math.exp(2 * WEIGHTS["behind"] + 0.5 * WEIGHTS["size_log_ratio"])
+    assert head_likelihood(HeadFeatures(behind=2.0, size_log_ratio=0.5)) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(

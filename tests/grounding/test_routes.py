@@ -72,10 +72,10 @@ def test_superclasses_of_a_reached_class_have_a_more_specific_class():
 def test_steps_to_general_classes_are_a_feature_of_their_own():
     routes = [route for route in routes_of("teacup") if not route.features.by_category]
     cup = next(route for route in routes if route.class_iri == LAB + "Cup")
-    assert (cup.features.steps, cup.features.steps_to_root) == (1.0, 0.0)
+    assert (cup.features.steps, cup.features.steps_to_general) == (1.0, 0.0)
     root = next(route for route in routes if route.class_iri == LAB + "Artifact")
     assert root.features.steps == 0.0
-    assert root.features.steps_to_root > 1.0
+    assert root.features.steps_to_general > 1.0
     assert root.features.default == 1.0
     assert root.features.log_below == pytest.approx(math.log(5))
 

@@ -163,7 +163,7 @@ def test_reports_an_invalid_line_and_imports_nothing(tmp_path: Path, name: str):
     path.write_bytes(b"\n".join([lines[0], breaking(lines[1]), lines[2]]))
     with CompletionCache(tmp_path / "b.sqlite") as cache:
         with pytest.raises(
-            GroundingError, match=rf"recording\.jsonl: line 2 is no .*({message}).*nothing was imported"
+            GroundingError, match=rf"recording\.jsonl: line 2 is not .*({message}).*nothing was imported"
         ):
             cache.import_recording(path)
         assert len(cache) == 0
