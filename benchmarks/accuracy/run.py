@@ -121,7 +121,10 @@ def main() -> None:
     """Write or check the figures."""
     plan = read_accuracy_matrix()
     if unmeasured := describe_unmeasured(plan.scenes):
-        print("\n".join([*unmeasured, "Set USD2KG_SHARED to the folder that holds these files."]), flush=True)
+        lines = "\n".join([*unmeasured, "Set USD2KG_SHARED to the folder that holds these files."])
+        if "--check" not in sys.argv:
+            raise SystemExit(f"{lines}\nNothing was written: the kept figures of these scenes would be lost.")
+        print(lines, flush=True)
     results = run_matrix(plan, BUILD)
     now = figures(results)
     if "--check" in sys.argv:
