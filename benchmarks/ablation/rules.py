@@ -54,7 +54,6 @@ RESIDUAL, TEXTS, READER = "alignment.residual_class", "reading.evidence_texts", 
 SPELLING, KINDS, ABBREVIATIONS = "reading.spelling", "reading.word_kinds", "reading.abbreviations"
 
 RULES = (
-    Rule("class labels: drop prefixes that are jargon", f"{LEXICON}:jargon_prefixes", constant(frozenset())),
     Rule("class labels: read “other furniture” as furniture", f"{LEXICON}:residue_of", constant(None)),
     Rule("class labels: ignore classes of events", f"{LEXICON}:_EVENT_NOUNS", frozenset()),
     Rule("class labels: align common nouns only", f"{LEXICON}:_is_common_noun", constant(True)),
@@ -64,10 +63,8 @@ RULES = (
     Rule("default class: a root that negates another", f"{RESIDUAL}:_NEGATIONS", frozenset()),
     Rule("default class: no rooms or vehicles in a residual class", f"{RESIDUAL}:_NOT_RESIDUAL", frozenset()),
     Rule("home vocabulary: lend names to classes with equal labels", f"{LEXICON}:lend_terms", constant(())),
-    Rule("home vocabulary: borrow superclasses by label", f"{LEXICON}:borrow_terms", constant({})),
     Rule("terms: head nouns of two-word labels", f"{LEXICON}:_add_head_nouns", constant(None)),
     Rule("terms: nouns equivalent to a label", f"{LEXICON}:equivalent_nouns", lambda text, taxonomy, is_noun: []),
-    Rule("terms: paraphrases of category names", f"{LEXICON}:paraphrases", lambda text, tax: [text.replace(" ", "")]),
     Rule("matching: a more specific foreign class wins", f"{TERMS}:TermMatcher._is_more_specific", constant(False)),
     Rule("matching: subclasses named after a place", f"{TERMS}:TermMatcher._match_in_place", constant(())),
     Rule("matching: compounds with the parent's words", f"{TERMS}:TermMatcher.whole_words", constant(())),
@@ -81,7 +78,6 @@ RULES = (
     Rule("head noun: usual size of a hypernym", f"{PHRASES}:PhraseMatcher._near_kinds", constant(())),
     Rule("reading: cut what follows a preposition", f"{READER}:NameReader._cut_additions", argument(1)),
     Rule("reading: cut locations", f"{READER}:NameReader._begins_location", constant(False)),
-    Rule("reading: particle verbs", f"{READER}:_PARTICLE_VERBS", frozenset()),
     Rule("reading: terms with pipeline tokens", f"{READER}:NameReader._term_around", constant(range(0))),
     Rule(
         "reading: references to parents",
@@ -100,7 +96,6 @@ RULES = (
     Rule("spelling: split joined words", f"{SPELLING}:SpellingCorrector._split", constant(None)),
     Rule("spelling: correct letters", f"{SPELLING}:SpellingCorrector._respell", constant(None)),
     Rule("spelling: split joined terms", f"{SPELLING}:SpellingCorrector._words_of_term", lambda self, word: (word,)),
-    Rule("spelling: leave common words", f"{SPELLING}:is_common_word", constant(False)),
     Rule("spelling: leave dictionary words", f"{SPELLING}:is_english_word", constant(False)),
     Rule("spelling: reject implausible slips", f"{SPELLING}:SpellingCorrector._is_plausible_slip", constant(True)),
     Rule("abbreviations: one way for all words", f"{ABBREVIATIONS}:log_consistency", constant(0.0)),

@@ -154,7 +154,6 @@ class TermSettings:
     label_weight: float
     synonym_weight: float
     lent_weight: float
-    borrowed_weight: float
     head_weight: float
 
 

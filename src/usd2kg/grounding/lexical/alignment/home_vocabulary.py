@@ -3,15 +3,11 @@
 from collections.abc import Container, Iterator, Mapping
 
 from usd2kg.grounding.lexical.alignment.label_words import normalise_label
-from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, keep_best, term_key
+from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, term_key
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 
-__all__ = ["borrow_terms", "lend_terms"]
-
-_CONTAINER, _BUILDING = "DesignedContainer", "Building"
-_NOT_CONTAINERS = frozenset(["Appliance", "DesignedFurniture"])
-"""SOMA classifies buildings, ovens and cupboards as containers; other ontologies do not."""
+__all__ = ["lend_terms"]
 
 
 def lend_terms(
@@ -52,28 +48,3 @@ def lend_terms(
 def _ends_with(phrase: str, endings: Container[str]) -> bool:
     words = phrase.split()
     return any(" ".join(words[start:]) in endings for start in range(len(words)))
-
-
-def borrow_terms(
-    tbox: TBox,
-    terms: Mapping[str, Term],
-    default: ClassIRI | None,
-    taxonomy: Taxonomy,
-    synonyms: Mapping[ClassIRI, tuple[str, ...]],
-) -> dict[str, Term]:
-    """Return `term_key` → term: names of home classes, for the class labelled like their nearest home superclass."""
-    home = load_home_tbox()
-    borrowed: dict[str, Term] = {}
-    for iri, names in synonyms.items():
-        if iri in tbox.by_iri or iri not in home.by_iri or home.by_iri[iri].local_name == _BUILDING:
-            continue
-        above = {home.by_iri[up].local_name: up for up in home.closure(iri)}
-        if not _NOT_CONTAINERS.isdisjoint(above):
-            above.pop(_CONTAINER, None)
-        nearest = sorted(above.values(), key=lambda up: (-home.depths[up], up))
-        labelled = (terms.get(term_key(home.by_iri[up].label, taxonomy)) for up in nearest)
-        own = next((term for term in labelled if term is not None and term.kind is TermKind.LABEL), None)
-        if own is not None and own.class_iri != default:
-            for name in names:
-                keep_best(borrowed, Term(own.class_iri, normalise_label(name, taxonomy), TermKind.BORROWED))
-    return borrowed

@@ -1,20 +1,16 @@
 """Words of class labels: normal forms, head nouns, and nouns with the same meaning."""
 
 import re
-from collections import Counter
 
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.knowledge import word_set
-from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier
 
 __all__ = [
     "SENSE_KEY",
     "equivalent_nouns",
     "head_noun_of",
-    "jargon_prefixes",
     "normalise_label",
-    "paraphrases",
     "words_of_label",
 ]
 
@@ -27,8 +23,6 @@ _EQUIPMENT = (
 )
 """Head nouns that ontologies use interchangeably, most frequent first; the order decides which one is tried first."""
 _MEASURES = word_set("lexical", "measure_nouns")
-_MIN_JARGON_CLASSES = 3
-"""Least number of classes that share a first word for it to be jargon."""
 
 
 def words_of_label(text: str) -> list[str]:
@@ -54,21 +48,6 @@ def head_noun_of(label: str) -> str:
     return words[-1] if words else ""
 
 
-def jargon_prefixes(tbox: TBox, taxonomy: Taxonomy) -> frozenset[str]:
-    """Return first words that are jargon of the ontology: many labels begin with them, and none of these is a noun.
-
-    “designed” is jargon; the “cooking” of “cooking appliance” is not, since the compound is a noun of the taxonomy.
-    """
-    labels = [words for cls in tbox.classes if len(words := words_of_label(cls.local_name)) > 1]
-    counts = Counter(words[0] for words in labels)
-    in_nouns = {words[0] for words in labels if "".join(words) in taxonomy}
-    return frozenset(
-        word
-        for word, count in counts.items()
-        if count >= _MIN_JARGON_CLASSES and word not in taxonomy and word not in in_nouns
-    )
-
-
 def equivalent_nouns(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[str]:
     """Return nouns of the taxonomy with the meaning of a label: dental unit → dental device, portion of bread → bread.
 
@@ -88,17 +67,6 @@ def equivalent_nouns(label: str, taxonomy: Taxonomy, *, is_noun: bool) -> list[s
         return []
     found = [noun for head in heads if head != last and (noun := "".join((*before, head))) in taxonomy]
     return found if is_noun else found[:1]
-
-
-def paraphrases(label: str, taxonomy: Taxonomy) -> list[str]:
-    """Return a normalised label and its paraphrases, words joined: printing machine → printingdevice, …"""
-    *before, last = label.split()
-    heads = _EQUIPMENT if before and last in _EQUIPMENT else ()
-    alternatives = _split_alternatives(label.split())
-    nouns = [normalise_label(words, taxonomy) for words in alternatives] if len(alternatives) > 1 else []
-    return list(
-        dict.fromkeys(text.replace(" ", "") for text in (label, *nouns, *("".join((*before, head)) for head in heads)))
-    )
 
 
 def _split_alternatives(words: list[str]) -> list[str]:

@@ -5,14 +5,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.home_vocabulary import borrow_terms, lend_terms
+from usd2kg.grounding.lexical.alignment.home_vocabulary import lend_terms
 from usd2kg.grounding.lexical.alignment.label_words import (
     SENSE_KEY,
     equivalent_nouns,
     head_noun_of,
-    jargon_prefixes,
     normalise_label,
-    paraphrases,
     words_of_label,
 )
 from usd2kg.grounding.lexical.alignment.residual_class import (
@@ -61,11 +59,6 @@ class Lexicon:
     """The class of objects without a more specific one, see `find_default_class`."""
     general_classes: frozenset[ClassIRI]
     """Uninformative classes: the roots and the default class."""
-    borrowed_terms: Mapping[str, Term]
-    """Term without spaces → the class labelled like a superclass in the home vocabulary: a charger is an appliance.
-
-    Used where a noun matches nothing but the default class; empty for the home TBox itself.
-    """
     home_classes: frozenset[ClassIRI]
     """Classes of the TBox that the home vocabulary has synonyms for."""
     category_members: Mapping[int, Sequence[CategoryMember]]
@@ -98,7 +91,6 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default_class=default,
         general_classes=frozenset([*tbox.roots, *filter(None, [default])]),
-        borrowed_terms=borrow_terms(tbox, terms, default, taxonomy, synonyms),
         home_classes=home_classes,
         category_members=members,
     )
@@ -106,9 +98,8 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
 
 def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> dict[str, Term]:
     """Return term without spaces → the class it names, by the labels and synonyms of the classes."""
-    prefixes, depths = jargon_prefixes(tbox, taxonomy), tbox.depths
+    depths = tbox.depths
     terms: dict[str, Term] = {}
-    without_prefix: dict[str, set[ClassIRI]] = {}
     for cls in sorted(physical_classes(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
         for text, kind in _texts_of(cls, synonyms.get(cls.iri, ())):
             label = normalise_label(text, taxonomy)
@@ -116,13 +107,6 @@ def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple
             if residue := residue_of(text, taxonomy):
                 # “Other furniture” is the class of furniture, unless another class has that label.
                 keep_best(terms, Term(cls.iri, residue, TermKind.SYNONYM))
-            first, _, rest = label.partition(" ")
-            if rest and first in prefixes:
-                without_prefix.setdefault(rest, set()).add(cls.iri)
-    for rest, classes in without_prefix.items():
-        # Not where several classes differ by prefix alone, and not for nouns that are true of other classes too.
-        if len(classes) == 1 and rest not in _UNSPECIFIC_NOUNS | GENERAL_NOUNS:
-            keep_best(terms, Term(next(iter(classes)), rest, TermKind.LABEL))
     return terms
 
 
@@ -264,8 +248,7 @@ def _category_members(
         # The synonyms of a home class are kinds of objects, not categories.
         is_own_synonym = term.kind is TermKind.SYNONYM and term.class_iri not in home_classes
         if term.kind is TermKind.LABEL or is_own_synonym:
-            known = (list(members_of(text, taxonomy)) for text in paraphrases(term.text, taxonomy))
-            for synset, count in next(filter(None, known), []):
+            for synset, count in members_of(key, taxonomy):
                 found = AlignedClass(term.class_iri, term.kind.weight)
                 members.setdefault(synset, []).append(CategoryMember(found, count))
         elif term.kind is TermKind.HEAD and term.class_iri not in aligned and (sense := usual_sense(key, taxonomy)):

@@ -20,8 +20,6 @@ class TermKind(Enum):
     """An alternative label, or a name of the home vocabulary for a class with the same IRI."""
     LENT = "lent"
     """A name of the home vocabulary, for a class of another ontology with the same label."""
-    BORROWED = "borrowed"
-    """A name of the home vocabulary, for a class of another ontology with the label of a home superclass."""
     HEAD = "head"
     """The head noun of a longer label."""
 
@@ -35,7 +33,6 @@ _WEIGHTS = {
     TermKind.LABEL: TERMS.label_weight,
     TermKind.SYNONYM: TERMS.synonym_weight,
     TermKind.LENT: TERMS.lent_weight,
-    TermKind.BORROWED: TERMS.borrowed_weight,
     TermKind.HEAD: TERMS.head_weight,
 }
 

@@ -173,16 +173,7 @@ class TermMatcher:
         singular = self._taxonomy.singular(last)
         starts = range(len(before) if self._reader.kinds.is_modifier(last) else len(words))
         keys = {start: "".join(before[start:]) + singular for start in starts}
-        found = self._match_longest(words, keys, places)
-        if self._lexicon.borrowed_terms and all(
-            match.class_iri == self._lexicon.default_class for match in found.matches
-        ):
-            # A class borrowed from the home vocabulary is more informative than the default class.
-            borrowed = {start: self._lexicon.borrowed_terms.get(key) for start, key in keys.items()}
-            start = next((start for start, term in borrowed.items() if term is not None), None)
-            if start is not None:
-                return HeadMatches(words[start:], (*self._match_term(borrowed[start]), *found.matches))
-        return found
+        return self._match_longest(words, keys, places)
 
     def _match_longest(self, words: tuple[str, ...], keys: Mapping[int, str], places: tuple[str, ...]) -> HeadMatches:
         """Return the longest known compound and its matches.

@@ -19,7 +19,6 @@ __all__ = ["NamePhrase", "NameReader"]
 
 _WITH_WORDS = word_set("lexical", "with_words")
 _PREPOSITIONS = word_set("lexical", "prepositions")
-_PARTICLE_VERBS = word_set("lexical", "particle_verbs")
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +96,7 @@ class NameReader:
 
     def _begins_location(self, tokens: list[Token], at: int) -> bool:
         before = tokens[at - 1].text
-        # A `clip_on_lamp` is a lamp.
-        if tokens[at].text not in _PREPOSITIONS or before in _PARTICLE_VERBS or before in self._taxonomy.adjectives:
+        if tokens[at].text not in _PREPOSITIONS or before in self._taxonomy.adjectives:
             return False
         is_compound = "".join(token.text for token in tokens[at - 1 : at + 2]) in self._taxonomy
         return (

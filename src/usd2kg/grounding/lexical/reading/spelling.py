@@ -8,7 +8,7 @@ from rapidfuzz.distance import OSA
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
-from usd2kg.grounding.lexical.reading.english_words import is_common_word, is_english_word
+from usd2kg.grounding.lexical.reading.english_words import is_english_word
 from usd2kg.grounding.lexical.reading.shortening import consonants_of
 from usd2kg.grounding.lexical.reading.word_frequencies import log_prior
 from usd2kg.grounding.lexical.reading.word_kinds import PLACEMENTS, THING_DOMAINS, WordKinds
@@ -34,8 +34,6 @@ class SpellingCorrector:
         singular = self._taxonomy.singular(word)
         if singular != word:
             return (singular,)
-        if is_common_word(word):
-            return (word,)
         is_english = is_english_word(word)
         # One wrong letter in a long word is more likely than two joined words.
         slip = self._respell(word, 1) if len(word) >= SPELLING.min_long_letters and not is_english else None
