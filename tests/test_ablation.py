@@ -1,0 +1,33 @@
+"""The rules that `benchmarks/ablation` switches off exist, and come back."""
+
+import pytest
+
+from benchmarks.ablation.rules import RULES, Rule, switched_off
+from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.matching import phrase_matching
+from usd2kg.grounding.lexical.object_grounder import ObjectGrounder
+from usd2kg.ontology import load_home_tbox
+
+
+def test_rules_have_unique_names():
+    assert len({rule.name for rule in RULES}) == len(RULES)
+
+
+@pytest.mark.parametrize("rule", RULES, ids=[rule.name for rule in RULES])
+def test_every_rule_can_be_switched_off(rule: Rule):
+    with switched_off([rule]):
+        pass
+
+
+def test_a_rule_is_off_within_the_context_only():
+    inverted = next(rule for rule in RULES if rule.name == "head noun: modifier behind the head")
+    matched = phrase_matching.PhraseMatcher._inverted_compounds
+
+    def ground(name: str) -> str:
+        prediction, _ = ObjectGrounder(load_home_tbox(), {}).predict("/Object", ObjectView(name=name))
+        return str(prediction.class_iri)
+
+    assert ground("knife_table").endswith("TableKnife")
+    with switched_off([inverted]):
+        assert not ground("knife_table").endswith("TableKnife")
+    assert phrase_matching.PhraseMatcher._inverted_compounds is matched
