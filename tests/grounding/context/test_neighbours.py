@@ -173,7 +173,7 @@ def test_a_single_object_has_no_companions():
 # --- limits ------------------------------------------------------------------------------------------
 
 
-def test_of_many_siblings_the_nearest_are_companions():
+def test_only_the_nearest_of_many_siblings_are_neighbours():
     scene = things(*(f"/W/a{i:03d}" for i in range(200)))
     found = seen(scene, "/W/a100")
     assert {f"/W/a{i:03d}" for i in range(77, 124) if i != 100} <= set(found)
@@ -186,7 +186,7 @@ def test_of_many_siblings_the_nearest_are_companions():
 
 
 @pytest.mark.parametrize("position", [0, 50, 99])
-def test_of_many_twins_sixteen_are_companions(position):
+def test_at_most_sixteen_objects_of_equal_size_are_neighbours(position):
     scene = things(*((f"/G{i:02d}/x", (1, 1, 1)) for i in range(100)))
     found = seen(scene, f"/G{position:02d}/x")
     assert Counter(found.values())[TWIN] == 16
