@@ -2,7 +2,7 @@
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 from functools import cached_property
 from typing import Any, NamedTuple, TypeVar
@@ -11,7 +11,7 @@ from usd2kg.grounding.context.settings import NEIGHBOURS
 from usd2kg.grounding.context.stage_words import FormWords, Gather, Rate, StageWords, WriteForms
 from usd2kg.scene.model import Scene, SceneObject, Vector
 
-__all__ = ["SAME_SIZE", "Nearness", "Neighbour", "Neighbourhood", "neighbourhoods", "size_distance"]
+__all__ = ["SAME_SIZE", "AskVote", "Nearness", "Neighbour", "Neighbourhood", "neighbourhoods", "size_distance"]
 
 SAME_SIZE = NEIGHBOURS.same_size
 """`size_distance` below which two sizes are equal."""
@@ -81,6 +81,7 @@ class _StageIndex:
         """Object → its index among its siblings."""
         self.log_extents = [None if size is None else _log_extents(size) for size in map(_size_of, scene.objects)]
         self._votes: dict[AskVote[Any], dict[int, Any]] = {}
+        self._of_names: dict[Callable[[Sequence[str]], Any], Any] = {}
         for index, obj in enumerate(scene.objects):
             siblings = self.siblings.setdefault(_parent_path(obj), [])
             self.places.append(len(siblings))
@@ -102,6 +103,13 @@ class _StageIndex:
                 found.add(above)
                 above = above.rpartition("/")[0]
         return frozenset(found)
+
+    def of_names(self, find: Callable[[Sequence[str]], G]) -> G:
+        """Return what `find` makes of the names of all objects, computed once for each `find`."""
+        if find not in self._of_names:
+            self._of_names[find] = find([obj.name for obj in self.objects])
+        found: G = self._of_names[find]
+        return found
 
     def votes(self, vote: AskVote[V]) -> dict[int, V | None]:
         """Return object → its vote, for those asked so far."""
@@ -135,6 +143,13 @@ class Neighbourhood:
         """
         words: FormWords[R, G] = self._stage.words.by_form(write_forms, rate, gather, most)
         return words.without_object(self._stage.objects[self._index].name)
+
+    def of_stage(self, find: Callable[[Sequence[str]], G]) -> G:
+        """Return what `find` makes of the names of all objects of the stage, computed once a stage.
+
+        The object's own name is among them: not for masked regimes.
+        """
+        return self._stage.of_names(find)
 
     def neighbours(self) -> list[Neighbour]:
         """Return the siblings and the objects of equal or similar size, each once."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from usd2kg.grounding.context.settings import PLACEMENT
 from usd2kg.scene.model import Box, Scene, Vector
 
-__all__ = ["Appearance", "FloorPlan", "PlacedObject", "Placement"]
+__all__ = ["Appearance", "FloorPlan", "PlacedObject", "Placement", "ScoreObject"]
 
 _Floats = NDArray[np.float64]
 _Indices = NDArray[np.int64]

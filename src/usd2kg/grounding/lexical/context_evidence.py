@@ -4,8 +4,8 @@ from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
-from usd2kg.grounding.context.neighbours import SAME_SIZE, Nearness, Neighbour, Neighbourhood
-from usd2kg.grounding.context.placement import PlacedObject
+from usd2kg.grounding.context.neighbours import SAME_SIZE, AskVote, Nearness, Neighbour, Neighbourhood
+from usd2kg.grounding.context.placement import PlacedObject, ScoreObject
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.class_posterior import (
     NO_POSTERIOR,
@@ -31,6 +31,7 @@ from usd2kg.grounding.lexical.evidence_combination import ScoredClass
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.neighbour_vote import Vote, count_votes, siblings_as_neighbours, vote_of
+from usd2kg.grounding.lexical.reading.conventions import shared_prefix, without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.settings import VOTE
@@ -57,11 +58,19 @@ class ContextEvidence:
         # Copies of one model have the same size and stance.
         self._posterior_by_appearance = lru_cache(maxsize=8192)(self._compute_posterior_by_appearance)
         # Scenes cache results by the identity of the function, and each access to a method creates a new object.
-        self._vote, self._place = self._vote_of_neighbour, self._log_places_of_neighbour
+        self._find_prefix = partial(shared_prefix, names_object=words.names_known_noun)
+        self._vote = lru_cache(maxsize=64)(self._make_vote)
+        self._place = lru_cache(maxsize=64)(self._make_place)
 
     @cached_property
     def _model(self) -> PosteriorModel:
         return PosteriorModel(self._words.match)
+
+    def shared_prefix(self, view: ObjectView) -> tuple[str, ...]:
+        """Return the parts that nearly all names of the stage begin with; empty in masked regimes."""
+        if view.is_masked or view.neighbourhood is None:
+            return ()
+        return view.neighbourhood.of_stage(self._find_prefix)
 
     def posterior_by_appearance(self, view: ObjectView) -> ClassPosterior:
         """Return class probabilities given size, stance and the places that names above mention; ignores the name."""
@@ -92,17 +101,18 @@ class ContextEvidence:
     def score_neighbours(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes of neighbours with their share of the votes."""
         if view.neighbourhood is not None:
-            return self._score_neighbourhood(view.neighbourhood)
+            return self._score_neighbourhood(view.neighbourhood, self.shared_prefix(view))
         siblings = siblings_as_neighbours(view.siblings, view.parents)
-        voted = ((self._vote(found.name, found.parents, found.size), found) for found in siblings)
+        vote_of_sibling = self._vote(())
+        voted = ((vote_of_sibling(found.name, found.parents, found.size), found) for found in siblings)
         votes = count_votes((vote, found.nearness, found.distance, found) for vote, found in voted if vote is not None)
         return [
             ScoredClass("hierarchy", iri, share, partial(self._explain_neighbour, iri, votes.heaviest[iri][-1]))
             for iri, share in votes.shares.items()
         ]
 
-    def _score_neighbourhood(self, neighbourhood: Neighbourhood) -> list[ScoredClass]:
-        votes = count_votes(neighbourhood.votes(self._vote))
+    def _score_neighbourhood(self, neighbourhood: Neighbourhood, prefix: tuple[str, ...]) -> list[ScoredClass]:
+        votes = count_votes(neighbourhood.votes(self._vote(prefix)))
 
         def explain(iri: ClassIRI) -> str:
             _, nearness, distance, other = votes.heaviest[iri]
@@ -117,13 +127,29 @@ class ContextEvidence:
         size = ", of the same size," if is_same_size and not is_stated else ""
         return f"“{neighbour.name}” {where}{size} is {self._tbox.by_iri[iri].readable_name}"
 
+    def _make_vote(self, prefix: tuple[str, ...]) -> AskVote[Vote]:
+        """Return the function that returns the vote of an object of a stage whose names share a prefix."""
+
+        def vote(name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
+            return self._vote_of_neighbour(without_prefix(name, prefix), parents, size)
+
+        return vote
+
+    def _make_place(self, prefix: tuple[str, ...]) -> ScoreObject:
+        """Return the function that returns what an object says about the place, see `_log_places_of_neighbour`."""
+
+        def place(other: PlacedObject) -> Floats:
+            return self._log_places_of_neighbour(other._replace(name=without_prefix(other.name, prefix)))
+
+        return place
+
     def _vote_of_neighbour(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
         return None if is_generated_name(name) else vote_of(self._words.match(name, parents, size))
 
     def _log_places_around(self, view: ObjectView) -> Floats:
         """Return the log likelihood of each kind of place given the surrounding objects, (places,)."""
         if view.placement is not None:
-            logs, metres = view.placement.around(self._place, VOTE.max_placed)
+            logs, metres = view.placement.around(self._place(self.shared_prefix(view)), VOTE.max_placed)
             return neighbour_weights(metres) @ logs if len(logs) else np.zeros(len(PLACES))
         siblings = [self._log_places_of_name(name, view.parents) for name in view.siblings[: VOTE.max_placed]]
         return sum(siblings, start=np.zeros(len(PLACES))) * neighbour_weights(VOTE.sibling_distance)

@@ -13,6 +13,7 @@ from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
+from usd2kg.grounding.lexical.reading.conventions import without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.settings import EVIDENCE
@@ -44,6 +45,14 @@ class ObjectGrounder:
 
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
         """Return the class of a view with an uncalibrated score, and the posterior by its appearance."""
+        prefix = self._context.shared_prefix(view)
+        prediction, posterior = self._predict(prim_path, _without_shared_prefix(view, prefix) if prefix else view)
+        if without_prefix(view.name, prefix) != view.name:
+            note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
+            prediction = replace(prediction, explanation=f"{prediction.explanation}; {note}")
+        return prediction, posterior
+
+    def _predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
         posterior = self._context.posterior_by_appearance(view)
         scored, word_score = self._score(view)
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
@@ -108,6 +117,17 @@ class ObjectGrounder:
             explanation=f"{reason}; {self._tbox.by_iri[iri].readable_name} applies to most objects",
             candidates=(Candidate(iri, EVIDENCE.default_confidence),),
         )
+
+
+def _without_shared_prefix(view: ObjectView, prefix: tuple[str, ...]) -> ObjectView:
+    """Return a view without the prefix that the names of its stage share, in all its texts."""
+    return replace(
+        view,
+        name=without_prefix(view.name, prefix),
+        display_name=without_prefix(view.display_name, prefix),
+        asset=tuple(without_prefix(text, prefix) for text in view.asset),
+        parts=tuple(without_prefix(text, prefix) for text in view.parts),
+    )
 
 
 def _with_default_class(

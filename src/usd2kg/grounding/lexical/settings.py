@@ -15,6 +15,7 @@ __all__ = [
     "CLASSIFIER",
     "COMBINATION",
     "CONFIDENCE",
+    "CONVENTION",
     "COPIES",
     "DOMAIN_FREQUENCY",
     "EVIDENCE",
@@ -40,6 +41,7 @@ __all__ = [
     "ClassifierSettings",
     "CombinationSettings",
     "ConfidenceSettings",
+    "ConventionSettings",
     "CopySettings",
     "DomainFrequency",
     "EvidenceSettings",
@@ -314,11 +316,21 @@ class ReadingSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class ConventionSettings:
+    """Prefixes that the names of a stage share."""
+
+    min_share: float
+    pseudo_count: float
+    min_object_share: float
+
+
+@dataclass(frozen=True, slots=True)
 class SpellingSettings:
     """Correction of spelling."""
 
     min_long_letters: int
     min_letters_for_two_edits: int
+    max_edits: int
     min_letters: int
     min_doubled_letters: int
     min_foreign_letters: int
@@ -415,6 +427,7 @@ SIZE = read_settings("lexical", "size", SizeSettings)
 PLACE = read_settings("lexical", "place", PlaceSettings)
 STANCE = read_settings("lexical", "stance", StanceSettings)
 READING = read_settings("lexical", "reading", ReadingSettings)
+CONVENTION = read_settings("lexical", "convention", ConventionSettings)
 SPELLING = read_settings("lexical", "spelling", SpellingSettings)
 MODIFIER = read_settings("lexical", "modifier", ModifierSettings)
 FREQUENCY = read_settings("lexical", "frequency", FrequencySettings)

@@ -10,7 +10,7 @@ from usd2kg.grounding.lexical.reading.shortening import usual_abbreviations
 from usd2kg.grounding.lexical.reading.spelling import SpellingCorrector
 from usd2kg.grounding.lexical.reading.tokens import Token, is_compound_part, is_reference, parent_tokens, tokens_of
 from usd2kg.grounding.lexical.reading.word_kinds import WordKinds
-from usd2kg.grounding.lexical.settings import READING
+from usd2kg.grounding.lexical.settings import READING, SPELLING
 from usd2kg.knowledge import word_set
 from usd2kg.languages import language_of, translate
 from usd2kg.words import is_content_word
@@ -68,13 +68,17 @@ class NameReader:
         words: list[str] = []
         glued: list[bool] = []
         corrections: list[tuple[str, str]] = []
-        for token in tokens:
-            read = self._spell_out(token.text) if is_spelled_out else self._spelling.correct(token.text)
+        last_object = self._index_of_last_object(tokens)
+        for at, token in enumerate(tokens):
+            # Before a word that names an object, an unknown word is rather a name: `robomaker_bucket` has no robomower.
+            max_edits = 1 if at < last_object else SPELLING.max_edits
+            correct = self._spell_out if is_spelled_out else self._spelling.correct
+            read = correct(token.text, max_edits)
             words.extend(read)
             glued.extend([token.is_glued, *[True] * (len(read) - 1)])
             if read not in {(token.text,), (self._taxonomy.singular(token.text),)}:
                 corrections.append((token.text, " ".join(read)))
-        context = tuple(word for token in references for word in self._spell_out(token.text))
+        context = tuple(word for token in references for word in self._spell_out(token.text, SPELLING.max_edits))
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
     def phrase(self, words: tuple[str, ...]) -> NamePhrase:
@@ -126,12 +130,20 @@ class NameReader:
         terms = [run for run in runs if "".join(tokens[i].text for i in run) in self._lexicon.terms]
         return max(terms, key=len, default=range(0))
 
-    def _spell_out(self, word: str) -> tuple[str, ...]:
+    def _index_of_last_object(self, tokens: list[Token]) -> int:
+        """Return the index of the last token that names an object as it stands; -1 if there is none."""
+        return next((at for at in reversed(range(len(tokens))) if self._names_object(tokens[at].text)), -1)
+
+    def _names_object(self, word: str) -> bool:
+        singular = self._taxonomy.singular(word)
+        return len(singular) >= READING.min_noun_letters and self.kinds.is_object(singular)
+
+    def _spell_out(self, word: str, max_edits: int) -> tuple[str, ...]:
         """Return a word as known words, with a common abbreviation in full: the knife of a `butter_knf`."""
         usual = usual_abbreviations().get(word)
         if usual is not None and word not in self._lexicon.terms:
             return tuple(usual.split())
-        return self._spelling.correct(word)
+        return self._spelling.correct(word, max_edits)
 
     def _translate(self, words: tuple[str, ...]) -> tuple[str, ...] | None:
         """Return a name in English, head noun last; None if it is English or a term of the TBox."""

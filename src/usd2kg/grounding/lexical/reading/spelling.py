@@ -26,9 +26,9 @@ class SpellingCorrector:
         self._taxonomy = taxonomy
         self._kinds = kinds
         self.correct = lru_cache(maxsize=16384)(self._correct)
-        """Lower-case token → known words; the token itself if none are similar enough."""
+        """(lower-case token, edits allowed at most) → known words; the token itself if none are similar enough."""
 
-    def _correct(self, word: str) -> tuple[str, ...]:
+    def _correct(self, word: str, max_edits: int = SPELLING.max_edits) -> tuple[str, ...]:
         if self._kinds.is_known(word):
             return self._words_of_term(word)
         singular = self._taxonomy.singular(word)
@@ -39,7 +39,7 @@ class SpellingCorrector:
         slip = self._respell(word, 1) if len(word) >= SPELLING.min_long_letters and not is_english else None
         found = slip or self._restore_vowels(word) or self._split(word)
         if found is None and not is_english:
-            found = self._respell(word, 1 if len(word) < SPELLING.min_letters_for_two_edits else 2)
+            found = self._respell(word, 1 if len(word) < SPELLING.min_letters_for_two_edits else max_edits)
         return found or (word,)
 
     def _words_of_term(self, word: str) -> tuple[str, ...]:
