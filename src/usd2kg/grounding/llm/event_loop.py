@@ -21,6 +21,7 @@ class EventLoopThread:
     def _serve(self) -> None:
         try:
             self._loop.run_forever()
+            self._loop.run_until_complete(_finish_other_tasks())
         finally:
             self._loop.close()
 
@@ -48,3 +49,9 @@ class EventLoopThread:
         # The garbage collector may call this in the thread itself.
         if threading.current_thread() is not self._thread:
             self._thread.join()
+
+
+async def _finish_other_tasks() -> None:
+    """Wait for tasks that finalizers started: google-genai starts them in any loop that runs at garbage collection."""
+    while others := asyncio.all_tasks() - {asyncio.current_task()}:
+        await asyncio.gather(*others, return_exceptions=True)
