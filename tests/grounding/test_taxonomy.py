@@ -24,6 +24,7 @@ SYNSETS = [
     Synset("food", [3], [("bun", 2), ("roll", 2)]),
     Synset("artifact", [4, 1], [("knife", 1), ("flower pot", 1), ("x-ray", 3), ("bun", 1)]),
 ]
+WORDNET_KNIFE = "http://wordnet-rdf.princeton.edu/id/03628765-n"
 TINY = Taxonomy(build_columns(["red", "wooden"], SYNSETS))
 
 
@@ -164,3 +165,34 @@ def test_path_up_agrees_with_walk_up(lemma: str, data: st.DataObject):
     assert (path[0], path[-1], len(path)) == (start, target, hops + 1)
     for below, above in itertools.pairwise(path):
         assert (above, 1) in list(taxonomy.walk_up(below))
+
+
+class TestConceptIri:
+    TAXONOMY = Taxonomy(build_columns([], SYNSETS), lambda: "".join(f"{at:08}" for at in range(5)))
+
+    def test_a_synset_of_wordnet_has_its_iri(self):
+        assert self.TAXONOMY.concept_iri(4) == "http://wordnet-rdf.princeton.edu/id/00000004-n"
+
+    def test_another_synset_has_one_of_the_usd2kg_vocabulary(self):
+        assert self.TAXONOMY.concept_iri(6) == "https://w3id.org/usd2kg#concept-knife"
+
+    @pytest.mark.parametrize(
+        "iri",
+        [
+            "",
+            "http://wordnet-rdf.princeton.edu/id/00000005-n",
+            "http://wordnet-rdf.princeton.edu/id/00000004-v",
+            "https://w3id.org/usd2kg#concept-",
+            "https://w3id.org/usd2kg#concept-spoon",
+            # WordNet has it, so its IRI is WordNet's.
+            "https://w3id.org/usd2kg#concept-food",
+        ],
+    )
+    def test_another_iri_is_no_synset(self, iri):
+        assert self.TAXONOMY.find_concept(iri) is None
+
+    def test_every_synset_of_the_package_has_an_iri_of_its_own(self):
+        taxonomy = load_taxonomy()
+        synsets = range(taxonomy.synset_count)
+        assert [taxonomy.find_concept(taxonomy.concept_iri(synset)) for synset in synsets] == [*synsets]
+        assert taxonomy.concept_iri(taxonomy.senses("knife")[0].synset) == WORDNET_KNIFE

@@ -72,8 +72,7 @@ SOMA = Namespace(namespaces.SOMA)
 DUL = Namespace(namespaces.DUL)
 USD = Namespace(namespaces.USD)
 KNOWROB = Namespace(namespaces.KNOWROB)
-U2K = Namespace("https://w3id.org/usd2kg#")
-"""The u2k vocabulary, defined in graph/vocabulary.ttl."""
+U2K = Namespace(namespaces.U2K)
 
 PREFIXES = {
     "rdf": RDF.iri,

@@ -12,6 +12,7 @@ __all__ = [
     "SKOS",
     "SOMA",
     "SSSOM",
+    "U2K",
     "USD",
     "XSD",
 ]
@@ -28,4 +29,6 @@ SSSOM = "https://w3id.org/sssom/"
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 USD = "https://ease-crc.org/ont/USD.owl#"
+U2K = "https://w3id.org/usd2kg#"
+"""The usd2kg vocabulary, defined in graph/vocabulary.ttl."""
 KNOWROB = "http://knowrob.org/kb/knowrob.owl#"

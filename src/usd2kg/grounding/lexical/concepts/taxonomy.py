@@ -1,17 +1,24 @@
 """WordNet's nouns for physical objects: lemmas, their senses by frequency, and hypernyms."""
 
 import gzip
+import re
 from array import array
 from collections.abc import Callable, Collection, Iterator
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import NamedTuple
+from urllib.parse import quote, unquote
 
 import numpy as np
 
 from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, parse_taxonomy
 from usd2kg.knowledge import read_bytes
+from usd2kg.ontology.namespaces import U2K
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
+
+_WORDNET = "http://wordnet-rdf.princeton.edu/id/"
+_OWN_CONCEPT = f"{U2K}concept-"
+_OFFSET_DIGITS = 8
 
 # Morphy's detachment rules for nouns (morphy(7WN)).
 _PLURALS = (("ches", "ch"), ("shes", "sh"), ("sses", "ss"), ("xes", "x"), ("zes", "z"), ("ies", "y"), ("men", "man"))
@@ -54,8 +61,13 @@ class Taxonomy:
     Cells are parsed on first access, since a scene needs few of them.
     """
 
-    def __init__(self, columns: TaxonomyColumns) -> None:
-        """Index the columns of a taxonomy file."""
+    def __init__(self, columns: TaxonomyColumns, read_offsets: Callable[[], str] = str) -> None:
+        """Index the columns of a taxonomy file.
+
+        Args:
+            columns: the columns.
+            read_offsets: returns WordNet's offsets of the first synsets, 8 digits each; WordNet lacks the others.
+        """
         self.adjectives = frozenset(columns.adjectives.decode().split("\t"))
         domains = columns.domains.decode().split("\t")
         self._domains = {chr(ord("a") + at): domain for at, domain in enumerate(domains)}
@@ -70,6 +82,7 @@ class Taxonomy:
         self._senses: dict[str, tuple[Sense, ...]] = {}
         self._above: dict[int, tuple[int, ...]] = {}
         self._singular = lru_cache(maxsize=16384)(self._find_singular)
+        self._read_offsets = read_offsets
 
     def senses(self, lemma: str) -> tuple[Sense, ...]:
         """Return the senses of a lemma or joined compound (`flowerpot`), most frequent first; none if it is unknown."""
@@ -113,6 +126,33 @@ class Taxonomy:
     def name(self, synset: int) -> str:
         """Return the first lemma of a synset, with its spaces."""
         return self._names[synset]
+
+    def concept_iri(self, synset: int) -> str:
+        """Return the IRI of a synset: WordNet 3.1's, or one in the usd2kg vocabulary for a noun that WordNet lacks."""
+        at = synset * _OFFSET_DIGITS
+        if offset := self._offsets[at : at + _OFFSET_DIGITS]:
+            return f"{_WORDNET}{offset}-n"
+        return _OWN_CONCEPT + quote(self.name(synset).replace(" ", "_"), safe="")
+
+    def find_concept(self, iri: str) -> int | None:
+        """Return the synset with an IRI; None if there is none."""
+        if found := re.fullmatch(re.escape(_WORDNET) + r"(\d{8})-n", iri):
+            return self._synsets_by_offset.get(found[1])
+        if not iri.startswith(_OWN_CONCEPT):
+            return None
+        name = unquote(iri.removeprefix(_OWN_CONCEPT)).replace("_", " ")
+        key = name.replace(" ", "").replace("-", "")
+        return next((s.synset for s in self.senses(key) if self.concept_iri(s.synset) == iri), None)
+
+    @cached_property
+    def _offsets(self) -> str:
+        # Read on first use: only concepts in results need IRIs.
+        return self._read_offsets()
+
+    @cached_property
+    def _synsets_by_offset(self) -> dict[str, int]:
+        starts = range(0, len(self._offsets), _OFFSET_DIGITS)
+        return {self._offsets[at : at + _OFFSET_DIGITS]: synset for synset, at in enumerate(starts)}
 
     def size(self, synset: int) -> int:
         """Return the number of hyponyms of a synset, itself included."""
@@ -194,4 +234,5 @@ class Taxonomy:
 @lru_cache(maxsize=1)
 def load_taxonomy() -> Taxonomy:
     """Return the taxonomy of the package, read once."""
-    return Taxonomy(parse_taxonomy(gzip.decompress(read_bytes("wordnet.txt.gz"))))
+    columns = parse_taxonomy(gzip.decompress(read_bytes("wordnet.txt.gz")))
+    return Taxonomy(columns, lambda: gzip.decompress(read_bytes("wordnet_offsets.txt.gz")).decode())
