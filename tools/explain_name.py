@@ -13,6 +13,7 @@ from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import TBox
@@ -24,7 +25,7 @@ def explain(name: str, parents: tuple[str, ...], size: Size | None, tbox: TBox) 
     taxonomy = load_taxonomy()
     lexicon = build_lexicon(tbox, taxonomy, home_names())
     reader = NameReader(lexicon, taxonomy)
-    matcher = PhraseMatcher(tbox, lexicon, taxonomy, reader)
+    matcher = PhraseMatcher(TermMatcher(tbox, lexicon, taxonomy, reader), taxonomy, reader)
     phrase = reader.read(name, parents)
     lines = [
         f"words: {' '.join(phrase.words)}",

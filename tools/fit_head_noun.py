@@ -22,6 +22,7 @@ from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox
@@ -99,7 +100,7 @@ def make_readers(tbox: TBox) -> list[Reader]:
     for synonyms in (home_names(), {}):
         lexicon = build_lexicon(tbox, taxonomy, synonyms)
         reader = NameReader(lexicon, taxonomy)
-        readers.append(Reader(PhraseMatcher(tbox, lexicon, taxonomy, reader), reader))
+        readers.append(Reader(PhraseMatcher(TermMatcher(tbox, lexicon, taxonomy, reader), taxonomy, reader), reader))
     return readers
 
 

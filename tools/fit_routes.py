@@ -18,6 +18,7 @@ from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.matching.routes import RouteFeatures, Routes
+from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import ClassIRI, TBox
@@ -82,7 +83,7 @@ def read_nouns(names: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
     if not lexicon.home_classes.isdisjoint(tbox.by_iri):
         return
     reader = NameReader(lexicon, taxonomy)
-    matcher = PhraseMatcher(tbox, lexicon, taxonomy, reader, use_routes=False)
+    matcher = PhraseMatcher(TermMatcher(tbox, lexicon, taxonomy, reader, use_routes=False), taxonomy, reader)
     paths = Routes(tbox, lexicon, taxonomy)
     for labelled in names:
         assert labelled.obj.box

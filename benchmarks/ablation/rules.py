@@ -104,7 +104,7 @@ RULES = (
     Rule("abbreviations: complete partly spelled names", "name_evidence:NameEvidence.complete", argument(2)),
     Rule(
         "evidence: known nouns without a class are not completed",
-        "name_evidence:NameEvidence.names_known_noun",
+        f"{READER}:NameReader.names_known_noun",
         constant(False),
     ),
     Rule("evidence: ignore generated names", "object_grounder:is_generated_name", constant(False)),

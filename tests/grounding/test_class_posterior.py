@@ -17,7 +17,7 @@ from usd2kg.grounding.lexical.class_posterior import (
 )
 from usd2kg.grounding.lexical.concepts.places import PLACES, log_stance_likelihoods, place_probabilities, stance_of
 from usd2kg.grounding.lexical.concepts.sizes import Size, size_log_likelihoods
-from usd2kg.grounding.lexical.matching.term_matching import Match
+from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
 

@@ -22,7 +22,7 @@ def query_command(
         list[str] | None,
         Argument(
             metavar="[QUESTION]...",
-            help="on X, in X, near X, above X, parts of X, where is X, or all of CLASS (with its subclasses).",
+            help="on X, in X, near X, above X, parts of X, where is X, or all of KIND: a class or a noun.",
         ),
     ] = None,
     sparql: Annotated[

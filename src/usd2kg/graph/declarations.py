@@ -37,6 +37,7 @@ _EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
         """,
         USD: "Color Prim Stage",
         PROV: "Activity Entity SoftwareAgent",
+        SKOS: "Concept",
     },
     OWL.ObjectProperty: {
         SOMA: """
@@ -61,7 +62,7 @@ _EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
     },
     OWL.AnnotationProperty: {
         SSSOM: "confidence mapping_justification reviewer_id reviewer_label",
-        SKOS: "altLabel",
+        SKOS: "altLabel broader prefLabel",
         DCTERMS: "source",
     },
 }

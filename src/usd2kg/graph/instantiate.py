@@ -10,6 +10,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
+from usd2kg.graph.concept_hierarchy import describe_concepts, state_concept
 from usd2kg.graph.declarations import declare_terms
 from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.joint_patterns import resolve_joints
@@ -178,6 +179,7 @@ class _GraphBuilder:
     def _blocks(self) -> Iterator[Iterable[Triple]]:
         """Yield blocks of triples that have no triple in common."""
         yield self._provenance()
+        yield describe_concepts(self.grounding.concepts.values())
         yield self._members()
         yield self._rooms()
         for obj in self.scene.objects:
@@ -221,6 +223,8 @@ class _GraphBuilder:
         prediction = self.grounding.by_path.get(obj.prim_path)
         about: list[Triple] = []
         block: list[Triple] = list(self._type(node, prediction, about))
+        if prediction is not None:
+            block.extend(state_concept(node, prediction))
         block.extend(describe_metadata(obj, node))
         block.extend(self._relations(obj.prim_path, node, about))
         block.extend((node, self.profile.has_joint, joint) for joint in self.joints_of.get(node, ()))

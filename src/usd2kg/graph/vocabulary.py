@@ -22,6 +22,7 @@ __all__ = [
     "SSSOM",
     "U2K",
     "USD",
+    "WORDNET",
     "XSD",
     "Namespace",
     "Triple",
@@ -73,6 +74,7 @@ DUL = Namespace(namespaces.DUL)
 USD = Namespace(namespaces.USD)
 KNOWROB = Namespace(namespaces.KNOWROB)
 U2K = Namespace(namespaces.U2K)
+WORDNET = Namespace(namespaces.WORDNET)
 
 PREFIXES = {
     "rdf": RDF.iri,
@@ -89,6 +91,7 @@ PREFIXES = {
     "usd": USD.iri,
     "knowrob": KNOWROB.iri,
     "u2k": U2K.iri,
+    "wn": WORDNET.iri,
 }
 
 

@@ -2,6 +2,7 @@
 
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.cascade import CascadeGrounder
+from usd2kg.grounding.concepts import concepts_named
 from usd2kg.grounding.context import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -14,7 +15,7 @@ from usd2kg.grounding.decisions import PERSON, DecisionOrigin, find_uncertain, f
 from usd2kg.grounding.ground import ground as ground
 from usd2kg.grounding.ground import parse_evidence, parse_regime
 from usd2kg.grounding.mapping_files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
-from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
+from usd2kg.grounding.model import Candidate, Concept, Grounding, Prediction, Review, Status
 from usd2kg.grounding.platt_scaling import PlattScaling, read_scaling
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
 
@@ -27,6 +28,7 @@ __all__ = [
     "STUDY_GROUPS",
     "Candidate",
     "CascadeGrounder",
+    "Concept",
     "DecisionOrigin",
     "Grounder",
     "Grounding",
@@ -37,6 +39,7 @@ __all__ = [
     "Review",
     "Status",
     "check_format",
+    "concepts_named",
     "find_uncertain",
     "format_mapping",
     "format_queue",

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.base import Grounder
+from usd2kg.grounding.concepts import add_concepts
 from usd2kg.grounding.context.views import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, view_objects
 from usd2kg.grounding.decisions import DecisionOrigin, make_decision
 from usd2kg.grounding.model import Grounding, Prediction, Status
@@ -49,7 +50,8 @@ def ground(
     origins = carried or {}
     known = {p: make_decision(p, iri, origins.get(p)) for p, iri in (decisions or {}).items() if p in views}
     undecided = [(path, views[path]) for path in wanted if path in views and path not in known]
-    by_path = known | {p.prim_path: p for p in grounder.ground_views(undecided, tbox)}
+    grounded = {p.prim_path: p for p in grounder.ground_views(undecided, tbox)}
+    by_path, concepts = add_concepts(known | grounded, views, tbox)
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,
@@ -65,6 +67,7 @@ def ground(
         is_calibrated=grounder.is_calibrated,
         tool_version=version("usd2kg"),
         predictions=tuple(by_path.get(path) or _missing(path, grounder.name) for path in wanted),
+        concepts=concepts,
     )
 
 

@@ -8,20 +8,24 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.model import Candidate, Grounding, Prediction, Review, Status
+from usd2kg.grounding.model import Candidate, Concept, Grounding, Prediction, Review, Status
 from usd2kg.ontology import TBox
 
 __all__ = ["MAPPING_FORMATS", "check_format", "format_mapping", "read_grounding", "read_paths"]
 
 MAPPING_FORMATS = ("csv", "json")
-_COLUMNS = ("path", "class", "label", "confidence", "status", "grounder")
+_COLUMNS = (
+    *("path", "class", "label", "confidence", "status", "grounder"),
+    *("concept", "concept_label", "concept_confidence"),
+)
 _FORMAT = "usd2kg-grounding/1"
 
 
 def format_mapping(grounding: Grounding, tbox: TBox, file_format: str) -> str:
     """Return the mapping of prims to classes as `csv` or `json`.
 
-    CSV has the columns path, class (IRI), label, confidence, status and grounder; unknown cells are empty.
+    CSV has the columns path, class (IRI), label, confidence, status, grounder, concept (IRI), concept_label and
+    concept_confidence; unknown cells are empty.
     JSON holds the whole grounding; `read_grounding` reads it.
 
     Raises:
@@ -46,9 +50,18 @@ def _format_csv(grounding: Grounding, tbox: TBox) -> str:
     writer.writerow(_COLUMNS)
     for p in grounding.predictions:
         label = tbox.by_iri[p.class_iri].label if p.class_iri else ""
-        confidence = "" if p.confidence is None else f"{p.confidence:.4f}"
-        writer.writerow((p.prim_path, p.class_iri or "", label, confidence, p.status.value, p.grounder))
+        concept = grounding.concepts.get(p.concept or "")
+        writer.writerow(
+            (
+                *(p.prim_path, p.class_iri or "", label, _number(p.confidence), p.status.value, p.grounder),
+                *(("", "", "") if concept is None else (concept.iri, concept.label, _number(p.concept_confidence))),
+            )
+        )
     return text.getvalue()
+
+
+def _number(confidence: float | None) -> str:
+    return "" if confidence is None else f"{confidence:.4f}"
 
 
 def read_grounding(path: Path) -> Grounding:
@@ -62,7 +75,8 @@ def read_grounding(path: Path) -> Grounding:
         if data.pop("format") != _FORMAT:
             raise ValueError("another format")
         predictions = tuple(_read_prediction(item) for item in data.pop("predictions"))
-        return Grounding(predictions=predictions, **data)
+        concepts = {iri: _read_concept(item) for iri, item in data.pop("concepts", {}).items()}
+        return Grounding(predictions=predictions, concepts=concepts, **data)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise GroundingError(
             f"{path}: cannot be read as a grounding ({error}); expected JSON written by usd2kg ground --format json"
@@ -73,11 +87,16 @@ def _read_prediction(item: dict[str, Any]) -> Prediction:
     item["status"] = Status(item["status"])
     item["evidence"] = tuple(item["evidence"])
     item["candidates"] = tuple(Candidate(**candidate) for candidate in item["candidates"])
-    # Older files have no key `review`.
+    # Older files have neither `words` nor `review`.
+    item["words"] = tuple(item.get("words", ()))
     if item.get("review") is not None:
         review = item["review"]
         item["review"] = Review(**{**review, "predicted_status": Status(review["predicted_status"])})
     return Prediction(**item)
+
+
+def _read_concept(item: dict[str, Any]) -> Concept:
+    return Concept(**{**item, "broader": tuple(item["broader"])})
 
 
 def read_paths(path: Path) -> list[str]:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["Candidate", "Grounding", "Prediction", "Review", "Status"]
+__all__ = ["Candidate", "Concept", "Grounding", "Prediction", "Review", "Status"]
 
 
 class Status(StrEnum):
@@ -36,6 +36,18 @@ class Candidate:
     class_iri: ClassIRI
     score: float
     """Higher is better. Scores are comparable only within one prediction."""
+
+
+@dataclass(frozen=True, slots=True)
+class Concept:
+    """A sense of a noun, independent of any ontology."""
+
+    iri: str
+    """WordNet's IRI, or one in the usd2kg vocabulary for a sense that WordNet lacks."""
+    label: str
+    """Its usual noun, with spaces."""
+    broader: tuple[str, ...] = ()
+    """IRIs of the direct hypernyms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +87,12 @@ class Prediction:
     """A person's decision, which sets class, status and confidence above; None if there is none."""
     decided_for: str = ""
     """The prim path of the decision if the object has been renamed or moved since; else empty."""
+    words: tuple[str, ...] = ()
+    """The words that the grounder read an abbreviated name as; empty if it spelled none out."""
+    concept: str | None = None
+    """IRI of the concept that the object's own words name, in `Grounding.concepts`; None if they name none."""
+    concept_confidence: float | None = None
+    """Probability that the concept is right, from 0 to 1, calibrated on names of objects in homes and workplaces."""
 
     def reviewed(
         self,
@@ -118,6 +136,8 @@ class Grounding:
     tool_version: str
     predictions: tuple[Prediction, ...] = field(default=())
     """One for each object, in scene order."""
+    concepts: Mapping[str, Concept] = field(default_factory=dict)
+    """IRI → concept, for the concepts of the predictions and all their hypernyms."""
 
     @cached_property
     def by_path(self) -> Mapping[str, Prediction]:

@@ -14,6 +14,7 @@ __all__ = [
     "SSSOM",
     "U2K",
     "USD",
+    "WORDNET",
     "XSD",
 ]
 
@@ -31,4 +32,6 @@ DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 USD = "https://ease-crc.org/ont/USD.owl#"
 U2K = "https://w3id.org/usd2kg#"
 """The usd2kg vocabulary, defined in graph/vocabulary.ttl."""
+WORDNET = "http://wordnet-rdf.princeton.edu/id/"
+"""Synsets of WordNet 3.1 by offset and part of speech: `03628765-n`."""
 KNOWROB = "http://knowrob.org/kb/knowrob.owl#"

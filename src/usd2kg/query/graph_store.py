@@ -81,7 +81,7 @@ class GraphStore:
         if parameter.kind == "object":
             return self.find(value)
         if parameter.kind == "class":
-            return self._lookup.classes(value)
+            return self._lookup.kinds(value)
         if parameter.kind == "position":
             if parse_vector(value) is None:
                 raise GraphError(f"{parameter.name} {value!r} is not a position; expected x y z in metres: '1 0.5 2'")
@@ -142,22 +142,25 @@ class GraphStore:
         return self._about(templates.PARTS_OF, thing)
 
     def all_of(self, name: str) -> Answer:
-        """Return the objects of a class, subclasses included, named by label, local name, CURIE or IRI."""
+        """Return the objects of a kind: a class or a concept, with everything below it.
+
+        A class is named by label, local name, CURIE or IRI; a concept by a noun, such as `book` or `couch`.
+        """
         return self._about(templates.ALL_OF, name)
 
     def ask(self, words: Sequence[str]) -> Answer:
-        """Return the answer to a short question: `on X`, `in X`, `near X`, `parts of X`, `all of CLASS`.
+        """Return the answer to a short question: `on X`, `in X`, `near X`, `parts of X`, `all of KIND`.
 
         Raises:
-            GraphError: the question is not understood, or the object or class is not in the graph.
+            GraphError: the question is not understood, or the object or kind is not in the graph.
         """
         return self._about(*templates.parse_question(words))
 
     def find(self, thing: str) -> list[ox.NamedNode]:
         """Return the objects that match a name, by the first criterion with a match.
 
-        Criteria in order: prim path; label; class, subclasses included; all words in the label; all words in the
-        asset's name.
+        Criteria in order: prim path; label; class or concept, with everything below it; all words in the label; all
+        words in the asset's name.
 
         Raises:
             GraphError: no object matches.
@@ -165,6 +168,6 @@ class GraphStore:
         return self._lookup.find(thing)
 
     def _about(self, template: templates.QueryTemplate, name: str) -> Answer:
-        things = self._lookup.classes(name) if template.takes_class else self._lookup.find(name)
+        things = self._lookup.kinds(name) if template.takes_kind else self._lookup.find(name)
         answer = self.sparql(template.fill(term_list(things)))
         return replace(answer, columns=tuple(template.columns.get(column, column) for column in answer.columns))

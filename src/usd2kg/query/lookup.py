@@ -1,4 +1,4 @@
-"""Find the objects and classes that a user names: by prim path, label, class, words or IRI."""
+"""Find the objects and kinds that a user names: by prim path, label, class, concept, words or IRI."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -10,7 +10,9 @@ from rapidfuzz import fuzz, process
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.grounding import concepts_named
 from usd2kg.ontology import expand_curie
+from usd2kg.query.query_templates import KIND_OF
 from usd2kg.query.settings import LOOKUP
 from usd2kg.words import split_identifier
 
@@ -22,11 +24,13 @@ _ASSETS = "SELECT DISTINCT ?o ?a ?p WHERE { ?o u2k:primPath ?p ; u2k:asset ?a } 
 
 _MEMBERS = """
 SELECT DISTINCT ?o ?p WHERE {{
-  VALUES ?wanted {{ {classes} }}
-  ?o a/rdfs:subClassOf* ?wanted ; u2k:primPath ?p .
+  VALUES ?wanted {{ {kinds} }}
+  ?o {predicate} ?wanted ; u2k:primPath ?p .
 }} ORDER BY ?p"""
 
 _CLASSES = "SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }"
+
+_CONCEPTS = "SELECT DISTINCT ?c ?l WHERE { ?c a skos:Concept . OPTIONAL { ?c skos:prefLabel ?l } }"
 
 _USED_LABELS = "SELECT DISTINCT ?l WHERE { ?o u2k:primPath [] ; a ?c . ?c rdfs:label ?l } ORDER BY ?l"
 
@@ -40,7 +44,7 @@ class NamedObject(NamedTuple):
 
 
 class Lookup:
-    """Finds objects and classes of one graph by name."""
+    """Finds objects and kinds of one graph by name. A kind is a class, or a concept that objects have."""
 
     def __init__(self, store: ox.Store, source: str) -> None:
         self._store = store
@@ -54,8 +58,8 @@ class Lookup:
     def find(self, thing: str) -> list[ox.NamedNode]:
         """Return the objects that match a name, by the first criterion with a match.
 
-        Criteria in order: prim path; label; class, subclasses included; all words in the label; all words in the
-        asset's name.
+        Criteria in order: prim path; label; class or concept, with everything below it; all words in the label; all
+        words in the asset's name.
 
         Raises:
             GraphError: no object matches.
@@ -65,7 +69,7 @@ class Lookup:
         criteria: tuple[Callable[[], list[ox.NamedNode]], ...] = (
             lambda: [node for node, path, _ in self.objects if path == thing],
             lambda: [node for node, _, label in self.objects if label.lower() == thing.lower()],
-            lambda: self._members(self._find_classes(thing)),
+            lambda: self._members(self._find_kinds(thing)),
             lambda: [node for node, _, label in self.objects if wanted and wanted <= _words(label)],
             lambda: [row["o"] for row in self._select(_ASSETS) if wanted and wanted <= _words(row["a"].value)],
         )
@@ -73,8 +77,8 @@ class Lookup:
             if found := criterion():
                 return found
         raise GraphError(
-            f"{self._source}: nothing is named {thing!r}{self._suggest(thing)}; expected a label, a class or a prim "
-            "path; usd2kg query GRAPH all of CLASS lists objects"
+            f"{self._source}: nothing is named {thing!r}{self._suggest(thing)}; expected a label, a class, a noun or a "
+            "prim path; usd2kg query GRAPH all of KIND lists objects"
         )
 
     def _suggest(self, thing: str) -> str:
@@ -89,34 +93,42 @@ class Lookup:
         )
         return f" (did you mean {' or '.join(repr(label) for label, _, _ in similar)}?)" if similar else ""
 
-    def classes(self, name: str) -> list[ox.NamedNode]:
-        """Return the classes with this label, local name, CURIE or IRI.
+    def kinds(self, name: str) -> list[ox.NamedNode]:
+        """Return the classes with this label, local name, CURIE or IRI, and the concepts that the noun may mean.
 
         Raises:
             GraphError: there is none; the message lists the classes of the graph's objects.
         """
-        found = self._find_classes(name)
+        found = self._find_kinds(name)
         if not found:
             known = ", ".join(row["l"].value for row in self._select(_USED_LABELS))
-            raise GraphError(f"{self._source}: no class is named {name!r}; expected one of {known}")
+            raise GraphError(
+                f"{self._source}: no class or concept is named {name!r}; expected a noun that is a concept of an "
+                f"object, or one of the classes {known}"
+            )
         return found
 
-    def _find_classes(self, name: str) -> list[ox.NamedNode]:
-        wanted = _words(name)
-        iri = expand_curie(name)
-        found = {
+    def _find_kinds(self, name: str) -> list[ox.NamedNode]:
+        wanted, iri = _words(name), expand_curie(name)
+        senses = {*concepts_named(name), name, iri}
+        classes = {
             row["c"]
             for row in self._select(_CLASSES)
             if row["c"].value in {name, iri}
             or _words(re.split(r"[#/]", row["c"].value)[-1]) == wanted
             or (row["l"] is not None and _words(row["l"].value) == wanted)
         }
-        return sorted(found, key=lambda node: node.value)
+        concepts = {
+            row["c"]
+            for row in self._select(_CONCEPTS)
+            if row["c"].value in senses or (row["l"] is not None and _words(row["l"].value) == wanted)
+        }
+        return sorted(classes | concepts, key=lambda node: node.value)
 
-    def _members(self, classes: list[ox.NamedNode]) -> list[ox.NamedNode]:
-        if not classes:
+    def _members(self, kinds: list[ox.NamedNode]) -> list[ox.NamedNode]:
+        if not kinds:
             return []
-        return [row["o"] for row in self._select(_MEMBERS.format(classes=term_list(classes)))]
+        return [row["o"] for row in self._select(_MEMBERS.format(kinds=term_list(kinds), predicate=KIND_OF))]
 
     def _select(self, query: str) -> list[Any]:
         rows = self._store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)

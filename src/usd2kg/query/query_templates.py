@@ -1,4 +1,4 @@
-"""SPARQL templates of the short questions: on X, in X, near X, above X, parts of X, where is X, all of CLASS."""
+"""SPARQL templates of the short questions: on X, in X, near X, above X, parts of X, where is X, all of KIND."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -12,6 +12,7 @@ __all__ = [
     "ALL_OF",
     "ALL_ON",
     "INSIDE",
+    "KIND_OF",
     "NEAR",
     "ON",
     "PARTS_OF",
@@ -27,6 +28,9 @@ _NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
 """The graph states only the nearest anchors, but an object above another on the table is also above the table."""
+
+KIND_OF = "(a/rdfs:subClassOf*)|(u2k:concept/skos:broader*)"
+"""From an object to a class that it belongs to, or to its concept and the hypernyms."""
 
 _RELATED = """
 SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
@@ -70,17 +74,23 @@ SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{
 }} ORDER BY ?path"""
 
 _ALL = """
-SELECT DISTINCT ?object ?class ?path ?confidence WHERE {{
+SELECT DISTINCT ?object ?class ?concept ?path ?confidence WHERE {{
   VALUES ?wanted {{ {things} }}
-  ?c rdfs:subClassOf* ?wanted ; rdfs:label ?class .
-  ?o a ?c ; rdfs:label ?object ; u2k:primPath ?path .
-  OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?confidence . }}
+  ?o {predicate} ?wanted ; rdfs:label ?object ; u2k:primPath ?path .
+  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
+  OPTIONAL {{ ?o u2k:concept/skos:prefLabel ?concept . }}
+  OPTIONAL {{
+    ?c rdfs:subClassOf* ?wanted .
+    ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?of_class .
+  }}
+  OPTIONAL {{ ?o u2k:conceptConfidence ?of_concept . }}
+  BIND (COALESCE(?of_class, ?of_concept) AS ?confidence)
 }} ORDER BY ?path"""
 
 
 @dataclass(frozen=True)
 class QueryTemplate:
-    """A query about given objects, or about the objects of given classes."""
+    """A query about given objects, or about the objects of given kinds."""
 
     text: str
     """SPARQL as a format string."""
@@ -88,11 +98,11 @@ class QueryTemplate:
     """Placeholder → property path."""
     columns: Mapping[str, str] = field(default_factory=dict)
     """Variable → column of the answer, if they differ."""
-    takes_class: bool = False
-    """Whether the query is about a class."""
+    takes_kind: bool = False
+    """Whether the query is about classes and concepts."""
 
     def fill(self, things: str) -> str:
-        """Return the query about objects or classes, given as SPARQL terms (see `term_list`)."""
+        """Return the query about objects or kinds, given as SPARQL terms (see `term_list`)."""
         return self.text.format(things=things, **self.terms)
 
 
@@ -110,7 +120,7 @@ ABOVE = QueryTemplate(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"nu
 NEAR = QueryTemplate(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
 PARTS_OF = QueryTemplate(_PARTS, {"predicate": _PART_OF})
 WHERE_IS = QueryTemplate(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
-ALL_OF = QueryTemplate(_ALL, {}, takes_class=True)
+ALL_OF = QueryTemplate(_ALL, {"predicate": KIND_OF}, takes_kind=True)
 
 _PHRASES = (
     (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
@@ -139,5 +149,5 @@ def parse_question(words: Sequence[str]) -> tuple[QueryTemplate, str]:
             return question, found.group("thing").strip()
     raise GraphError(
         f"question {text!r} is not understood; expected 'on X', 'in X', 'near X', 'above X', "
-        "'parts of X', 'where is X' or 'all of CLASS', or a query with --sparql"
+        "'parts of X', 'where is X' or 'all of KIND', or a query with --sparql"
     )

@@ -24,7 +24,7 @@ from usd2kg.graph.export.property_terms import (
     VECTORS,
 )
 from usd2kg.graph.rdf_document import GraphDocument
-from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD, XSD
+from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SKOS, SOMA, SSSOM, U2K, USD, XSD
 
 __all__ = ["PropertyEdge", "PropertyGraph", "PropertyNode", "Value", "read_property_graph"]
 
@@ -163,6 +163,10 @@ class _NodeReader:
             reviewers = [_text(r) for n in (SSSOM.reviewer_id, SSSOM.reviewer_label) for r in notes.get(n, ())]
             if reviewers:
                 properties["reviewer"] = _LIST_SEPARATOR.join(reviewers)
+        for concept in self._graph.values(node, U2K.concept):
+            properties["concept"] = self._graph.first(concept, SKOS.prefLabel) or _text(concept)
+            properties["conceptIri"] = _text(concept)
+            properties.update(_numbers(self._graph.of[node], {U2K.conceptConfidence: "conceptConfidence"}))
         return properties | self._measured(node)
 
     def _joint(self, node: ox.NamedNode) -> dict[str, Value]:

@@ -40,9 +40,20 @@ _COLUMNS = (
     "status",
     "grounder",
     "alternatives",
+    "concept",
+    "concept_label",
+    "concept_confidence",
 )
-_EXTENSIONS = {"prim_path": "primPath", "status": "status", "grounder": "grounder", "alternatives": "alternative"}
-"""Extension column → u2k term."""
+_EXTENSIONS = {
+    "prim_path": "u2k:primPath",
+    "status": "u2k:status",
+    "grounder": "u2k:grounder",
+    "alternatives": "u2k:alternative",
+    "concept": "u2k:concept",
+    "concept_label": "skos:prefLabel",
+    "concept_confidence": "u2k:conceptConfidence",
+}
+"""Extension column → CURIE of its property."""
 _CLAIMS = frozenset({Status.REFUSED, Status.REVIEWED})
 """Statuses that, without a class, state that no class fits."""
 _LOCAL = re.compile(r"[^#/:]+")
@@ -59,7 +70,7 @@ def format_sssom(
     license_iri: str = UNSPECIFIED_LICENSE,
     mapping_date: str | None = None,
 ) -> str:
-    """Return the mapping as SSSOM/TSV, with extension columns for prim path, status, grounder and alternatives.
+    """Return the mapping as SSSOM/TSV, with extension columns for prim path, status, grounder, alternatives, concept.
 
     Objects without an answer (failed, unreadable, missing) have no row; objects that no class fits map to
     sssom:NoTermFound.
@@ -79,7 +90,11 @@ def format_sssom(
     if named_node(license_iri) is None:
         raise GraphError(f"license {license_iri!r}: expected an IRI, like https://creativecommons.org/licenses/by/4.0/")
     curies = _Curies(base)
-    rows = [_row(p, tbox, names, base, curies) for p in grounding.predictions if p.class_iri or p.status in _CLAIMS]
+    rows = [
+        {**_row(p, tbox, names, base, curies), **_concept_cells(p, grounding, curies)}
+        for p in grounding.predictions
+        if p.class_iri or p.status in _CLAIMS
+    ]
     header = _header(grounding, tbox, base, curies)
     dates = {"mapping_date": _read_date(mapping_date)} if mapping_date else {}
     return _document({**header, "license": license_iri, **dates}, curies, rows)
@@ -113,7 +128,7 @@ class _Curies:
     """Shortens IRIs to CURIEs and collects the prefixes in use."""
 
     def __init__(self, base: str) -> None:
-        self.used = {_PREFIX: base, "u2k": PREFIXES["u2k"], "xsd": PREFIXES["xsd"]}
+        self.used = {_PREFIX: base, **{prefix: PREFIXES[prefix] for prefix in ("skos", "u2k", "xsd")}}
         self._known = {iri: name for name, iri in PREFIXES.items()} | {"https://orcid.org/": "orcid", base: _PREFIX}
 
     def shorten(self, iri: str) -> str:
@@ -151,6 +166,17 @@ def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies:
     }
 
 
+def _concept_cells(p: Prediction, grounding: Grounding, curies: _Curies) -> dict[str, str]:
+    concept = grounding.concepts.get(p.concept or "")
+    if concept is None:
+        return {}
+    return {
+        "concept": curies.shorten(concept.iri),
+        "concept_label": _line(concept.label),
+        "concept_confidence": f"{p.concept_confidence or 0.0:.4f}",
+    }
+
+
 def _line(text: str) -> str:
     """Return text on one line, since many TSV readers do not unescape line breaks and tabs."""
     return re.sub(r"\s+", " ", text).strip()
@@ -168,7 +194,7 @@ def _document(header: Mapping[str, str], curies: _Curies, rows: Iterable[Mapping
     lines += [f"{name}: {json.dumps(_line(value))}" for name, value in header.items()]
     lines.append("extension_definitions:")
     for name, term in _EXTENSIONS.items():
-        lines += [f"- slot_name: {name}", f"  property: u2k:{term}", "  type_hint: xsd:string"]
+        lines += [f"- slot_name: {name}", f"  property: {term}", "  type_hint: xsd:string"]
     text = io.StringIO(newline="")
     text.writelines(f"#{line}\n" for line in lines)
     writer = csv.DictWriter(text, _COLUMNS, delimiter="\t", lineterminator="\n")

@@ -20,7 +20,7 @@ from usd2kg.grounding.lexical.concepts.places import (
     stance_of,
 )
 from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_nouns, size_log_likelihoods
-from usd2kg.grounding.lexical.matching.term_matching import Match
+from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.settings import PLACE
 from usd2kg.ontology import ClassIRI
 

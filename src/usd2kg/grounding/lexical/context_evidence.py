@@ -58,7 +58,7 @@ class ContextEvidence:
         # Copies of one model have the same size and stance.
         self._posterior_by_appearance = lru_cache(maxsize=8192)(self._compute_posterior_by_appearance)
         # Scenes cache results by the identity of the function, and each access to a method creates a new object.
-        self._find_prefix = partial(shared_prefix, names_object=words.names_known_noun)
+        self._find_prefix = partial(shared_prefix, names_object=reader.names_known_noun)
         self._vote = lru_cache(maxsize=64)(self._make_vote)
         self._place = lru_cache(maxsize=64)(self._make_place)
 

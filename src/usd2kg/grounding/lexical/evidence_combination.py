@@ -23,6 +23,8 @@ class ScoredClass(NamedTuple):
     score: float
     explain: Callable[[], str]
     """Returns one sentence for a person; a function because most explanations are never shown."""
+    words: tuple[str, ...] = ()
+    """The words that an abbreviated name was read as; else empty."""
 
 
 def combine_evidence(

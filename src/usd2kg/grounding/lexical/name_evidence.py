@@ -8,14 +8,14 @@ from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
+from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.matching.term_matching import Match
 from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader, Reading
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.lexical.reading.evidence_texts import texts_of
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.reading.shortening import may_be_short
-from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE, READING
+from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE
 from usd2kg.languages import translate
 from usd2kg.ontology import ClassIRI
 from usd2kg.words import is_content_word, split_identifier
@@ -55,7 +55,7 @@ class NameEvidence:
         """Return the classes that words support, best first; reading stops at the first clear source."""
         scored: list[ScoredClass] = []
         for group, text in texts_of(view):
-            if group in {"hierarchy", "parts"} and self.names_known_noun(view.name):
+            if group in {"hierarchy", "parts"} and self._reader.names_known_noun(view.name):
                 # A tulip without a class in the TBox is not a tube because it has a stem.
                 break
             is_name = group == "name"
@@ -66,13 +66,6 @@ class NameEvidence:
             if scored and scored[0].score >= EVIDENCE.clear_score:
                 break
         return scored
-
-    def names_known_noun(self, name: str) -> bool:
-        """Return whether the last word of a name is a noun that the taxonomy knows, and not a modifier."""
-        words = self._reader.read(name).words
-        if not words or len(words[-1]) < READING.min_noun_letters:
-            return False
-        return not self._reader.kinds.is_modifier(words[-1]) and self._reader.kinds.is_noun(words[-1])
 
     def score_abbreviation(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes of the readings of an abbreviated name; none if all its words are known."""
@@ -131,8 +124,8 @@ class NameEvidence:
                 if iri not in best or best[iri][0] < share:
                     best[iri] = share, reading, matches[0]
         return [
-            ScoredClass("name", iri, share / total, partial(_explain_reading, view.name, *best[iri][1:]))
-            for iri, share in shares.items()
+            ScoredClass("name", iri, share / total, partial(_explain_reading, view.name, reading, match), reading.words)
+            for (iri, share), (_, reading, match) in ((item, best[item[0]]) for item in shares.items())
         ]
 
     @cached_property

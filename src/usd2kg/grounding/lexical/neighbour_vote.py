@@ -10,7 +10,7 @@ from itertools import islice
 from typing import Generic, NamedTuple, TypeVar
 
 from usd2kg.grounding.context.neighbours import SAME_SIZE, Nearness, Neighbour
-from usd2kg.grounding.lexical.matching.term_matching import Match
+from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.settings import VOTE
 from usd2kg.ontology import ClassIRI
 

@@ -12,8 +12,9 @@ from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
-from usd2kg.grounding.lexical.reading.conventions import without_prefix
+from usd2kg.grounding.lexical.reading.conventions import view_without_prefix, without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.settings import EVIDENCE
@@ -37,16 +38,17 @@ class ObjectGrounder:
         self._tbox, self._lexicon = _with_default_class(tbox, taxonomy, synonyms)
         self.general_classes = self._lexicon.general_classes
         """The roots, and the default class."""
-        reader = NameReader(self._lexicon, taxonomy)
-        matcher = PhraseMatcher(self._tbox, self._lexicon, taxonomy, reader)
-        self._is_fallback = matcher.is_fallback
+        reader = self._reader = NameReader(self._lexicon, taxonomy)
+        terms = TermMatcher(self._tbox, self._lexicon, taxonomy, reader)
+        matcher = PhraseMatcher(terms, taxonomy, reader)
+        self._is_fallback = terms.is_fallback
         self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher)
         self._context = ContextEvidence(self._tbox, self._words, reader, matcher)
 
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
         """Return the class of a view with an uncalibrated score, and the posterior by its appearance."""
         prefix = self._context.shared_prefix(view)
-        prediction, posterior = self._predict(prim_path, _without_shared_prefix(view, prefix) if prefix else view)
+        prediction, posterior = self._predict(prim_path, view_without_prefix(view, prefix))
         if without_prefix(view.name, prefix) != view.name:
             note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
             prediction = replace(prediction, explanation=f"{prediction.explanation}; {note}")
@@ -74,6 +76,7 @@ class ObjectGrounder:
             explanation=best.explain(),
             evidence=(best.group,),
             candidates=tuple(Candidate(iri, score) for iri, score in candidates[: EVIDENCE.max_candidates]),
+            words=best.words,
         )
         return prediction, posterior
 
@@ -88,7 +91,7 @@ class ObjectGrounder:
         word_score = scored[0].score if scored else 0.0
         if word_score >= EVIDENCE.clear_score:
             return scored, word_score
-        if not (scored or view.is_masked or is_generated) and self._words.names_known_noun(view.name):
+        if not (scored or view.is_masked or is_generated) and self._reader.names_known_noun(view.name):
             # A tulip without a class in the TBox is not what stands beside it either.
             return [], word_score
         expanded = [] if is_generated else self._words.score_abbreviation(view)
@@ -117,17 +120,6 @@ class ObjectGrounder:
             explanation=f"{reason}; {self._tbox.by_iri[iri].readable_name} applies to most objects",
             candidates=(Candidate(iri, EVIDENCE.default_confidence),),
         )
-
-
-def _without_shared_prefix(view: ObjectView, prefix: tuple[str, ...]) -> ObjectView:
-    """Return a view without the prefix that the names of its stage share, in all its texts."""
-    return replace(
-        view,
-        name=without_prefix(view.name, prefix),
-        display_name=without_prefix(view.display_name, prefix),
-        asset=tuple(without_prefix(text, prefix) for text in view.asset),
-        parts=tuple(without_prefix(text, prefix) for text in view.parts),
-    )
 
 
 def _with_default_class(

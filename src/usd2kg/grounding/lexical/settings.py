@@ -14,6 +14,7 @@ __all__ = [
     "CHANNEL",
     "CLASSIFIER",
     "COMBINATION",
+    "CONCEPT",
     "CONFIDENCE",
     "CONVENTION",
     "COPIES",
@@ -40,6 +41,7 @@ __all__ = [
     "ChannelSettings",
     "ClassifierSettings",
     "CombinationSettings",
+    "ConceptSettings",
     "ConfidenceSettings",
     "ConventionSettings",
     "CopySettings",
@@ -88,6 +90,13 @@ class AbbreviatedNameSettings:
     min_probability: float
     negligible_probability: float
     unmatched_weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class ConceptSettings:
+    """Confidence of recognised concepts."""
+
+    max_share: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -409,6 +418,7 @@ class ShorteningSettings:
 
 EVIDENCE = read_settings("lexical", "evidence", EvidenceSettings)
 ABBREVIATED_NAME = read_settings("lexical", "abbreviated_name", AbbreviatedNameSettings)
+CONCEPT = read_settings("lexical", "concept", ConceptSettings)
 COMBINATION = read_settings("lexical", "combination", CombinationSettings)
 VOTE = read_settings("lexical", "vote", VoteSettings)
 COPIES = read_settings("lexical", "copies", CopySettings)

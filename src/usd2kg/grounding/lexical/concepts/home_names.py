@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from functools import lru_cache
 
+from usd2kg.grounding.lexical.settings import READING
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import ClassIRI, load_home_tbox
 
-__all__ = ["home_names"]
+__all__ = ["home_names", "short_home_names"]
 
 
 @lru_cache(maxsize=1)
@@ -18,3 +19,10 @@ def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
     for row in read_rows("home_names.csv"):
         names[by_local_name[row["class"]]].append(row["name"])
     return {iri: tuple(found) for iri, found in names.items()}
+
+
+@lru_cache(maxsize=1)
+def short_home_names() -> frozenset[str]:
+    """Return the names that are shorter than nouns usually must be: a TV, a PC."""
+    names = (name.lower() for names in home_names().values() for name in names)
+    return frozenset(name for name in names if len(name) < READING.min_noun_letters)

@@ -5,15 +5,14 @@ from functools import lru_cache
 from math import log
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_object_row, size_log_likelihood_ratio
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
-from usd2kg.grounding.lexical.matching.term_matching import HeadMatches, Match, TermMatcher
+from usd2kg.grounding.lexical.matching.head_matching import HeadMatcher, HeadMatches, Match
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures, head_likelihood, head_log_odds
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
 from usd2kg.grounding.lexical.settings import HEAD_NOUN
-from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.ontology import ClassIRI
 from usd2kg.words import words_of
 
 __all__ = ["HeadCandidate", "PhraseMatcher"]
@@ -77,17 +76,12 @@ _NO_PARENT = _ParentWords(frozenset(), (), frozenset())
 
 
 class PhraseMatcher:
-    """Matches noun phrases with the classes of one TBox."""
+    """Matches noun phrases with what their head nouns mean: classes of a TBox, or concepts."""
 
-    def __init__(
-        self, tbox: TBox, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader, *, use_routes: bool = True
-    ) -> None:
-        """Create a matcher; for `use_routes` see `TermMatcher`."""
-        self._tbox = tbox
+    def __init__(self, heads: HeadMatcher, taxonomy: Taxonomy, reader: NameReader) -> None:
         self._taxonomy = taxonomy
         self._reader = reader
-        self._terms = TermMatcher(tbox, lexicon, taxonomy, reader, use_routes=use_routes)
-        self.is_fallback = self._terms.is_fallback
+        self._heads = heads
         # The readings of a name repeat the same words.
         self._traits = lru_cache(maxsize=16384)(self._find_traits)
         self._head = lru_cache(maxsize=4096)(self._match_head)
@@ -147,7 +141,7 @@ class PhraseMatcher:
     ) -> list[tuple[int, HeadFeatures, HeadCandidate]]:
         """Return the words that may be the head noun, in order, as (number of words up to it, features, meaning)."""
         words = phrase.words
-        places = self._terms.place_words(phrase.context, parents)
+        places = self._heads.place_words(phrase.context, parents)
         is_corrected = bool(phrase.corrections)
         parent = self._parent_words(parents[-1]) if parents else _NO_PARENT
         whole = phrase.context or parent.words
@@ -190,11 +184,11 @@ class PhraseMatcher:
         Args:
             whole: the words of the parent's name, or of the part of the name that repeats it.
             words: the words of the name up to a head noun.
-            places: see `TermMatcher.place_words`.
+            places: see `HeadMatcher.place_words`.
             is_corrected: whether the spelling of a word was corrected.
         """
         head = self._head(words, places, is_corrected)
-        prefix = self._terms.whole_words(words, whole)
+        prefix = self._heads.whole_words(words, whole)
         if not prefix:
             return head
         part = self._head((*prefix, *words), places, is_corrected)
@@ -209,18 +203,18 @@ class PhraseMatcher:
         special, general = one.class_iri, other.class_iri
         if special is None or general is None or special == general:
             return False
-        return self._tbox.is_subclass(special, general)
+        return self._heads.is_subclass(special, general)
 
     def _read_parent_words(self, parent: str) -> _ParentWords:
         words, written = self._reader.read(parent).words, words_of(parent)
         return _ParentWords(frozenset(written) if len(written) > 1 else frozenset(), words, frozenset(words))
 
     def _match_head(self, words: tuple[str, ...], places: tuple[str, ...], is_corrected: bool) -> HeadCandidate:
-        return _head_candidate(self._terms.match(words, places), is_corrected)
+        return _head_candidate(self._heads.match(words, places), is_corrected)
 
     def _match_inverted_head(self, head: str, modifier: str, is_corrected: bool) -> HeadCandidate:
         words = (modifier, self._taxonomy.singular(head))
-        return _head_candidate(HeadMatches(words, self._terms.match_compound(words)), is_corrected)
+        return _head_candidate(HeadMatches(words, self._heads.match_compound(words)), is_corrected)
 
     def _features(
         self,

@@ -3,52 +3,22 @@
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache, partial
-from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind
-from usd2kg.grounding.lexical.concepts.home_names import home_names
+from usd2kg.grounding.lexical.concepts.home_names import short_home_names
 from usd2kg.grounding.lexical.concepts.name_classifier import likely_classes, similar_name
 from usd2kg.grounding.lexical.concepts.senses import sense_weight, usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.matching.head_matching import HeadMatches, Match
 from usd2kg.grounding.lexical.matching.routes import Route, Routes
-from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
+from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.reading.word_kinds import AREAS
 from usd2kg.grounding.lexical.settings import MATCHING, READING
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 from usd2kg.words import split_identifier
 
-__all__ = ["HeadMatches", "Match", "TermMatcher"]
-
-
-class Match(NamedTuple):
-    """A class that a phrase may mean."""
-
-    class_iri: ClassIRI
-    score: float
-    """0 to 1, uncalibrated."""
-    reason: Callable[[], str]
-    """Returns why; a function because most reasons are never shown."""
-    phrase: NamePhrase = NamePhrase(())
-    """The whole name."""
-    end: int = 0
-    """Number of words up to the head noun, which is the last of them."""
-
-    @property
-    def explanation(self) -> str:
-        """One sentence for a person."""
-        words, corrections = self.phrase.words, self.phrase.corrections
-        behind = f" (the head noun of “{' '.join(words)}”)" if words[self.end :] else ""
-        read = "".join(f" (“{written}” read as “{read}”)" for written, read in corrections)
-        return self.reason() + behind + read
-
-
-class HeadMatches(NamedTuple):
-    """The longest known compound that ends with a head noun, and the classes that it may mean."""
-
-    words: tuple[str, ...]
-    """Empty if not even the head noun is known."""
-    matches: tuple[Match, ...]
+__all__ = ["TermMatcher"]
 
 
 _NO_MATCHES = HeadMatches((), ())
@@ -72,21 +42,24 @@ class TermMatcher:
         self._match_noun = lru_cache(maxsize=4096)(self._compute_noun)
         self._places_of_parents = lru_cache(maxsize=4096)(self._find_places_of_parents)
 
+    def is_subclass(self, special: ClassIRI, general: ClassIRI) -> bool:
+        """Return whether a class is a subclass of another, or the same."""
+        return self._tbox.is_subclass(special, general)
+
     def is_fallback(self, iri: ClassIRI | None) -> bool:
         """Return whether a class is the default class of a TBox with classes that the home TBox lacks."""
         return self._has_foreign and iri == self._lexicon.default_class
 
     def place_words(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the words of a name's context and of the names above that begin a term, nearest first."""
+        """Return the words of a name's context and of the names above that begin a term."""
         if not context:
             return self._places_of_parents(parents) if parents else ()
         return (*filter(self._begins_term, context), *self._places_of_parents(parents))
 
     def whole_words(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the last words of the name of a whole that form a term with the words of its part; usually none.
+        """Return the last words of the name of a whole that form a term with the words of its part.
 
-        The `seat_left` of a couch is a couch seat. An unknown word or an area may follow: a fork in the `diningArea` is
-        a dining fork.
+        An unknown word or an area may follow: a fork in the `diningArea` is a dining fork.
         """
         if not whole:
             return ()
@@ -253,7 +226,7 @@ class TermMatcher:
 
     def _match_hypernyms(self, key: str, is_compound: bool) -> Iterator[Match]:
         """Yield for each sense of a noun the class of its nearest aligned hypernym."""
-        if len(key) < READING.min_noun_letters and key not in _short_home_names():
+        if len(key) < READING.min_noun_letters and key not in short_home_names():
             return
         usual = usual_sense(key, self._taxonomy)
         nearest = None if usual is None else self._nearest_class(usual.synset)
@@ -340,13 +313,6 @@ class TermMatcher:
 
     def _label(self, class_iri: ClassIRI) -> str:
         return self._tbox.by_iri[class_iri].readable_name
-
-
-@lru_cache(maxsize=1)
-def _short_home_names() -> frozenset[str]:
-    """Return the names of the home vocabulary that are shorter than nouns usually must be: a TV, a PC."""
-    names = (name.lower() for names in home_names().values() for name in names)
-    return frozenset(name for name in names if len(name) < READING.min_noun_letters)
 
 
 def _best_class(matches: tuple[Match, ...]) -> ClassIRI:

@@ -5,11 +5,13 @@ with their head noun (`chair_oak`, `chair_red`) share a beginning too; there, wh
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 
+from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.settings import CONVENTION
 from usd2kg.words import split_identifier, words_of
 
-__all__ = ["shared_prefix", "without_prefix"]
+__all__ = ["shared_prefix", "view_without_prefix", "without_prefix"]
 
 
 def shared_prefix(names: Iterable[str], names_object: Callable[[str], bool]) -> tuple[str, ...]:
@@ -55,6 +57,19 @@ def without_prefix(name: str, prefix: Sequence[str]) -> str:
         end = name.index(part, end) + len(part)
     rest = name[end:].lstrip("_-. ")
     return rest if words_of(rest) else name
+
+
+def view_without_prefix(view: ObjectView, prefix: Sequence[str]) -> ObjectView:
+    """Return a view without a prefix in its texts."""
+    if not prefix:
+        return view
+    return replace(
+        view,
+        name=without_prefix(view.name, prefix),
+        display_name=without_prefix(view.display_name, prefix),
+        asset=tuple(without_prefix(text, prefix) for text in view.asset),
+        parts=tuple(without_prefix(text, prefix) for text in view.parts),
+    )
 
 
 def _letters_of(name: str) -> tuple[str, ...]:

@@ -86,6 +86,13 @@ class NameReader:
         translated = self._translate(words)
         return NamePhrase(words) if translated is None else _translation(words, translated)
 
+    def names_known_noun(self, name: str) -> bool:
+        """Return whether the last word of a name is a noun that the taxonomy knows, and not a modifier."""
+        words = self.read(name).words
+        if not words or len(words[-1]) < READING.min_noun_letters:
+            return False
+        return not self.kinds.is_modifier(words[-1]) and self.kinds.is_noun(words[-1])
+
     def _cut_additions(self, tokens: list[Token]) -> list[Token]:
         """Return the tokens before a preposition, if they name an object: `toy_bin_w_lid`, `towel_on_rack`."""
         for at in range(1, len(tokens)):

@@ -1,0 +1,203 @@
+"""Recognise what an object is from its own words, as a concept: a sense of a noun, independent of any ontology."""
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterable
+from functools import lru_cache, partial
+from itertools import chain
+from operator import mul
+from typing import NamedTuple
+
+from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names, short_home_names
+from usd2kg.grounding.lexical.concepts.senses import sense_weight
+from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
+from usd2kg.grounding.lexical.matching.head_matching import HeadMatches, Match
+from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.reading.conventions import shared_prefix, view_without_prefix
+from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name, texts_of
+from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
+from usd2kg.grounding.lexical.settings import CONCEPT, MATCHING, READING
+from usd2kg.grounding.model import Concept
+from usd2kg.knowledge import read_text
+from usd2kg.words import words_of
+
+__all__ = [
+    "ConceptRecognizer",
+    "ConfidenceWeights",
+    "Recognition",
+    "concepts_named",
+    "describe_concepts",
+    "load_recognizer",
+    "share_features",
+]
+
+
+class Recognition(NamedTuple):
+    """A concept that an object's words name."""
+
+    concept: str
+    """Its IRI."""
+    share: float
+    """Its share of the scores of all senses that the words may have, 0 to 1."""
+
+    @property
+    def confidence(self) -> float:
+        """The probability that the concept is right, calibrated on names of objects in homes and workplaces."""
+        return round(_confidence_weights().probability(self.share), 4)
+
+
+class ConfidenceWeights(NamedTuple):
+    """P(right) = 1 / (1 + exp(-(intercept + slope · log-odds of the share)))."""
+
+    intercept: float
+    slope: float
+
+    def probability(self, share: float) -> float:
+        """Return the probability that the concept with a share is right."""
+        return 1 / (1 + math.exp(-sum(map(mul, self, share_features(share)))))
+
+
+def share_features(share: float) -> ConfidenceWeights:
+    """Return the features of a share; shares near 1 mean one known sense, not certainty."""
+    clipped = min(share, CONCEPT.max_share)
+    return ConfidenceWeights(1.0, math.log(clipped / (1 - clipped)))
+
+
+@lru_cache(maxsize=1)
+def _confidence_weights() -> ConfidenceWeights:
+    return ConfidenceWeights(**json.loads(read_text("concept_confidence.json"))["weights"])
+
+
+class ConceptRecognizer:
+    """Recognises concepts with the noun taxonomy alone, so that they are the same for every ontology."""
+
+    def __init__(self, taxonomy: Taxonomy) -> None:
+        # Not all words of compound names are nouns of the taxonomy: the night of a nightstand.
+        words = Counter(" ".join(chain.from_iterable(home_names().values())).lower().split())
+        self._reader = NameReader(Lexicon({}, {}, words, None, frozenset(), frozenset(), {}), taxonomy)
+        self._matcher = PhraseMatcher(_SenseMatcher(taxonomy, self._reader), taxonomy, self._reader)
+        # Scenes cache results by the identity of the function, and each access to a method creates a new object.
+        self._find_prefix = partial(shared_prefix, names_object=self._reader.names_known_noun)
+        self._recognize_text = lru_cache(maxsize=8192)(self._read_and_match)
+
+    def recognize(self, view: ObjectView, words: tuple[str, ...] = ()) -> Recognition | None:
+        """Return the concept that an object's words name; None if they name none.
+
+        Args:
+            view: the object. Masked regimes hide its words.
+            words: what a grounder read an abbreviated name as; empty if the name is not abbreviated.
+        """
+        if words:
+            return self._match(self._reader.phrase(words), view.parents, view.own_size)
+        if view.is_masked:
+            return None
+        if view.neighbourhood is not None:
+            view = view_without_prefix(view, view.neighbourhood.of_stage(self._find_prefix))
+        for group, text in texts_of(view):
+            is_name = group == "name"
+            if group == "parts" or (is_name and is_generated_name(text)):
+                continue
+            found = self._recognize_text(text, view.parents if is_name else (), view.own_size if is_name else None)
+            if found is not None:
+                return found
+        return None
+
+    def _read_and_match(self, text: str, parents: tuple[str, ...], size: Size | None) -> Recognition | None:
+        return self._match(self._reader.read(text, parents), parents, size)
+
+    def _match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None) -> Recognition | None:
+        matches = self._matcher.match(phrase, parents, size)
+        if not matches:
+            return None
+        return Recognition(matches[0].class_iri, matches[0].score / sum(match.score for match in matches))
+
+
+class _SenseMatcher:
+    """Matches nouns and compounds with their senses."""
+
+    def __init__(self, taxonomy: Taxonomy, reader: NameReader) -> None:
+        self._taxonomy = taxonomy
+        self._reader = reader
+        self._match_noun = lru_cache(maxsize=4096)(self._senses_of)
+
+    def match(self, words: tuple[str, ...], places: tuple[str, ...]) -> HeadMatches:
+        """Return the longest known compound that ends with the last word, and its senses."""
+        *before, last = words
+        singular = self._taxonomy.singular(last)
+        for start in range(len(before) if self._reader.kinds.is_modifier(last) else len(words)):
+            matches = self._match_noun("".join(before[start:]) + singular, start < len(before))
+            if matches:
+                return HeadMatches(words[start:], matches)
+        return HeadMatches((), ())
+
+    def match_compound(self, words: tuple[str, str]) -> tuple[Match, ...]:
+        """Return the senses of a compound of two words; empty if it is not known as a compound."""
+        return self._match_noun("".join(words), True)
+
+    def place_words(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
+        """Return no words: a cabinet in the kitchen is a cabinet."""
+        return ()
+
+    def whole_words(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the last words of the name of a whole that form a compound with the words of its part."""
+        *before, last = words
+        key = "".join(before) + self._taxonomy.singular(last)
+        starts = (start for start in range(len(whole)) if self._taxonomy.is_phrase("".join(whole[start:]) + key))
+        start = next(starts, None)
+        return () if start is None else whole[start:]
+
+    def is_subclass(self, special: str, general: str) -> bool:
+        """Return whether a concept is a hyponym of another, or the same."""
+        above, target = self._taxonomy.find_concept(special), self._taxonomy.find_concept(general)
+        return above is not None and any(up == target for up, _ in self._taxonomy.walk_up(above))
+
+    def _senses_of(self, noun: str, is_compound: bool) -> tuple[Match, ...]:
+        if len(noun) < READING.min_noun_letters and noun not in short_home_names():
+            return ()
+        score = MATCHING.compound_score if is_compound else MATCHING.noun_score
+        return tuple(
+            Match(self._taxonomy.concept_iri(sense.synset), score * sense_weight(sense), partial(_explain, noun))
+            for sense in self._taxonomy.senses(noun)
+        )
+
+
+def _explain(noun: str) -> str:
+    return f"“{noun}” names it"
+
+
+def concepts_named(noun: str) -> tuple[str, ...]:
+    """Return the IRIs of the senses of a noun or compound, in the singular or plural; empty if it is unknown.
+
+    >>> concepts_named("Couches")[0] == concepts_named("sofa")[0]
+    True
+    """
+    taxonomy = load_taxonomy()
+    *before, last = words_of(noun) or [""]
+    key = "".join(before) + taxonomy.singular(last)
+    return tuple(taxonomy.concept_iri(sense.synset) for sense in taxonomy.senses(key))
+
+
+def describe_concepts(iris: Iterable[str]) -> dict[str, Concept]:
+    """Return IRI → concept for some concepts and all their hypernyms, sorted by IRI."""
+    taxonomy = load_taxonomy()
+    synsets = {synset for iri in iris if (synset := taxonomy.find_concept(iri)) is not None}
+    everything = {up for synset in synsets for up, _ in taxonomy.walk_up(synset)}
+    concepts = (
+        Concept(
+            iri=taxonomy.concept_iri(synset),
+            label=taxonomy.name(synset),
+            broader=tuple(map(taxonomy.concept_iri, taxonomy.above(synset))),
+        )
+        for synset in everything
+    )
+    return {concept.iri: concept for concept in sorted(concepts, key=lambda concept: concept.iri)}
+
+
+@lru_cache(maxsize=1)
+def load_recognizer() -> ConceptRecognizer:
+    """Return the recogniser with the package's taxonomy; it has no state from scenes."""
+    return ConceptRecognizer(load_taxonomy())
