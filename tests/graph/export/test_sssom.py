@@ -16,7 +16,7 @@ from tests.grounding.records import LAB, make_class, make_tbox
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.graph import format_sssom
 from usd2kg.graph.iris import individual_iri
-from usd2kg.grounding import Candidate, Grounding, Prediction, Status, read_decisions
+from usd2kg.grounding import Candidate, Concept, Grounding, Prediction, Status, read_decisions
 from usd2kg.grounding.decisions import make_decision
 
 TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label="cup"))
@@ -215,3 +215,17 @@ class TestReferenceImplementation:
         path.write_text(text, encoding="utf-8")
         done = subprocess.run([VALIDATOR, "validate", path], capture_output=True, text=True, timeout=300, check=False)
         assert done.returncode != 0
+
+
+def test_concepts_are_extension_columns():
+    mug = Concept("http://wordnet-rdf.princeton.edu/id/03802912-n", "mug")
+    grounding = make_grounding(replace(CUP, concept=mug.iri, concept_confidence=0.9), NO_CLASS)
+    text = format_sssom(replace(grounding, concepts={mug.iri: mug}), TBOX, {}, base=BASE)
+    first, second = rows_of(text)
+    assert (first["concept"], first["concept_label"], first["concept_confidence"]) == ("wn:03802912-n", "mug", "0.9000")
+    assert (second["concept"], second["concept_label"], second["concept_confidence"]) == ("", "", "")
+    assert '#  wn: "http://wordnet-rdf.princeton.edu/id/"' in text.splitlines()
+    assert [line for line in text.splitlines() if "concept_label" in line or "prefLabel" in line][:2] == [
+        "#- slot_name: concept_label",
+        "#  property: skos:prefLabel",
+    ]

@@ -4,11 +4,8 @@ The predicate is rdf:type, since the subject is an individual and the object a c
 predicates relate concepts.
 """
 
-import csv
-import io
-import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from datetime import date
 from pathlib import Path
 
@@ -17,6 +14,7 @@ from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.justification import matching_process
 from usd2kg.graph.vocabulary import PREFIXES, SSSOM, named_node
 from usd2kg.grounding import Grounding, Prediction, Status
+from usd2kg.grounding.sssom_file import Curies, format_sssom_file, one_line
 from usd2kg.ontology import TBox
 
 __all__ = ["UNSPECIFIED_LICENSE", "format_sssom"]
@@ -56,8 +54,6 @@ _EXTENSIONS = {
 """Extension column → CURIE of its property."""
 _CLAIMS = frozenset({Status.REFUSED, Status.REVIEWED})
 """Statuses that, without a class, state that no class fits."""
-_LOCAL = re.compile(r"[^#/:]+")
-"""Local name of an individual."""
 _PREFIX = "scene"
 
 
@@ -89,7 +85,8 @@ def format_sssom(
     base = check_base(base or default_base(grounding.scene))
     if named_node(license_iri) is None:
         raise GraphError(f"license {license_iri!r}: expected an IRI, like https://creativecommons.org/licenses/by/4.0/")
-    curies = _Curies(base)
+    prefixes = {**PREFIXES, "orcid": "https://orcid.org/", _PREFIX: base}
+    curies = Curies(prefixes, used=(_PREFIX, "skos", "u2k", "xsd"))
     rows = [
         {**_row(p, tbox, names, base, curies), **_concept_cells(p, grounding, curies)}
         for p in grounding.predictions
@@ -97,7 +94,7 @@ def format_sssom(
     ]
     header = _header(grounding, tbox, base, curies)
     dates = {"mapping_date": _read_date(mapping_date)} if mapping_date else {}
-    return _document({**header, "license": license_iri, **dates}, curies, rows)
+    return format_sssom_file({**header, "license": license_iri, **dates}, curies, _EXTENSIONS, _COLUMNS, rows)
 
 
 def _read_date(text: str) -> str:
@@ -107,7 +104,7 @@ def _read_date(text: str) -> str:
         raise GraphError(f"mapping date {text!r}: {error}; expected one like 2026-07-15") from error
 
 
-def _header(grounding: Grounding, tbox: TBox, base: str, curies: "_Curies") -> dict[str, str]:
+def _header(grounding: Grounding, tbox: TBox, base: str, curies: Curies) -> dict[str, str]:
     found = {
         "mapping_set_id": individual_iri(base, "/", "mapping"),
         "mapping_set_title": f"Classes of the objects of {Path(grounding.scene).name}",
@@ -124,80 +121,41 @@ def _header(grounding: Grounding, tbox: TBox, base: str, curies: "_Curies") -> d
     return {**found, "object_source_version": tbox.version_iri or tbox.content_hash}
 
 
-class _Curies:
-    """Shortens IRIs to CURIEs and collects the prefixes in use."""
-
-    def __init__(self, base: str) -> None:
-        self.used = {_PREFIX: base, **{prefix: PREFIXES[prefix] for prefix in ("skos", "u2k", "xsd")}}
-        self._known = {iri: name for name, iri in PREFIXES.items()} | {"https://orcid.org/": "orcid", base: _PREFIX}
-
-    def shorten(self, iri: str) -> str:
-        base = self.used[_PREFIX]
-        end = len(base) if iri.startswith(base) else 0
-        if not _LOCAL.fullmatch(iri, end) or not end:
-            end = max(iri.rfind("#"), iri.rfind("/"), iri.rfind(":")) + 1
-        namespace, name = iri[:end], iri[end:]
-        prefix = self._known.setdefault(namespace, f"ns{len(self._known) - len(PREFIXES) - 1}")
-        self.used[prefix] = namespace
-        return f"{prefix}:{name}"
-
-
-def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies: _Curies) -> dict[str, str]:
+def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies: Curies) -> dict[str, str]:
     review = p.review
     has_id = review is not None and named_node(review.reviewer) is not None
     day = review.time[:10] if review is not None else ""
     others = [candidate.class_iri for candidate in p.candidates if candidate.class_iri != p.class_iri]
     return {
         "subject_id": curies.shorten(individual_iri(base, p.prim_path)),
-        "subject_label": _line(names.get(p.prim_path) or p.prim_path.rpartition("/")[2]),
+        "subject_label": one_line(names.get(p.prim_path) or p.prim_path.rpartition("/")[2]),
         "predicate_id": curies.shorten(f"{PREFIXES['rdf']}type"),
         "object_id": curies.shorten(p.class_iri or f"{SSSOM.iri}NoTermFound"),
-        "object_label": _line(tbox.by_iri[p.class_iri].label) if p.class_iri else "",
+        "object_label": one_line(tbox.by_iri[p.class_iri].label) if p.class_iri else "",
         "mapping_justification": curies.shorten(matching_process(p).value),
         "reviewer_id": curies.shorten(review.reviewer) if review is not None and has_id else "",
         "reviewer_label": _item(review.reviewer) if review is not None and not has_id else "",
         "review_date": day if re.fullmatch(r"\d{4}-\d{2}-\d{2}", day, flags=re.ASCII) else "",
         "confidence": "" if p.confidence is None else f"{p.confidence:.4f}",
-        "comment": _line("; ".join(filter(None, (p.explanation, review.comment if review is not None else "")))),
+        "comment": one_line("; ".join(filter(None, (p.explanation, review.comment if review is not None else "")))),
         "prim_path": p.prim_path,
         "status": p.status.value,
-        "grounder": _line(p.grounder),
+        "grounder": one_line(p.grounder),
         "alternatives": "|".join(curies.shorten(iri) for iri in others),
     }
 
 
-def _concept_cells(p: Prediction, grounding: Grounding, curies: _Curies) -> dict[str, str]:
+def _concept_cells(p: Prediction, grounding: Grounding, curies: Curies) -> dict[str, str]:
     concept = grounding.concepts.get(p.concept or "")
     if concept is None:
         return {}
     return {
         "concept": curies.shorten(concept.iri),
-        "concept_label": _line(concept.label),
+        "concept_label": one_line(concept.label),
         "concept_confidence": f"{p.concept_confidence or 0.0:.4f}",
     }
 
 
-def _line(text: str) -> str:
-    """Return text on one line, since many TSV readers do not unescape line breaks and tabs."""
-    return re.sub(r"\s+", " ", text).strip()
-
-
 def _item(text: str) -> str:
     """Return text escaped as an item of a |-separated list."""
-    return _line(text).replace("|", r"\|")
-
-
-def _document(header: Mapping[str, str], curies: _Curies, rows: Iterable[Mapping[str, str]]) -> str:
-    lines = ['sssom_version: "1.1"', "curie_map:"]
-    # Every JSON string is a YAML string.
-    lines += [f"  {prefix}: {json.dumps(iri)}" for prefix, iri in sorted(curies.used.items())]
-    lines += [f"{name}: {json.dumps(_line(value))}" for name, value in header.items()]
-    lines.append("extension_definitions:")
-    for name, term in _EXTENSIONS.items():
-        lines += [f"- slot_name: {name}", f"  property: {term}", "  type_hint: xsd:string"]
-    text = io.StringIO(newline="")
-    text.writelines(f"#{line}\n" for line in lines)
-    writer = csv.DictWriter(text, _COLUMNS, delimiter="\t", lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+    return one_line(text).replace("|", r"\|")
