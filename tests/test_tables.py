@@ -54,6 +54,9 @@ def test_objects_have_one_row_each(result: BuildResult, library: Any):
     assert [objects[f"position_{axis}"][1] for axis in "xyz"] == pytest.approx([0.55, 0.35, 0.7])
     assert [objects[f"q{axis}"][0] for axis in "xyzw"] == [0, 0, 0, 1]
     assert objects["mass_kg"][0] == 20
+    assert list(objects["concept"]) == ["table", "cup", "fork"]
+    assert list(objects["concept_iri"]) == [p.concept for p in result.grounding.predictions]
+    assert list(objects["concept_confidence"]) == [p.concept_confidence for p in result.grounding.predictions]
     assert list(objects["confidence"]) == [p.confidence for p in result.grounding.predictions]
 
 

@@ -69,7 +69,7 @@ RULES = (
     Rule("matching: subclasses named after a place", f"{TERMS}:TermMatcher._match_in_place", constant(())),
     Rule("matching: compounds with the parent's words", f"{TERMS}:TermMatcher.whole_words", constant(())),
     Rule("matching: name classifier", f"{TERMS}:TermMatcher._mix_with_classifier", argument(2)),
-    Rule("matching: short names of the home vocabulary", f"{TERMS}:_short_home_names", constant(frozenset())),
+    Rule("matching: short names of the home vocabulary", f"{TERMS}:short_home_names", constant(frozenset())),
     Rule("head noun: modifier behind the head", f"{PHRASES}:PhraseMatcher._inverted_compounds", constant(())),
     Rule(
         "head noun: no competition with its own inversion", f"{PHRASES}:PhraseMatcher._is_inversion_of", constant(False)

@@ -29,8 +29,9 @@ class Tables(NamedTuple):
     """
 
     objects: Any
-    """`path`, `iri`, `name`, `class_iri`, `class_name`, `confidence`, `status`, `grounder`, `explanation`, `parent`,
-    `center_x` … `size_z` of the box with all descendants, `position_x` … `position_z`, `qx` … `qw`, `mass_kg`."""
+    """`path`, `iri`, `name`, `class_iri`, `class_name`, `confidence`, `status`, `grounder`, `explanation`,
+    `concept_iri`, `concept`, `concept_confidence`, `parent`, `center_x` … `size_z` of the box with all descendants,
+    `position_x` … `position_z`, `qx` … `qw`, `mass_kg`."""
     relations: Any
     """`kind`, prim paths `target`, `anchor` and `other_anchor`, `rule`, `confidence`, and one column per measurement
     (`gap`, `distance`…; `angle` in degrees)."""
@@ -71,6 +72,7 @@ def to_columns(result: BuildResult) -> tuple[Columns, Columns, Columns, Columns]
 def _objects(result: BuildResult) -> Columns:
     objects, by_path = result.scene.objects, result.grounding.by_path
     predictions = [by_path.get(obj.prim_path) for obj in objects]
+    concepts = [result.grounding.concepts.get(p.concept) if p and p.concept else None for p in predictions]
     columns: dict[str, Sequence[Any] | Floats] = {
         "path": [obj.prim_path for obj in objects],
         "iri": [individual_iri(result.graph.base, obj.prim_path) for obj in objects],
@@ -81,6 +83,9 @@ def _objects(result: BuildResult) -> Columns:
         "status": [p.status.value if p else None for p in predictions],
         "grounder": [p.grounder if p else None for p in predictions],
         "explanation": [p.explanation if p else None for p in predictions],
+        "concept_iri": [concept.iri if concept else None for concept in concepts],
+        "concept": [concept.label if concept else None for concept in concepts],
+        "concept_confidence": _numbers([p.concept_confidence if p else None for p in predictions]),
         "parent": [obj.parent_path for obj in objects],
     }
     return columns | _geometry(objects)

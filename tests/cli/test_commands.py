@@ -189,7 +189,10 @@ class TestInspect:
 
 
 class TestGround:
-    HEADER: ClassVar = ["path", "class", "label", "confidence", "status", "grounder"]
+    HEADER: ClassVar = [
+        *("path", "class", "label", "confidence", "status", "grounder"),
+        *("concept", "concept_label", "concept_confidence"),
+    ]
 
     def test_prints_csv_in_scene_order(self, run: Run, room: Path):
         done = run("ground", room)
@@ -220,7 +223,9 @@ class TestGround:
         assert done.code == 0
         rows = rows_of(done.out)
         assert [row["path"] for row in rows] == ["/Room/Apple", "/Room/Ghost", "/Room/Table_1"]
-        assert rows[1] == dict(zip(self.HEADER, ["/Room/Ghost", "", "", "", "missing", "lexical"], strict=True))
+        assert rows[1] == dict(
+            zip(self.HEADER, ["/Room/Ghost", "", "", "", "missing", "lexical", "", "", ""], strict=True)
+        )
         assert done.err == f"{room}: no prim /Room/Ghost; its row has the status missing\n"
 
     def test_grounds_listed_prims_that_the_rules_do_not_select(self, run: Run, room: Path, tmp_path: Path):

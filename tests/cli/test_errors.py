@@ -169,7 +169,11 @@ def test_rejects_an_unreadable_graph(run: Run, tmp_path: Path, name: str, data: 
     ("arguments", "message"),
     [
         (["on", "unicorn"], "nothing is named 'unicorn'"),
-        (["all", "of", "unicorns"], "no class is named 'unicorns'; expected one of artifact, bowl, cup, table"),
+        (
+            ["all", "of", "unicorns"],
+            "no class or concept is named 'unicorns'; expected a noun that is a concept of an object, or one of the "
+            "classes artifact, bowl, cup, table",
+        ),
         (["sing"], "question 'sing' is not understood"),
         (["--sparql", "SELECT"], "not valid SPARQL"),
         (["--sparql", "DROP ALL"], "expected SELECT, ASK, CONSTRUCT or DESCRIBE"),

@@ -21,6 +21,7 @@ def test_scenes_outside_the_repository_are_looked_for_in_the_shared_folder(tmp_p
     assert [line.split(": ")[1].partition(", /")[0] for line in lines] == [
         "IAI apartment",
         "AWS small house",
+        "AWS small warehouse",
         "Franka kitchen",
         "AWS small house, SOMA+DFL",
         "Franka kitchen, SOMA+DFL",

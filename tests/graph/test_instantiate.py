@@ -14,7 +14,7 @@ from tests.grounding.records import make_class, make_object, make_scene, make_tb
 from usd2kg.errors import GraphError
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.graph.vocabulary import PREFIXES
-from usd2kg.grounding import Candidate, Prediction, Status
+from usd2kg.grounding import Candidate, Prediction, Status, ground
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Scene
 
@@ -398,3 +398,34 @@ def test_empty_grounding_writes_the_objects():
     grounding = replace(ground_as(tbox, scene, {}), predictions=())
     found = reread(instantiate(scene, tbox, grounding, base=BASE))
     assert ask(found, "k:Room.Cup_3 a usd:Prim ; soma:hasShape ?s ; soma:isOntopOf k:Room.Table_1")
+
+
+@pytest.fixture(scope="module", params=["soma", "plain"])
+def with_concepts(home_tbox: TBox, request: pytest.FixtureRequest) -> ox.Store:
+    scene = make_scene(make_object("/Room/couch_3"), make_object("/Room/Cube_7"))
+    found = ground(scene, home_tbox)
+    return reread(instantiate(scene, home_tbox, found, base=BASE, profile=request.param))
+
+
+class TestConcepts:
+    WORDNET = "http://wordnet-rdf.princeton.edu/id/"
+
+    def test_an_object_has_the_concept_and_its_confidence(self, with_concepts: ox.Store):
+        assert select(with_concepts, "SELECT ?o ?l { ?o u2k:concept/skos:prefLabel ?l }") == [
+            (f"{BASE}Room.couch_3", "sofa")
+        ]
+        ((confidence,),) = select(with_concepts, "SELECT ?c { k:Room.couch_3 u2k:conceptConfidence ?c }")
+        assert confidence is not None
+        assert 0.5 < float(confidence) < 1
+
+    def test_hypernyms_lead_to_the_root(self, with_concepts: ox.Store):
+        above = select(with_concepts, "SELECT ?l { k:Room.couch_3 u2k:concept/skos:broader*/skos:prefLabel ?l }")
+        assert {("sofa",), ("seat",), ("furniture",), ("artifact",), ("entity",)} <= {*above}
+        assert ask(
+            with_concepts, f"<{self.WORDNET}04263630-n> a skos:Concept ; skos:broader <{self.WORDNET}04169042-n>"
+        )
+
+    def test_every_hypernym_is_described(self, with_concepts: ox.Store):
+        assert (
+            select(with_concepts, "SELECT ?c { ?x skos:broader ?c . FILTER NOT EXISTS { ?c skos:prefLabel ?l } }") == []
+        )

@@ -12,7 +12,7 @@ from tests.grounding.records import make_class, make_object, make_scene, make_tb
 from usd2kg.graph import VOCABULARY_IRI, GraphOptions, KnowledgeGraph, instantiate, vocabulary_text
 from usd2kg.graph.declarations import declare_terms, vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, QUDT, RDF, RDFS, SKOS, SOMA, U2K
-from usd2kg.grounding import Candidate
+from usd2kg.grounding import Candidate, Concept
 from usd2kg.relations import Relation
 from usd2kg.scene import Instances, Label, MaterialDetails, ObjectLabels
 
@@ -31,6 +31,9 @@ TBOX = replace(
     ),
     version_iri="https://lab.example/onto/1",
 )
+
+VESSEL_CONCEPT = Concept("http://wordnet-rdf.princeton.edu/id/03216670-n", "vessel")
+CUP_CONCEPT = Concept("https://w3id.org/usd2kg/concept/tea_cup", "tea cup", (VESSEL_CONCEPT.iri,))
 
 
 def local_names(triples: list[ox.Triple] | tuple[ox.Triple, ...]) -> set[str]:
@@ -82,8 +85,9 @@ def rich_graph(profile: str) -> KnowledgeGraph:
     first, *others = grounding.predictions
     first = replace(first, candidates=(Candidate(TBOX.resolve("Glass"), 0.1), *first.candidates))
     first = first.reviewed(TBOX.resolve("Table"), "Ada", comment="a small one", time="2026-07-15T12:00:00Z")
-    first = replace(first, decided_for="/OldCup")
-    grounding = replace(grounding, predictions=(first, *others))
+    first = replace(first, decided_for="/OldCup", concept=CUP_CONCEPT.iri, concept_confidence=0.9)
+    concepts = {CUP_CONCEPT.iri: CUP_CONCEPT, VESSEL_CONCEPT.iri: VESSEL_CONCEPT}
+    grounding = replace(grounding, predictions=(first, *others), concepts=concepts)
     numbers = {"gap": 0.0, "overlapRatio": 1.0, "insideRatio": 1.0}
     relations = [Relation(kind, "/Cup", "/Table", f"{kind}/1", numbers) for kind in ("on", "inside")]
     return instantiate(scene, TBOX, grounding, base=BASE, profile=profile, relations=relations, options=GraphOptions())

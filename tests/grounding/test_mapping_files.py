@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from tests.grounding.records import LAB, make_class, make_tbox
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import (
     Candidate,
+    Concept,
     Grounding,
     Prediction,
     Review,
@@ -63,18 +65,45 @@ REVIEWED = SMALL.predictions[1].reviewed(
 )
 
 
+HEADER = "path,class,label,confidence,status,grounder,concept,concept_label,concept_confidence\n"
+WORDNET = "https://lab.example/wn#"
+WITH_CONCEPT = replace(
+    make_grounding(
+        Prediction(
+            "/Küche/y",
+            None,
+            None,
+            Status.REFUSED,
+            "lexical",
+            "no class",
+            words=("coffee", "mug"),
+            concept=WORDNET + "mug",
+            concept_confidence=0.8,
+        )
+    ),
+    concepts={
+        WORDNET + "drinking_vessel": Concept(WORDNET + "drinking_vessel", "drinking vessel"),
+        WORDNET + "mug": Concept(WORDNET + "mug", "mug", (WORDNET + "drinking_vessel",)),
+    },
+)
+
+
 class TestCsv:
     def test_writes_the_expected_bytes(self):
         assert format_mapping(SMALL, TBOX, "csv") == (
-            "path,class,label,confidence,status,grounder\n"
-            '/Küche/Cup_1,https://lab.example/onto#Cup,"cup, ""tall""",0.9700,grounded,lexical\n'
-            "/Küche/x,https://lab.example/onto#Thing,Thing,0.1000,superclass,lexical\n"
-            "/Küche/y,,,,refused,dictionary\n"
-            "/Küche/z,,,,missing,lexical\n"
+            HEADER + '/Küche/Cup_1,https://lab.example/onto#Cup,"cup, ""tall""",0.9700,grounded,lexical,,,\n'
+            "/Küche/x,https://lab.example/onto#Thing,Thing,0.1000,superclass,lexical,,,\n"
+            "/Küche/y,,,,refused,dictionary,,,\n"
+            "/Küche/z,,,,missing,lexical,,,\n"
+        )
+
+    def test_writes_concepts(self):
+        assert format_mapping(WITH_CONCEPT, TBOX, "csv") == (
+            HEADER + "/Küche/y,,,,refused,lexical,https://lab.example/wn#mug,mug,0.8000\n"
         )
 
     def test_writes_the_header_without_predictions(self):
-        assert format_mapping(make_grounding(), TBOX, "csv") == "path,class,label,confidence,status,grounder\n"
+        assert format_mapping(make_grounding(), TBOX, "csv") == HEADER
 
     @settings(deadline=None, max_examples=80)
     @given(st.text(st.characters(exclude_characters="\r\x00", exclude_categories=["Cs"]), min_size=1, max_size=30))
@@ -95,6 +124,19 @@ class TestJson:
         del data["predictions"][0]["review"]
         path.write_text(json.dumps(data), encoding="utf-8")
         assert read_grounding(path).predictions[0].review is None
+
+    def test_reads_concepts_and_files_without_them(self, tmp_path: Path):
+        path = tmp_path / "mapping.json"
+        text = format_mapping(WITH_CONCEPT, TBOX, "json")
+        path.write_text(text, encoding="utf-8")
+        assert read_grounding(path) == WITH_CONCEPT
+        data = json.loads(text)
+        del data["concepts"]
+        for name in ("words", "concept", "concept_confidence"):
+            del data["predictions"][0][name]
+        path.write_text(json.dumps(data), encoding="utf-8")
+        found = read_grounding(path)
+        assert (found.concepts, found.predictions[0].words, found.predictions[0].concept) == ({}, (), None)
 
     def test_rejects_deeply_nested_json(self, tmp_path: Path):
         path = tmp_path / "deep.json"

@@ -173,8 +173,8 @@ class TestConceptIri:
     def test_a_synset_of_wordnet_has_its_iri(self):
         assert self.TAXONOMY.concept_iri(4) == "http://wordnet-rdf.princeton.edu/id/00000004-n"
 
-    def test_another_synset_has_one_of_the_usd2kg_vocabulary(self):
-        assert self.TAXONOMY.concept_iri(6) == "https://w3id.org/usd2kg#concept-knife"
+    def test_another_synset_has_one_of_this_project(self):
+        assert self.TAXONOMY.concept_iri(6) == "https://w3id.org/usd2kg/concept/knife"
 
     @pytest.mark.parametrize(
         "iri",
@@ -182,10 +182,10 @@ class TestConceptIri:
             "",
             "http://wordnet-rdf.princeton.edu/id/00000005-n",
             "http://wordnet-rdf.princeton.edu/id/00000004-v",
-            "https://w3id.org/usd2kg#concept-",
-            "https://w3id.org/usd2kg#concept-spoon",
+            "https://w3id.org/usd2kg/concept/",
+            "https://w3id.org/usd2kg/concept/spoon",
             # WordNet has it, so its IRI is WordNet's.
-            "https://w3id.org/usd2kg#concept-food",
+            "https://w3id.org/usd2kg/concept/food",
         ],
     )
     def test_another_iri_is_no_synset(self, iri):

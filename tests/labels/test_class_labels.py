@@ -32,7 +32,7 @@ def test_label_has_ancestors_wikidata_items_and_names(tbox):
     label = label_maker(tbox, has_ancestors=True)(MUG)
     assert label.ancestors == ("Thing", "Gift", "Vessel", "Cup"), "by depth, most general first, each once"
     assert label.qcodes == ("Q23498",)
-    assert (label.namespace, label.concept, label.definition) == ("http://x.example/lab#", "Mug", "For coffee.")
+    assert (label.namespace, label.local_name, label.definition) == ("http://x.example/lab#", "Mug", "For coffee.")
     assert label.names == {"coffee Mug", "beaker"}
     assert label_maker(tbox)(MUG).ancestors == ()
 

@@ -1,5 +1,7 @@
 """What the modes new, overwrite and skip do to prims that have labels."""
 
+from dataclasses import replace
+
 from pxr import Usd, UsdSemantics
 
 from tests.labels.conftest import ENCODINGS, MUG, SOMA, class_label, labels_at, outcomes
@@ -128,3 +130,23 @@ def test_keeps_isaac_schema_instances_of_other_taxonomies(write):
     )
     _, stage = write(room, {"/Mug": class_label()}, mode="overwrite", encodings=("Isaac",))
     assert {("Isaac", "room", "bath"), ("Isaac", "class", "Cup")} <= labels_at(stage, "/Mug")
+
+
+def test_the_concept_is_a_label_of_its_own(write):
+    label = replace(class_label(qcodes=()), concept="mug")
+    _, stage = write(MUG, {"/Mug": label}, encodings=("UsdSemantics", "Isaac"))
+    assert UsdSemantics.LabelsAPI(stage.GetPrimAtPath("/Mug"), "concept").GetLabelsAttr().Get() == ["mug"]
+    assert ("Isaac", "concept", "mug") in labels_at(stage, "/Mug")
+    assert lint_labels(stage) == []
+
+
+def test_overwrite_replaces_the_concept(write, tmp_path):
+    label = replace(class_label(qcodes=()), concept="mug")
+    write(MUG, {"/Mug": label}, name="first.usda", encodings=("UsdSemantics", "Isaac"))
+    for concept in ("cup", ""):
+        options = LabelOptions(("UsdSemantics", "Isaac"), "overwrite")
+        target = tmp_path / f"second{concept}.usda"
+        write_labels(tmp_path / "first.usda", {"/Mug": replace(label, concept=concept)}, target, options)
+        found = labels_at(Usd.Stage.Open(str(target)), "/Mug")
+        concepts = {(encoding, value) for encoding, taxonomy, value in found if taxonomy == "concept"}
+        assert concepts == ({("UsdSemantics", "cup"), ("Isaac", "cup")} if concept else set())

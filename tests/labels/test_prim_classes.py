@@ -6,11 +6,12 @@ from pathlib import Path
 import pytest
 
 from tests.graph.records import build_graph
+from tests.grounding.records import make_object, make_scene
 from tests.labels.conftest import SOMA
 from tests.scene.usda import METRES, component, cube
 from tests.validation.broken import ROOM
 from usd2kg.errors import GroundingError
-from usd2kg.graph import GraphOptions, write_graph
+from usd2kg.graph import GraphOptions, instantiate, write_graph
 from usd2kg.graph.vocabulary import U2K
 from usd2kg.grounding import format_mapping, ground
 from usd2kg.labels import read_prim_classes
@@ -120,3 +121,19 @@ def test_rejects_json_that_is_not_a_grounding(home_tbox, tmp_path):
     path.write_text(json.dumps({"format": "other"}))
     with pytest.raises(GroundingError, match="cannot be read as a grounding"):
         read_prim_classes(path, home_tbox)
+
+
+@pytest.mark.parametrize("ending", ["csv", "json", "ttl"])
+def test_reads_concepts(tmp_path, home_tbox, ending):
+    scene = make_scene(make_object("/Room/couch_3"), make_object("/Room/Cube_7"))
+    found = ground(scene, home_tbox)
+    path = tmp_path / f"run.{ending}"
+    if ending == "ttl":
+        write_graph(instantiate(scene, home_tbox, found), path)
+    else:
+        path.write_text(format_mapping(found, home_tbox, ending), encoding="utf-8")
+    classes = read_prim_classes(path, home_tbox)
+    assert {entry.prim_path: entry.concept for entry in classes.entries} == {
+        "/Room/couch_3": "sofa",
+        "/Room/Cube_7": "",
+    }

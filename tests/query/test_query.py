@@ -4,12 +4,15 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import shared_file
 from tests.graph.records import BASE, build_graph, open_store, thing
-from tests.grounding.records import make_class, make_object, make_tbox
+from tests.grounding.records import make_class, make_object, make_scene, make_tbox
 from usd2kg.errors import GraphError
-from usd2kg.graph import write_graph
+from usd2kg.graph import instantiate, write_graph
+from usd2kg.grounding import ground
 from usd2kg.ontology import TBox
 from usd2kg.query import Answer, GraphStore, load_graph
+from usd2kg.scene import read_scene
 
 # A table with a mug, a plate, and an apple in a bowl on it; a wardrobe away from it.
 ROOM = [
@@ -117,11 +120,11 @@ class TestWhere:
 class TestAllOf:
     def test_includes_subclasses(self, store: GraphStore):
         answer = store.ask(["all", "of", "crockery"])
-        assert answer.columns == ("object", "class", "path", "confidence")
+        assert answer.columns == ("object", "class", "concept", "path", "confidence")
         assert answer.rows == (
-            ("FruitBowl", "bowl", "/Room/FruitBowl", "0.75"),
-            ("mug_red", "cup", "/Room/mug_red", "0.75"),
-            ("plate_1", "dinner plate", "/Room/plate_1", "0.75"),
+            ("FruitBowl", "bowl", None, "/Room/FruitBowl", "0.75"),
+            ("mug_red", "cup", None, "/Room/mug_red", "0.75"),
+            ("plate_1", "dinner plate", None, "/Room/plate_1", "0.75"),
         )
 
     def test_excludes_superclasses(self, store: GraphStore):
@@ -137,8 +140,8 @@ class TestAllOf:
     def test_an_unknown_class_lists_the_known_ones(self, store: GraphStore):
         with pytest.raises(GraphError) as error:
             store.ask(["all", "of", "helicopter"])
-        assert "no class is named 'helicopter'" in str(error.value)
-        assert "expected one of artifact, bowl, cup, dinner plate, floor, table, wardrobe" in str(error.value)
+        assert "no class or concept is named 'helicopter'" in str(error.value)
+        assert "one of the classes artifact, bowl, cup, dinner plate, floor, table, wardrobe" in str(error.value)
 
 
 class TestFinding:
@@ -211,7 +214,7 @@ class TestQuestions:
     def test_an_unknown_question_lists_the_known_ones(self, store: GraphStore, question: str):
         with pytest.raises(GraphError) as error:
             store.ask(question.split())
-        for known in ("'on X'", "'in X'", "'where is X'", "'all of CLASS'", "--sparql"):
+        for known in ("'on X'", "'in X'", "'where is X'", "'all of KIND'", "--sparql"):
             assert known in str(error.value)
 
     def test_the_answer_contains_its_query(self, store: GraphStore):
@@ -332,3 +335,61 @@ class TestLoading:
         assert len(store) == 0
         with pytest.raises(GraphError, match="nothing is named 'table'"):
             store.ask(["on", "table"])
+
+
+@pytest.fixture(scope="module")
+def hall() -> GraphStore:
+    tbox = make_tbox(make_class("Asset"), make_class("Table", "Asset", label="table"))
+    scene = make_scene(
+        thing("/Hall/couch_1", (0, 0, 0), (2, 0.9, 0.8)),
+        thing("/Hall/BookE_01", (4, 0, 0.7), (0.15, 0.2, 0.03)),
+        thing("/Hall/coffee_table", (4, 0, 0), (1, 1, 0.7)),
+    )
+    return open_store(instantiate(scene, tbox, ground(scene, tbox), base=BASE))
+
+
+class TestKinds:
+    """Concepts are found whatever the classes are."""
+
+    @pytest.mark.parametrize("noun", ["couch", "sofa", "sofas", "seats", "a couch", "Couches"])
+    def test_all_of_a_noun(self, hall: GraphStore, noun: str):
+        assert column(hall.ask(["all", "of", noun.removeprefix("a ")]), "path") == ["/Hall/couch_1"]
+        assert column(hall.ask(["where", "is", noun]), "path") == ["/Hall/couch_1"]
+
+    def test_the_answer_has_class_concept_and_confidence_of_what_matched(self, hall: GraphStore):
+        answer = hall.ask(["all", "of", "book"])
+        assert answer.columns == ("object", "class", "concept", "path", "confidence")
+        ((name, label, concept, _, confidence),) = answer.values
+        assert (name, label, concept) == ("BookE_01", "Asset", "book")
+        ((stated,),) = hall.sparql("SELECT ?c { ?o u2k:conceptConfidence ?c ; rdfs:label 'BookE_01' }").values
+        assert confidence == stated
+
+    def test_a_class_comes_before_a_concept(self, hall: GraphStore):
+        answer = hall.ask(["all", "of", "table"])
+        ((_, label, _, _, confidence),) = answer.values
+        stated = hall.sparql("SELECT ?c { ?x owl:annotatedTarget ?t ; sssom:confidence ?c . ?t rdfs:label 'table' }")
+        assert (label, confidence) == ("table", stated.values[0][0])
+
+    def test_furniture_is_of_two_classes(self, hall: GraphStore):
+        answer = hall.ask(["all", "of", "furniture"])
+        assert column(answer, "path") == ["/Hall/coffee_table", "/Hall/couch_1"]
+        assert column(answer, "class") == ["table", "Asset"]
+
+    def test_relations_are_asked_with_nouns(self, hall: GraphStore):
+        assert column(hall.ask(["on", "the", "coffee", "table"]), "path") == ["/Hall/BookE_01"]
+        assert column(hall.ask(["on", "furniture"]), "path") == ["/Hall/BookE_01"]
+
+    def test_ready_questions_take_nouns(self, hall: GraphStore):
+        nearest = hall.answer("nearest", {"thing": "/Hall/BookE_01", "class": "sofa"})
+        assert column(nearest, "path") == ["/Hall/couch_1"]
+
+    def test_an_unknown_noun_is_an_error(self, hall: GraphStore):
+        with pytest.raises(GraphError, match="no class or concept is named 'dragon'; expected a noun"):
+            hall.ask(["all", "of", "dragon"])
+
+
+def test_the_books_of_a_real_scene(home_tbox: TBox):
+    scene = read_scene(shared_file("scenes/aws_robomaker/bookstore.usdc"))
+    found = open_store(instantiate(scene, home_tbox, ground(scene, home_tbox), base=BASE)).ask(["all", "of", "book"])
+    assert len(found.rows) == 39
+    assert {*column(found, "class")} == {"artifact"}

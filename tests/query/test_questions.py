@@ -161,7 +161,7 @@ class TestGiven:
             ("above", {"thing": "table", "distance": "3 kg"}, "is not a quantity; expected a number"),
             ("above", {"thing": "table", "distance": "nan"}, "is not a quantity; expected a number"),
             ("above", {"thing": "table", "distance": "1e999"}, "is not a quantity; expected a number"),
-            ("nearest", {"thing": "table", "class": "helicopter"}, "no class is named 'helicopter'"),
+            ("nearest", {"thing": "table", "class": "helicopter"}, "no class or concept is named 'helicopter'"),
             ("reach", {"position": "1 2"}, "is not a position; expected x y z in metres"),
             ("reach", {"position": '1 2 3" . } #'}, "is not a position"),
         ],

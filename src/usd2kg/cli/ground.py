@@ -57,7 +57,7 @@ def ground_command(
     ] = None,
     output: TextFile = None,
 ) -> None:
-    """Ground the objects of a scene: print path, class, label, confidence, status and grounder of each."""
+    """Ground the objects of a scene: print class, confidence and concept of each."""
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.grounding import check_format, format_mapping, ground, read_paths  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415

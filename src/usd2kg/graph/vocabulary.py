@@ -91,6 +91,7 @@ PREFIXES = {
     "usd": USD.iri,
     "knowrob": KNOWROB.iri,
     "u2k": U2K.iri,
+    "concept": namespaces.CONCEPT,
     "wn": WORDNET.iri,
 }
 

@@ -43,7 +43,7 @@ class Concept:
     """A sense of a noun, independent of any ontology."""
 
     iri: str
-    """WordNet's IRI, or one in the usd2kg vocabulary for a sense that WordNet lacks."""
+    """WordNet's IRI, or one of this project for a sense that WordNet lacks."""
     label: str
     """Its usual noun, with spaces."""
     broader: tuple[str, ...] = ()

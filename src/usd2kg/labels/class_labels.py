@@ -35,7 +35,7 @@ def label_maker(tbox: TBox, style: str = "local", *, has_ancestors: bool = False
         return ClassLabel(
             token=_token(cls, style),
             iri=iri,
-            concept=cls.local_name,
+            local_name=cls.local_name,
             namespace=iri.removesuffix(cls.local_name),
             ancestors=tuple(dict.fromkeys(_token(tbox.by_iri[up], style) for up in above)),
             qcodes=cls.wikidata,

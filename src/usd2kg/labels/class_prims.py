@@ -27,7 +27,7 @@ class ClassPrims:
     def path_of(self, label: ClassLabel) -> str:
         """Return the path of the prim of a class."""
         if label.iri not in self._paths:
-            name = re.sub(r"[^0-9A-Za-z_]", "", label.concept) or label.concept
+            name = re.sub(r"[^0-9A-Za-z_]", "", label.local_name) or label.local_name
             stem = f"{self._scope_of(label.namespace)}/_class_{_valid_identifier(name)}"
             path = next(path for path in _numbered(stem) if self._is_available(path, label))
             self._paths[label.iri] = path
@@ -57,7 +57,7 @@ class ClassPrims:
         if not prim:
             return True
         values = [prim.GetAttribute(name).Get() for name in ("rdf:namespace", "rdf:conceptName")]
-        return values == [label.namespace, label.concept]
+        return values == [label.namespace, label.local_name]
 
     def author(self) -> None:
         """Author the class prims that are not on the stage."""
@@ -68,7 +68,7 @@ class ClassPrims:
             schemas = Sdf.TokenListOp()
             schemas.prependedItems = ["RdfAPI"]
             spec.SetInfo("apiSchemas", schemas)
-            values = {"conceptName": label.concept, "definition": label.definition, "namespace": label.namespace}
+            values = {"conceptName": label.local_name, "definition": label.definition, "namespace": label.namespace}
             for name, text in values.items():
                 if text:
                     Sdf.AttributeSpec(spec, f"rdf:{name}", Sdf.ValueTypeNames.String).default = text

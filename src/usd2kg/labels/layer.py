@@ -14,6 +14,7 @@ from usd2kg.labels.class_prims import ClassPrims
 from usd2kg.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelReport
 from usd2kg.labels.opinions import LabelOpinions, plan_opinions
 from usd2kg.labels.targets import LabelTarget, find_target
+from usd2kg.ontology import ClassIRI
 from usd2kg.scene.label_encodings import TAG_LABELS, semantic_names
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.stage import captured_diagnostics, open_stage, translated_errors
@@ -140,7 +141,7 @@ def _label_prims(stage: Any, labels: Mapping[str, ClassLabel], layer: Any, optio
 
 
 class _LabelAuthor:
-    """Authors labels in a layer. Specs of unlabelled prims depend only on the class and are copied from templates."""
+    """Authors labels in a layer. Specs of unlabelled prims depend only on the label and are copied from templates."""
 
     def __init__(self, stage: Any, layer: Any, options: LabelOptions) -> None:
         self.class_prims = ClassPrims(stage, layer)
@@ -148,8 +149,8 @@ class _LabelAuthor:
         self._options = options
         self._time = Usd.TimeCode.EarliestTime()
         self._templates = Sdf.Layer.CreateAnonymous()
-        self._cached: dict[str, tuple[LabelOpinions, str]] = {}
-        """Class IRI → the opinions on a prim without labels, and the path of their template."""
+        self._cached: dict[tuple[ClassIRI, str], tuple[LabelOpinions, str]] = {}
+        """(class, concept) → the opinions on a prim without labels, and the path of their template."""
 
     def author_label(self, target: LabelTarget, path: str, label: ClassLabel) -> LabelOpinions:
         """Author the label of the prim at `path`, and return its opinions."""
@@ -164,12 +165,13 @@ class _LabelAuthor:
         return opinions
 
     def _copy_template(self, target: LabelTarget, path: str, label: ClassLabel) -> LabelOpinions:
-        if label.iri not in self._cached:
+        key = label.iri, label.concept
+        if key not in self._cached:
             template = f"/Template_{len(self._cached)}"
             opinions = plan_opinions(target.prim, label, self._options, self._time)
             self._author(Sdf.CreatePrimInLayer(self._templates, template), opinions, label)
-            self._cached[label.iri] = opinions, template
-        opinions, template = self._cached[label.iri]
+            self._cached[key] = opinions, template
+        opinions, template = self._cached[key]
         self._make_uninstanceable(target)
         if self._layer.GetPrimAtPath(path) is None:
             Sdf.CreatePrimInLayer(self._layer, path)

@@ -30,12 +30,12 @@ OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 
 @dataclass(frozen=True, slots=True)
 class ClassLabel:
-    """A class as it is written in labels; all objects of the class share it."""
+    """A class, and possibly a concept, as they are written in labels."""
 
     token: str
     """The label, such as `Cup`."""
     iri: ClassIRI
-    concept: str
+    local_name: str
     """Local name of the IRI, which is Multiverse's `rdf:conceptName`."""
     namespace: str
     """The IRI without its local name."""
@@ -46,6 +46,8 @@ class ClassLabel:
     definition: str = ""
     names: frozenset[str] = frozenset()
     """Labels and synonyms of the class, to recognise existing labels."""
+    concept: str = ""
+    """Noun for the concept of the object, whatever its class; empty if it has none."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from typing import Any
 from usd2kg.labels.model import ClassLabel, LabelOptions, Outcome
 from usd2kg.scene.label_encodings import (
     CLASS_TAXONOMIES,
+    CONCEPT_TAXONOMY,
     TAG_LABELS,
     TAG_SCHEMA,
     USD_PREFIX,
@@ -61,7 +62,8 @@ def plan_opinions(prim: Any, label: ClassLabel, options: LabelOptions, time: Any
         return LabelOpinions("kept", f"has labels already: {_quote(labels)}")
     if options.mode == "overwrite":
         misspelt = _misspelt_class_properties(prim, names, time)
-        return _replace(prim, label, options, [entry for entry in found if entry.states_class], misspelt)
+        replaced = [entry for entry in found if entry.states_class or entry.taxonomy == CONCEPT_TAXONOMY]
+        return _replace(prim, label, options, replaced, misspelt)
     classes = [entry for entry in labels if entry.states_class]
     if classes and not _name_class(classes, label):
         return LabelOpinions("kept", f"its labels name another class: {_quote(classes)}")
@@ -74,7 +76,7 @@ def _quote(labels: Iterable[LabelProperty]) -> str:
 
 def _name_class(classes: Iterable[LabelProperty], label: ClassLabel) -> bool:
     """Return whether existing labels may name a class: by its IRI, or else a Wikidata item or a word of its names."""
-    words = {word for name in (label.token, label.concept, *label.names) for word in class_words(name)}
+    words = {word for name in (label.token, label.local_name, *label.names) for word in class_words(name)}
     values = {value for entry in classes for value in entry.values if value}
     iris = {value for entry in classes if entry.taxonomy == "iri" for value in entry.values}
     if iris:
@@ -172,6 +174,8 @@ def _add_label(
 def _usd_labels(label: ClassLabel) -> Mapping[str, tuple[str, ...]]:
     """Return taxonomy → labels."""
     labels = {"class": (*label.ancestors, label.token), "iri": (label.iri,), "wikidata_qcode": label.qcodes}
+    if label.concept:
+        labels[CONCEPT_TAXONOMY] = (label.concept,)
     return {taxonomy: values for taxonomy, values in labels.items() if values}
 
 
@@ -182,6 +186,8 @@ def _isaac_labels(label: ClassLabel) -> Mapping[str, str]:
         labels["qcode"] = label.qcodes[0]
     if label.ancestors:
         labels["hierarchy"] = "/".join((*label.ancestors, label.token))
+    if label.concept:
+        labels[CONCEPT_TAXONOMY] = label.concept
     return labels
 
 

@@ -10,13 +10,14 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.errors import GroundingError, OntologyError
-from usd2kg.graph.vocabulary import OWL, RDF, SSSOM, U2K
+from usd2kg.graph.vocabulary import OWL, RDF, SKOS, SSSOM, U2K
 from usd2kg.grounding import PERSON, Status, read_grounding
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.query import GraphStore, load_graph
 
 __all__ = ["PrimClass", "PrimClasses", "read_prim_classes"]
 
+_OTHER_COLUMNS = ("confidence", "status", "grounder", "concept_label")
 _EXPECTED = "expected CSV with the columns path and class (or decision)"
 
 
@@ -32,6 +33,8 @@ class PrimClass:
     status: str
     is_reviewed: bool
     """Whether a person decided the class."""
+    concept: str = ""
+    """Noun for the concept of the object, whatever its class; empty if it has none."""
 
 
 @dataclass(frozen=True)
@@ -98,9 +101,12 @@ def _parse_confidence(where: str, prim_path: str, value: object) -> float | None
 
 
 def _read_grounding_file(path: Path) -> Iterator[tuple[str, PrimClass]]:
-    for p in read_grounding(path).predictions:
+    grounding = read_grounding(path)
+    for p in grounding.predictions:
         confidence = _parse_confidence(str(path), p.prim_path, p.confidence)
-        yield str(path), PrimClass(p.prim_path, p.class_iri, confidence, p.status.value, p.status is Status.REVIEWED)
+        concept = grounding.concepts.get(p.concept or "")
+        label, is_reviewed = concept.label if concept else "", p.status is Status.REVIEWED
+        yield str(path), PrimClass(p.prim_path, p.class_iri, confidence, p.status.value, is_reviewed, label)
 
 
 def _read_csv(path: Path) -> Iterator[tuple[str, PrimClass]]:
@@ -119,14 +125,15 @@ def _read_csv(path: Path) -> Iterator[tuple[str, PrimClass]]:
 
 
 def _parse_row(where: str, row: dict[str, str | None], column: str) -> PrimClass:
-    cells = {key: (row.get(key) or "").strip() for key in ("path", column, "confidence", "status", "grounder")}
+    cells = {key: (row.get(key) or "").strip() for key in ("path", column, *_OTHER_COLUMNS)}
     name = cells[column] or None
     by_person = column == "decision" or cells["status"] == Status.REVIEWED or cells["grounder"] == PERSON
     default = "undecided" if name is None else Status.REVIEWED if by_person else Status.GROUNDED
     # In a queue, the confidence belongs to the grounder's answer, not to the decision.
     number = None if column == "decision" else cells["confidence"] or None
     confidence = _parse_confidence(where, cells["path"], number)
-    return PrimClass(cells["path"], name, confidence, str(cells["status"] or default), by_person and name is not None)
+    status = str(cells["status"] or default)
+    return PrimClass(cells["path"], name, confidence, status, by_person and name is not None, cells["concept_label"])
 
 
 def _read_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]]:
@@ -142,7 +149,14 @@ def _read_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]
         values = _literals(graph, annotations.get((subject, ox.NamedNode(iri)), subject) if iri else subject)
         status = values.get(U2K.status, "grounded" if iri else "")
         confidence = _parse_confidence(store.source, path.value, values.get(SSSOM.confidence))
-        yield store.source, PrimClass(path.value, iri, confidence, status, status == Status.REVIEWED)
+        concept = _concept_label(graph, subject)
+        yield store.source, PrimClass(path.value, iri, confidence, status, status == Status.REVIEWED, concept)
+
+
+def _concept_label(graph: ox.Store, node: object) -> str:
+    concepts = graph.quads_for_pattern(node, U2K.concept, None, None)  # type: ignore[arg-type]
+    found = (_literals(graph, concept).get(SKOS.prefLabel, "") for _, _, concept, _ in concepts)
+    return next(found, "")
 
 
 def _most_specific(iris: Iterable[ClassIRI], tbox: TBox) -> ClassIRI | None:

@@ -1,6 +1,7 @@
 """label_stage: write grounded classes as labels over a scene."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from usd2kg.labels.class_labels import label_maker
@@ -57,7 +58,7 @@ def _make_labels(
         if reason := _reason_to_leave_out(entry, min_confidence):
             left_out.append(LabelOutcome(entry.prim_path, "left out", reason))
         elif entry.class_iri is not None:
-            labels[entry.prim_path] = make(entry.class_iri)
+            labels[entry.prim_path] = replace(make(entry.class_iri), concept=entry.concept)
     return labels, left_out
 
 

@@ -1,6 +1,7 @@
 """Namespace IRIs of the vocabularies in use. They are exact: http and https differ."""
 
 __all__ = [
+    "CONCEPT",
     "DCTERMS",
     "DUL",
     "KNOWROB",
@@ -32,6 +33,8 @@ DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 USD = "https://ease-crc.org/ont/USD.owl#"
 U2K = "https://w3id.org/usd2kg#"
 """The usd2kg vocabulary, defined in graph/vocabulary.ttl."""
+CONCEPT = "https://w3id.org/usd2kg/concept/"
+"""Concepts that WordNet lacks, by noun: `13_amp_socket`."""
 WORDNET = "http://wordnet-rdf.princeton.edu/id/"
 """Synsets of WordNet 3.1 by offset and part of speech: `03628765-n`."""
 KNOWROB = "http://knowrob.org/kb/knowrob.owl#"

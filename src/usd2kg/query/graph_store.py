@@ -142,7 +142,7 @@ class GraphStore:
         return self._about(templates.PARTS_OF, thing)
 
     def all_of(self, name: str) -> Answer:
-        """Return the objects of a kind: a class or a concept, with everything below it.
+        """Return the objects of a class, or else of a concept, with everything below it.
 
         A class is named by label, local name, CURIE or IRI; a concept by a noun, such as `book` or `couch`.
         """

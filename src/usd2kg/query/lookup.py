@@ -94,7 +94,9 @@ class Lookup:
         return f" (did you mean {' or '.join(repr(label) for label, _, _ in similar)}?)" if similar else ""
 
     def kinds(self, name: str) -> list[ox.NamedNode]:
-        """Return the classes with this label, local name, CURIE or IRI, and the concepts that the noun may mean.
+        """Return the classes with this label, local name, CURIE or IRI; without one, the concepts the noun may mean.
+
+        A class comes first, since the ontology says what belongs to it.
 
         Raises:
             GraphError: there is none; the message lists the classes of the graph's objects.
@@ -110,7 +112,6 @@ class Lookup:
 
     def _find_kinds(self, name: str) -> list[ox.NamedNode]:
         wanted, iri = _words(name), expand_curie(name)
-        senses = {*concepts_named(name), name, iri}
         classes = {
             row["c"]
             for row in self._select(_CLASSES)
@@ -118,12 +119,16 @@ class Lookup:
             or _words(re.split(r"[#/]", row["c"].value)[-1]) == wanted
             or (row["l"] is not None and _words(row["l"].value) == wanted)
         }
-        concepts = {
+        return sorted(classes or self._find_concepts(name), key=lambda node: node.value)
+
+    def _find_concepts(self, name: str) -> set[ox.NamedNode]:
+        wanted = _words(name)
+        iris = {*concepts_named(name), name, expand_curie(name)}
+        return {
             row["c"]
             for row in self._select(_CONCEPTS)
-            if row["c"].value in senses or (row["l"] is not None and _words(row["l"].value) == wanted)
+            if row["c"].value in iris or (row["l"] is not None and _words(row["l"].value) == wanted)
         }
-        return sorted(classes | concepts, key=lambda node: node.value)
 
     def _members(self, kinds: list[ox.NamedNode]) -> list[ox.NamedNode]:
         if not kinds:

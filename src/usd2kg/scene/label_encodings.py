@@ -15,6 +15,7 @@ from usd2kg.words import words_of
 
 __all__ = [
     "CLASS_TAXONOMIES",
+    "CONCEPT_TAXONOMY",
     "QCODE",
     "TAGS",
     "TAG_LABELS",
@@ -46,6 +47,8 @@ TAGS: dict[str, Strength] = {TAG_LABELS: "label", "semanticTag:semanticReports":
 QCODE = re.compile("Q[0-9]+")
 CLASS_TAXONOMIES = frozenset({"class", "wikidata_class", "iri", "wikidata_qcode", "qcode", "hierarchy"})
 """Taxonomies whose labels are classes; others hold the room, the state, and so on."""
+CONCEPT_TAXONOMY = "concept"
+"""Taxonomy whose labels are nouns for the concept of an object, whatever its class."""
 _ISAAC = re.compile(r"semantic:(.+):params:semantic(?:Type|Data)")
 _SCHEMAS = ("SemanticsLabelsAPI:", "SemanticsAPI:", TAG_SCHEMA)
 

@@ -32,8 +32,8 @@ EVIDENCE_GROUPS = STUDY_GROUPS | {"asset", "labels", "materials", "neighbours", 
 """All groups of evidence."""
 _MASKED_GROUPS = STUDY_GROUPS | {"neighbours"}
 """The groups that masked regimes show: assets, labels, parts and materials would reveal the name."""
-_CLASS_TAXONOMIES = frozenset({"class", "iri", "semantics", "wikidata_class"})
-"""Taxonomies of semantic labels whose values are class names."""
+_CLASS_TAXONOMIES = frozenset({"class", "concept", "iri", "semantics", "wikidata_class"})
+"""Taxonomies of semantic labels whose values name classes or concepts."""
 ABBREVIATED_LENGTH = 4
 """Letters kept of each word in the abbreviated regime. Chosen for this project; the study does not publish its own."""
 

@@ -89,14 +89,14 @@ class ConceptRecognizer:
 
         Args:
             view: the object. Masked regimes hide its words.
-            words: what a grounder read an abbreviated name as; empty if the name is not abbreviated.
+            words: what a grounder read the name as, used if the name is abbreviated; empty if it read it as written.
         """
-        if words:
+        if not view.is_masked and view.neighbourhood is not None:
+            view = view_without_prefix(view, view.neighbourhood.of_stage(self._find_prefix))
+        if words and (view.is_masked or not self._is_spelled_out(view.name)):
             return self._match(self._reader.phrase(words), view.parents, view.own_size)
         if view.is_masked:
             return None
-        if view.neighbourhood is not None:
-            view = view_without_prefix(view, view.neighbourhood.of_stage(self._find_prefix))
         for group, text in texts_of(view):
             is_name = group == "name"
             if group == "parts" or (is_name and is_generated_name(text)):
@@ -105,6 +105,10 @@ class ConceptRecognizer:
             if found is not None:
                 return found
         return None
+
+    def _is_spelled_out(self, name: str) -> bool:
+        phrase = self._reader.read(name)
+        return not phrase.corrections and all(map(self._reader.kinds.is_known, phrase.words))
 
     def _read_and_match(self, text: str, parents: tuple[str, ...], size: Size | None) -> Recognition | None:
         return self._match(self._reader.read(text, parents), parents, size)

@@ -12,11 +12,10 @@ import numpy as np
 
 from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, parse_taxonomy
 from usd2kg.knowledge import read_bytes
-from usd2kg.ontology.namespaces import U2K, WORDNET
+from usd2kg.ontology.namespaces import CONCEPT, WORDNET
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
 
-_OWN_CONCEPT = f"{U2K}concept-"
 _OFFSET_DIGITS = 8
 
 # Morphy's detachment rules for nouns (morphy(7WN)).
@@ -127,19 +126,19 @@ class Taxonomy:
         return self._names[synset]
 
     def concept_iri(self, synset: int) -> str:
-        """Return the IRI of a synset: WordNet 3.1's, or one in the usd2kg vocabulary for a noun that WordNet lacks."""
+        """Return the IRI of a synset: WordNet 3.1's, or one of this project for a noun that WordNet lacks."""
         at = synset * _OFFSET_DIGITS
         if offset := self._offsets[at : at + _OFFSET_DIGITS]:
             return f"{WORDNET}{offset}-n"
-        return _OWN_CONCEPT + quote(self.name(synset).replace(" ", "_"), safe="")
+        return CONCEPT + quote(self.name(synset).replace(" ", "_"), safe="")
 
     def find_concept(self, iri: str) -> int | None:
         """Return the synset with an IRI; None if there is none."""
         if found := re.fullmatch(re.escape(WORDNET) + r"(\d{8})-n", iri):
             return self._synsets_by_offset.get(found[1])
-        if not iri.startswith(_OWN_CONCEPT):
+        if not iri.startswith(CONCEPT):
             return None
-        name = unquote(iri.removeprefix(_OWN_CONCEPT)).replace("_", " ")
+        name = unquote(iri.removeprefix(CONCEPT)).replace("_", " ")
         key = name.replace(" ", "").replace("-", "")
         return next((s.synset for s in self.senses(key) if self.concept_iri(s.synset) == iri), None)
 
