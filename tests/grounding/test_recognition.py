@@ -44,7 +44,7 @@ class TestWords:
             ("NightStand", "nightstand"),
             ("coffee_table_oak", "coffee table"),
             ("tulip_red", "tulip"),
-            ("TV_01", "television receiver"),
+            ("TV_01", "television"),
             # The head noun comes first.
             ("plate_dinner", "dinner plate"),
             # Spanish for fork.

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tools.build_wordnet import Synset, build_columns
+from tools.build_wordnet import Synset, build_columns, choose_label, count_nouns
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.concepts.taxonomy_file import format_taxonomy, parse_taxonomy
 
@@ -196,3 +196,36 @@ class TestConceptIri:
         synsets = range(taxonomy.synset_count)
         assert [taxonomy.find_concept(taxonomy.concept_iri(synset)) for synset in synsets] == [*synsets]
         assert taxonomy.concept_iri(taxonomy.senses("knife")[0].synset) == WORDNET_KNIFE
+
+
+class TestLabels:
+    TAXONOMY = Taxonomy(build_columns([], SYNSETS), read_labels=lambda: b"\t\t\t\t\troll\t")
+
+    def test_a_usual_noun_replaces_the_first_lemma(self):
+        assert [self.TAXONOMY.label(synset) for synset in (4, 5, 6)] == ["cutter", "roll", "knife"]
+
+    @pytest.mark.parametrize(
+        ("names", "label"),
+        [
+            ([], "bun"),
+            (["bun"], "bun"),
+            (["sweet roll"], "roll"),
+            # Five times as often is not enough.
+            (["bun", *["roll"] * 5], "bun"),
+            (["bun", *["roll"] * 6], "roll"),
+            # It does not end the name.
+            (["roll holder"], "bun"),
+        ],
+    )
+    def test_the_usual_noun_ends_several_times_as_many_names(self, names: list[str], label: str):
+        synset = Synset("food", [], [("bun", 1), ("roll", 1), ("bap", 2)])
+        assert choose_label(synset, count_nouns(names)) == label
+
+    def test_a_lemma_with_a_more_frequent_sense_is_no_label(self):
+        synset = Synset("artifact", [], [("flannel", 1), ("white", 4)])
+        assert choose_label(synset, count_nouns(["wall white"])) == "flannel"
+
+    def test_a_trash_can_is_not_an_ashcan(self):
+        taxonomy = load_taxonomy()
+        synset = taxonomy.senses("ashcan")[0].synset
+        assert (taxonomy.name(synset), taxonomy.label(synset)) == ("ashcan", "trash can")

@@ -88,11 +88,14 @@ def open_session(
     is_llm = grounding.is_llm_name(options.grounder)
     if not is_llm:
         options.model.check_without_model()
+    elif options.alignment is not None and options.model.cascade is None:
+        raise GroundingError("--alignment is for the lexical grounder; expected --grounder lexical, or --cascade too")
     offline = grounding.make_grounder(
         "lexical" if is_llm else options.grounder,
         dictionary=options.dictionary,
         class_sizes=options.class_sizes,
         abstains=options.abstain,
+        alignment=options.alignment,
     )
     with ExitStack() as stack:
         model = cascade = None

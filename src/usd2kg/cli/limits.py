@@ -9,6 +9,7 @@ __all__ = [
     "NAMES_PER_CELL",
     "PATHS_PER_REASON",
     "SIMILAR_DIAGNOSTICS",
+    "SUGGESTIONS",
 ]
 
 FINDINGS_PER_RULE = 20
@@ -23,6 +24,8 @@ NAMES_PER_CELL = 6
 """Names of materials or parts in a cell of the table of `inspect`."""
 PATHS_PER_REASON = 3
 """Prim paths that `label` shows for one reason."""
+SUGGESTIONS = 10
+"""Suggested classes that `ontology align` shows."""
 DEMO_ROWS = 12
 """Rows of each answer that `demo` shows."""
 CELL_WIDTH = 60

@@ -8,10 +8,13 @@ import typer
 from typer import Argument, Option
 
 from usd2kg.cli.finding_text import findings_text
-from usd2kg.cli.options.common import AllFindings, JsonOutput
-from usd2kg.cli.output import emit, format_table, notify, notify_notes, print_json
+from usd2kg.cli.limits import SUGGESTIONS
+from usd2kg.cli.options.common import AllFindings, JsonOutput, TextFile
+from usd2kg.cli.output import count_noun, emit, format_table, notify, notify_notes, print_json
+from usd2kg.errors import OntologyError
 
 if TYPE_CHECKING:
+    from usd2kg.grounding import Grounder
     from usd2kg.ontology import TBox
     from usd2kg.readiness import OntologyReport
 
@@ -92,6 +95,51 @@ def check_command(
         raise typer.Exit(1)
 
 
+@app.command("align")
+def align_command(
+    file: _File = None,
+    root: _Roots = None,
+    output: TextFile = None,
+    suggest: Annotated[
+        Path | None,
+        Option("--suggest", help="OWL file of subclasses to write, for what has only a coarse class in the scenes."),
+    ] = None,
+    scenes: Annotated[
+        list[Path] | None, Option("--scene", metavar="SCENE", help="USD stage for --suggest. Repeatable.")
+    ] = None,
+) -> None:
+    """Write which concepts and words belong to which class, as SSSOM to edit and to pass to --alignment."""
+    from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
+    from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
+
+    if (suggest is None) != (not scenes):
+        raise OntologyError("ontology align: --suggest and --scene belong together; expected both, or neither")
+    targets = [path for path in (output, suggest) if path is not None]
+    check_apart(targets, [file, *(scenes or [])])
+    for target in targets:
+        check_writable(target)
+    tbox = _load(file, root)
+    grounder = LexicalGrounder()
+    if suggest is not None:
+        _suggest_classes(tbox, grounder, scenes or [], suggest)
+    if output is not None or suggest is None:
+        emit(grounder.format_alignment(tbox), output)
+
+
+def _suggest_classes(tbox: "TBox", grounder: "Grounder", scenes: list[Path], target: Path) -> None:
+    """Write suggested subclasses, and print the first of them to stderr."""
+    from usd2kg.grounding import ground  # noqa: PLC0415
+    from usd2kg.readiness import format_suggestions, suggest_classes  # noqa: PLC0415
+    from usd2kg.scene import read_scene  # noqa: PLC0415
+
+    suggested = suggest_classes((ground(read_scene(scene), tbox, grounder) for scene in scenes), tbox)
+    emit(format_suggestions(suggested, tbox), target)
+    for one in suggested[:SUGGESTIONS]:
+        parent = tbox.by_iri[one.parent].readable_name
+        notify(f"  {count_noun(len(one.objects), 'object')}: {one.concept.label} ⊑ {parent}, like {one.objects[0]}")
+    notify(f"{count_noun(len(suggested), 'suggested class')} written to {target}")
+
+
 @app.command("known")
 def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
     """List the ontologies that `ontology fetch` can download."""
@@ -121,7 +169,6 @@ def fetch_command(
     registry: _Registry = None,
 ) -> None:
     """Download an ontology with its imports, and print the file to use with --ontology."""
-    from usd2kg.errors import OntologyError  # noqa: PLC0415
     from usd2kg.ontology import fetch_ontology, read_registry  # noqa: PLC0415
 
     ontologies = read_registry(registry)

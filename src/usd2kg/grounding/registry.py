@@ -17,7 +17,12 @@ def is_llm_name(name: str) -> bool:
 
 
 def make_grounder(
-    name: str, *, dictionary: Path | None = None, class_sizes: Path | None = None, abstains: bool = False
+    name: str,
+    *,
+    dictionary: Path | None = None,
+    class_sizes: Path | None = None,
+    abstains: bool = False,
+    alignment: Path | None = None,
 ) -> Grounder:
     """Return the grounder called `name`.
 
@@ -26,6 +31,7 @@ def make_grounder(
         dictionary: for `dictionary`, a CSV file with the columns `name,class`.
         class_sizes: for `volume`, a CSV file of typical sizes.
         abstains: for `lexical`, choose a superclass where the candidates disagree.
+        alignment: for `lexical`, an edited file of `usd2kg ontology align`.
 
     Raises:
         GroundingError: the name is unknown, an option does not apply to it, or a file cannot be read.
@@ -38,11 +44,15 @@ def make_grounder(
         raise GroundingError(f"grounder {name!r} takes no class sizes; choose the grounder volume to use {class_sizes}")
     if abstains and name != "lexical":
         raise GroundingError(f"grounder {name!r} cannot abstain; choose the grounder lexical")
+    if alignment is not None and name != "lexical":
+        raise GroundingError(f"grounder {name!r} takes no alignment; choose the grounder lexical to use {alignment}")
     # Imported on demand: the lexical grounder reads a noun taxonomy, others need optional dependencies.
     if name == "lexical":
+        from usd2kg.grounding.lexical.alignment.alignment_file import read_alignment_file  # noqa: PLC0415
         from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
 
-        return LexicalGrounder(abstains=abstains)
+        found = read_alignment_file(alignment) if alignment is not None else None
+        return LexicalGrounder(abstains=abstains, alignment=found)
     if name == "dictionary":
         from usd2kg.grounding.baselines.dictionary import DictionaryGrounder  # noqa: PLC0415
 

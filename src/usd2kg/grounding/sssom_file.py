@@ -79,7 +79,9 @@ class SssomFile(NamedTuple):
         return self.prefixes[prefix] + name if is_curie else curie
 
 
-def read_sssom_file(path: Path, text: str, required: Sequence[str], expected: str) -> SssomFile:
+def read_sssom_file(
+    path: Path, text: str, required: Sequence[str], expected: str, prefixes: Mapping[str, str] | None = None
+) -> SssomFile:
     """Return the header and the rows of a file.
 
     Args:
@@ -87,12 +89,15 @@ def read_sssom_file(path: Path, text: str, required: Sequence[str], expected: st
         text: its content.
         required: columns that it must have.
         expected: the end of an error message: what is expected instead.
+        prefixes: prefix → namespace, for prefixes that the file does not declare.
 
     Raises:
         GroundingError: a column is missing, or the text is not TSV.
     """
-    slots, prefixes = _read_header(text)
-    return SssomFile(slots, _BUILT_IN | prefixes, tuple(_read_rows(path, text, required, expected)))
+    slots, declared = _read_header(text)
+    return SssomFile(
+        slots, {**(prefixes or {}), **_BUILT_IN, **declared}, tuple(_read_rows(path, text, required, expected))
+    )
 
 
 def _read_header(text: str) -> tuple[dict[str, str], dict[str, str]]:

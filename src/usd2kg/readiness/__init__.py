@@ -1,8 +1,12 @@
-"""Readiness of an ontology for grounding: what it lacks, and what to add."""
+"""Readiness of an ontology for grounding: what it lacks, and which classes to add."""
 
 from usd2kg.readiness.check import OntologyReport, check_ontology
+from usd2kg.readiness.suggested_classes import SuggestedClass, format_suggestions, suggest_classes
 
 __all__ = [
     "OntologyReport",
+    "SuggestedClass",
     "check_ontology",
+    "format_suggestions",
+    "suggest_classes",
 ]

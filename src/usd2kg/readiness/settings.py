@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["HIERARCHY", "HierarchySettings"]
+__all__ = ["HIERARCHY", "SUGGESTION", "HierarchySettings", "SuggestionSettings"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,4 +16,12 @@ class HierarchySettings:
     max_names: int
 
 
+@dataclass(frozen=True, slots=True)
+class SuggestionSettings:
+    """Suggested subclasses."""
+
+    min_confidence: float
+
+
 HIERARCHY = read_settings("readiness", "hierarchy", HierarchySettings)
+SUGGESTION = read_settings("readiness", "suggestion", SuggestionSettings)

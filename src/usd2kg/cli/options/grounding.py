@@ -42,6 +42,13 @@ class GroundingOptions(OptionBundle):
     abstain: Annotated[
         bool, Option("--abstain", help="Let the lexical grounder answer a superclass where its candidates are close.")
     ] = False
+    alignment: Annotated[
+        Path | None,
+        Option(
+            "--alignment",
+            help="Edited file of usd2kg ontology align, for the lexical grounder; default: built from the ontology.",
+        ),
+    ] = None
     class_sizes: Annotated[
         Path | None,
         Option("--class-sizes", help="CSV file of class sizes for the volume grounder; default: the built-in table."),

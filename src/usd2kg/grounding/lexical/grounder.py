@@ -10,6 +10,7 @@ from functools import lru_cache
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
 from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.concepts.home_names import home_names
@@ -27,16 +28,24 @@ class LexicalGrounder:
     name = "lexical"
     is_calibrated = True
 
-    def __init__(self, *, use_home_synonyms: bool = True, abstains: bool = False) -> None:
+    def __init__(
+        self,
+        *,
+        use_home_synonyms: bool = True,
+        abstains: bool = False,
+        alignment: AlignmentFile | None = None,
+    ) -> None:
         """Create a grounder.
 
         Args:
             use_home_synonyms: whether classes with the IRI of a class of the built-in home TBox get its synonyms too.
             abstains: whether to answer with the superclass that maximises the expected hierarchical F1; this is less
                 often exact.
+            alignment: an edited alignment of the ontology; by default it is built from the labels of the classes.
         """
         self._use_home_synonyms = use_home_synonyms
         self._abstains = abstains
+        self._alignment = alignment
 
     @property
     def settings(self) -> Mapping[str, str]:
@@ -44,6 +53,7 @@ class LexicalGrounder:
         return {
             "home_synonyms": str(self._use_home_synonyms).lower(),
             **({"decision": "hierarchical"} if self._abstains else {}),
+            **({"alignment": self._alignment.digest} if self._alignment is not None else {}),
         }
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
@@ -60,19 +70,30 @@ class LexicalGrounder:
             ]
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
+    def format_alignment(self, tbox: TBox) -> str:
+        """Return the alignment of the classes with concepts and terms as SSSOM/TSV, to be edited.
+
+        Raises:
+            GroundingError: the grounder's own alignment is invalid.
+        """
+        return self._object_grounder(tbox).format_alignment()
+
     def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
         """Return the uninformative classes: the roots and the default class."""
-        return _object_grounder(tbox, self._use_home_synonyms).general_classes
+        return self._object_grounder(tbox).general_classes
 
     def score_views(
         self, views: Sequence[tuple[str, ObjectView]], tbox: TBox
     ) -> list[tuple[Prediction, ClassPosterior]]:
         """Return (prediction with an uncalibrated score, posterior by appearance) for each (prim path, view)."""
-        grounder = _object_grounder(tbox, self._use_home_synonyms)
+        grounder = self._object_grounder(tbox)
         scored = [grounder.predict(path, view) for path, view in views]
         if not self._abstains:
             return scored
         return [(_abstain(prediction, tbox), posterior) for prediction, posterior in scored]
+
+    def _object_grounder(self, tbox: TBox) -> ObjectGrounder:
+        return _make_object_grounder(tbox, self._use_home_synonyms, self._alignment)
 
 
 def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
@@ -88,6 +109,6 @@ def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
 
 
 @lru_cache(maxsize=4)
-def _object_grounder(tbox: TBox, use_home_synonyms: bool) -> ObjectGrounder:
+def _make_object_grounder(tbox: TBox, use_home_synonyms: bool, alignment: AlignmentFile | None) -> ObjectGrounder:
     """Return the grounder of a TBox; it has no state from scenes, so all scenes share it."""
-    return ObjectGrounder(tbox, home_names() if use_home_synonyms else {})
+    return ObjectGrounder(tbox, home_names() if use_home_synonyms else {}, alignment)

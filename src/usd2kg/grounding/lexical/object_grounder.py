@@ -5,10 +5,10 @@ from dataclasses import replace
 from functools import partial
 
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, build_lexicon
-from usd2kg.grounding.lexical.alignment.residual_class import is_residual
+from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment
+from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI, build_rooted_lexicon
 from usd2kg.grounding.lexical.class_posterior import ClassPosterior
-from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
@@ -19,23 +19,37 @@ from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.grounding.model import Candidate, Prediction, Status
-from usd2kg.ontology import ClassIRI, OntologyClass, TBox
+from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = ["ObjectGrounder"]
 
 _GROUNDER = "lexical"
-_NO_CLASS = "no class of the ontology"
-_OTHER_IRI = f"urn:usd2kg:{_NO_CLASS}"
-"""IRI of a root added to TBoxes without a general class; it is never an answer."""
 
 
 class ObjectGrounder:
     """Grounds single objects to the classes of one TBox."""
 
-    def __init__(self, tbox: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> None:
-        """Build the lexicon of a TBox; `synonyms` are further terms by class IRI."""
-        taxonomy = load_taxonomy()
-        self._tbox, self._lexicon = _with_default_class(tbox, taxonomy, synonyms)
+    def __init__(
+        self,
+        tbox: TBox,
+        synonyms: Mapping[ClassIRI, tuple[str, ...]],
+        alignment: AlignmentFile | None = None,
+    ) -> None:
+        """Build or read the lexicon of a TBox.
+
+        Args:
+            tbox: the candidate classes.
+            synonyms: further terms by class IRI.
+            alignment: an edited alignment; None to use the one that is built.
+
+        Raises:
+            GroundingError: the alignment is invalid, or for another ontology.
+        """
+        taxonomy = self._taxonomy = load_taxonomy()
+        if alignment is None:
+            self._tbox, self._lexicon = build_rooted_lexicon(tbox, taxonomy, synonyms)
+        else:
+            self._tbox, self._lexicon = alignment.apply(tbox, taxonomy, synonyms)
         self.general_classes = self._lexicon.general_classes
         """The roots, and the default class."""
         reader = self._reader = NameReader(self._lexicon, taxonomy)
@@ -44,6 +58,10 @@ class ObjectGrounder:
         self._is_fallback = terms.is_fallback
         self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher)
         self._context = ContextEvidence(self._tbox, self._words, reader, matcher)
+
+    def format_alignment(self) -> str:
+        """Return the alignment of the classes with concepts and terms as SSSOM/TSV."""
+        return format_alignment(self._tbox, self._lexicon, self._taxonomy)
 
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
         """Return the class of a view with an uncalibrated score, and the posterior by its appearance."""
@@ -60,12 +78,12 @@ class ObjectGrounder:
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
             return self._default(prim_path, "the evidence does not determine its class"), posterior
         best = scored[0]
-        if best.class_iri == _OTHER_IRI:
+        if best.class_iri == NO_CLASS_IRI:
             return _refusal(prim_path, best.explain()), posterior
         if best.group in CONTEXT_GROUPS and self._is_fallback(best.class_iri):
             # Two unidentified objects are no evidence for each other.
             return self._default(prim_path, best.explain()), posterior
-        scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != _OTHER_IRI}
+        scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != NO_CLASS_IRI}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
         prediction = Prediction(
             prim_path=prim_path,
@@ -109,8 +127,8 @@ class ObjectGrounder:
 
     def _default(self, prim_path: str, reason: str) -> Prediction:
         iri = self._lexicon.default_class
-        if iri is None or iri == _OTHER_IRI:
-            return _refusal(prim_path, f"{reason}; {_NO_CLASS} applies to most objects")
+        if iri is None or iri == NO_CLASS_IRI:
+            return _refusal(prim_path, f"{reason}; {NO_CLASS} applies to most objects")
         return Prediction(
             prim_path=prim_path,
             class_iri=iri,
@@ -120,36 +138,6 @@ class ObjectGrounder:
             explanation=f"{reason}; {self._tbox.by_iri[iri].readable_name} applies to most objects",
             candidates=(Candidate(iri, EVIDENCE.default_confidence),),
         )
-
-
-def _with_default_class(
-    tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]
-) -> tuple[TBox, Lexicon]:
-    """Return the TBox below one class that is true of most objects, and its lexicon.
-
-    A TBox without a general class gets an artificial root. In a list of labels with a residual class, such as
-    `otherprop`, the residual class becomes the superclass of the other roots.
-    """
-    lexicon = build_lexicon(tbox, taxonomy, synonyms)
-    default = lexicon.default_class
-    if default is None:
-        root = OntologyClass(_OTHER_IRI, label=_NO_CLASS, alt_labels=(), comment="", parents=())
-        if lexicon.home_classes.issuperset(tbox.by_iri):
-            # Without synonyms the root would turn a TBox of home classes into one with classes of other ontologies.
-            synonyms = {**synonyms, _OTHER_IRI: (_NO_CLASS,)}
-    elif len(tbox.roots) > 1 and default in tbox.roots and is_residual(tbox.by_iri[default], taxonomy):
-        root = tbox.by_iri[default]
-    else:
-        return tbox, lexicon
-    tbox = _below_root(tbox, root)
-    return tbox, build_lexicon(tbox, taxonomy, synonyms)
-
-
-def _below_root(tbox: TBox, root: OntologyClass) -> TBox:
-    """Return the TBox with `root`, added if it is missing, as the superclass of all other roots."""
-    others = [cls for cls in tbox.classes if cls.iri != root.iri]
-    classes = [cls if cls.parents else replace(cls, parents=(root.iri,)) for cls in others]
-    return replace(tbox, classes=tuple(sorted([*classes, root], key=lambda cls: cls.iri)))
 
 
 def _refusal(prim_path: str, explanation: str) -> Prediction:

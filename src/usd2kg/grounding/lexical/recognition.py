@@ -193,7 +193,7 @@ def describe_concepts(iris: Iterable[str]) -> dict[str, Concept]:
     concepts = (
         Concept(
             iri=taxonomy.concept_iri(synset),
-            label=taxonomy.name(synset),
+            label=taxonomy.label(synset),
             broader=tuple(map(taxonomy.concept_iri, taxonomy.above(synset))),
         )
         for synset in everything

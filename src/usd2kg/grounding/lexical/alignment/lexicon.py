@@ -27,12 +27,14 @@ from usd2kg.grounding.lexical.settings import ALIGNMENT
 from usd2kg.knowledge import word_set
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 
-__all__ = ["CategoryMember", "Lexicon", "build_lexicon", "physical_classes"]
+__all__ = ["CategoryMember", "Lexicon", "build_lexicon", "home_classes_of", "make_lexicon", "physical_classes"]
 
 _NATURAL_DOMAINS = frozenset(["animal", "object", "person", "plant"])
 """WordNet domains of natural objects."""
 _TOP_NOUNS = word_set("lexical", "top_nouns")
 _UNSPECIFIC_NOUNS = _TOP_NOUNS | word_set("lexical", "unspecific_nouns")
+_WEIGHT_DIGITS = 4
+"""Decimals of the weights of aligned classes."""
 _CONJUNCTIONS = frozenset(["and", "of", "or"])
 _EVENT_NOUNS = word_set("lexical", "event_nouns")
 
@@ -63,6 +65,8 @@ class Lexicon:
     """Classes of the TBox that the home vocabulary has synonyms for."""
     category_members: Mapping[int, Sequence[CategoryMember]]
     """Synset → classes that have it as a member in common usage, though it is not their hyponym."""
+    curated_synsets: frozenset[int] = frozenset()
+    """Synsets whose class a person chose in an alignment file; they decide alone for themselves and what is below."""
 
 
 def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> Lexicon:
@@ -75,7 +79,7 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     """
     terms = _own_terms(tbox, taxonomy, synonyms)
     sense_classes = _align_terms(tbox, terms, taxonomy)
-    home_classes = frozenset(synonyms.keys() & tbox.by_iri.keys())
+    home_classes = home_classes_of(tbox, synonyms)
     default = find_default_class(tbox, taxonomy)
     align_default(default, tbox, taxonomy, sense_classes)
     # After the ontology's own terms, which take precedence.
@@ -85,15 +89,32 @@ def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tu
     members: Mapping[int, Sequence[CategoryMember]] = {}
     if not home_classes.issuperset(tbox.by_iri):
         members = _category_members(tbox, terms, sense_classes, default, taxonomy, home_classes)
+    return make_lexicon(tbox, terms, sense_classes, members, default, home_classes)
+
+
+def make_lexicon(
+    tbox: TBox,
+    terms: Mapping[str, Term],
+    sense_classes: Mapping[int, AlignedClass],
+    category_members: Mapping[int, Sequence[CategoryMember]],
+    default_class: ClassIRI | None,
+    home_classes: frozenset[ClassIRI],
+) -> Lexicon:
+    """Return a lexicon with what follows from its terms and its default class."""
     return Lexicon(
         terms=terms,
         sense_classes=sense_classes,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
-        default_class=default,
-        general_classes=frozenset([*tbox.roots, *filter(None, [default])]),
+        default_class=default_class,
+        general_classes=frozenset([*tbox.roots, *filter(None, [default_class])]),
         home_classes=home_classes,
-        category_members=members,
+        category_members={synset: sorted(members) for synset, members in category_members.items()},
     )
+
+
+def home_classes_of(tbox: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> frozenset[ClassIRI]:
+    """Return the classes of a TBox that the home vocabulary has synonyms for."""
+    return frozenset(synonyms.keys() & tbox.by_iri.keys())
 
 
 def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> dict[str, Term]:
@@ -185,7 +206,7 @@ def _align_noun(
             is_natural_first = group is meant and sense == senses[0] and sense.domain in _NATURAL_DOMAINS
             share = 1.0 if is_natural_first else sense_weight(sense) / best
             if share >= ALIGNMENT.min_sense_ratio:
-                align(sense, term.kind.weight * share * trust)
+                align(sense, round(term.kind.weight * share * trust, _WEIGHT_DIGITS))
 
 
 def _meant_senses(key: str, term: Term, tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> list[Sense]:

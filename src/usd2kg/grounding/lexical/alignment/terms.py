@@ -22,6 +22,8 @@ class TermKind(Enum):
     """A name of the home vocabulary, for a class of another ontology with the same label."""
     HEAD = "head"
     """The head noun of a longer label."""
+    CURATED = "curated"
+    """Chosen by a person in an alignment file."""
 
     @property
     def weight(self) -> float:
@@ -34,6 +36,7 @@ _WEIGHTS = {
     TermKind.SYNONYM: TERMS.synonym_weight,
     TermKind.LENT: TERMS.lent_weight,
     TermKind.HEAD: TERMS.head_weight,
+    TermKind.CURATED: 1.0,
 }
 
 

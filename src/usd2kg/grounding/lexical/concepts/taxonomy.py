@@ -59,12 +59,18 @@ class Taxonomy:
     Cells are parsed on first access, since a scene needs few of them.
     """
 
-    def __init__(self, columns: TaxonomyColumns, read_offsets: Callable[[], str] = str) -> None:
+    def __init__(
+        self,
+        columns: TaxonomyColumns,
+        read_offsets: Callable[[], str] = str,
+        read_labels: Callable[[], bytes] | None = None,
+    ) -> None:
         """Index the columns of a taxonomy file.
 
         Args:
             columns: the columns.
             read_offsets: returns WordNet's offsets of the first synsets, 8 digits each; WordNet lacks the others.
+            read_labels: returns the usual noun of each synset, empty where that is its name; default: all are empty.
         """
         self.adjectives = frozenset(columns.adjectives.decode().split("\t"))
         domains = columns.domains.decode().split("\t")
@@ -81,6 +87,7 @@ class Taxonomy:
         self._above: dict[int, tuple[int, ...]] = {}
         self._singular = lru_cache(maxsize=16384)(self._find_singular)
         self._read_offsets = read_offsets
+        self._read_labels = read_labels
 
     def senses(self, lemma: str) -> tuple[Sense, ...]:
         """Return the senses of a lemma or joined compound (`flowerpot`), most frequent first; none if it is unknown."""
@@ -151,6 +158,14 @@ class Taxonomy:
     def _synsets_by_offset(self) -> dict[str, int]:
         starts = range(0, len(self._offsets), _OFFSET_DIGITS)
         return {self._offsets[at : at + _OFFSET_DIGITS]: synset for synset, at in enumerate(starts)}
+
+    def label(self, synset: int) -> str:
+        """Return the noun that names use for a synset most often, with its spaces: trash can, not ashcan."""
+        return (self._labels[synset] if self._labels is not None else "") or self.name(synset)
+
+    @cached_property
+    def _labels(self) -> _Cells | None:
+        return _Cells(self._read_labels()) if self._read_labels is not None else None
 
     def size(self, synset: int) -> int:
         """Return the number of hyponyms of a synset, itself included."""
@@ -233,4 +248,8 @@ class Taxonomy:
 def load_taxonomy() -> Taxonomy:
     """Return the taxonomy of the package, read once."""
     columns = parse_taxonomy(gzip.decompress(read_bytes("wordnet.txt.gz")))
-    return Taxonomy(columns, lambda: gzip.decompress(read_bytes("wordnet_offsets.txt.gz")).decode())
+    return Taxonomy(
+        columns,
+        lambda: gzip.decompress(read_bytes("wordnet_offsets.txt.gz")).decode(),
+        lambda: gzip.decompress(read_bytes("wordnet_labels.txt.gz")),
+    )

@@ -20,8 +20,8 @@ from usd2kg.words import split_identifier
 
 __all__ = ["TermMatcher"]
 
-
 _NO_MATCHES = HeadMatches((), ())
+_NAMED_BY_KIND = {TermKind.LABEL: "is the label of", TermKind.CURATED: "is in the alignment file a name for"}
 
 
 class TermMatcher:
@@ -80,7 +80,7 @@ class TermMatcher:
         Classes of the home vocabulary are ranked with a classifier of names, those of other ontologies by routes.
         """
         found = self._match_head(words, places)
-        if not found.matches:
+        if not found.matches or self._is_curated(found.words):
             return found
         if self._routes is not None:
             return found._replace(matches=self._rank_by_routes(found))
@@ -92,6 +92,18 @@ class TermMatcher:
         if is_whole and "".join((*found.words[:-1], head)) in self._lexicon.terms:
             return found
         return found._replace(matches=self._mix_with_classifier((*modifiers, head), found.matches))
+
+    def _is_curated(self, words: tuple[str, ...]) -> bool:
+        """Return whether a person chose the class of a noun, or of its nearest aligned hypernym."""
+        *before, last = words
+        key = "".join(before) + self._taxonomy.singular(last)
+        term = self._lexicon.terms.get(key)
+        if term is not None:
+            return term.kind is TermKind.CURATED
+        if not self._lexicon.curated_synsets or (usual := usual_sense(key, self._taxonomy)) is None:
+            return False
+        nearest = self._nearest_class(usual.synset)
+        return nearest is not None and nearest[0] in self._lexicon.curated_synsets
 
     def match_compound(self, words: tuple[str, str]) -> tuple[Match, ...]:
         """Return the classes of a compound of two words; none if it is not known as a compound."""
@@ -297,8 +309,7 @@ class TermMatcher:
         return f"a name like “{' '.join(words)}”{example} usually means {self._label(iri)}"
 
     def _explain_term(self, term: Term) -> str:
-        named = "is the label of" if term.kind is TermKind.LABEL else "is a name for"
-        return f"“{term.text}” {named} {self._label(term.class_iri)}"
+        return f"“{term.text}” {_NAMED_BY_KIND.get(term.kind, 'is a name for')} {self._label(term.class_iri)}"
 
     def _explain_place(self, key: str, place: str, special: Term) -> str:
         return f"a “{key}” in “{place}” is a {special.text}, which is {self._label(special.class_iri)}"
@@ -308,6 +319,8 @@ class TermMatcher:
         chain = names if len(names) <= 4 else [*names[:2], "…", names[-1]]
         kinds = " is a kind of ".join(f"“{name}”" if name != "…" else name for name in chain)
         is_aligned = self._lexicon.sense_classes.get(hypernym) == aligned
+        if hypernym in self._lexicon.curated_synsets:
+            return f"{kinds}, which the alignment file puts in {self._label(aligned.class_iri)}"
         link = ", which is" if is_aligned else " counts as" if len(chain) == 1 else ", which counts as"
         return f"{kinds}{link} {self._label(aligned.class_iri)}"
 

@@ -1,0 +1,215 @@
+"""Rows of an alignment file: SSSOM/TSV text ↔ records."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from importlib.metadata import version
+from pathlib import Path
+
+from usd2kg.errors import GroundingError, OntologyError
+from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.terms import TermKind
+from usd2kg.grounding.sssom_file import Curies, SssomFile, SssomRow, format_sssom_file, one_line, read_sssom_file
+from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.ontology.namespaces import CONCEPT, SKOS, U2K, WORDNET
+from usd2kg.ontology.prefixes import PREFIXES
+
+__all__ = ["AlignmentRow", "RowKind", "format_rows", "parse_rows", "written_class"]
+
+_NO_TERM = "https://w3id.org/sssom/NoTermFound"
+_UNSPECIFIED_LICENSE = "https://w3id.org/sssom/license/unspecified"
+_LITERAL = "rdfs literal"
+_CURATED = "semapv:ManualMappingCuration"
+_PREFIXES = {
+    **PREFIXES,
+    "concept": CONCEPT,
+    "semapv": "https://w3id.org/semapv/vocab/",
+    "skos": SKOS,
+    "sssom": "https://w3id.org/sssom/",
+    "u2k": U2K,
+    "wn": WORDNET,
+    "xsd": "http://www.w3.org/2001/XMLSchema#",
+}
+_COLUMNS = (
+    *("subject_id", "subject_label", "subject_type", "predicate_id", "predicate_modifier", "object_id", "object_label"),
+    *("mapping_justification", "reviewer_label", "confidence", "comment", "term_kind", "category_size"),
+)
+_REQUIRED = ("subject_label", "predicate_id", "object_id", "mapping_justification")
+_EXTENSIONS = {
+    "default_class": "u2k:defaultClass",
+    "term_kind": "u2k:termKind",
+    "category_size": "u2k:categorySize",
+}
+_EXPECTED = "expected an alignment as usd2kg ontology align writes it"
+_HOW_TO_EDIT = (
+    "To change where a concept or term belongs, edit object_id and write semapv:ManualMappingCuration as the "
+    "justification; a concept takes everything below it along. Rows can be added and deleted."
+)
+
+
+class RowKind(Enum):
+    """What a row aligns with a class; the value is its predicate."""
+
+    TERM = "skos:exactMatch"
+    """A word or compound that names the class; the subject is a literal."""
+    CONCEPT = "skos:closeMatch"
+    """A concept whose objects belong to the class, as do those of its hyponyms; `skos:exactMatch` if fully trusted."""
+    CATEGORY = "skos:broadMatch"
+    """A concept that counts among the class in common usage."""
+
+
+@dataclass(frozen=True, slots=True)
+class AlignmentRow:
+    """One mapping to a class."""
+
+    kind: RowKind
+    subject: str
+    """A term in lower case, or the IRI of a concept."""
+    class_iri: ClassIRI
+    """`NO_CLASS_IRI` for what belongs to no class."""
+    confidence: float
+    """How far the subject is trusted to mean the class, 0 to 1."""
+    label: str = ""
+    """The noun of a concept."""
+    reason: str = ""
+    term_kind: TermKind = TermKind.SYNONYM
+    """Where a term comes from."""
+    category_size: int = 0
+    """Number of concepts in the category."""
+    is_curated: bool = False
+    """Whether a person decided."""
+    is_negated: bool = False
+    """Whether the subject does not belong to the class."""
+    line: int = 0
+    """Line in the file."""
+
+
+def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI) -> str:
+    """Return the text of a file.
+
+    Args:
+        rows: in the order to be written.
+        tbox: the classes.
+        default: the class of objects without a more specific one.
+    """
+    curies = Curies(_PREFIXES, used=("semapv", "skos", "sssom", "u2k", "wn", "xsd"))
+    cells = [_cells_of(row, tbox, curies) for row in rows]
+    header = {
+        "mapping_set_id": f"urn:usd2kg:alignment:{tbox.content_hash}",
+        "mapping_set_title": f"Concepts and terms of {tbox.ontology_iri}",
+        "license": _UNSPECIFIED_LICENSE,
+        "mapping_tool": "usd2kg",
+        "mapping_tool_version": version("usd2kg"),
+        "comment": _HOW_TO_EDIT,
+        "subject_source": "https://wordnet.princeton.edu/",
+        "subject_source_version": "3.1",
+        **({} if tbox.ontology_iri.startswith("file:") else {"object_source": curies.shorten(tbox.ontology_iri)}),
+        "object_source_version": tbox.content_hash,
+        "default_class": curies.shorten(written_class(default)),
+    }
+    return format_sssom_file(header, curies, _EXTENSIONS, _COLUMNS, cells)
+
+
+def written_class(iri: ClassIRI) -> str:
+    """Return the IRI of a class as in the file."""
+    return _NO_TERM if iri == NO_CLASS_IRI else iri
+
+
+def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
+    is_term = row.kind is RowKind.TERM
+    is_exact = row.kind is RowKind.CONCEPT and row.confidence == 1.0
+    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT
+    return {
+        "subject_id": "" if is_term else curies.shorten(row.subject),
+        "subject_label": one_line(row.subject if is_term else row.label),
+        "subject_type": _LITERAL if is_term else "skos concept",
+        "predicate_id": "skos:exactMatch" if is_exact else row.kind.value,
+        "object_id": curies.shorten(written_class(row.class_iri)),
+        "object_label": NO_CLASS if row.class_iri == NO_CLASS_IRI else one_line(tbox.by_iri[row.class_iri].label),
+        "mapping_justification": "semapv:BackgroundKnowledgeBasedMatching" if is_known else "semapv:LexicalMatching",
+        "confidence": f"{row.confidence:g}",
+        "comment": one_line(row.reason),
+        "term_kind": row.term_kind.value if is_term else "",
+        "category_size": str(row.category_size) if row.category_size else "",
+    }
+
+
+def parse_rows(path: Path, text: str, tbox: TBox) -> tuple[ClassIRI | None, str, list[AlignmentRow]]:
+    """Return the default class, the hash of the ontology and the rows of a file.
+
+    The default class is None and the hash empty if the header does not have them: the file only changes an alignment.
+
+    Raises:
+        GroundingError: the file is malformed, or a class is not in scope; the message has the line.
+    """
+    file = read_sssom_file(path, text, _REQUIRED, _EXPECTED, _PREFIXES)
+    default = None
+    if named := file.slots.get("default_class"):
+        default = _parse_class(f"{path}: default_class", file.expand(named), tbox)
+    return default, file.slots.get("object_source_version", ""), list(_parse_each(path, file, tbox))
+
+
+def _parse_each(path: Path, file: SssomFile, tbox: TBox) -> Iterator[AlignmentRow]:
+    for row in file.rows:
+        yield _parse_row(f"{path}: line {row.line}", row, file, tbox)
+
+
+def _parse_row(where: str, row: SssomRow, file: SssomFile, tbox: TBox) -> AlignmentRow:
+    cells = row.cells
+    is_term = cells.get("subject_type", "") == _LITERAL or not cells.get("subject_id")
+    predicate = cells["predicate_id"]
+    kinds = {kind.value: kind for kind in (RowKind.CONCEPT, RowKind.CATEGORY)} | {"skos:exactMatch": RowKind.CONCEPT}
+    if predicate not in kinds:
+        raise GroundingError(f"{where}: the predicate is {predicate!r}; expected one of {', '.join(sorted(kinds))}")
+    subject = cells["subject_label"].lower() if is_term else file.expand(cells["subject_id"])
+    if not subject:
+        raise GroundingError(f"{where}: has no subject; expected a concept in subject_id or a term in subject_label")
+    modifier = cells.get("predicate_modifier", "")
+    if modifier not in {"", "Not"}:
+        raise GroundingError(f"{where}: the predicate modifier is {modifier!r}; expected Not, or nothing")
+    return AlignmentRow(
+        kind=RowKind.TERM if is_term else kinds[predicate],
+        subject=subject,
+        class_iri=_parse_class(where, file.expand(cells["object_id"]), tbox),
+        confidence=_parse_confidence(where, cells.get("confidence", "")),
+        label=cells["subject_label"],
+        term_kind=_parse_term_kind(where, cells.get("term_kind", "")),
+        category_size=_parse_size(where, cells.get("category_size", "")),
+        is_curated=file.expand(cells["mapping_justification"]) == file.expand(_CURATED)
+        or bool(cells.get("reviewer_label") or cells.get("reviewer_id")),
+        is_negated=bool(modifier),
+        line=row.line,
+    )
+
+
+def _parse_class(where: str, text: str, tbox: TBox) -> ClassIRI:
+    if text == _NO_TERM:
+        return NO_CLASS_IRI
+    try:
+        return tbox.resolve(text)
+    except OntologyError as error:
+        raise GroundingError(f"{where}: {error}") from error
+
+
+def _parse_confidence(where: str, text: str) -> float:
+    try:
+        confidence = float(text or "1")
+    except ValueError:
+        confidence = math.nan
+    if not 0 < confidence <= 1:
+        raise GroundingError(f"{where}: the confidence is {text!r}; expected a number above 0, at most 1")
+    return confidence
+
+
+def _parse_term_kind(where: str, text: str) -> TermKind:
+    kinds = {kind.value: kind for kind in TermKind}
+    if text and text not in kinds:
+        raise GroundingError(f"{where}: the term kind is {text!r}; expected one of {', '.join(kinds)}")
+    return kinds[text or TermKind.SYNONYM.value]
+
+
+def _parse_size(where: str, text: str) -> int:
+    if text and not text.isdecimal():
+        raise GroundingError(f"{where}: the category size is {text!r}; expected the number of concepts in the category")
+    return int(text or "0")

@@ -1,0 +1,96 @@
+"""Subclasses that would fit the concepts of scenes whose class is coarse: 39 books that are only artifacts."""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import pyoxigraph as ox
+
+from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, SKOS, Triple, text
+from usd2kg.grounding import Concept, Grounding, Prediction, concepts_named
+from usd2kg.ontology import ClassIRI, OntologyClass, TBox
+from usd2kg.readiness.settings import SUGGESTION
+from usd2kg.words import words_of
+
+__all__ = ["SuggestedClass", "format_suggestions", "suggest_classes"]
+
+
+@dataclass(frozen=True)
+class SuggestedClass:
+    """A class that the ontology lacks."""
+
+    concept: Concept
+    """What its objects are."""
+    parent: ClassIRI
+    """The class that they have now."""
+    objects: tuple[str, ...]
+    """Prim paths, in scene order; those of several scenes follow each other."""
+
+
+def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[SuggestedClass]:
+    """Return the concepts of objects that no class of the ontology is named after, with the most objects first.
+
+    Args:
+        groundings: of one or several scenes.
+        tbox: the ontology of the groundings.
+    """
+    # Other names of a class may be kinds of it: in the home TBox, “book” is one of artifacts.
+    named = {iri for cls in tbox.classes for name in (cls.label, cls.local_name) for iri in concepts_named(name)}
+    found: dict[tuple[str, ClassIRI], tuple[Concept, list[str]]] = {}
+    for grounding in groundings:
+        for prediction in grounding.predictions:
+            if (concept := _certain_concept(prediction, grounding)) is None or concept.iri in named:
+                continue
+            assert prediction.class_iri is not None, "only objects with a class have a certain concept"
+            if concept.iri in _concepts_of_head(tbox.by_iri[prediction.class_iri]):
+                continue
+            found.setdefault((concept.iri, prediction.class_iri), (concept, []))[1].append(prediction.prim_path)
+    suggested = (SuggestedClass(concept, parent, tuple(paths)) for (_, parent), (concept, paths) in found.items())
+    return sorted(suggested, key=lambda one: (-len(one.objects), one.concept.label, one.parent))
+
+
+def _concepts_of_head(cls: OntologyClass) -> tuple[str, ...]:
+    """Return the concepts of the last word of a label: `DesignedChair` are chairs."""
+    words = words_of(cls.label)
+    return concepts_named(words[-1]) if words else ()
+
+
+def _certain_concept(prediction: Prediction, grounding: Grounding) -> Concept | None:
+    if prediction.class_iri is None or (prediction.concept_confidence or 0.0) < SUGGESTION.min_confidence:
+        return None
+    return grounding.concepts.get(prediction.concept or "")
+
+
+def format_suggestions(suggested: Sequence[SuggestedClass], tbox: TBox) -> str:
+    """Return suggested classes as an OWL ontology in Turtle that imports the ontology that they extend."""
+    base = f"{tbox.ontology_iri.rstrip('#/')}/suggested"
+    triples = [ox.Triple(*triple) for triple in dict.fromkeys(_triples(suggested, tbox, base))]
+    found = ox.serialize(triples, format=ox.RdfFormat.TURTLE, prefixes={**PREFIXES, "": f"{base}#"})
+    assert found is not None, "text is returned if no output is given"
+    return found.decode()
+
+
+def _triples(suggested: Sequence[SuggestedClass], tbox: TBox, base: str) -> Iterator[Triple]:
+    ontology = ox.NamedNode(base)
+    yield ontology, RDF.type, OWL.Ontology
+    if not tbox.ontology_iri.startswith("file:"):
+        yield ontology, OWL.imports, ox.NamedNode(tbox.ontology_iri)
+    yield SKOS.exactMatch, RDF.type, OWL.AnnotationProperty
+    for one in suggested:
+        node = ox.NamedNode(f"{base}#{_class_name(one.concept.label)}")
+        yield node, RDF.type, OWL.Class
+        yield node, RDFS.label, text(one.concept.label)
+        yield node, RDFS.subClassOf, ox.NamedNode(one.parent)
+        yield node, SKOS.exactMatch, ox.NamedNode(one.concept.iri)
+        count = f"{len(one.objects)} objects" if len(one.objects) > 1 else "1 object"
+        yield node, RDFS.comment, text(f"{count}, such as {one.objects[0]}")
+
+
+def _class_name(label: str) -> str:
+    """Return a label in camel case, as the local name of an IRI.
+
+    >>> _class_name("13 amp socket")
+    '_13AmpSocket'
+    """
+    name = "".join(word[:1].upper() + word[1:] for word in re.findall(r"\w+", label))
+    return f"_{name}" if name[:1].isdigit() else name

@@ -1,0 +1,227 @@
+"""Alignment files: exact round trips, edits that change classes, and errors with their line."""
+
+import csv
+import io
+import subprocess
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from benchmarks.names.lists import PUBLIC_ONTOLOGIES, iter_ontology_lists
+from tests.conftest import shared_file
+from tests.grounding.records import make_class, make_object, make_scene, make_tbox
+from usd2kg.demo import demo_scene
+from usd2kg.errors import GroundingError
+from usd2kg.grounding import ground
+from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment, read_alignment_file
+from usd2kg.grounding.lexical.alignment.default_root import build_rooted_lexicon
+from usd2kg.grounding.lexical.concepts.home_names import home_names
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.ontology import TBox, load_tbox
+from usd2kg.scene import read_scene
+
+VALIDATOR = Path(__file__).parents[2] / "build/sssom/bin/sssom"
+GUITAR = "wn:03472449-n"
+SHOP = make_tbox(
+    make_class("Item", label="item"),
+    make_class("Stationery", "Item", label="stationery"),
+    make_class("Media", "Item", label="media"),
+    make_class("Furniture", "Item", label="furniture"),
+)
+HEADER = ("subject_id", "subject_label", "predicate_id", "object_id", "mapping_justification")
+
+
+def write_edits(*rows: tuple[str, ...], columns: tuple[str, ...] = HEADER) -> AlignmentFile:
+    """Return a file of a person: rows of the columns of `HEADER`."""
+    lines = ["\t".join(cells) for cells in (columns, *rows)]
+    return AlignmentFile(Path("edits.sssom.tsv"), "\n".join(lines) + "\n")
+
+
+def edit(subject: str, label: str, class_name: str, predicate: str = "skos:closeMatch") -> tuple[str, ...]:
+    return subject, label, predicate, class_name, "semapv:ManualMappingCuration"
+
+
+def classes_of(names: str, tbox: TBox, alignment: AlignmentFile | None = None) -> list[str]:
+    """Return the local names of the classes of some names."""
+    scene = make_scene(*(make_object(f"/World/{name}") for name in names.split()))
+    found = ground(scene, tbox, LexicalGrounder(alignment=alignment))
+    return [tbox.by_iri[p.class_iri].local_name if p.class_iri else "" for p in found.predictions]
+
+
+def check_round_trip(tbox: TBox) -> str:
+    taxonomy, synonyms = load_taxonomy(), home_names()
+    rooted, lexicon = build_rooted_lexicon(tbox, taxonomy, synonyms)
+    text = format_alignment(rooted, lexicon, taxonomy)
+    assert AlignmentFile(Path("x.tsv"), text).apply(tbox, taxonomy, synonyms) == (rooted, lexicon)
+    return text
+
+
+class TestRoundTrip:
+    def test_the_home_tbox(self, home_tbox: TBox):
+        check_round_trip(home_tbox)
+
+    @pytest.mark.parametrize(
+        "tbox",
+        [
+            SHOP,
+            make_tbox(make_class("chair"), make_class("table"), make_class("otherprop")),
+            make_tbox(make_class("chair"), make_class("table")),
+        ],
+        ids=["with a root", "residual class", "without a root"],
+    )
+    def test_small_tboxes(self, tbox: TBox):
+        check_round_trip(tbox)
+
+    def test_the_ontologies_of_the_benchmark(self):
+        for tbox in {id(tbox): tbox for _, tbox in iter_ontology_lists(("train",), public=False)}.values():
+            check_round_trip(tbox)
+
+    @pytest.mark.parametrize("name", PUBLIC_ONTOLOGIES)
+    def test_public_ontologies(self, name: str):
+        check_round_trip(load_tbox(shared_file(f"ontologies/other/{PUBLIC_ONTOLOGIES[name]}")))
+
+    @settings(deadline=None, max_examples=25)
+    @given(st.lists(st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=20), min_size=1, max_size=4))
+    def test_any_labels(self, labels: list[str]):
+        check_round_trip(make_tbox(*(make_class(f"C{at}", label=label) for at, label in enumerate(labels))))
+
+    def test_classes_are_the_same(self, home_tbox: TBox, tmp_path: Path):
+        scene = read_scene(demo_scene())
+        path = tmp_path / "home.sssom.tsv"
+        path.write_text(LexicalGrounder().format_alignment(home_tbox), encoding="utf-8")
+        read = ground(scene, home_tbox, LexicalGrounder(alignment=read_alignment_file(path)))
+        assert read.predictions == ground(scene, home_tbox).predictions
+
+
+class TestText:
+    TEXT = LexicalGrounder().format_alignment(SHOP)
+
+    def rows(self) -> list[dict[str, str]]:
+        body = "".join(line for line in self.TEXT.splitlines(keepends=True) if not line.startswith("#"))
+        return list(csv.DictReader(io.StringIO(body), delimiter="\t"))
+
+    def test_a_term_is_a_literal_with_its_kind(self):
+        (row,) = [row for row in self.rows() if row["subject_label"] == "stationery" and not row["subject_id"]]
+        assert (row["subject_type"], row["object_id"], row["confidence"]) == ("rdfs literal", "ns1:Stationery", "1")
+        assert (row["term_kind"], row["comment"]) == ("label", "label of the class")
+
+    def test_a_concept_has_class_predicate_and_reason(self):
+        found = [row for row in self.rows() if row["subject_label"] == "furniture" and row["subject_id"]]
+        assert [(row["subject_id"], row["predicate_id"], row["object_id"]) for row in found] == [
+            ("wn:03410635-n", "skos:exactMatch", "ns1:Furniture")
+        ]
+        assert found[0]["comment"] == "“furniture” is the label of the class"
+
+    def test_a_category_member_has_a_broader_match(self):
+        (row,) = [row for row in self.rows() if row["subject_label"] == "adhesive tape"]
+        assert (row["predicate_id"], row["object_id"]) == ("skos:broadMatch", "ns1:Stationery")
+        assert int(row["category_size"]) > 1
+
+    def test_the_header_names_the_default_class(self):
+        assert '#default_class: "ns1:Item"' in self.TEXT.splitlines()
+
+    @pytest.mark.slow
+    def test_the_reference_implementation_accepts_it(self, tmp_path: Path):
+        if not VALIDATOR.exists():
+            pytest.skip("needs sssom-py, see make sssom-check-env")
+        path = tmp_path / "shop.sssom.tsv"
+        path.write_text(self.TEXT, encoding="utf-8")
+        subprocess.run([VALIDATOR, "validate", path], check=True, capture_output=True)
+
+
+class TestEdits:
+    def test_a_concept_takes_along_what_is_below_it(self):
+        names = "violin electric_guitar guitar_red adhesive_tape"
+        assert classes_of(names, SHOP) == ["Item", "Item", "Item", "Stationery"]
+        edits = write_edits(edit(GUITAR, "guitar", "Media"))
+        assert classes_of(names, SHOP, edits) == ["Item", "Media", "Media", "Stationery"]
+
+    def test_names_of_the_home_vocabulary_yield(self, home_tbox: TBox):
+        edits = write_edits(edit(GUITAR, "guitar", "soma:Tableware"))
+        names = "guitar_red electric_guitar chair"
+        assert classes_of(names, home_tbox) == ["DesignedArtifact", "DesignedArtifact", "DesignedChair"]
+        assert classes_of(names, home_tbox, edits) == ["Tableware", "Tableware", "DesignedChair"]
+
+    def test_labels_of_the_ontology_stay(self):
+        edits = write_edits(edit("wn:03410635-n", "furniture", "Media"))
+        assert classes_of("furniture chair", SHOP, edits) == ["Furniture", "Media"]
+
+    def test_a_term(self):
+        edits = write_edits(edit("", "Foo Bar", "Media"))
+        assert classes_of("foo_bar_01", SHOP, edits) == ["Media"]
+
+    def test_not_takes_a_row_back(self):
+        columns = (*HEADER, "predicate_modifier")
+        (tape,) = [line.split("\t")[0] for line in TestText.TEXT.splitlines() if "\tadhesive tape\t" in line]
+        edits = write_edits((*edit(tape, "adhesive tape", "Stationery", "skos:broadMatch"), "Not"), columns=columns)
+        assert classes_of("adhesive_tape", SHOP) == ["Stationery"]
+        assert classes_of("adhesive_tape", SHOP, edits) == ["Item"]
+
+    def test_a_deleted_row_of_a_complete_file_is_gone(self):
+        text = "".join(line for line in TestText.TEXT.splitlines(keepends=True) if "\tadhesive tape\t" not in line)
+        assert classes_of("adhesive_tape", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Item"]
+
+    def test_an_edited_row_of_a_complete_file_decides(self):
+        old, new = "semapv:LexicalMatching", "semapv:ManualMappingCuration"
+        text = TestText.TEXT.replace("ns1:Furniture\tfurniture\t" + old, "ns1:Media\tfurniture\t" + new)
+        assert text != TestText.TEXT
+        assert classes_of("chair", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Media"]
+
+    def test_the_explanation_says_so(self):
+        scene = make_scene(make_object("/World/electric_guitar"))
+        grounder = LexicalGrounder(alignment=write_edits(edit(GUITAR, "guitar", "Media")))
+        (prediction,) = ground(scene, SHOP, grounder).predictions
+        assert "which the alignment file puts in Media" in prediction.explanation
+
+    def test_the_settings_have_its_hash(self):
+        edits = write_edits(edit(GUITAR, "guitar", "Media"))
+        assert LexicalGrounder(alignment=edits).settings["alignment"] == edits.digest
+        assert "alignment" not in LexicalGrounder().settings
+
+
+class TestErrors:
+    @pytest.mark.parametrize(
+        ("row", "message"),
+        [
+            (edit(GUITAR, "guitar", "Nope"), "line 2: .*'Nope' names no class of the 4 in scope"),
+            (edit("wn:99999999-n", "guitar", "Media"), "line 2: .*99999999-n' is no known concept"),
+            (edit("https://x.example/guitar", "guitar", "Media"), "line 2: .*is no known concept"),
+            (edit(GUITAR, "guitar", "Media", "owl:sameAs"), "line 2: the predicate is 'owl:sameAs'; expected one of"),
+            (edit("", "", "Media"), "line 2: has no subject"),
+            (edit(GUITAR, "guitar", "sssom:NoTermFound"), "line 2: .*expected a class, or the predicate modifier Not"),
+        ],
+    )
+    def test_a_bad_row_is_named_with_its_line(self, row: tuple[str, ...], message: str):
+        with pytest.raises(GroundingError, match=rf"edits\.sssom\.tsv: {message}"):
+            classes_of("guitar", SHOP, write_edits(row))
+
+    @pytest.mark.parametrize(
+        ("column", "value", "message"),
+        [
+            ("confidence", "1.5", "the confidence is '1.5'; expected a number above 0, at most 1"),
+            ("confidence", "nan", "the confidence is 'nan'"),
+            ("term_kind", "noun", "the term kind is 'noun'; expected one of label, synonym"),
+            ("category_size", "-1", "the category size is '-1'; expected the number of concepts"),
+            ("predicate_modifier", "Maybe", "the predicate modifier is 'Maybe'; expected Not"),
+        ],
+    )
+    def test_a_bad_cell_is_named(self, column: str, value: str, message: str):
+        edits = write_edits((*edit(GUITAR, "guitar", "Media"), value), columns=(*HEADER, column))
+        with pytest.raises(GroundingError, match=f"line 2: {message}"):
+            classes_of("guitar", SHOP, edits)
+
+    def test_another_file_is_rejected(self):
+        with pytest.raises(GroundingError, match="line 1 has no column subject_label; expected an alignment"):
+            classes_of("guitar", SHOP, AlignmentFile(Path("x.csv"), "path,class\n/Guitar,Media\n"))
+
+    def test_a_missing_file_is_an_error(self, tmp_path: Path):
+        with pytest.raises(GroundingError, match=r"none\.tsv: cannot be read as an alignment"):
+            read_alignment_file(tmp_path / "none.tsv")
+
+    def test_another_version_of_the_ontology_is_a_warning(self, caplog: pytest.LogCaptureFixture):
+        text = TestText.TEXT.replace(f'object_source_version: "{SHOP.content_hash}"', 'object_source_version: "old"')
+        assert classes_of("chair", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Furniture"]
+        assert "was written for another version of the ontology" in caplog.text

@@ -1,0 +1,82 @@
+"""Subclasses suggested for what has only a coarse class."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import shared_file
+from tests.grounding.records import LAB, make_class, make_object, make_scene, make_tbox
+from usd2kg.grounding import Status, ground
+from usd2kg.grounding.decisions import make_decision
+from usd2kg.ontology import TBox, load_tbox
+from usd2kg.readiness import SuggestedClass, format_suggestions, suggest_classes
+from usd2kg.scene import read_scene
+
+SHOP = make_tbox(make_class("Item", label="item"), make_class("OfficeChair", "Item", label="office chair"))
+
+
+def suggest(names: str, tbox: TBox = SHOP) -> list[SuggestedClass]:
+    scene = make_scene(*(make_object(f"/Shop/{name}") for name in names.split()))
+    return suggest_classes([ground(scene, tbox)], tbox)
+
+
+def summary(suggested: list[SuggestedClass]) -> list[tuple[str, str, int]]:
+    return [(one.concept.label, one.parent.removeprefix(LAB), len(one.objects)) for one in suggested]
+
+
+def test_concepts_are_counted_the_most_frequent_first():
+    assert summary(suggest("guitar_1 guitar_2 piano guitar_3")) == [("guitar", "Item", 3), ("piano", "Item", 1)]
+
+
+def test_scenes_are_counted_together():
+    scenes = [make_scene(make_object(f"/{room}/guitar")) for room in ("A", "B")]
+    (one,) = suggest_classes((ground(scene, SHOP) for scene in scenes), SHOP)
+    assert one.objects == ("/A/guitar", "/B/guitar")
+
+
+def test_what_the_ontology_names_is_not_suggested():
+    # A chair is an office chair here, by the head noun of the label.
+    assert summary(suggest("item_1 office_chair chair_2")) == []
+
+
+def test_other_names_of_a_class_may_be_kinds_of_it(home_tbox: TBox):
+    assert summary(suggest("book_1", home_tbox)) == [
+        ("book", "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#DesignedArtifact", 1)
+    ]
+
+
+@pytest.mark.parametrize("name", ["Cube_1", "obj_3", "xqzt"])
+def test_what_is_not_understood_is_not_suggested(name: str):
+    assert suggest(name) == []
+
+
+def test_the_file_is_an_ontology_that_grounds_to_the_suggestions(tmp_path: Path):
+    tbox = make_tbox(make_class("Item", label="item"), make_class("Tool", "Item", label="tool"))
+    path = tmp_path / "suggested.ttl"
+    path.write_text(format_suggestions(suggest("guitar_1 guitar_2", tbox), tbox), encoding="utf-8")
+    extended = load_tbox(path)
+    (guitar,) = [cls for cls in extended.classes if cls.label == "guitar"]
+    assert guitar.parents == (LAB + "Item",)
+    assert guitar.comment == "2 objects, such as /Shop/guitar_1"
+    (prediction,) = ground(make_scene(make_object("/Shop/guitar_9")), extended).predictions
+    assert (prediction.class_iri, prediction.status) == (guitar.iri, Status.GROUNDED)
+
+
+def test_labels_become_local_names(tmp_path: Path):
+    path = tmp_path / "suggested.ttl"
+    path.write_text(format_suggestions(suggest("13_amp_socket coffee_table"), SHOP), encoding="utf-8")
+    names = {cls.local_name for cls in load_tbox(path).classes}
+    assert "CoffeeTable" in names
+
+
+def test_decisions_of_people_count():
+    scene = make_scene(make_object("/Shop/guitar"))
+    found = ground(scene, SHOP, decisions={"/Shop/guitar": LAB + "Item"})
+    assert found.predictions[0].explanation == make_decision("/Shop/guitar", LAB + "Item").explanation
+    assert summary(suggest_classes([found], SHOP)) == [("guitar", "Item", 1)]
+
+
+def test_the_books_of_a_real_scene(home_tbox: TBox):
+    scene = read_scene(shared_file("scenes/aws_robomaker/bookstore.usdc"))
+    first = suggest_classes([ground(scene, home_tbox)], home_tbox)[0]
+    assert (first.concept.label, len(first.objects)) == ("book", 39)
