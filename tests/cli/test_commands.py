@@ -362,6 +362,53 @@ class TestOntology:
         done = run("ontology", "check")
         assert (done.code, done.out.splitlines()[-1]) == (0, "0 findings on 102 classes")
 
+    def test_align_writes_a_file_that_ground_uses(self, run: Run, room: Path, tmp_path: Path):
+        done = run("ontology", "align", "-o", tmp_path / "home.sssom.tsv")
+        assert (done.code, done.out, done.err) == (0, "", "built-in home TBox: 102 classes in scope, 3 roots\n")
+        built = run("ground", room).out
+        assert run("ground", room, "--alignment", tmp_path / "home.sssom.tsv").out == built
+        edits = tmp_path / "edits.tsv"
+        edits.write_text(
+            "subject_id\tsubject_label\tpredicate_id\tobject_id\tmapping_justification\n"
+            "\tapple\tskos:exactMatch\tsoma:Bowl\tsemapv:ManualMappingCuration\n"
+        )
+        rows = {row["path"]: row["class"] for row in rows_of(run("ground", room, "--alignment", edits).out)}
+        assert (
+            rows["/Room/Apple"]
+            == f"{SOMA}Bowl"
+            != {row["path"]: row["class"] for row in rows_of(built)}["/Room/Apple"]
+        )
+        assert run("build", room, "--alignment", edits, "-o", tmp_path / "room.ttl").code == 0
+        assert "alignment=sha256:" in (tmp_path / "room.ttl").read_text("utf-8")
+
+    def test_align_suggests_subclasses(self, run: Run, room: Path, tmp_path: Path):
+        done = run("ontology", "align", "--suggest", tmp_path / "more.ttl", "--scene", room)
+        assert (done.code, done.out) == (0, "")
+        assert "  1 object: apple ⊑ DesignedArtifact, like /Room/Apple" in done.err.splitlines()
+        rows = {row["path"]: row for row in rows_of(run("ground", room, "--ontology", tmp_path / "more.ttl").out)}
+        assert rows["/Room/Apple"]["label"] == "apple"
+
+    @pytest.mark.parametrize(
+        ("arguments", "message"),
+        [
+            (["ontology", "align", "--suggest", "x.ttl"], "--suggest and --scene belong together; expected both"),
+            (["ontology", "align", "--scene", "room.usda"], "--suggest and --scene belong together; expected both"),
+            (
+                ["ground", "room.usda", "--grounder", "volume", "--alignment", "x.tsv"],
+                "grounder 'volume' takes no alignment; choose the grounder lexical",
+            ),
+            (
+                ["ground", "room.usda", "--grounder", "llm-B:openai:m@http://127.0.0.1:9", "--alignment", "x.tsv"],
+                "--alignment is for the lexical grounder",
+            ),
+            (["ground", "room.usda", "--alignment", "none.tsv"], "none.tsv: cannot be read as an alignment"),
+        ],
+    )
+    def test_alignments_that_cannot_be_used(self, run: Run, room: Path, arguments: list[str], message: str):
+        done = run(*(room if argument == "room.usda" else argument for argument in arguments))
+        assert (done.code, done.out) == (2, "")
+        assert message in done.err
+
     def test_lists_known_ontologies(self, run: Run):
         assert run("ontology", "known").out.splitlines()[1].startswith("soma-home")
         assert json.loads(run("ontology", "known", "--json").out)[0]["documents"][0]["file"] == "SOMA-HOME.owl"

@@ -106,7 +106,7 @@ class TestText:
     def test_a_term_is_a_literal_with_its_kind(self):
         (row,) = [row for row in self.rows() if row["subject_label"] == "stationery" and not row["subject_id"]]
         assert (row["subject_type"], row["object_id"], row["confidence"]) == ("rdfs literal", "ns1:Stationery", "1")
-        assert (row["term_kind"], row["comment"]) == ("label", "label of the class")
+        assert (row["term_kind"], row["comment"]) == ("label", "the label of the class")
 
     def test_a_concept_has_class_predicate_and_reason(self):
         found = [row for row in self.rows() if row["subject_label"] == "furniture" and row["subject_id"]]

@@ -49,11 +49,11 @@ def format_alignment(rooted: TBox, lexicon: Lexicon, taxonomy: Taxonomy) -> str:
 
 
 _TERM_REASONS = {
-    TermKind.LABEL: "label of the class",
-    TermKind.SYNONYM: "other name of the class",
-    TermKind.LENT: "name of the home vocabulary for a class with this label",
-    TermKind.HEAD: "head noun of the label",
-    TermKind.CURATED: "name chosen by a person",
+    TermKind.LABEL: "the label of the class",
+    TermKind.SYNONYM: "another name of the class",
+    TermKind.LENT: "a name of the home vocabulary for a class with this label",
+    TermKind.HEAD: "the head noun of the label",
+    TermKind.CURATED: "a name chosen by a person",
 }
 
 
@@ -75,7 +75,7 @@ def _concept_rows(lexicon: Lexicon, taxonomy: Taxonomy) -> Iterator[AlignmentRow
         senses = taxonomy.senses(key)
         for number, sense in enumerate(senses, start=1):
             which = f", sense {number} of {len(senses)}" if len(senses) > 1 else ""
-            reason = f"“{term.text}” is the {_TERM_REASONS[term.kind]}{which}"
+            reason = f"“{term.text}” is {_TERM_REASONS[term.kind]}{which}"
             if term.kind is TermKind.LABEL:
                 reasons[sense.synset, term.class_iri] = reason
             else:
