@@ -6,7 +6,7 @@ from typing import NamedTuple
 from benchmarks.bare import bare_scene
 from benchmarks.intervals import wilson
 from benchmarks.names.lists import LabelledName
-from usd2kg.grounding import NamingRegime, ground
+from usd2kg.grounding import Grounder, NamingRegime, ground
 from usd2kg.ontology import TBox
 
 __all__ = ["Tally", "second_annotator_lines", "tally_agreement", "tally_answers"]
@@ -38,10 +38,15 @@ def _share(right: int, count: int) -> str:
     return f"{100 * right / count:5.1f} [{100 * low:4.1f}–{100 * high:5.1f}]"
 
 
-def tally_answers(names: Sequence[LabelledName], tbox: TBox, regime: NamingRegime = NamingRegime.SEMANTIC) -> Tally:
+def tally_answers(
+    names: Sequence[LabelledName],
+    tbox: TBox,
+    regime: NamingRegime = NamingRegime.SEMANTIC,
+    grounder: Grounder | str = "lexical",
+) -> Tally:
     """Ground one list as one scene and count the right answers."""
     scene = bare_scene("a list of names", [name.obj for name in names])
-    answers = ground(scene, tbox, regime=regime).by_path
+    answers = ground(scene, tbox, grounder, regime=regime).by_path
     pairs = [(name, answers[name.obj.prim_path]) for name in names]
     return Tally(
         count=len(pairs),

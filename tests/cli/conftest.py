@@ -77,3 +77,21 @@ def graph(run: Run, room: Path) -> Path:
     path = room.parent / "room.ttl"
     assert run("build", room, "-o", path).code == 0
     return path
+
+
+LAB = """@prefix : <https://lab.example/onto#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+<https://lab.example/onto> a owl:Ontology .
+:Equipment a owl:Class .
+:Bench a owl:Class ; rdfs:subClassOf :Equipment ; rdfs:label "table"@en ; rdfs:comment "To work at."@en .
+:Vessel a owl:Class ; rdfs:subClassOf :Equipment ; rdfs:label "mug"@en .
+"""
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    """An ontology of three classes."""
+    path = tmp_path / "lab.ttl"
+    path.write_text(LAB, encoding="utf-8")
+    return path

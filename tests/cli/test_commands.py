@@ -17,22 +17,6 @@ PATHS = ["/Room/Table_1", "/Room/coffee_mug", "/Room/FruitBowl", "/Room/Apple"]
 SOMA = "http://www.ease-crc.org/ont/SOMA.owl#"
 DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 
-LAB = """@prefix : <https://lab.example/onto#> .
-@prefix owl: <http://www.w3.org/2002/07/owl#> .
-@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
-<https://lab.example/onto> a owl:Ontology .
-:Equipment a owl:Class .
-:Bench a owl:Class ; rdfs:subClassOf :Equipment ; rdfs:label "table"@en ; rdfs:comment "To work at."@en .
-:Vessel a owl:Class ; rdfs:subClassOf :Equipment ; rdfs:label "mug"@en .
-"""
-
-
-@pytest.fixture
-def lab(tmp_path: Path) -> Path:
-    path = tmp_path / "lab.ttl"
-    path.write_text(LAB, encoding="utf-8")
-    return path
-
 
 def rows_of(text: str) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text)))
@@ -374,15 +358,13 @@ class TestOntology:
         )
         rows = {row["path"]: row["class"] for row in rows_of(run("ground", room, "--alignment", edits).out)}
         assert (
-            rows["/Room/Apple"]
-            == f"{SOMA}Bowl"
-            != {row["path"]: row["class"] for row in rows_of(built)}["/Room/Apple"]
+            rows["/Room/Apple"] == f"{SOMA}Bowl" != {row["path"]: row["class"] for row in rows_of(built)}["/Room/Apple"]
         )
         assert run("build", room, "--alignment", edits, "-o", tmp_path / "room.ttl").code == 0
         assert "alignment=sha256:" in (tmp_path / "room.ttl").read_text("utf-8")
 
     def test_align_suggests_subclasses(self, run: Run, room: Path, tmp_path: Path):
-        done = run("ontology", "align", "--suggest", tmp_path / "more.ttl", "--scene", room)
+        done = run("ontology", "align", "--subclasses", tmp_path / "more.ttl", "--scene", room)
         assert (done.code, done.out) == (0, "")
         assert "  1 object: apple ⊑ DesignedArtifact, like /Room/Apple" in done.err.splitlines()
         rows = {row["path"]: row for row in rows_of(run("ground", room, "--ontology", tmp_path / "more.ttl").out)}
@@ -391,8 +373,8 @@ class TestOntology:
     @pytest.mark.parametrize(
         ("arguments", "message"),
         [
-            (["ontology", "align", "--suggest", "x.ttl"], "--suggest and --scene belong together; expected both"),
-            (["ontology", "align", "--scene", "room.usda"], "--suggest and --scene belong together; expected both"),
+            (["ontology", "align", "--subclasses", "x.ttl"], "--subclasses and --scene belong together; expected both"),
+            (["ontology", "align", "--scene", "room.usda"], "--subclasses and --scene belong together; expected both"),
             (
                 ["ground", "room.usda", "--grounder", "volume", "--alignment", "x.tsv"],
                 "grounder 'volume' takes no alignment; choose the grounder lexical",

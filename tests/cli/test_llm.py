@@ -372,3 +372,42 @@ def test_scores_tiers_and_calibrates_a_model(run: Run, write_stage, tmp_path: Pa
     assert "fitted on 24 answers" in fitted.err
     again = run("ground", scene, *model, "--replay", "--calibration", "calibration.json", "--format", "json")
     assert json.loads(again.out)["is_calibrated"] is True
+
+
+class TestAlignment:
+    """`ontology align --model` asks once per ontology."""
+
+    ANSWER = json.dumps({"1": {"belongs": ["guitar", "flux capacitor"], "not": []}})
+
+    def test_writes_rows_and_cost_and_replays_them(self, run: Run, lab: Path, tmp_path: Path):
+        with serve(openai_reply(self.ANSWER)) as server:
+            model = f"openai:test@{server.url}/v1"
+            first = run("ontology", "align", lab, "--model", model, "-o", tmp_path / "lab.sssom.tsv")
+            assert len(server.received) == 1
+        assert (first.code, first.out) == (0, "")
+        assert "prompt without all answers: the answer has no row for 2 of 3 classes" in first.err
+        assert f"2 rows about 1 of 3 classes by {model}" in first.err
+        assert "1 prompts: 1 new completions, 0 cached, 0 prompts failed; 1 requests sent" in first.err
+        text = (tmp_path / "lab.sssom.tsv").read_text("utf-8")
+        assert "flux capacitor\trdfs literal\tskos:exactMatch" in text
+        assert KEY not in text + first.err
+        again = run("ontology", "align", lab, "--model", model, "--replay")
+        assert (again.code, again.out) == (0, text)
+        assert "0 new completions, 1 cached" in again.err
+
+    def test_a_dry_run_prints_the_prompts(self, run: Run, lab: Path):
+        done = run("ontology", "align", lab, "--model", "openai:test@http://127.0.0.1:9/v1", "--dry-run")
+        assert done.code == 0
+        assert "=== prompt 1 of 1 ===\nWhich things belong to each of these classes?\n1. " in done.out
+        assert "1 prompt about 3 classes, about " in done.err
+
+    def test_a_failing_model_leaves_the_alignment_that_is_built(self, run: Run, lab: Path):
+        with serve(refuse(401, "no")) as server:
+            done = run("ontology", "align", lab, "--model", f"openai:test@{server.url}/v1")
+        assert (done.code, done.out) == (0, run("ontology", "align", lab).out)
+        assert "status 401: no; expected" in done.err
+
+    def test_options_of_models_need_one(self, run: Run, lab: Path):
+        done = run("ontology", "align", lab, "--budget", "1")
+        assert (done.code, done.out) == (2, "")
+        assert done.err == "usd2kg: --budget needs a language model; name one with --model MODEL\n"

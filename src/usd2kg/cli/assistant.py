@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
-from usd2kg.cli.options.model import MODEL_NAMES, CompletionCacheFile
+from usd2kg.cli.options.model import CompletionCacheFile, ModelName
 from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.cli.query import answer_rows, answer_text
@@ -26,13 +26,7 @@ _PICTURE_SIZE = (512, 384)
 def ask_command(
     graph: GraphSource,
     words: Annotated[list[str], Argument(metavar="QUESTION...", help="Question in plain English.")],
-    model: Annotated[
-        str | None,
-        Option(
-            "--model",
-            help=f"Language model that writes the query: {MODEL_NAMES}; default: the predefined questions, offline.",
-        ),
-    ] = None,
+    model: ModelName = None,
     completions: CompletionCacheFile = None,
     scene: SceneName = None,
     json: JsonOutput = False,

@@ -67,7 +67,7 @@ def build_command(
     from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
-    if grounding.model.dry_run:
+    if grounding.model.requests.dry_run:
         raise GroundingError("--dry-run prints the prompts of one scene; use it with usd2kg ground")
     carry_over.check(grounding.review.decisions, len(scenes))
     is_filed = store is None or output is not None

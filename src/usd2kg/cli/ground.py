@@ -80,7 +80,7 @@ def ground_command(
     read_options = reading.read_options()
     found = read_scene(scene, paths=wanted, options=read_options)
     with open_session(grounding, found, tbox, scene, read_options, carry_over) as session:
-        if session.model is not None and grounding.model.dry_run:
+        if session.model is not None and grounding.model.requests.dry_run:
             _print_dry_run(session, found, tbox, wanted, abbreviated_length, output)
             return
         result = ground(

@@ -120,7 +120,7 @@ def _open_model(
         Progress() as progress,
         open_llm_grounder(
             asked.settings(options.grounder),
-            is_dry=asked.dry_run,
+            is_dry=asked.requests.dry_run,
             examples=choose_examples(scene, decisions, asked.examples) if asked.examples else (),
             picture=_renderer(source, reading) if asked.thumbnails else None,
             progress=progress.update,

@@ -1,7 +1,7 @@
 """Reports of language model runs: the prompts of a dry run, cost, and the share of each tier."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,12 +10,13 @@ from usd2kg.cli.output import emit, format_table, notify, replace_controls
 
 if TYPE_CHECKING:
     from usd2kg.grounding import CascadeGrounder, Grounding
+    from usd2kg.grounding.llm.completion import Request
     from usd2kg.grounding.llm.grounder import LLMGrounder
     from usd2kg.grounding.llm.metered_client import RunReport
     from usd2kg.grounding.llm.prices import Tariff
     from usd2kg.grounding.llm.prompts import Batch
 
-__all__ = ["print_prompts", "report_cost", "report_tiers"]
+__all__ = ["print_prompts", "print_requests", "report_cost", "report_prompts", "report_tiers"]
 
 
 def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | None", output: Path | None) -> None:
@@ -23,7 +24,7 @@ def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | N
     from usd2kg.grounding.llm.estimates import estimate_usage  # noqa: PLC0415
     from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
 
-    emit(replace_controls("\n".join(_prompt_texts(batches))), output)
+    print_requests([batch.request for batch in batches], output)
     usages = [estimate_usage(batch) for batch in batches]
     tokens = sum(usage.input_tokens for usage in usages)
     per_object = tokens / max(1, object_count)
@@ -34,28 +35,46 @@ def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | N
     )
 
 
-def _prompt_texts(batches: "list[Batch]") -> Iterator[str]:
-    """Yield the prompts; the instructions that successive prompts share are printed once."""
+def print_requests(requests: "Sequence[Request]", output: Path | None) -> None:
+    """Print prompts; the instructions that successive prompts share are printed once."""
+    emit(replace_controls("\n".join(_prompt_texts(requests))), output)
+
+
+def _prompt_texts(requests: "Sequence[Request]") -> Iterator[str]:
     instructions: str | None = None
-    for number, batch in enumerate(batches, start=1):
-        if batch.request.system != instructions:
-            instructions = batch.request.system
+    for number, request in enumerate(requests, start=1):
+        if request.system != instructions:
+            instructions = request.system
             yield f"=== instructions ===\n{instructions}\n"
-        yield f"=== prompt {number} of {len(batches)} ===\n{batch.request.user}\n"
+        yield f"=== prompt {number} of {len(requests)} ===\n{request.user}\n"
 
 
 def report_cost(report: "RunReport", grounding: "Grounding") -> None:
     """Print to stderr, on one line, the completions, requests, tokens, price and time of a run."""
-    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
-
     unclassified = sum(1 for prediction in grounding.predictions if prediction.class_iri is None)
-    usage, traffic = report.usage, report.traffic
-    estimated = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
-    price = "price unknown" if report.price is None else format_price(report.price)
     notify(
         f"{report.objects} objects in {report.prompts} prompts: {report.completions} new completions, "
         f"{report.cached} cached, {report.repairs} repairs, {report.degenerate} degenerate, "
-        f"{report.failed} prompts failed, {unclassified} objects without a class; "
+        f"{report.failed} prompts failed, {unclassified} objects without a class; {_traffic_text(report)}"
+    )
+
+
+def report_prompts(report: "RunReport") -> None:
+    """Print to stderr, on one line, the completions, requests, tokens, price and time of prompts without objects."""
+    notify(
+        f"{report.prompts} prompts: {report.completions} new completions, {report.cached} cached, "
+        f"{report.failed} prompts failed; {_traffic_text(report)}"
+    )
+
+
+def _traffic_text(report: "RunReport") -> str:
+    """Return requests, tokens, price and time of a run."""
+    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
+
+    usage, traffic = report.usage, report.traffic
+    estimated = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
+    price = "price unknown" if report.price is None else format_price(report.price)
+    return (
         f"{traffic.attempts} requests sent, {traffic.retries} retries, {traffic.waits} waits "
         f"of {traffic.waited_s:.1f} s in total; {usage.input_tokens:,} input tokens "
         f"({usage.cached_tokens:,} cached by the provider), {usage.output_tokens:,} output tokens{estimated}, {price}, "

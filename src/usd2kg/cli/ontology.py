@@ -1,5 +1,6 @@
 """usd2kg ontology: the candidate classes, known ontologies, and usd2kg's own vocabulary."""
 
+from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -9,12 +10,15 @@ from typer import Argument, Option
 
 from usd2kg.cli.finding_text import findings_text
 from usd2kg.cli.limits import SUGGESTIONS
+from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import AllFindings, JsonOutput, TextFile
-from usd2kg.cli.output import count_noun, emit, format_table, notify, notify_notes, print_json
+from usd2kg.cli.options.model import ModelName, RequestOptions
+from usd2kg.cli.output import Progress, count_noun, emit, format_table, notify, notify_notes, print_json
 from usd2kg.errors import OntologyError
 
 if TYPE_CHECKING:
     from usd2kg.grounding import Grounder
+    from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
     from usd2kg.ontology import TBox
     from usd2kg.readiness import OntologyReport
 
@@ -96,34 +100,78 @@ def check_command(
 
 
 @app.command("align")
+@expand_bundles
 def align_command(
+    requests: RequestOptions,
     file: _File = None,
     root: _Roots = None,
     output: TextFile = None,
-    suggest: Annotated[
+    model: ModelName = None,
+    subclasses: Annotated[
         Path | None,
-        Option("--suggest", help="OWL file of subclasses to write, for what has only a coarse class in the scenes."),
+        Option("--subclasses", help="OWL file of subclasses to write, for what has only a coarse class in the scenes."),
     ] = None,
     scenes: Annotated[
-        list[Path] | None, Option("--scene", metavar="SCENE", help="USD stage for --suggest. Repeatable.")
+        list[Path] | None, Option("--scene", metavar="SCENE", help="USD stage for --subclasses. Repeatable.")
     ] = None,
 ) -> None:
-    """Write which concepts and words belong to which class, as SSSOM to edit and to pass to --alignment."""
+    """Write which concepts and words belong to which class, as SSSOM to edit and to pass to --alignment.
+
+    With --model, a language model names what belongs to each class; its rows come before those that are built.
+    """
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
     from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
 
-    if (suggest is None) != (not scenes):
-        raise OntologyError("ontology align: --suggest and --scene belong together; expected both, or neither")
-    targets = [path for path in (output, suggest) if path is not None]
+    if (subclasses is None) != (not scenes):
+        raise OntologyError("ontology align: --subclasses and --scene belong together; expected both, or neither")
+    targets = [path for path in (output, subclasses) if path is not None]
     check_apart(targets, [file, *(scenes or [])])
     for target in targets:
         check_writable(target)
+    if model is None:
+        requests.check_without_model()
     tbox = _load(file, root)
     grounder = LexicalGrounder()
-    if suggest is not None:
-        _suggest_classes(tbox, grounder, scenes or [], suggest)
-    if output is not None or suggest is None:
-        emit(grounder.format_alignment(tbox), output)
+    if requests.dry_run:
+        _print_questions(tbox, output)
+        return
+    if subclasses is not None:
+        _suggest_classes(tbox, grounder, scenes or [], subclasses)
+    if output is not None or subclasses is None:
+        rows = _ask_model(model, requests, tbox) if model is not None else []
+        emit(grounder.format_alignment(tbox, rows), output)
+
+
+def _print_questions(tbox: "TBox", output: Path | None) -> None:
+    """Print the prompts about the classes, and to stderr their number and estimated tokens."""
+    from usd2kg.cli.model_report import print_requests  # noqa: PLC0415
+    from usd2kg.grounding.llm.class_members import plan_questions  # noqa: PLC0415
+    from usd2kg.grounding.llm.estimates import estimate_input  # noqa: PLC0415
+
+    questions = [question.request for question in plan_questions(tbox)]
+    print_requests(questions, output)
+    tokens = sum(map(estimate_input, questions))
+    notify(f"{count_noun(len(questions), 'prompt')} about {len(tbox.classes)} classes, about {tokens:,} input tokens")
+
+
+def _ask_model(model: str, requests: RequestOptions, tbox: "TBox") -> "list[AlignmentRow]":
+    """Return the rows of what a model says belongs to each class, and print their cost to stderr."""
+    from usd2kg.cli.model_report import report_prompts  # noqa: PLC0415
+    from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy  # noqa: PLC0415
+    from usd2kg.grounding.llm.class_members import ask_members, plan_questions  # noqa: PLC0415
+    from usd2kg.grounding.llm.factory import open_metered_client  # noqa: PLC0415
+    from usd2kg.grounding.llm.member_rows import rows_of_members  # noqa: PLC0415
+
+    with open_metered_client(requests.settings(model)) as client, Progress() as progress:
+        progress.follow(client.report)
+        questions = plan_questions(tbox)
+        members, problems = ask_members(client, questions, workers=requests.concurrency, progress=progress.update)
+        rows = list(rows_of_members(members, client.model, tbox, load_taxonomy()))
+        for problem, count in Counter(problems).items():
+            notify(f"{count_noun(count, 'prompt')} without all answers: {problem}")
+        notify(f"{len(rows)} rows about {len(members)} of {len(tbox.classes)} classes by {client.model}")
+        report_prompts(client.report)
+    return rows
 
 
 def _suggest_classes(tbox: "TBox", grounder: "Grounder", scenes: list[Path], target: Path) -> None:

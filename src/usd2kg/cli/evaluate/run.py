@@ -40,7 +40,7 @@ def run_command(
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import ReadOptions, read_scene  # noqa: PLC0415
 
-    if grounding.model.dry_run:
+    if grounding.model.requests.dry_run:
         raise EvaluationError("--dry-run prints the prompts of one scene; use it with usd2kg ground")
     if output is not None:
         check_writable(output)

@@ -1,6 +1,6 @@
 """The options of language models."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,7 +13,7 @@ from usd2kg.errors import GroundingError
 if TYPE_CHECKING:
     from usd2kg.grounding.llm.factory import LLMSettings
 
-__all__ = ["MODEL_NAMES", "CompletionCacheFile", "ModelOptions"]
+__all__ = ["MODEL_NAMES", "CompletionCacheFile", "ModelName", "ModelOptions", "RequestOptions"]
 
 MODEL_NAMES = (
     "google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server with OpenAI's protocol, or gguf:FILE for "
@@ -21,6 +21,9 @@ MODEL_NAMES = (
 )
 """Forms of a model string, for help texts."""
 
+ModelName = Annotated[
+    str | None, Option("--model", help=f"Language model to ask: {MODEL_NAMES}; default: none, offline.")
+]
 CompletionCacheFile = Annotated[
     Path | None,
     Option("--completions", help="Cache of completions; default: $USD2KG_CACHE, else in the user's cache folder."),
@@ -28,8 +31,79 @@ CompletionCacheFile = Annotated[
 
 
 @dataclass(frozen=True)
+class RequestOptions(OptionBundle):
+    """Limits and cache of the requests to a language model."""
+
+    token_budget: Annotated[
+        int | None, Option("--token-budget", min=1, help="Tokens after which no request is sent; default: no limit.")
+    ] = None
+    budget: Annotated[
+        float | None, Option("--budget", min=0, help="US dollars after which no request is sent; default: no limit.")
+    ] = None
+    price: Annotated[
+        str | None,
+        Option(
+            "--price",
+            metavar="INPUT/OUTPUT",
+            help="US dollars per million tokens; default: the list price, where known.",
+        ),
+    ] = None
+    concurrency: Annotated[
+        int, Option("--concurrency", min=1, max=64, help="Prompts in progress at the same time.")
+    ] = 4
+    requests_per_minute: Annotated[
+        int | None, Option("--requests-per-minute", min=1, help="Requests per minute; default: no limit.")
+    ] = None
+    completions: CompletionCacheFile = None
+    refresh: Annotated[bool, Option("--refresh", help="Request new completions instead of using cached ones.")] = False
+    replay: Annotated[
+        bool, Option("--replay", help="Use cached completions only; needs no key and sends no request.")
+    ] = False
+    dry_run: Annotated[
+        bool, Option("--dry-run", help="Print the prompts and their estimated tokens; send no request.")
+    ] = False
+
+    @property
+    def dollars(self) -> Decimal | None:
+        """The budget in US dollars."""
+        return Decimal(str(self.budget)) if self.budget is not None else None
+
+    def settings(self, model: str) -> "LLMSettings":
+        """Return the settings of a model string, with defaults for prompts and sampling."""
+        from usd2kg.grounding.llm.factory import LLMSettings  # noqa: PLC0415 - heavy
+
+        return LLMSettings(
+            model,
+            token_budget=self.token_budget,
+            price=self.price,
+            budget=self.dollars,
+            concurrency=self.concurrency,
+            requests_per_minute=self.requests_per_minute,
+            completions=self.completions,
+            is_refreshed=self.refresh,
+            is_replayed=self.replay,
+        )
+
+    def check_without_model(self, how_to_name_one: str = "name one with --model MODEL") -> None:
+        """Check that no option is given that has an effect on language models only.
+
+        Raises:
+            GroundingError: one is given.
+        """
+        given = {
+            "--dry-run": self.dry_run,
+            "--budget": self.budget is not None,
+            "--price": self.price is not None,
+            "--requests-per-minute": self.requests_per_minute is not None,
+        }
+        for option, is_given in given.items():
+            if is_given:
+                raise GroundingError(f"{option} needs a language model; {how_to_name_one}")
+
+
+@dataclass(frozen=True)
 class ModelOptions(OptionBundle):
-    """Prompts, sampling, limits and cache of a language model."""
+    """Prompts and sampling of a language model, and its requests."""
 
     objects_per_prompt: Annotated[
         int, Option("--objects-per-prompt", min=1, help="Objects that one prompt asks about.")
@@ -80,34 +154,7 @@ class ModelOptions(OptionBundle):
     examples: Annotated[
         int, Option("--examples", min=0, help="Number of --decisions to show in the prompt as examples.")
     ] = 0
-    token_budget: Annotated[
-        int | None, Option("--token-budget", min=1, help="Tokens after which no request is sent; default: no limit.")
-    ] = None
-    budget: Annotated[
-        float | None, Option("--budget", min=0, help="US dollars after which no request is sent; default: no limit.")
-    ] = None
-    price: Annotated[
-        str | None,
-        Option(
-            "--price",
-            metavar="INPUT/OUTPUT",
-            help="US dollars per million tokens; default: the list price, where known.",
-        ),
-    ] = None
-    concurrency: Annotated[
-        int, Option("--concurrency", min=1, max=64, help="Prompts in progress at the same time.")
-    ] = 4
-    requests_per_minute: Annotated[
-        int | None, Option("--requests-per-minute", min=1, help="Requests per minute; default: no limit.")
-    ] = None
-    completions: CompletionCacheFile = None
-    refresh: Annotated[bool, Option("--refresh", help="Request new completions instead of using cached ones.")] = False
-    replay: Annotated[
-        bool, Option("--replay", help="Use cached completions only; needs no key and sends no request.")
-    ] = False
-    dry_run: Annotated[
-        bool, Option("--dry-run", help="Print the prompts and their estimated tokens; send no request.")
-    ] = False
+    requests: RequestOptions = field(default_factory=RequestOptions)
 
     def settings(self, grounder: str) -> "LLMSettings":
         """Return the settings for a grounder name, a strategy and a model like `llm-B:MODEL`.
@@ -115,10 +162,12 @@ class ModelOptions(OptionBundle):
         Raises:
             GroundingError: the name has another form.
         """
-        from usd2kg.grounding.llm.factory import LLMSettings, parse_llm_name  # noqa: PLC0415 - heavy
+        from usd2kg.grounding.llm.factory import parse_llm_name  # noqa: PLC0415 - heavy
 
-        return LLMSettings(
-            *parse_llm_name(grounder),
+        model, strategy = parse_llm_name(grounder)
+        return replace(
+            self.requests.settings(model),
+            strategy=strategy,
             objects_per_prompt=self.objects_per_prompt,
             is_tree=self.class_tree,
             is_thinking=self.thinking,
@@ -130,14 +179,6 @@ class ModelOptions(OptionBundle):
             first_sample=self.first_sample,
             temperature=self.temperature,
             calibration=self.calibration,
-            token_budget=self.token_budget,
-            price=self.price,
-            budget=Decimal(str(self.budget)) if self.budget is not None else None,
-            concurrency=self.concurrency,
-            requests_per_minute=self.requests_per_minute,
-            completions=self.completions,
-            is_refreshed=self.refresh,
-            is_replayed=self.replay,
         )
 
     def check_without_model(self) -> None:
@@ -146,15 +187,13 @@ class ModelOptions(OptionBundle):
         Raises:
             GroundingError: one is given.
         """
+        how_to_name_one = "name one with --grounder llm-B:MODEL"
+        self.requests.check_without_model(how_to_name_one)
         given = {
-            "--dry-run": self.dry_run,
             "--cascade": self.cascade is not None,
-            "--budget": self.budget is not None,
-            "--price": self.price is not None,
-            "--requests-per-minute": self.requests_per_minute is not None,
             "--thumbnails": self.thumbnails,
             "--examples": self.examples > 0,
         }
         for option, is_given in given.items():
             if is_given:
-                raise GroundingError(f"{option} needs a language model; name one with --grounder llm-B:MODEL")
+                raise GroundingError(f"{option} needs a language model; {how_to_name_one}")

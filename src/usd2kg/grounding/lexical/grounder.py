@@ -4,13 +4,14 @@ It reads a name as a noun phrase and matches its head noun with the terms of the
 Where the name is not clear it adds the evidence of assets, documentation, parts, neighbours, size and place.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
+from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
 from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.concepts.home_names import home_names
@@ -70,13 +71,17 @@ class LexicalGrounder:
             ]
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
-    def format_alignment(self, tbox: TBox) -> str:
+    def format_alignment(self, tbox: TBox, others: Iterable[AlignmentRow] = ()) -> str:
         """Return the alignment of the classes with concepts and terms as SSSOM/TSV, to be edited.
+
+        Args:
+            tbox: the classes.
+            others: further rows, such as a language model's.
 
         Raises:
             GroundingError: the grounder's own alignment is invalid.
         """
-        return self._object_grounder(tbox).format_alignment()
+        return self._object_grounder(tbox).format_alignment(others)
 
     def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
         """Return the uninformative classes: the roots and the default class."""

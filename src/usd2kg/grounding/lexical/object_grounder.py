@@ -1,11 +1,12 @@
 """Ground one object: score classes by its name, then by other evidence, and choose the class with the best score."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import partial
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment
+from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI, build_rooted_lexicon
 from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
@@ -59,9 +60,9 @@ class ObjectGrounder:
         self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher)
         self._context = ContextEvidence(self._tbox, self._words, reader, matcher)
 
-    def format_alignment(self) -> str:
-        """Return the alignment of the classes with concepts and terms as SSSOM/TSV."""
-        return format_alignment(self._tbox, self._lexicon, self._taxonomy)
+    def format_alignment(self, others: Iterable[AlignmentRow] = ()) -> str:
+        """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""
+        return format_alignment(self._tbox, self._lexicon, self._taxonomy, others)
 
     def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
         """Return the class of a view with an uncalibrated score, and the posterior by its appearance."""

@@ -176,6 +176,7 @@ class AlignmentSettings:
     other_sense_weight: float
     min_sense_ratio: float
     assumed_category_size: int
+    model_confidence: float
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,12 @@ __all__ = [
     "DECODING",
     "DEGENERATION",
     "ESTIMATES",
+    "MEMBERS",
     "SAMPLING",
     "DecodingSettings",
     "DegenerationSettings",
     "EstimateSettings",
+    "MemberSettings",
     "SamplingSettings",
 ]
 
@@ -55,7 +57,17 @@ class EstimateSettings:
     reasoning_tokens: int
 
 
+@dataclass(frozen=True, slots=True)
+class MemberSettings:
+    """Questions about the things that belong to each class."""
+
+    classes_per_prompt: int
+    nouns_per_class: int
+    max_noun_characters: int
+
+
 DEGENERATION = read_settings("llm", "degeneration", DegenerationSettings)
 DECODING = read_settings("llm", "decoding", DecodingSettings)
 SAMPLING = read_settings("llm", "sampling", SamplingSettings)
 ESTIMATES = read_settings("llm", "estimates", EstimateSettings)
+MEMBERS = read_settings("llm", "members", MemberSettings)

@@ -2,8 +2,9 @@
 
 import hashlib
 import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import chain
 from pathlib import Path
 
@@ -32,17 +33,18 @@ __all__ = ["AlignmentFile", "format_alignment", "read_alignment_file"]
 logger = logging.getLogger(__name__)
 
 
-def format_alignment(rooted: TBox, lexicon: Lexicon, taxonomy: Taxonomy) -> str:
+def format_alignment(rooted: TBox, lexicon: Lexicon, taxonomy: Taxonomy, others: Iterable[AlignmentRow] = ()) -> str:
     """Return a lexicon as SSSOM/TSV, ordered by class; `AlignmentFile.apply` builds the same lexicon from it.
 
     Args:
         rooted: the TBox, as `build_rooted_lexicon` returns it.
         lexicon: its lexicon.
         taxonomy: the concepts.
+        others: further rows, such as a language model's.
     """
     rows = sorted(
-        chain(_term_rows(lexicon), _concept_rows(lexicon, taxonomy), _category_rows(lexicon, taxonomy)),
-        key=lambda row: (row.class_iri, [*RowKind].index(row.kind), row.label or row.subject, row.subject),
+        chain(_term_rows(lexicon), _concept_rows(lexicon, taxonomy), _category_rows(lexicon, taxonomy), others),
+        key=lambda row: (row.class_iri, [*RowKind].index(row.kind), row.label or row.subject, row.subject, row.model),
     )
     assert lexicon.default_class is not None, "a rooted TBox has a default class"
     return format_rows(rows, rooted, lexicon.default_class)
@@ -139,9 +141,10 @@ class AlignmentFile:
             rooted = with_root(tbox, default, taxonomy)
             home = home_classes_of(rooted, root_synonyms(rooted, synonyms))
             editor = _Editor(self.path, rooted, taxonomy, make_lexicon(rooted, {}, {}, {}, default, home))
-            editor.add_all(row for row in rows if not (row.is_curated or row.is_negated))
-            edits = [row for row in rows if row.is_curated or row.is_negated]
-        editor.edit_all(edits)
+            editor.add_all(row for row in rows if not _is_decided(row))
+            edits = [row for row in rows if _is_decided(row)]
+        # A person has the last word.
+        editor.edit_all(sorted(edits, key=lambda row: row.is_curated or not row.model))
         return rooted, editor.lexicon()
 
 
@@ -157,6 +160,10 @@ def read_alignment_file(path: Path) -> AlignmentFile:
         raise GroundingError(
             f"{path}: cannot be read as an alignment ({error}); expected a file of usd2kg ontology align"
         ) from error
+
+
+def _is_decided(row: AlignmentRow) -> bool:
+    return row.is_curated or row.is_negated or bool(row.model)
 
 
 class _Editor:
@@ -220,7 +227,7 @@ class _Editor:
     def _remove_concept(self, row: AlignmentRow) -> None:
         synset = self._synset(row)
         known = self._sense_classes.get(synset)
-        if known is not None and known.class_iri == row.class_iri:
+        if known is not None and known.class_iri == row.class_iri and not (row.model and known.weight == 1.0):
             del self._sense_classes[synset]
         members = self._members.get(synset, [])
         self._members[synset] = [member for member in members if member.aligned.class_iri != row.class_iri]
@@ -231,14 +238,23 @@ class _Editor:
         self._sense_classes[synset] = AlignedClass(row.class_iri, row.confidence)
         self._curated.add(synset)
         self._members.pop(synset, None)
-        for key, term in [*self._terms.items()]:
-            is_kept = term.kind in {TermKind.LABEL, TermKind.CURATED}
-            if is_kept or self._tbox.is_subclass(term.class_iri, row.class_iri):
+        for key, own in self._terms_below.get(synset, ()):
+            term = self._terms.get(key)
+            is_kept = term is None or term.kind in {TermKind.LABEL, TermKind.CURATED}
+            if term is None or is_kept or self._tbox.is_subclass(term.class_iri, row.class_iri):
                 continue
-            sense = usual_sense(key, self._taxonomy)
-            if sense is not None and any(up == synset for up, _ in self._taxonomy.walk_up(sense.synset)):
-                del self._terms[key]
-                self._unalign_below(sense.synset, term.class_iri)
+            del self._terms[key]
+            self._unalign_below(own, term.class_iri)
+
+    @cached_property
+    def _terms_below(self) -> Mapping[int, Sequence[tuple[str, int]]]:
+        """Synset → (key, usual synset) of the terms that mean it or a hyponym."""
+        below: dict[int, list[tuple[str, int]]] = {}
+        for key in self._terms:
+            if (sense := usual_sense(key, self._taxonomy)) is not None:
+                for up, _ in self._taxonomy.walk_up(sense.synset):
+                    below.setdefault(up, []).append((key, sense.synset))
+        return below
 
     def _unalign_below(self, synset: int, class_iri: ClassIRI) -> None:
         known = self._sense_classes.get(synset)

@@ -33,7 +33,8 @@ _PREFIXES = {
 }
 _COLUMNS = (
     *("subject_id", "subject_label", "subject_type", "predicate_id", "predicate_modifier", "object_id", "object_label"),
-    *("mapping_justification", "reviewer_label", "confidence", "comment", "term_kind", "category_size"),
+    *("mapping_justification", "mapping_tool", "reviewer_label", "confidence", "comment"),
+    *("term_kind", "category_size"),
 )
 _REQUIRED = ("subject_label", "predicate_id", "object_id", "mapping_justification")
 _EXTENSIONS = {
@@ -77,6 +78,8 @@ class AlignmentRow:
     """Where a term comes from."""
     category_size: int = 0
     """Number of concepts in the category."""
+    model: str = ""
+    """The language model that named the subject; empty if none did."""
     is_curated: bool = False
     """Whether a person decided."""
     is_negated: bool = False
@@ -119,15 +122,17 @@ def written_class(iri: ClassIRI) -> str:
 def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
     is_term = row.kind is RowKind.TERM
     is_exact = row.kind is RowKind.CONCEPT and row.confidence == 1.0
-    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT
+    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT or bool(row.model)
     return {
         "subject_id": "" if is_term else curies.shorten(row.subject),
         "subject_label": one_line(row.subject if is_term else row.label),
         "subject_type": _LITERAL if is_term else "skos concept",
         "predicate_id": "skos:exactMatch" if is_exact else row.kind.value,
+        "predicate_modifier": "Not" if row.is_negated else "",
         "object_id": curies.shorten(written_class(row.class_iri)),
         "object_label": NO_CLASS if row.class_iri == NO_CLASS_IRI else one_line(tbox.by_iri[row.class_iri].label),
         "mapping_justification": "semapv:BackgroundKnowledgeBasedMatching" if is_known else "semapv:LexicalMatching",
+        "mapping_tool": one_line(row.model),
         "confidence": f"{row.confidence:g}",
         "comment": one_line(row.reason),
         "term_kind": row.term_kind.value if is_term else "",
@@ -176,6 +181,7 @@ def _parse_row(where: str, row: SssomRow, file: SssomFile, tbox: TBox) -> Alignm
         label=cells["subject_label"],
         term_kind=_parse_term_kind(where, cells.get("term_kind", "")),
         category_size=_parse_size(where, cells.get("category_size", "")),
+        model=cells.get("mapping_tool", ""),
         is_curated=file.expand(cells["mapping_justification"]) == file.expand(_CURATED)
         or bool(cells.get("reviewer_label") or cells.get("reviewer_id")),
         is_negated=bool(modifier),

@@ -1,0 +1,57 @@
+"""Rows of an alignment file from what a language model says belongs to each class."""
+
+from collections.abc import Iterable, Iterator
+
+from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind
+from usd2kg.grounding.lexical.alignment.label_words import normalise_label
+from usd2kg.grounding.lexical.concepts.senses import usual_sense
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.settings import ALIGNMENT
+from usd2kg.grounding.llm.class_members import ClassMembers
+from usd2kg.ontology import ClassIRI, TBox
+
+__all__ = ["rows_of_members"]
+
+
+def rows_of_members(
+    members: Iterable[ClassMembers], model: str, tbox: TBox, taxonomy: Taxonomy
+) -> Iterator[AlignmentRow]:
+    """Yield one row for each noun: a concept in its usual sense, or a term if the taxonomy lacks the noun.
+
+    A noun of several classes belongs to the deepest of them, since the model also names things of superclasses.
+
+    Args:
+        members: the answers.
+        model: the model string.
+        tbox: the classes.
+        taxonomy: the nouns.
+    """
+    found = list(members)
+    chosen: dict[str, ClassIRI] = {}
+    for answer in found:
+        for noun in answer.belongs:
+            text = normalise_label(noun, taxonomy)
+            known = chosen.get(text)
+            if text and (known is None or tbox.depths[known] < tbox.depths[answer.class_iri]):
+                chosen[text] = answer.class_iri
+    for text, iri in chosen.items():
+        yield _make_row(text, iri, model, taxonomy)
+    for answer in found:
+        for noun in answer.excluded:
+            text = normalise_label(noun, taxonomy)
+            if text and chosen.get(text) != answer.class_iri:
+                yield _make_row(text, answer.class_iri, model, taxonomy, is_negated=True)
+
+
+def _make_row(text: str, iri: ClassIRI, model: str, taxonomy: Taxonomy, *, is_negated: bool = False) -> AlignmentRow:
+    sense = usual_sense(text.replace(" ", ""), taxonomy)
+    return AlignmentRow(
+        kind=RowKind.TERM if sense is None else RowKind.CONCEPT,
+        subject=text if sense is None else taxonomy.concept_iri(sense.synset),
+        class_iri=iri,
+        confidence=ALIGNMENT.model_confidence,
+        label="" if sense is None else taxonomy.label(sense.synset),
+        reason=f"the model says that “{text}” {'does not belong' if is_negated else 'belongs'} to the class",
+        model=model,
+        is_negated=is_negated,
+    )
