@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.grounding import Grounding
-from usd2kg.ontology import TBox, expand_curie
+from usd2kg.ontology import expand_curie
+from usd2kg.relations.object_kinds import ObjectKind
 from usd2kg.relations.settings import FOOTPRINT
 from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
 from usd2kg.scene import Box, SceneObject
@@ -21,36 +21,28 @@ Mask = NDArray[np.bool_]
 
 
 class ClassMembership:
-    """Membership of objects in class lists, by their grounded class; ungrounded objects are in none."""
+    """Membership of objects in class lists, by their kinds."""
 
-    def __init__(self, names: ClassLists, tbox: TBox, grounding: Grounding, objects: Sequence[SceneObject]) -> None:
+    def __init__(self, names: ClassLists, kinds: Sequence[ObjectKind]) -> None:
         self._names = names
-        self._tbox = tbox
-        found = (grounding.by_path.get(obj.prim_path) for obj in objects)
-        iris = [prediction.class_iri if prediction is not None else None for prediction in found]
-        self._known = list(dict.fromkeys(iris))
-        number = {iri: index for index, iri in enumerate(self._known)}
-        self._which = np.array([number[iri] for iri in iris], np.int64)
+        self._known = list(dict.fromkeys(kinds))
+        number = {kind: index for index, kind in enumerate(self._known)}
+        self._which = np.array([number[kind] for kind in kinds], np.int64)
 
     def are_in(self, name: str) -> Mask:
-        """Return for each object whether its class or a superclass is in the list `name`."""
+        """Return for each object whether one of its classes or their superclasses is in the list `name`."""
         items: tuple[str, ...] = getattr(self._names, name)
         exact = {expand_curie(item[1:]) for item in items if item.startswith("=")}
         whole = {expand_curie(item) for item in items if not item.startswith("=")}
-        is_in = [
-            iri is not None and (iri in exact or not whole.isdisjoint(self._tbox.closure(iri))) for iri in self._known
-        ]
+        is_in = [not (exact.isdisjoint(kind.own) and whole.isdisjoint(kind.above)) for kind in self._known]
         return np.array(is_in, np.bool_)[self._which]
 
     @cached_property
     def can_contain(self) -> Mask:
-        """Whether each object is a container; all are if the ontology states no containment disposition."""
+        """Whether each object is a container."""
         disposition = expand_curie(self._names.containment_disposition)
-        if not any(disposition in cls.dispositions for cls in self._tbox.classes):
-            return np.ones(len(self._which), np.bool_)
-        has_disposition = [iri is None or disposition in self._tbox.by_iri[iri].dispositions for iri in self._known]
-        can = np.array(has_disposition, np.bool_)[self._which] | self.are_in("containers")
-        return np.asarray(can & ~self.are_in("not_containers"))
+        can = np.array([disposition in kind.dispositions for kind in self._known], np.bool_)[self._which]
+        return np.asarray((can | self.are_in("containers")) & ~self.are_in("not_containers"))
 
 
 class Footprints(NamedTuple):

@@ -15,6 +15,7 @@ from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.containment import find_inside
 from usd2kg.relations.model import ALL_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
+from usd2kg.relations.object_kinds import find_kinds
 from usd2kg.relations.options import RelationOptions
 from usd2kg.relations.part_of import PartLinks, find_parts, wholes_of
 from usd2kg.relations.room_membership import find_rooms
@@ -51,7 +52,7 @@ class _Finder:
         self.scene = scene
         self.rules = options.chosen_rules
         self.viewpoint = options.viewpoint
-        self.classes = ClassMembership(self.rules.classes, tbox, grounding, scene.objects)
+        self.classes = ClassMembership(self.rules.classes, find_kinds(scene, tbox, grounding))
         self.boxed = BoxedObjects(scene.objects, self.rules.geometry)
         self.groups: list[str] = []
         """Paths of the group prims that are rooms."""
