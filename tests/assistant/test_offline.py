@@ -125,7 +125,15 @@ def test_answers_yes_or_no(graph: GraphStore, text: str, verdict: bool):
 
 @pytest.mark.parametrize(
     ("text", "number"),
-    [("how many cups are there?", 1), ("how many plates are on the table?", 1), ("how many cups are in the bowl", 0)],
+    [
+        ("how many cups are there?", 1),
+        ("how many plates are on the table?", 1),
+        ("how many cups are in the bowl", 0),
+        # Nothing has this name.
+        ("how many dragons are there?", 0),
+        ("how many dragons are on the table?", 0),
+        ("how many dragons does the table have?", 0),
+    ],
 )
 def test_answers_with_a_number(graph: GraphStore, text: str, number: int):
     asked = ask_offline(graph, text)

@@ -104,7 +104,7 @@ def _related_objects(graph: GraphStore, verb: str, relation: str, given: Mapping
     """Return the objects with a class or name that are on or in another object, directly or indirectly."""
     find = graph.on if relation == "on" else graph.inside
     related = find(given["thing"], is_direct=False)
-    answer = _restrict(related, set(_column(graph.where_is(given["class"]), "path")))
+    answer = _restrict(related, set(_column(_find_any(graph, given["class"]), "path")))
     count = len(answer.rows)
     understood = f"{given['class']} {relation} {given['thing']}"
     return InterpretedAnswer(
@@ -113,24 +113,28 @@ def _related_objects(graph: GraphStore, verb: str, relation: str, given: Mapping
 
 
 def _how_many(graph: GraphStore, **given: str) -> InterpretedAnswer:
-    answer = graph.where_is(given["class"])
+    answer = _find_any(graph, given["class"])
     return InterpretedAnswer(f"all {given['class']}", answer, number=len(set(_column(answer, "path"))))
 
 
 def _how_many_parts(graph: GraphStore, **given: str) -> InterpretedAnswer:
     name, thing = given["class"], given["thing"]
-    answer = _restrict(graph.parts_of(thing), set(_column(graph.where_is(name), "path")))
+    answer = _restrict(graph.parts_of(thing), set(_column(_find_any(graph, name), "path")))
     return InterpretedAnswer(f"{name} that are parts of {thing}", answer, number=len(answer.rows))
 
 
 def _is_there(graph: GraphStore, **given: str) -> InterpretedAnswer:
     name = given["class"]
-    try:
-        answer = graph.where_is(name)
-    except GraphError:
-        # An unknown name is the answer "no", not an error.
-        answer = Answer(("object",), (), (), "")
+    answer = _find_any(graph, name)
     return InterpretedAnswer(f"whether there is {name}", answer, bool(answer.rows))
+
+
+def _find_any(graph: GraphStore, name: str) -> Answer:
+    """Return where the objects of a name are; a name of no object is the answer “no” or 0, not an error."""
+    try:
+        return graph.where_is(name)
+    except GraphError:
+        return Answer(("object", "path"), (), (), "")
 
 
 def _distance(graph: GraphStore, thing: str, other: str) -> InterpretedAnswer:
