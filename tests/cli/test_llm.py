@@ -386,7 +386,7 @@ class TestAlignment:
             assert len(server.received) == 1
         assert (first.code, first.out) == (0, "")
         assert "prompt without all answers: the answer has no row for 2 of 3 classes" in first.err
-        assert f"2 rows about 1 of 3 classes by {model}" in first.err
+        assert f"3 rows about 1 of 3 classes by {model}" in first.err
         assert "1 prompts: 1 new completions, 0 cached, 0 prompts failed; 1 requests sent" in first.err
         text = (tmp_path / "lab.sssom.tsv").read_text("utf-8")
         assert "flux capacitor\trdfs literal\tskos:exactMatch" in text

@@ -131,11 +131,11 @@ class TestRows:
     def test_rows_are_marked_with_the_model(self):
         (row,) = [line for line in aligned().splitlines() if "\tflux capacitor\t" in line]
         assert "\tsemapv:BackgroundKnowledgeBasedMatching\ttest:oracle\t" in row
-        assert "the model says that “flux capacitor” belongs to the class" in row
+        assert row.endswith("\t0.9\tthe model says that it belongs to the class\tmodel\t")
 
     def test_a_person_has_the_last_word(self):
         rows = [line for line in aligned().splitlines() if "\tvase\t" in line and "\tNot\t" not in line]
-        (row,) = [line for line in rows if "test:oracle" in line]
+        (row,) = [line for line in rows if line.startswith("wn:") and "test:oracle" in line]
         edited = row.replace("ns1:Decor", "ns1:Gear").replace(
             "semapv:BackgroundKnowledgeBasedMatching", "semapv:ManualMappingCuration"
         )

@@ -1,9 +1,11 @@
 """Rows of an alignment file from what a language model says belongs to each class."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind
 from usd2kg.grounding.lexical.alignment.label_words import normalise_label
+from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.settings import ALIGNMENT
@@ -16,7 +18,7 @@ __all__ = ["rows_of_members"]
 def rows_of_members(
     members: Iterable[ClassMembers], model: str, tbox: TBox, taxonomy: Taxonomy
 ) -> Iterator[AlignmentRow]:
-    """Yield one row for each noun: a concept in its usual sense, or a term if the taxonomy lacks the noun.
+    """Yield a term for each noun, and a concept for its usual sense if the taxonomy has it.
 
     A noun of several classes belongs to the deepest of them, since the model also names things of superclasses.
 
@@ -35,23 +37,28 @@ def rows_of_members(
             if text and (known is None or tbox.depths[known] < tbox.depths[answer.class_iri]):
                 chosen[text] = answer.class_iri
     for text, iri in chosen.items():
-        yield _make_row(text, iri, model, taxonomy)
+        yield from _make_rows(text, iri, model, taxonomy)
     for answer in found:
         for noun in answer.excluded:
             text = normalise_label(noun, taxonomy)
             if text and chosen.get(text) != answer.class_iri:
-                yield _make_row(text, answer.class_iri, model, taxonomy, is_negated=True)
+                yield from _make_rows(text, answer.class_iri, model, taxonomy, is_negated=True)
 
 
-def _make_row(text: str, iri: ClassIRI, model: str, taxonomy: Taxonomy, *, is_negated: bool = False) -> AlignmentRow:
-    sense = usual_sense(text.replace(" ", ""), taxonomy)
-    return AlignmentRow(
-        kind=RowKind.TERM if sense is None else RowKind.CONCEPT,
-        subject=text if sense is None else taxonomy.concept_iri(sense.synset),
+def _make_rows(
+    text: str, iri: ClassIRI, model: str, taxonomy: Taxonomy, *, is_negated: bool = False
+) -> Iterator[AlignmentRow]:
+    term = AlignmentRow(
+        kind=RowKind.TERM,
+        subject=text,
         class_iri=iri,
         confidence=ALIGNMENT.model_confidence,
-        label="" if sense is None else taxonomy.label(sense.synset),
-        reason=f"the model says that “{text}” {'does not belong' if is_negated else 'belongs'} to the class",
+        reason=f"the model says that it {'does not belong' if is_negated else 'belongs'} to the class",
+        term_kind=TermKind.MODEL,
         model=model,
         is_negated=is_negated,
     )
+    yield term
+    if (sense := usual_sense(text.replace(" ", ""), taxonomy)) is not None:
+        concept, label = taxonomy.concept_iri(sense.synset), taxonomy.label(sense.synset)
+        yield replace(term, kind=RowKind.CONCEPT, subject=concept, label=label)

@@ -55,6 +55,7 @@ _TERM_REASONS = {
     TermKind.SYNONYM: "another name of the class",
     TermKind.LENT: "a name of the home vocabulary for a class with this label",
     TermKind.HEAD: "the head noun of the label",
+    TermKind.MODEL: "a name by a language model",
     TermKind.CURATED: "a name chosen by a person",
 }
 
@@ -144,7 +145,7 @@ class AlignmentFile:
             editor.add_all(row for row in rows if not _is_decided(row))
             edits = [row for row in rows if _is_decided(row)]
         # A person has the last word.
-        editor.edit_all(sorted(edits, key=lambda row: row.is_curated or not row.model))
+        editor.edit_all(sorted(edits, key=lambda row: not _is_by_model(row)))
         return rooted, editor.lexicon()
 
 
@@ -164,6 +165,10 @@ def read_alignment_file(path: Path) -> AlignmentFile:
 
 def _is_decided(row: AlignmentRow) -> bool:
     return row.is_curated or row.is_negated or bool(row.model)
+
+
+def _is_by_model(row: AlignmentRow) -> bool:
+    return bool(row.model) and not row.is_curated
 
 
 class _Editor:
@@ -217,27 +222,35 @@ class _Editor:
 
     def _edit_term(self, row: AlignmentRow) -> None:
         key = term_key(row.subject, self._taxonomy)
+        known = self._terms.get(key)
+        if _is_by_model(row) and known is not None and known.kind is TermKind.LABEL:
+            return
         if row.is_negated:
-            known = self._terms.get(key)
             if known is not None and known.class_iri == row.class_iri:
                 del self._terms[key]
         else:
-            self._terms[key] = Term(row.class_iri, row.subject, TermKind.CURATED)
+            kind = TermKind.MODEL if _is_by_model(row) else TermKind.CURATED
+            self._terms[key] = Term(row.class_iri, row.subject, kind)
 
     def _remove_concept(self, row: AlignmentRow) -> None:
         synset = self._synset(row)
         known = self._sense_classes.get(synset)
-        if known is not None and known.class_iri == row.class_iri and not (row.model and known.weight == 1.0):
+        if known is not None and known.class_iri == row.class_iri and not (_is_by_model(row) and known.weight == 1.0):
             del self._sense_classes[synset]
         members = self._members.get(synset, [])
         self._members[synset] = [member for member in members if member.aligned.class_iri != row.class_iri]
 
     def _edit_concept(self, row: AlignmentRow) -> None:
-        """Align a concept; names that lead elsewhere, and mean it or a concept below it, no longer decide."""
+        """Align a concept. If a person did, names that mean it or a concept below it no longer lead elsewhere."""
         synset = self._synset(row)
+        known = self._sense_classes.get(synset)
+        if _is_by_model(row) and known is not None and known.weight == 1.0:
+            return
         self._sense_classes[synset] = AlignedClass(row.class_iri, row.confidence)
-        self._curated.add(synset)
         self._members.pop(synset, None)
+        if _is_by_model(row):
+            return
+        self._curated.add(synset)
         for key, own in self._terms_below.get(synset, ()):
             term = self._terms.get(key)
             is_kept = term is None or term.kind in {TermKind.LABEL, TermKind.CURATED}

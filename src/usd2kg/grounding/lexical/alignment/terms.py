@@ -22,6 +22,8 @@ class TermKind(Enum):
     """A name of the home vocabulary, for a class of another ontology with the same label."""
     HEAD = "head"
     """The head noun of a longer label."""
+    MODEL = "model"
+    """Named by a language model in an alignment file."""
     CURATED = "curated"
     """Chosen by a person in an alignment file."""
 
@@ -36,6 +38,7 @@ _WEIGHTS = {
     TermKind.SYNONYM: TERMS.synonym_weight,
     TermKind.LENT: TERMS.lent_weight,
     TermKind.HEAD: TERMS.head_weight,
+    TermKind.MODEL: 1.0,
     TermKind.CURATED: 1.0,
 }
 

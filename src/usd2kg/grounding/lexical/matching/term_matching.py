@@ -21,7 +21,11 @@ from usd2kg.words import split_identifier
 __all__ = ["TermMatcher"]
 
 _NO_MATCHES = HeadMatches((), ())
-_NAMED_BY_KIND = {TermKind.LABEL: "is the label of", TermKind.CURATED: "is in the alignment file a name for"}
+_NAMED_BY_KIND = {
+    TermKind.LABEL: "is the label of",
+    TermKind.CURATED: "is in the alignment file a name for",
+    TermKind.MODEL: "is for the language model a name for",
+}
 
 
 class TermMatcher:
@@ -94,12 +98,12 @@ class TermMatcher:
         return found._replace(matches=self._mix_with_classifier((*modifiers, head), found.matches))
 
     def _is_curated(self, words: tuple[str, ...]) -> bool:
-        """Return whether a person chose the class of a noun, or of its nearest aligned hypernym."""
+        """Return whether a model or a person chose the class of a noun, or a person that of its nearest hypernym."""
         *before, last = words
         key = "".join(before) + self._taxonomy.singular(last)
         term = self._lexicon.terms.get(key)
         if term is not None:
-            return term.kind is TermKind.CURATED
+            return term.kind in {TermKind.MODEL, TermKind.CURATED}
         if not self._lexicon.curated_synsets or (usual := usual_sense(key, self._taxonomy)) is None:
             return False
         nearest = self._nearest_class(usual.synset)
