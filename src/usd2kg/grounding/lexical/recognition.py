@@ -13,7 +13,7 @@ from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.home_names import home_names, short_home_names
 from usd2kg.grounding.lexical.concepts.senses import sense_weight
-from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.sizes import Size, round_size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.matching.head_matching import HeadMatches, Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
@@ -101,7 +101,9 @@ class ConceptRecognizer:
             is_name = group == "name"
             if group == "parts" or (is_name and is_generated_name(text)):
                 continue
-            found = self._recognize_text(text, view.parents if is_name else (), view.own_size if is_name else None)
+            size = round_size(view.own_size) if is_name and view.own_size is not None else None
+            # Copies differ in their numbers.
+            found = self._recognize_text(text.rstrip("0123456789_"), view.parents if is_name else (), size)
             if found is not None:
                 return found
         return None
