@@ -6,7 +6,7 @@ from pathlib import Path
 
 from usd2kg.errors import GroundingError
 from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
-from usd2kg.grounding import DecisionOrigin, Grounder, Grounding, NamingRegime, ground, make_grounder
+from usd2kg.grounding import Decision, DecisionOrigin, Grounder, Grounding, NamingRegime, ground, make_grounder
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.relations import RelationOptions, find_relations
 from usd2kg.scene import ReadOptions, Scene, read_scene
@@ -32,7 +32,7 @@ def build(
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
-    decisions: Mapping[str, ClassIRI] | None = None,
+    decisions: Mapping[str, ClassIRI | Decision] | None = None,
     carried: Mapping[str, DecisionOrigin] | None = None,
     alignment: Path | str | None = None,
     base: str | None = None,
@@ -51,7 +51,7 @@ def build(
         regime: naming regime, for evaluation.
         evidence: names of the evidence groups to use; default: all.
         paths: prims to treat as objects, regardless of the selection rules; only if the scene is read here.
-        decisions: prim path → class that a person chose.
+        decisions: prim path → class that a person chose, alone or with the reviewer.
         carried: prim path → origin of a decision that was made for another prim path.
         alignment: edited file of `usd2kg ontology align`; only if `grounder` is the name of the lexical grounder.
         base: namespace of the individuals, ending in `/` or `#`; default: derived from the file name.

@@ -10,8 +10,10 @@ from usd2kg.errors import GroundingError
 from usd2kg.grounding import (
     PERSON,
     Candidate,
+    Decision,
     Grounding,
     Prediction,
+    Review,
     Status,
     find_uncertain,
     format_queue,
@@ -47,6 +49,8 @@ def test_reads_a_completed_queue_as_decisions(home_tbox: TBox, tmp_path: Path):
     assert rows[2] == {
         "path": "/b",
         "decision": "",
+        "reviewer": "",
+        "comment": "",
         "answer": "Bowl",
         "confidence": "0.4000",
         "alternatives": "Cup|Box",
@@ -54,8 +58,20 @@ def test_reads_a_completed_queue_as_decisions(home_tbox: TBox, tmp_path: Path):
     }
     assert rows[0]["answer"] == rows[0]["confidence"] == ""
     file = tmp_path / "queue.csv"
-    file.write_text(text.replace("/c,,", "/c,Plate,").replace("/b,,", f"/b,{cup},"), "utf-8")
-    assert read_decisions(file, home_tbox) == {"/c": home_tbox.resolve("Plate"), "/b": cup}
+    file.write_text(text.replace("/c,,,", "/c,Plate,Ada,it is flat").replace("/b,,", f"/b,{cup},"), "utf-8")
+    assert read_decisions(file, home_tbox) == {
+        "/c": Decision(home_tbox.resolve("Plate"), "Ada", "it is flat"),
+        "/b": Decision(cup),
+    }
+
+
+def test_a_decision_keeps_its_reviewer(home_tbox: TBox):
+    knife = home_tbox.resolve("Knife")
+    decision = Decision(knife, "https://orcid.org/0000-0001-2345-6789", "it cuts", "2026-07-15T12:00:00Z")
+    scene = make_scene(make_object("/K/Cup"), make_object("/K/Bowl"))
+    decided, other = ground(scene, home_tbox, decisions={"/K/Cup": decision, "/K/Bowl": knife}).predictions
+    assert decided.review == Review(decision.reviewer, None, None, None, "it cuts", "2026-07-15T12:00:00Z")
+    assert other.review is None
 
 
 def test_decided_objects_are_not_passed_to_the_grounder(home_tbox: TBox):

@@ -121,6 +121,19 @@ class TestDecisions:
         found = ground(self.SCENE, tbox, decisions={"/World/mug_1": tbox.resolve(chosen)})
         assert concepts_of(found) == {"/World/mug_1": concept}
 
+    @pytest.mark.parametrize(("chosen", "concept"), [("Bowl", None), ("DesignedArtifact", "ball")])
+    def test_a_coarse_class_does_not_agree_with_each_of_its_subclasses(self, chosen: str, concept: str | None):
+        # By its name the ball is only a designed artifact, of which bowls are a subclass.
+        tbox = load_home_tbox()
+        found = ground(make_scene(make_object("/World/ball")), tbox, decisions={"/World/ball": tbox.resolve(chosen)})
+        assert concepts_of(found) == {"/World/ball": concept}
+
+    def test_a_class_that_no_noun_names_agrees(self):
+        tbox = make_tbox(make_class("Item"), make_class("B17", "Item", label="B17"))
+        scene = make_scene(make_object("/World/guitar_1"))
+        found = ground(scene, tbox, decisions={"/World/guitar_1": tbox.resolve("B17")})
+        assert concepts_of(found) == {"/World/guitar_1": "guitar"}
+
 
 class TestConfidence:
     FITTED = json.loads(read_text("concept_confidence.json"))

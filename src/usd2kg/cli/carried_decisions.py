@@ -11,18 +11,18 @@ from usd2kg.cli.output import emit, notify
 
 if TYPE_CHECKING:
     from usd2kg.diff import CarriedDecisions
-    from usd2kg.grounding import DecisionOrigin
+    from usd2kg.grounding import Decision, DecisionOrigin
     from usd2kg.ontology import ClassIRI
     from usd2kg.scene import ReadOptions, Scene
 
 __all__ = ["carry_over_decisions"]
 
-_COLUMNS = ("path", "decision", "decided_for", "reason")
+_COLUMNS = ("path", "decision", "decided_for", "reason", "reviewer", "comment", "time")
 
 
 def carry_over_decisions(
-    decisions: "Mapping[str, ClassIRI]", scene: "Scene", reading: "ReadOptions", options: CarryOverOptions
-) -> "tuple[Mapping[str, ClassIRI], Mapping[str, DecisionOrigin]]":
+    decisions: "Mapping[str, ClassIRI | Decision]", scene: "Scene", reading: "ReadOptions", options: CarryOverOptions
+) -> "tuple[Mapping[str, ClassIRI | Decision], Mapping[str, DecisionOrigin]]":
     """Return the decisions for a scene, and the origin of each that was made for another prim path.
 
     Prints what was carried over to stderr, and writes the files of the options.
@@ -41,17 +41,28 @@ def carry_over_decisions(
     counts = f"{kept} kept, {len(found.carried)} carried over, {len(found.unplaced)} not placed"
     notify(f"{len(decisions)} decisions: {counts}")
     if options.unplaced is not None:
-        _write_rows([(each.prim_path, each.class_iri, "", each.reason) for each in found.unplaced], options.unplaced)
+        _write_rows(
+            [(each.prim_path, each.class_iri, "", each.reason, "", "", "") for each in found.unplaced], options.unplaced
+        )
     if options.carried is not None:
         _write_rows(_placed_rows(found), options.carried)
     return found.decisions, found.carried
 
 
 def _placed_rows(found: "CarriedDecisions") -> list[tuple[str, ...]]:
-    return [
-        (path, iri, *((origin.prim_path, origin.reason) if (origin := found.carried.get(path)) else ("", "")))
-        for path, iri in found.decisions.items()
-    ]
+    from usd2kg.grounding import as_decision  # noqa: PLC0415
+
+    rows: list[tuple[str, ...]] = []
+    for path, made in found.decisions.items():
+        decision, origin = as_decision(made), found.carried.get(path)
+        rows.append(
+            (
+                *(path, decision.class_iri),
+                *((origin.prim_path, origin.reason) if origin is not None else ("", "")),
+                *(decision.reviewer, decision.comment, decision.time),
+            )
+        )
+    return rows
 
 
 def _write_rows(rows: list[tuple[str, ...]], path: Path) -> None:

@@ -13,7 +13,7 @@ from usd2kg.cli.output import Progress, emit, notify
 from usd2kg.errors import GroundingError, SceneError
 
 if TYPE_CHECKING:
-    from usd2kg.grounding import CascadeGrounder, DecisionOrigin, Grounder, Grounding, ObjectView
+    from usd2kg.grounding import CascadeGrounder, Decision, DecisionOrigin, Grounder, Grounding, ObjectView
     from usd2kg.grounding.llm.grounder import LLMGrounder
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import ReadOptions, Scene
@@ -31,7 +31,7 @@ class GrounderSession:
     """The grounder without a language model; the first tier of a cascade."""
     model: "LLMGrounder | None"
     cascade: "CascadeGrounder | None"
-    decisions: "Mapping[str, ClassIRI]"
+    decisions: "Mapping[str, ClassIRI | Decision]"
     carried: "Mapping[str, DecisionOrigin]"
     """Prim path → origin of a decision that was made for another path."""
 
@@ -81,7 +81,7 @@ def open_session(
     """
     from usd2kg import grounding  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-    decisions: Mapping[str, ClassIRI] = options.review.read(tbox)
+    decisions: Mapping[str, ClassIRI | Decision] = options.review.read(tbox)
     carried: Mapping[str, DecisionOrigin] = {}
     if carry_over is not None:
         decisions, carried = carry_over_decisions(decisions, scene, reading, carry_over)
@@ -108,7 +108,11 @@ def open_session(
 
 @contextmanager
 def _open_model(
-    options: GroundingOptions, scene: "Scene", decisions: "Mapping[str, ClassIRI]", source: Path, reading: "ReadOptions"
+    options: GroundingOptions,
+    scene: "Scene",
+    decisions: "Mapping[str, ClassIRI | Decision]",
+    source: Path,
+    reading: "ReadOptions",
 ) -> "Iterator[LLMGrounder]":
     from usd2kg.grounding.llm.factory import open_llm_grounder  # noqa: PLC0415
     from usd2kg.grounding.llm.few_shot_choice import choose_examples  # noqa: PLC0415

@@ -7,7 +7,7 @@ from usd2kg.diff.match import match_objects
 from usd2kg.diff.match_description import describe_match
 from usd2kg.diff.object_state import ObjectState
 from usd2kg.diff.tolerances import DEFAULT_TOLERANCES, Tolerances
-from usd2kg.grounding import DecisionOrigin
+from usd2kg.grounding import Decision, DecisionOrigin, as_decision
 from usd2kg.ontology import ClassIRI
 
 __all__ = ["CarriedDecisions", "UnplacedDecision", "carry_decisions"]
@@ -28,8 +28,8 @@ class UnplacedDecision:
 class CarriedDecisions:
     """Decisions for a new scene, and those that do not apply to it."""
 
-    decisions: Mapping[str, ClassIRI]
-    """Prim path in the new scene → class."""
+    decisions: Mapping[str, ClassIRI | Decision]
+    """Prim path in the new scene → decision."""
     carried: Mapping[str, DecisionOrigin]
     """Prim path in the new scene → origin, for decisions about another path."""
     unplaced: tuple[UnplacedDecision, ...]
@@ -37,7 +37,7 @@ class CarriedDecisions:
 
 
 def carry_decisions(
-    decisions: Mapping[str, ClassIRI],
+    decisions: Mapping[str, ClassIRI | Decision],
     old: Sequence[ObjectState],
     new: Sequence[ObjectState],
     tolerances: Tolerances = DEFAULT_TOLERANCES,
@@ -47,17 +47,18 @@ def carry_decisions(
     A decision about a path that only the new scene has is kept, and wins over one that would be carried to that path.
 
     Args:
-        decisions: prim path in either scene → class.
+        decisions: prim path in either scene → decision, or class alone.
         old: the objects of the earlier scene.
         new: the objects of the new scene.
         tolerances: limits of the matching.
     """
     matches = {match.old.prim_path: match for match in match_objects(old, new, tolerances).matches}
     old_paths, new_paths = ({state.prim_path for state in states} for states in (old, new))
-    placed = {path: iri for path, iri in decisions.items() if path in new_paths - old_paths}
+    placed = {path: decision for path, decision in decisions.items() if path in new_paths - old_paths}
     carried: dict[str, DecisionOrigin] = {}
     unplaced: list[UnplacedDecision] = []
-    for path, iri in decisions.items():
+    for path, decision in decisions.items():
+        iri = as_decision(decision).class_iri
         match = matches.get(path)
         if match is None:
             if path not in placed:
@@ -68,7 +69,7 @@ def carry_decisions(
             reason = f"is now {target}, which has a decision of its own"
             unplaced.append(UnplacedDecision(path, iri, reason))
             continue
-        placed[target] = iri
+        placed[target] = decision
         if target != path:
             carried[target] = DecisionOrigin(path, describe_match(match, tolerances))
     return CarriedDecisions(placed, carried, tuple(unplaced))

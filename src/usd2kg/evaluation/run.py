@@ -9,7 +9,7 @@ from usd2kg.evaluation.gold import GoldLabel
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore, score_selection
 from usd2kg.evaluation.score import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
-from usd2kg.grounding import ABBREVIATED_LENGTH, Grounder, Grounding, NamingRegime, ground
+from usd2kg.grounding import ABBREVIATED_LENGTH, Decision, Grounder, Grounding, NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ASKED_FOR, Scene
 
@@ -35,7 +35,7 @@ def evaluate(
     *,
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
-    decisions: Mapping[str, ClassIRI] | None = None,
+    decisions: Mapping[str, ClassIRI | Decision] | None = None,
     abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Evaluation:
     """Return the evaluation of a grounder on the labelled prims of a scene.

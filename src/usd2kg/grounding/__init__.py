@@ -11,11 +11,18 @@ from usd2kg.grounding.context import (
     ObjectView,
     view_objects,
 )
-from usd2kg.grounding.decisions import PERSON, DecisionOrigin, find_uncertain, format_queue, read_decisions
+from usd2kg.grounding.decisions import (
+    PERSON,
+    DecisionOrigin,
+    as_decision,
+    find_uncertain,
+    format_queue,
+    read_decisions,
+)
 from usd2kg.grounding.ground import ground as ground
 from usd2kg.grounding.ground import parse_evidence, parse_regime
 from usd2kg.grounding.mapping_files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
-from usd2kg.grounding.model import Candidate, Concept, Grounding, Prediction, Review, Status
+from usd2kg.grounding.model import Candidate, Concept, Decision, Grounding, Prediction, Review, Status
 from usd2kg.grounding.platt_scaling import PlattScaling, read_scaling
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
 
@@ -29,6 +36,7 @@ __all__ = [
     "Candidate",
     "CascadeGrounder",
     "Concept",
+    "Decision",
     "DecisionOrigin",
     "Grounder",
     "Grounding",
@@ -38,6 +46,7 @@ __all__ = [
     "Prediction",
     "Review",
     "Status",
+    "as_decision",
     "check_format",
     "concepts_named",
     "find_uncertain",

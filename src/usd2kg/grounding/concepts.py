@@ -17,7 +17,7 @@ def add_concepts(
 ) -> tuple[dict[str, Prediction], dict[str, Concept]]:
     """Return the predictions with their concepts, and IRI → concept for these and their hypernyms.
 
-    An object has no concept if its words mean another class than the one that a person chose.
+    An object has no concept if its words contradict the class that a person chose.
 
     Args:
         predictions: prim path → prediction.
@@ -27,37 +27,58 @@ def add_concepts(
     # Imported here, since it reads the noun taxonomy.
     from usd2kg.grounding.lexical.recognition import describe_concepts, load_recognizer  # noqa: PLC0415
 
-    contradicted = _find_contradicted(predictions, views, tbox)
+    named = _classes_by_words(predictions, views, tbox)
     completed = dict(predictions)
     with paused_collection():
         recognizer = load_recognizer()
-        for path in predictions.keys() - contradicted:
-            found = recognizer.recognize(views[path], predictions[path].words)
-            if found is not None:
-                completed[path] = replace(predictions[path], concept=found.concept, concept_confidence=found.confidence)
+        for path, prediction in predictions.items():
+            found = recognizer.recognize(views[path], prediction.words)
+            is_decided = prediction.status is Status.REVIEWED
+            if found is None or (is_decided and not _agrees(found.concept, named[path], prediction.class_iri, tbox)):
+                continue
+            completed[path] = replace(prediction, concept=found.concept, concept_confidence=found.confidence)
     return completed, describe_concepts(p.concept for p in completed.values() if p.concept is not None)
 
 
 def concepts_named(noun: str) -> tuple[str, ...]:
-    """Return the IRIs of the concepts that a noun or compound may mean; empty if it is unknown."""
+    """Return the IRIs of the concepts that a noun or compound may mean, the usual one first; empty if it is unknown."""
     from usd2kg.grounding.lexical import recognition  # noqa: PLC0415
 
     return recognition.concepts_named(noun)
 
 
-def _find_contradicted(
+def _classes_by_words(
     predictions: Mapping[str, Prediction], views: Mapping[str, ObjectView], tbox: TBox
-) -> frozenset[str]:
-    """Return the paths of the objects whose words mean another class than the one that a person chose."""
-    chosen = {path: p.class_iri for path, p in predictions.items() if p.status is Status.REVIEWED}
-    if not chosen:
-        return frozenset()
-    by_words = make_grounder("lexical").ground_views([(path, views[path]) for path in chosen], tbox)
-    return frozenset(p.prim_path for p in by_words if not _agree(p.class_iri, chosen[p.prim_path], tbox))
+) -> dict[str, ClassIRI | None]:
+    """Return prim path → class by the evidence, of the objects whose class a person chose."""
+    decided = [(path, views[path]) for path, p in predictions.items() if p.status is Status.REVIEWED]
+    if not decided:
+        return {}
+    return {p.prim_path: p.class_iri for p in make_grounder("lexical").ground_views(decided, tbox)}
 
 
-def _agree(one: ClassIRI | None, other: ClassIRI | None, tbox: TBox) -> bool:
-    """Return whether one of two classes is a subclass of the other."""
-    if one is None or other is None:
+def _agrees(concept: str, by_words: ClassIRI | None, chosen: ClassIRI | None, tbox: TBox) -> bool:
+    """Return whether an object with a concept may belong to the class that a person chose.
+
+    Args:
+        concept: the concept that the object's words name.
+        by_words: the class that they mean.
+        chosen: the class that the person chose.
+        tbox: the classes.
+    """
+    if by_words is None or chosen is None:
         return False
-    return tbox.is_subclass(one, other) or tbox.is_subclass(other, one)
+    if tbox.is_subclass(by_words, chosen):
+        return True
+    if not tbox.is_subclass(chosen, by_words):
+        return False
+    # The words mean only a coarse class: of the artifacts, a ball is no bowl.
+    meant = concepts_named(tbox.by_iri[chosen].label)[:1]
+    return not meant or _is_below(concept, meant[0]) or _is_below(meant[0], concept)
+
+
+def _is_below(concept: str, above: str) -> bool:
+    """Return whether a concept is a hyponym of another, or the same."""
+    from usd2kg.grounding.lexical.recognition import describe_concepts  # noqa: PLC0415
+
+    return above in describe_concepts([concept])

@@ -10,26 +10,35 @@ from pathlib import Path
 from typing import NamedTuple
 
 from usd2kg.errors import GroundingError, OntologyError
-from usd2kg.grounding.model import Grounding, Prediction, Status
+from usd2kg.grounding.model import Decision, Grounding, Prediction, Review, Status
 from usd2kg.grounding.settings import QUEUE
 from usd2kg.grounding.sssom_decisions import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["PERSON", "DecisionOrigin", "find_uncertain", "format_queue", "make_decision", "read_decisions"]
+__all__ = [
+    "PERSON",
+    "DecisionOrigin",
+    "as_decision",
+    "find_uncertain",
+    "format_queue",
+    "make_decision",
+    "read_decisions",
+]
 
 PERSON = "person"
 """The grounder id of decisions."""
 _EXPECTED = "expected CSV with the columns path and decision (or class)"
-_QUEUE_COLUMNS = ("path", "decision", "answer", "confidence", "alternatives", "explanation")
+_QUEUE_COLUMNS = ("path", "decision", "reviewer", "comment", "answer", "confidence", "alternatives", "explanation")
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 """Characters with which a spreadsheet formula begins."""
 
 
-def read_decisions(path: Path, tbox: TBox) -> dict[str, ClassIRI]:
-    """Return prim path → decided class from a CSV file, without the rows whose decision is empty.
+def read_decisions(path: Path, tbox: TBox) -> dict[str, Decision]:
+    """Return prim path → decision from a CSV file, without the rows whose decision is empty.
 
-    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a unique local name. A file
-    whose name ends in .tsv is read as SSSOM, see `read_sssom_decisions`.
+    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a unique local name. The columns
+    `reviewer`, `comment` and `time` are optional. A file whose name ends in .tsv is read as SSSOM, see
+    `read_sssom_decisions`.
 
     Raises:
         GroundingError: the file cannot be read, a column is missing, a class is not in scope, or a prim has two.
@@ -44,12 +53,12 @@ def read_decisions(path: Path, tbox: TBox) -> dict[str, ClassIRI]:
         raise GroundingError(f"{path}: cannot be read as decisions ({error}); {_EXPECTED}") from error
 
 
-def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str, ClassIRI]:
+def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str, Decision]:
     columns = rows.fieldnames or ()
     column = next((name for name in ("decision", "class") if name in columns), None)
     if column is None or "path" not in columns:
         raise GroundingError(f"{path}: line 1 has the columns {', '.join(columns) or 'nothing'}; {_EXPECTED}")
-    decisions: dict[str, ClassIRI] = {}
+    decisions: dict[str, Decision] = {}
     for row in rows:
         prim_path, name = ((row[key] or "").strip() for key in ("path", column))
         if not prim_path or not name:
@@ -58,7 +67,9 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str,
             iri = tbox.resolve(name)
         except OntologyError as error:
             raise GroundingError(f"{path}: line {rows.line_num}: {error}") from error
-        if decisions.setdefault(prim_path, iri) != iri:
+        reviewer, comment, time = ((row.get(key) or "").strip() for key in ("reviewer", "comment", "time"))
+        decision = Decision(iri, reviewer, comment, time)
+        if decisions.setdefault(prim_path, decision).class_iri != iri:
             raise GroundingError(f"{path}: line {rows.line_num}: {prim_path} has two decisions; leave one")
     return decisions
 
@@ -72,12 +83,27 @@ class DecisionOrigin(NamedTuple):
     """Why it is the same object, as text."""
 
 
-def make_decision(prim_path: str, class_iri: ClassIRI, origin: DecisionOrigin | None = None) -> Prediction:
+def as_decision(decision: ClassIRI | Decision) -> Decision:
+    """Return a decision, given as such or as a class alone."""
+    return Decision(decision) if isinstance(decision, str) else decision
+
+
+def make_decision(prim_path: str, decision: ClassIRI | Decision, origin: DecisionOrigin | None = None) -> Prediction:
     """Return a person's decision as a prediction; `origin` is given if it was made about another path."""
-    if origin is None:
-        return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, "decided by a person")
-    explanation = f"decided by a person for {origin.prim_path}, the same object ({origin.reason})"
-    return Prediction(prim_path, class_iri, 1.0, Status.REVIEWED, PERSON, explanation, decided_for=origin.prim_path)
+    made = as_decision(decision)
+    explanation = "decided by a person"
+    if origin is not None:
+        explanation += f" for {origin.prim_path}, the same object ({origin.reason})"
+    return Prediction(
+        prim_path=prim_path,
+        class_iri=made.class_iri,
+        confidence=1.0,
+        status=Status.REVIEWED,
+        grounder=PERSON,
+        explanation=explanation,
+        review=Review(made.reviewer, None, None, None, made.comment, made.time) if made.reviewer else None,
+        decided_for=origin.prim_path if origin is not None else "",
+    )
 
 
 def find_uncertain(grounding: Grounding, min_confidence: float) -> list[Prediction]:
@@ -90,7 +116,7 @@ def find_uncertain(grounding: Grounding, min_confidence: float) -> list[Predicti
 
 
 def format_queue(predictions: Sequence[Prediction], tbox: TBox) -> str:
-    """Return the queue as CSV, with an empty column `decision` for a person to fill in."""
+    """Return the queue as CSV, with empty columns `decision`, `reviewer` and `comment` for a person to fill in."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_QUEUE_COLUMNS)
@@ -99,7 +125,7 @@ def format_queue(predictions: Sequence[Prediction], tbox: TBox) -> str:
         answer = tbox.by_iri[prediction.class_iri].local_name if prediction.class_iri else ""
         alternatives = "|".join(_alternatives(prediction, tbox))
         explanation = _escape_formula(prediction.explanation)
-        writer.writerow((prediction.prim_path, "", answer, confidence, alternatives, explanation))
+        writer.writerow((prediction.prim_path, "", "", "", answer, confidence, alternatives, explanation))
     return text.getvalue()
 
 

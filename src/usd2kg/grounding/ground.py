@@ -7,7 +7,7 @@ from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.concepts import add_concepts
 from usd2kg.grounding.context.views import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, view_objects
 from usd2kg.grounding.decisions import DecisionOrigin, make_decision
-from usd2kg.grounding.model import Grounding, Prediction, Status
+from usd2kg.grounding.model import Decision, Grounding, Prediction, Status
 from usd2kg.grounding.registry import make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
@@ -23,7 +23,7 @@ def ground(
     regime: NamingRegime = NamingRegime.SEMANTIC,
     evidence: frozenset[str] | None = None,
     paths: Iterable[str] | None = None,
-    decisions: Mapping[str, ClassIRI] | None = None,
+    decisions: Mapping[str, ClassIRI | Decision] | None = None,
     carried: Mapping[str, DecisionOrigin] | None = None,
     abbreviated_length: int = ABBREVIATED_LENGTH,
 ) -> Grounding:
@@ -36,7 +36,8 @@ def ground(
         regime: how names are masked.
         evidence: names of the evidence groups to use; all by default.
         paths: ground only these prims, in this order; prims that are not on the stage get the status `missing`.
-        decisions: prim path → class that a person decided on; these objects are not passed to the grounder.
+        decisions: prim path → class that a person decided on, alone or with the reviewer; these objects are not passed
+            to the grounder.
         carried: prim path → origin, for decisions that were made about another path.
         abbreviated_length: letters kept of each word in the abbreviated regime.
     """

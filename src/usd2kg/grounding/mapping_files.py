@@ -91,7 +91,8 @@ def _read_prediction(item: dict[str, Any]) -> Prediction:
     item["words"] = tuple(item.get("words", ()))
     if item.get("review") is not None:
         review = item["review"]
-        item["review"] = Review(**{**review, "predicted_status": Status(review["predicted_status"])})
+        predicted = review["predicted_status"]
+        item["review"] = Review(**{**review, "predicted_status": Status(predicted) if predicted else None})
     return Prediction(**item)
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["Candidate", "Concept", "Grounding", "Prediction", "Review", "Status"]
+__all__ = ["Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status"]
 
 
 class Status(StrEnum):
@@ -51,6 +51,19 @@ class Concept:
 
 
 @dataclass(frozen=True, slots=True)
+class Decision:
+    """The class that a person chose for an object, without knowing or keeping what was predicted."""
+
+    class_iri: ClassIRI
+    reviewer: str = ""
+    """Who decided: an IRI such as an ORCID iD, or a name; empty if unknown."""
+    comment: str = ""
+    """The reason, empty if none was given."""
+    time: str = ""
+    """When, as ISO 8601; empty if unknown."""
+
+
+@dataclass(frozen=True, slots=True)
 class Review:
     """A person's decision about an object, and what was predicted before."""
 
@@ -58,7 +71,8 @@ class Review:
     """Who decided: an IRI such as an ORCID iD, or a name."""
     predicted_class: ClassIRI | None
     predicted_confidence: float | None
-    predicted_status: Status
+    predicted_status: Status | None
+    """None if nothing was predicted."""
     comment: str = ""
     """The reviewer's reason, empty if none was given."""
     time: str = ""

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
+from usd2kg.grounding.model import Decision
 from usd2kg.grounding.sssom_file import SssomFile, read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox
 
@@ -24,8 +25,8 @@ def is_sssom(path: Path) -> bool:
     return path.suffix.lower() == ".tsv"
 
 
-def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, ClassIRI]:
-    """Return prim path → class for the rows that a person curated or reviewed; other rows are ignored.
+def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, Decision]:
+    """Return prim path → decision for the rows that a person curated or reviewed; other rows are ignored.
 
     A reviewed row has a reviewer (reviewer_id or reviewer_label); a curated row has the justification
     semapv:ManualMappingCuration. Negated rows (predicate_modifier) and sssom:NoTermFound give no class.
@@ -34,12 +35,14 @@ def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, ClassIR
         GroundingError: a column is missing, a predicate is not rdf:type, a class is not in scope, or a prim has two.
     """
     file = read_sssom_file(path, text, _REQUIRED, _EXPECTED)
-    decisions: dict[str, ClassIRI] = {}
+    decisions: dict[str, Decision] = {}
     for line, cells in file.rows:
         if not _is_decided(cells) or file.expand(cells["object_id"]) == _NO_TERM:
             continue
         iri = _read_class(f"{path}: line {line}", cells, file, tbox)
-        if decisions.setdefault(cells["prim_path"], iri) != iri:
+        reviewer = file.expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|")
+        decision = Decision(iri, reviewer, time=cells.get("review_date", ""))
+        if decisions.setdefault(cells["prim_path"], decision).class_iri != iri:
             raise GroundingError(f"{path}: line {line}: {cells['prim_path']} has two decisions; leave one")
     if file.rows and not decisions:
         problem = "none of its %d rows was decided by a person, so none is a decision; fill in reviewer_label"

@@ -16,7 +16,7 @@ from tests.grounding.records import LAB, make_class, make_tbox
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.graph import format_sssom
 from usd2kg.graph.iris import individual_iri
-from usd2kg.grounding import Candidate, Concept, Grounding, Prediction, Status, read_decisions
+from usd2kg.grounding import Candidate, Concept, Decision, Grounding, Prediction, Status, read_decisions
 from usd2kg.grounding.decisions import make_decision
 
 TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label="cup"))
@@ -143,9 +143,9 @@ class TestReadingBack:
         by_hand = make_decision("/Küche/h", LAB + "Thing")
         path = self.write(tmp_path, CUP, CORRECTED, CONFIRMED, NO_CLASS, by_hand)
         assert read_decisions(path, TBOX) == {
-            "/Küche/x": LAB + "Cup",
-            "/Küche/c": LAB + "Cup",
-            "/Küche/h": LAB + "Thing",
+            "/Küche/x": Decision(LAB + "Cup", "Ann | Bob", time="2026-07-15"),
+            "/Küche/c": Decision(LAB + "Cup", "https://orcid.org/0000-0001-2345-6789"),
+            "/Küche/h": Decision(LAB + "Thing"),
         }
 
     def test_warns_if_no_row_is_a_decision(self, tmp_path: Path, caplog: pytest.LogCaptureFixture):
@@ -163,7 +163,7 @@ class TestReadingBack:
             "/c\thttp://www.w3.org/1999/02/22-rdf-syntax-ns#type\tThing\tsemapv:LexicalMatching\t\tAnn\n",
             encoding="utf-8",
         )
-        assert read_decisions(path, TBOX) == {"/a": LAB + "Cup", "/c": LAB + "Thing"}
+        assert read_decisions(path, TBOX) == {"/a": Decision(LAB + "Cup"), "/c": Decision(LAB + "Thing", "Ann")}
 
     @pytest.mark.parametrize(
         ("body", "message"),

@@ -11,7 +11,8 @@ from usd2kg.errors import GroundingError
 from usd2kg.files import check_writable
 
 if TYPE_CHECKING:
-    from usd2kg.ontology import ClassIRI, TBox
+    from usd2kg.grounding import Decision
+    from usd2kg.ontology import TBox
 
 __all__ = ["CarryOverOptions", "ReviewOptions"]
 
@@ -38,8 +39,8 @@ class ReviewOptions(OptionBundle):
         Option("--queue", help="CSV file to write: the objects that a person should decide, for --decisions."),
     ] = None
 
-    def read(self, tbox: "TBox") -> "dict[str, ClassIRI]":
-        """Return prim path → class that a person chose.
+    def read(self, tbox: "TBox") -> "dict[str, Decision]":
+        """Return prim path → decision.
 
         Raises:
             GroundingError: the file cannot be read.

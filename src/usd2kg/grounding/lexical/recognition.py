@@ -176,7 +176,7 @@ def _explain(noun: str) -> str:
 
 
 def concepts_named(noun: str) -> tuple[str, ...]:
-    """Return the IRIs of the senses of a noun or compound, in the singular or plural; empty if it is unknown.
+    """Return the IRIs of the senses of a noun or compound, in the singular or plural, the usual one first.
 
     >>> concepts_named("Couches")[0] == concepts_named("sofa")[0]
     True
@@ -184,7 +184,8 @@ def concepts_named(noun: str) -> tuple[str, ...]:
     taxonomy = load_taxonomy()
     *before, last = words_of(noun) or [""]
     key = "".join(before) + taxonomy.singular(last)
-    return tuple(taxonomy.concept_iri(sense.synset) for sense in taxonomy.senses(key))
+    senses = sorted(taxonomy.senses(key), key=sense_weight, reverse=True)
+    return tuple(taxonomy.concept_iri(sense.synset) for sense in senses)
 
 
 def describe_concepts(iris: Iterable[str]) -> dict[str, Concept]:
