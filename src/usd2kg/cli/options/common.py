@@ -18,7 +18,15 @@ BaseIri = Annotated[
     Option("--base", help="Namespace of the individuals, ending in / or #; default: derived from the file name."),
 ]
 JsonOutput = Annotated[bool, Option("--json", help="Print JSON instead of text.")]
-TextFile = Annotated[Path | None, Option("--output", "-o", help="File to write; default: stdout.")]
+TextFile = Annotated[
+    Path | None,
+    Option(
+        "--output",
+        "-o",
+        help="File to write; default, or -: stdout.",
+        callback=lambda path: None if path == Path("-") else path,
+    ),
+]
 ReportFolder = Annotated[Path, Option("--output", "-o", help="Folder for answers and reports.")]
 AllFindings = Annotated[
     bool, Option("--all", help=f"Show every finding; default: the first {FINDINGS_PER_RULE} of each rule.")
