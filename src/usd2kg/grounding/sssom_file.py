@@ -94,20 +94,25 @@ def read_sssom_file(
     Raises:
         GroundingError: a column is missing, or the text is not TSV.
     """
-    slots, declared = _read_header(text)
+    lines = [_header_line(line) for line in text.splitlines(keepends=True)]
+    start = next((number for number, line in enumerate(lines) if not line.startswith("#")), len(lines))
+    slots, declared = _read_header(lines[:start])
     return SssomFile(
-        slots, {**(prefixes or {}), **_BUILT_IN, **declared}, tuple(_read_rows(path, text, required, expected))
+        slots, {**(prefixes or {}), **_BUILT_IN, **declared}, tuple(_read_rows(path, lines, start, required, expected))
     )
 
 
-def _read_header(text: str) -> tuple[dict[str, str], dict[str, str]]:
+def _header_line(line: str) -> str:
+    """Return a line; if it is one of a header that a spreadsheet has quoted, without the quotes."""
+    return next(csv.reader([line], delimiter="\t"))[0] if line.startswith('"#') else line
+
+
+def _read_header(lines: Iterable[str]) -> tuple[dict[str, str], dict[str, str]]:
     """Return the slots and the curie_map of the header, which is YAML with a `#` before each line."""
     slots: dict[str, str] = {}
     prefixes: dict[str, str] = {}
     is_map = False
-    for line in text.splitlines():
-        if not line.startswith("#"):
-            break
+    for line in lines:
         if top := re.match(r"#\s?([\w.-]+):\s*(.*?)\s*$", line):
             is_map = top[1] == "curie_map"
             if top[2]:
@@ -125,10 +130,10 @@ def _unquote(value: str) -> str:
         return value
 
 
-def _read_rows(path: Path, text: str, required: Sequence[str], expected: str) -> Iterator[SssomRow]:
-    """Yield the rows, each with the number of its last line."""
-    lines = text.splitlines(keepends=True)
-    start = next((number for number, line in enumerate(lines) if not line.startswith("#")), len(lines))
+def _read_rows(
+    path: Path, lines: Sequence[str], start: int, required: Sequence[str], expected: str
+) -> Iterator[SssomRow]:
+    """Yield the rows below the first `start` lines, each with the number of its last line."""
     rows = csv.DictReader(lines[start:], delimiter="\t", strict=True)
     try:
         missing = [name for name in required if name not in (rows.fieldnames or ())]
