@@ -362,6 +362,34 @@ class TestOntology:
         )
         assert run("build", room, "--alignment", edits, "-o", tmp_path / "room.ttl").code == 0
         assert "alignment=sha256:" in (tmp_path / "room.ttl").read_text("utf-8")
+        gold = tmp_path / "gold.csv"
+        gold.write_text("path,class\n/Room/Apple,Bowl\n", encoding="utf-8")
+        scored = json.loads(run("eval", "run", room, "--gold", gold, "--alignment", edits, "--json").out)
+        assert (scored["ema"], scored["settings"]["alignment"][:7]) == (100, "sha256:")
+
+    def test_align_writes_to_stdout(self, run: Run, tmp_path: Path):
+        lab = tmp_path / "lab.ttl"
+        lab.write_text(
+            "@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+            "<http://x.example/lab> a owl:Ontology . <http://x.example/lab#Thing> a owl:Class .\n"
+            "<http://x.example/lab#Beaker> a owl:Class ; rdfs:subClassOf <http://x.example/lab#Thing> .\n",
+            encoding="utf-8",
+        )
+        done = run("ontology", "align", lab)
+        assert (done.code, done.out.partition("\n")[0]) == (0, '#sssom_version: "1.1"')
+        assert run("ontology", "align", lab, "-o", "-").out == done.out
+        assert list(Path().iterdir()) == []
+
+    def test_a_bad_row_is_named_with_its_line(self, run: Run, room: Path, tmp_path: Path):
+        edits = tmp_path / "edits.tsv"
+        edits.write_text(
+            "subject_id\tsubject_label\tpredicate_id\tobject_id\tmapping_justification\n"
+            "\tapple\tskos:exactMatch\tsoma:Nope\tsemapv:ManualMappingCuration\n"
+        )
+        done = run("ground", room, "--alignment", edits)
+        assert (done.code, done.out) == (2, "")
+        assert done.err.startswith(f"usd2kg: {edits}: line 2: built-in home TBox: ")
+        assert "SOMA.owl#Nope' names no class of the 102 in scope; expected an IRI" in done.err
 
     def test_align_suggests_subclasses(self, run: Run, room: Path, tmp_path: Path):
         done = run("ontology", "align", "--subclasses", tmp_path / "more.ttl", "--scene", room)

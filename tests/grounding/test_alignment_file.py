@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from benchmarks.names.lists import PUBLIC_ONTOLOGIES, iter_ontology_lists
 from tests.conftest import shared_file
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
+from usd2kg import build
 from usd2kg.demo import demo_scene
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import ground
@@ -25,6 +26,7 @@ from usd2kg.scene import read_scene
 
 VALIDATOR = Path(__file__).parents[2] / "build/sssom/bin/sssom"
 GUITAR = "wn:03472449-n"
+VASE = "wn:04529463-n"
 SHOP = make_tbox(
     make_class("Item", label="item"),
     make_class("Stationery", "Item", label="stationery"),
@@ -115,6 +117,15 @@ class TestText:
         ]
         assert found[0]["comment"] == "“furniture” is the label of the class"
 
+    def test_a_kind_of_a_class_has_a_broader_match(self, home_tbox: TBox):
+        lines = LexicalGrounder().format_alignment(home_tbox).splitlines()
+        rows = [line.split("\t") for line in lines if line.startswith((GUITAR, "wn:04077839-n", "\tguitar\t"))]
+        assert [(row[1], row[3], row[6]) for row in rows] == [
+            ("refrigerator", "skos:exactMatch", "refrigerator"),
+            ("guitar", "skos:broadMatch", "artifact"),
+            ("guitar", "skos:broadMatch", "artifact"),
+        ]
+
     def test_a_category_member_has_a_broader_match(self):
         (row,) = [row for row in self.rows() if row["subject_label"] == "adhesive tape"]
         assert (row["predicate_id"], row["object_id"]) == ("skos:broadMatch", "ns1:Stationery")
@@ -144,6 +155,8 @@ class TestEdits:
         names = "guitar_red electric_guitar chair"
         assert classes_of(names, home_tbox) == ["DesignedArtifact", "DesignedArtifact", "DesignedChair"]
         assert classes_of(names, home_tbox, edits) == ["Tableware", "Tableware", "DesignedChair"]
+        edits = write_edits(edit(VASE, "vase", "soma:Tableware", "skos:broadMatch"))
+        assert classes_of("vase urn jar", home_tbox, edits) == ["Tableware", "Tableware", "Jar"]
 
     def test_labels_of_the_ontology_stay(self):
         edits = write_edits(edit("wn:03410635-n", "furniture", "Media"))
@@ -170,6 +183,36 @@ class TestEdits:
         assert text != TestText.TEXT
         assert classes_of("chair", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Media"]
 
+    @pytest.mark.parametrize("subject", ["wn:03410635-n", ""], ids=["concept", "term"])
+    def test_an_edited_class_suffices(self, subject: str):
+        lines = TestText.TEXT.splitlines(keepends=True)
+        (row,) = [line for line in lines if line.startswith(f"{subject}\tfurniture\t")]
+        text = TestText.TEXT.replace(row, row.replace("ns1:Furniture", "ns1:Media"))
+        name = "chair" if subject else "furniture"
+        assert classes_of(name, SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Media"]
+
+    def test_an_edited_row_of_a_model_is_a_person_s(self, home_tbox: TBox):
+        columns = (*HEADER, "mapping_tool")
+        edits = write_edits((*edit(GUITAR, "guitar", "soma:Tableware"), "some model"), columns=columns)
+        assert classes_of("guitar_red", home_tbox, edits) == ["Tableware"]
+
+    @pytest.mark.parametrize("predicate", ["skos:exactMatch", "skos:closeMatch", "skos:broadMatch"])
+    def test_any_predicate_decides(self, home_tbox: TBox, predicate: str):
+        edits = write_edits(edit(GUITAR, "guitar", "soma:Tableware", predicate))
+        assert classes_of("guitar_red", home_tbox, edits) == ["Tableware"]
+
+    def test_a_spreadsheet_may_quote_the_header_and_fill_up_its_rows(self):
+        file = io.StringIO(newline="")
+        lines = TestText.TEXT.splitlines()
+        width = max(line.count("\t") for line in lines)
+        for line in lines:
+            cells = [line] if line.startswith("#") else line.split("\t")
+            csv.writer(file, delimiter="\t").writerow([*cells, *[""] * (width - len(cells) + 1)])
+        assert file.getvalue().startswith('"#sssom_version: ""1.1"""\t')
+        taxonomy, synonyms = load_taxonomy(), home_names()
+        saved = AlignmentFile(Path("x.tsv"), file.getvalue()).apply(SHOP, taxonomy, synonyms)
+        assert saved == build_rooted_lexicon(SHOP, taxonomy, synonyms)
+
     def test_the_explanation_says_so(self):
         scene = make_scene(make_object("/World/electric_guitar"))
         grounder = LexicalGrounder(alignment=write_edits(edit(GUITAR, "guitar", "Media")))
@@ -180,6 +223,29 @@ class TestEdits:
         edits = write_edits(edit(GUITAR, "guitar", "Media"))
         assert LexicalGrounder(alignment=edits).settings["alignment"] == edits.digest
         assert "alignment" not in LexicalGrounder().settings
+
+
+class TestBuild:
+    def test_uses_a_file(self, home_tbox: TBox, tmp_path: Path):
+        path = tmp_path / "edits.sssom.tsv"
+        edits = write_edits(edit(VASE, "vase", "soma:Tableware"))
+        path.write_text(edits.text, encoding="utf-8")
+        grounding = build(demo_scene(), home_tbox, alignment=path).grounding
+        assert grounding.settings["alignment"] == edits.digest
+        (vase,) = [p for p in grounding.predictions if p.prim_path.endswith("/vase_empty_02")]
+        assert vase.class_iri is not None
+        assert home_tbox.by_iri[vase.class_iri].local_name == "Tableware"
+
+    @pytest.mark.parametrize(
+        ("grounder", "message"),
+        [
+            ("volume", "grounder 'volume' takes no alignment; choose the grounder lexical"),
+            (LexicalGrounder(), "the grounder is given as an object; expected its name to use the alignment"),
+        ],
+    )
+    def test_other_grounders_take_none(self, grounder: LexicalGrounder | str, message: str):
+        with pytest.raises(GroundingError, match=message):
+            build(demo_scene(), grounder=grounder, alignment="edits.sssom.tsv")
 
 
 class TestErrors:
@@ -213,6 +279,27 @@ class TestErrors:
         with pytest.raises(GroundingError, match=f"line 2: {message}"):
             classes_of("guitar", SHOP, edits)
 
+    @pytest.mark.parametrize(
+        "rows",
+        [
+            (edit(GUITAR, "guitar", "Media"), edit(GUITAR, "guitar", "Furniture")),
+            (edit("", "guitar", "Media"), edit("", "Guitar", "Furniture")),
+        ],
+        ids=["concept", "term"],
+    )
+    def test_two_classes_of_a_subject_are_named(self, rows: tuple[tuple[str, ...], ...]):
+        with pytest.raises(GroundingError, match=r"line 3: '[Gg]uitar' has another class on line 2; leave one of them"):
+            classes_of("guitar", SHOP, write_edits(*rows))
+
+    def test_the_alignment_of_another_ontology_is_named(self, home_tbox: TBox):
+        text = LexicalGrounder().format_alignment(home_tbox)
+        number = next(at for at, line in enumerate(text.splitlines(), start=1) if line.startswith("#default_class"))
+        expected = (
+            rf"x\.tsv: line {number}: .*#DesignedArtifact' names no class .*; the alignment was written for http:"
+        )
+        with pytest.raises(GroundingError, match=expected):
+            classes_of("guitar", SHOP, AlignmentFile(Path("x.tsv"), text))
+
     def test_another_file_is_rejected(self):
         with pytest.raises(GroundingError, match="line 1 has no column subject_label; expected an alignment"):
             classes_of("guitar", SHOP, AlignmentFile(Path("x.csv"), "path,class\n/Guitar,Media\n"))
@@ -225,3 +312,4 @@ class TestErrors:
         text = TestText.TEXT.replace(f'object_source_version: "{SHOP.content_hash}"', 'object_source_version: "old"')
         assert classes_of("chair", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Furniture"]
         assert "was written for another version of the ontology" in caplog.text
+        assert "write it again with usd2kg ontology align, and copy the rows of people into it" in caplog.text

@@ -52,12 +52,13 @@ def format_alignment(rooted: TBox, lexicon: Lexicon, taxonomy: Taxonomy, others:
 
 _TERM_REASONS = {
     TermKind.LABEL: "the label of the class",
-    TermKind.SYNONYM: "another name of the class",
+    TermKind.SYNONYM: "a name for objects of the class",
     TermKind.LENT: "a name of the home vocabulary for a class with this label",
     TermKind.HEAD: "the head noun of the label",
     TermKind.MODEL: "a name by a language model",
     TermKind.CURATED: "a name chosen by a person",
 }
+_OTHER_REASON = "same meaning as a label, or no more specific class"
 
 
 def _term_rows(lexicon: Lexicon) -> Iterator[AlignmentRow]:
@@ -69,28 +70,35 @@ def _term_rows(lexicon: Lexicon) -> Iterator[AlignmentRow]:
             confidence=term.kind.weight,
             reason=_TERM_REASONS[term.kind],
             term_kind=term.kind,
+            is_kind=_is_kind(term, lexicon),
         )
 
 
+def _is_kind(term: Term, lexicon: Lexicon) -> bool:
+    """Return whether a term names a kind of the class: the home vocabulary lists kinds, not synonyms."""
+    is_home_name = term.kind is TermKind.SYNONYM and term.class_iri in lexicon.home_classes
+    return is_home_name or term.kind is TermKind.LENT
+
+
 def _concept_rows(lexicon: Lexicon, taxonomy: Taxonomy) -> Iterator[AlignmentRow]:
-    reasons: dict[tuple[int, ClassIRI], str] = {}
+    named: dict[tuple[int, ClassIRI], tuple[Term, str]] = {}
     for key, term in lexicon.terms.items():
         senses = taxonomy.senses(key)
         for number, sense in enumerate(senses, start=1):
             which = f", sense {number} of {len(senses)}" if len(senses) > 1 else ""
-            reason = f"“{term.text}” is {_TERM_REASONS[term.kind]}{which}"
-            if term.kind is TermKind.LABEL:
-                reasons[sense.synset, term.class_iri] = reason
-            else:
-                reasons.setdefault((sense.synset, term.class_iri), reason)
+            pair = sense.synset, term.class_iri
+            if term.kind is TermKind.LABEL or pair not in named:
+                named[pair] = term, f"“{term.text}” is {_TERM_REASONS[term.kind]}{which}"
     for synset, aligned in lexicon.sense_classes.items():
+        own, reason = named.get((synset, aligned.class_iri), (None, _OTHER_REASON))
         yield AlignmentRow(
             kind=RowKind.CONCEPT,
             subject=taxonomy.concept_iri(synset),
             class_iri=aligned.class_iri,
             confidence=aligned.weight,
             label=taxonomy.label(synset),
-            reason=reasons.get((synset, aligned.class_iri), "same meaning as a label, or no more specific class"),
+            reason=reason,
+            is_kind=own is not None and _is_kind(own, lexicon),
         )
 
 
@@ -138,7 +146,8 @@ class AlignmentFile:
         else:
             if content_hash and content_hash != tbox.content_hash:
                 problem = "was written for another version of the ontology, so classes that are new have no rows"
-                logger.warning("%s: %s; write it again with usd2kg ontology align", self.path, problem)
+                advice = "write it again with usd2kg ontology align, and copy the rows of people into it"
+                logger.warning("%s: %s; %s", self.path, problem, advice)
             rooted = with_root(tbox, default, taxonomy)
             home = home_classes_of(rooted, root_synonyms(rooted, synonyms))
             editor = _Editor(self.path, rooted, taxonomy, make_lexicon(rooted, {}, {}, {}, default, home))

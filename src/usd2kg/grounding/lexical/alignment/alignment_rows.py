@@ -1,7 +1,8 @@
 """Rows of an alignment file: SSSOM/TSV text ↔ records."""
 
 import math
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from importlib.metadata import version
@@ -45,7 +46,8 @@ _EXTENSIONS = {
 _EXPECTED = "expected an alignment as usd2kg ontology align writes it"
 _HOW_TO_EDIT = (
     "To change where a concept or term belongs, edit object_id and write semapv:ManualMappingCuration as the "
-    "justification; a concept takes everything below it along. Rows can be added and deleted."
+    "justification; a concept takes everything below it along. Rows can be added and deleted. The confidence of a term "
+    "follows from its term_kind."
 )
 
 
@@ -55,9 +57,12 @@ class RowKind(Enum):
     TERM = "skos:exactMatch"
     """A word or compound that names the class; the subject is a literal."""
     CONCEPT = "skos:closeMatch"
-    """A concept whose objects belong to the class, as do those of its hyponyms; `skos:exactMatch` if fully trusted."""
+    """A concept whose objects belong to the class, as do those of its hyponyms.
+
+    `skos:exactMatch` if fully trusted, `skos:broadMatch` if it is a kind of the class.
+    """
     CATEGORY = "skos:broadMatch"
-    """A concept that counts among the class in common usage."""
+    """A concept that counts among the class in common usage; the row has a category size."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +84,9 @@ class AlignmentRow:
     category_size: int = 0
     """Number of concepts in the category."""
     model: str = ""
-    """The language model that named the subject; empty if none did."""
+    """The language model that named the subject; empty if none did, or if a person decided after it."""
+    is_kind: bool = False
+    """Whether the subject is a kind of the class rather than the class itself; only for writing."""
     is_curated: bool = False
     """Whether a person decided."""
     is_negated: bool = False
@@ -122,15 +129,16 @@ def written_class(iri: ClassIRI) -> str:
 def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
     is_term = row.kind is RowKind.TERM
     is_exact = row.kind is RowKind.CONCEPT and row.confidence == 1.0
+    predicate = "skos:exactMatch" if is_exact else "skos:broadMatch" if row.is_kind else row.kind.value
     is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT or bool(row.model)
     return {
         "subject_id": "" if is_term else curies.shorten(row.subject),
         "subject_label": one_line(row.subject if is_term else row.label),
         "subject_type": _LITERAL if is_term else "skos concept",
-        "predicate_id": "skos:exactMatch" if is_exact else row.kind.value,
+        "predicate_id": predicate,
         "predicate_modifier": "Not" if row.is_negated else "",
         "object_id": curies.shorten(written_class(row.class_iri)),
-        "object_label": NO_CLASS if row.class_iri == NO_CLASS_IRI else one_line(tbox.by_iri[row.class_iri].label),
+        "object_label": _class_label(row.class_iri, tbox),
         "mapping_justification": "semapv:BackgroundKnowledgeBasedMatching" if is_known else "semapv:LexicalMatching",
         "mapping_tool": one_line(row.model),
         "confidence": f"{row.confidence:g}",
@@ -140,62 +148,103 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
     }
 
 
+def _class_label(iri: ClassIRI, tbox: TBox) -> str:
+    return NO_CLASS if iri == NO_CLASS_IRI else one_line(tbox.by_iri[iri].label)
+
+
 def parse_rows(path: Path, text: str, tbox: TBox) -> tuple[ClassIRI | None, str, list[AlignmentRow]]:
     """Return the default class, the hash of the ontology and the rows of a file.
 
     The default class is None and the hash empty if the header does not have them: the file only changes an alignment.
 
     Raises:
-        GroundingError: the file is malformed, or a class is not in scope; the message has the line.
+        GroundingError: the file is malformed, a class is not in scope, or a subject has two classes; the message has
+            the line.
     """
     file = read_sssom_file(path, text, _REQUIRED, _EXPECTED, _PREFIXES)
     default = None
     if named := file.slots.get("default_class"):
-        default = _parse_class(f"{path}: default_class", file.expand(named), tbox)
-    return default, file.slots.get("object_source_version", ""), list(_parse_each(path, file, tbox))
+        lines = enumerate(text.splitlines(), start=1)
+        number = next(number for number, line in lines if re.match(r"\"?#\s?default_class:", line))
+        default = _parse_class(f"{path}: line {number}", file.expand(named), file, tbox)
+    rows = [_parse_row(f"{path}: line {row.line}", row, file, tbox) for row in file.rows]
+    _check_unique(path, rows)
+    return default, _ontology_hash(file), rows
 
 
-def _parse_each(path: Path, file: SssomFile, tbox: TBox) -> Iterator[AlignmentRow]:
-    for row in file.rows:
-        yield _parse_row(f"{path}: line {row.line}", row, file, tbox)
+def _ontology_hash(file: SssomFile) -> str:
+    return file.slots.get("object_source_version", "")
+
+
+def _check_unique(path: Path, rows: Iterable[AlignmentRow]) -> None:
+    """Raise GroundingError if a concept or term has two classes; a person's row may differ from one that was built."""
+    seen: dict[tuple[RowKind, str, bool], AlignmentRow] = {}
+    for row in rows:
+        if row.kind is RowKind.CATEGORY or row.is_negated or row.model:
+            continue
+        subject = row.subject.replace(" ", "") if row.kind is RowKind.TERM else row.subject
+        first = seen.setdefault((row.kind, subject, row.is_curated), row)
+        if first.class_iri != row.class_iri:
+            named = repr(row.label or row.subject)
+            raise GroundingError(
+                f"{path}: line {row.line}: {named} has another class on line {first.line}; leave one of them"
+            )
 
 
 def _parse_row(where: str, row: SssomRow, file: SssomFile, tbox: TBox) -> AlignmentRow:
     cells = row.cells
     is_term = cells.get("subject_type", "") == _LITERAL or not cells.get("subject_id")
     predicate = cells["predicate_id"]
-    kinds = {kind.value: kind for kind in (RowKind.CONCEPT, RowKind.CATEGORY)} | {"skos:exactMatch": RowKind.CONCEPT}
-    if predicate not in kinds:
-        raise GroundingError(f"{where}: the predicate is {predicate!r}; expected one of {', '.join(sorted(kinds))}")
+    predicates = {kind.value for kind in RowKind}
+    if predicate not in predicates:
+        expected = ", ".join(sorted(predicates))
+        raise GroundingError(f"{where}: the predicate is {predicate!r}; expected one of {expected}")
     subject = cells["subject_label"].lower() if is_term else file.expand(cells["subject_id"])
     if not subject:
         raise GroundingError(f"{where}: has no subject; expected a concept in subject_id or a term in subject_label")
     modifier = cells.get("predicate_modifier", "")
     if modifier not in {"", "Not"}:
         raise GroundingError(f"{where}: the predicate modifier is {modifier!r}; expected Not, or nothing")
+    class_iri = _parse_class(where, file.expand(cells["object_id"]), file, tbox)
+    size = _parse_size(where, cells.get("category_size", ""))
+    is_category = predicate == RowKind.CATEGORY.value and size > 0
+    is_curated = _is_curated(cells, class_iri, file, tbox)
     return AlignmentRow(
-        kind=RowKind.TERM if is_term else kinds[predicate],
+        kind=RowKind.TERM if is_term else RowKind.CATEGORY if is_category else RowKind.CONCEPT,
         subject=subject,
-        class_iri=_parse_class(where, file.expand(cells["object_id"]), tbox),
+        class_iri=class_iri,
         confidence=_parse_confidence(where, cells.get("confidence", "")),
         label=cells["subject_label"],
         term_kind=_parse_term_kind(where, cells.get("term_kind", "")),
-        category_size=_parse_size(where, cells.get("category_size", "")),
-        model=cells.get("mapping_tool", ""),
-        is_curated=file.expand(cells["mapping_justification"]) == file.expand(_CURATED)
-        or bool(cells.get("reviewer_label") or cells.get("reviewer_id")),
+        category_size=size,
+        model="" if is_curated else cells.get("mapping_tool", ""),
+        is_curated=is_curated,
         is_negated=bool(modifier),
         line=row.line,
     )
 
 
-def _parse_class(where: str, text: str, tbox: TBox) -> ClassIRI:
+def _is_curated(cells: Mapping[str, str], class_iri: ClassIRI, file: SssomFile, tbox: TBox) -> bool:
+    """Return whether a person decided: by justification, by reviewer, or by a class without the label in its row."""
+    if file.expand(cells["mapping_justification"]) == file.expand(_CURATED):
+        return True
+    label = cells.get("object_label", "")
+    # In another version of the ontology, the class may have another label.
+    is_comparable = label and _ontology_hash(file) == tbox.content_hash
+    is_changed = is_comparable and label != _class_label(class_iri, tbox)
+    return bool(is_changed or cells.get("reviewer_label") or cells.get("reviewer_id"))
+
+
+def _parse_class(where: str, text: str, file: SssomFile, tbox: TBox) -> ClassIRI:
     if text == _NO_TERM:
         return NO_CLASS_IRI
     try:
         return tbox.resolve(text)
     except OntologyError as error:
-        raise GroundingError(f"{where}: {error}") from error
+        source = file.expand(file.slots.get("object_source", ""))
+        is_other = source and _ontology_hash(file) != tbox.content_hash
+        origin = f"; the alignment was written for {source}" if is_other else ""
+        raise GroundingError(f"{where}: {error}{origin}") from error
 
 
 def _parse_confidence(where: str, text: str) -> float:
