@@ -141,6 +141,7 @@ class TestText:
         path = tmp_path / "shop.sssom.tsv"
         path.write_text(self.TEXT, encoding="utf-8")
         subprocess.run([VALIDATOR, "validate", path], check=True, capture_output=True)
+        subprocess.run([VALIDATOR, "parse", path, "-o", tmp_path / "parsed.tsv"], check=True, capture_output=True)
 
 
 class TestEdits:

@@ -106,7 +106,7 @@ def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI) -> 
     curies = Curies(_PREFIXES, used=("semapv", "skos", "sssom", "u2k", "wn", "xsd"))
     cells = [_cells_of(row, tbox, curies) for row in rows]
     header = {
-        "mapping_set_id": f"urn:usd2kg:alignment:{tbox.content_hash}",
+        "mapping_set_id": f"https://w3id.org/usd2kg/alignment/{tbox.content_hash.removeprefix('sha256:')}",
         "mapping_set_title": f"Concepts and terms of {tbox.ontology_iri}",
         "license": _UNSPECIFIED_LICENSE,
         "mapping_tool": "usd2kg",
