@@ -314,3 +314,14 @@ class TestErrors:
         assert classes_of("chair", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Furniture"]
         assert "was written for another version of the ontology" in caplog.text
         assert "write it again with usd2kg ontology align, and copy the rows of people into it" in caplog.text
+
+    def test_a_complete_file_with_edits_alone_is_a_warning(self, caplog: pytest.LogCaptureFixture):
+        header = "".join(line for line in TestText.TEXT.splitlines(keepends=True) if line.startswith("#"))
+        edits = AlignmentFile(Path("x.tsv"), header + write_edits(edit(GUITAR, "guitar", "Media")).text)
+        assert classes_of("guitar", SHOP, edits) == ["Media"]
+        assert "x.tsv: has a default_class, so it replaces the alignment that is built" in caplog.text
+        assert "delete the line default_class" in caplog.text
+
+    def test_a_complete_file_has_no_warning(self, caplog: pytest.LogCaptureFixture):
+        assert classes_of("chair", SHOP, AlignmentFile(Path("x.tsv"), TestText.TEXT)) == ["Furniture"]
+        assert not caplog.text

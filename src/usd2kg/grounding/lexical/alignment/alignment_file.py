@@ -148,6 +148,10 @@ class AlignmentFile:
                 problem = "was written for another version of the ontology, so classes that are new have no rows"
                 advice = "write it again with usd2kg ontology align, and copy the rows of people into it"
                 logger.warning("%s: %s; %s", self.path, problem, advice)
+            if all(map(_is_decided, rows)):
+                problem = "has a default_class, so it replaces the alignment that is built, but has none of its rows"
+                advice = "delete the line default_class to change the alignment that is built"
+                logger.warning("%s: %s; %s", self.path, problem, advice)
             rooted = with_root(tbox, default, taxonomy)
             home = home_classes_of(rooted, root_synonyms(rooted, synonyms))
             editor = _Editor(self.path, rooted, taxonomy, make_lexicon(rooted, {}, {}, {}, default, home))
