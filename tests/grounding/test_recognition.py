@@ -45,6 +45,8 @@ class TestWords:
             ("coffee_table_oak", "coffee table"),
             ("tulip_red", "tulip"),
             ("TV_01", "television"),
+            # A compound of the home vocabulary alone.
+            ("HouseWallB_01", "wall"),
             # The head noun comes first.
             ("plate_dinner", "dinner plate"),
             # Spanish for fork.

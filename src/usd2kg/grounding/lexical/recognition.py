@@ -129,13 +129,20 @@ class _SenseMatcher:
         self._taxonomy = taxonomy
         self._reader = reader
         self._match_noun = lru_cache(maxsize=4096)(self._senses_of)
+        self._match_compound_head = lru_cache(maxsize=4096)(partial(self._senses_of, is_compound=True))
 
     def match(self, words: tuple[str, ...], places: tuple[str, ...]) -> HeadMatches:
-        """Return the longest known compound that ends with the last word, and its senses."""
+        """Return the longest known compound that ends with the last word, and its senses.
+
+        A compound that only the home vocabulary knows has the senses of its last noun: a house wall is a wall.
+        """
         *before, last = words
         singular = self._taxonomy.singular(last)
         for start in range(len(before) if self._reader.kinds.is_modifier(last) else len(words)):
-            matches = self._match_noun("".join(before[start:]) + singular, start < len(before))
+            key = "".join(before[start:]) + singular
+            matches = self._match_noun(key, start < len(before))
+            if not matches and key in _home_compounds():
+                matches = self._match_compound_head(singular)
             if matches:
                 return HeadMatches(words[start:], matches)
         return HeadMatches((), ())
@@ -169,6 +176,13 @@ class _SenseMatcher:
             Match(self._taxonomy.concept_iri(sense.synset), score * sense_weight(sense), partial(_explain, noun))
             for sense in self._taxonomy.senses(noun)
         )
+
+
+@lru_cache(maxsize=1)
+def _home_compounds() -> frozenset[str]:
+    """Return the compounds of the home vocabulary, joined."""
+    names = (name.lower().split() for name in chain.from_iterable(home_names().values()))
+    return frozenset("".join(name) for name in names if len(name) > 1)
 
 
 def _explain(noun: str) -> str:
