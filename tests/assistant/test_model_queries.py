@@ -49,8 +49,8 @@ def test_runs_and_shows_the_query(graph: GraphStore):
 @pytest.mark.parametrize(
     ("bad", "reason"),
     [
-        ("SELEC ?x", "not valid SPARQL"),
-        ("DELETE WHERE { ?s ?p ?o }", "not valid SPARQL"),
+        ("SELEC ?x", "expected SELECT, ASK"),
+        ("DELETE WHERE { ?s ?p ?o }", "expected SELECT, ASK"),
         ("SELECT * { SERVICE <http://127.0.0.1/> { ?s ?p ?o } }", "SERVICE contacts another server"),
     ],
 )

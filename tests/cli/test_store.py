@@ -96,3 +96,45 @@ def test_loads_no_graph_if_one_file_is_invalid(run: Run, graph: Path, tmp_path: 
 def test_rejects_two_graphs_with_the_same_iri(run: Run, room: Path, tmp_path: Path):
     done = run("build", room, room, "--store", tmp_path / "s")
     assert (done.code, "two graphs have the IRI <https://example.org/room/>" in done.err) == (2, True)
+
+
+def test_several_scenes_are_asked_one_by_one(run: Run, graph: Path, tmp_path: Path):
+    place = tmp_path / "store"
+    run("store", "load", graph, "--store", place)
+    other = tmp_path / "other.ttl"
+    text = graph.read_text("utf-8").replace("coffee_mug", "tea_mug").replace("example.org/room", "example.org/second")
+    other.write_text(text, encoding="utf-8")
+    run("store", "load", other, "--store", place)
+    lines = run("query", place, "on", "Table_1").out.splitlines()
+    assert lines[0].split()[0] == "scene"
+    found = {tuple(line.split()[:2]) for line in lines[1:-1]}
+    assert {("room", "coffee_mug"), ("second", "tea_mug")} <= found
+    assert {("room", "tea_mug"), ("second", "coffee_mug")}.isdisjoint(found)
+    rows = json.loads(run("query", place, "--question", "close-to", "--with", "thing=Table_1", "--json").out)
+    assert {row["scene"] for row in rows} == {"room", "second"}
+    assert len(rows) == 2 * len({row["path"].replace("tea_mug", "coffee_mug") for row in rows})
+    # A scene that lacks the object adds no rows.
+    only = run("query", place, "where", "is", "tea_mug")
+    assert [line.split()[0] for line in only.out.splitlines()[1:-1]] == ["second"]
+    assert run("query", place, "--scene", "room", "on", "Table_1").out.split()[0] == "object"
+    missing = run("query", place, "on", "helicopter")
+    assert missing.code != 0
+    assert "nothing is named 'helicopter'" in missing.err
+    count = run("query", place, "--sparql", "SELECT (COUNT(DISTINCT ?o) AS ?n) { ?o u2k:primPath ?p }")
+    assert count.out.splitlines()[1] == "8"
+
+
+def test_explain_prints_a_query_that_gives_the_same_answer(run: Run, graph: Path):
+    for question in (
+        ["on", "Table_1"],
+        ["near", "Table_1"],
+        ["parts", "of", "Table_1"],
+        ["where", "is", "Table_1"],
+        ["all", "of", "table"],
+        ["--question", "close-to", "--with", "thing=Table_1"],
+        ["--question", "contents", "--with", "thing=Table_1"],
+    ):
+        query = run("query", graph, *question, "--explain").out
+        assert query.startswith("PREFIX ")
+        asked, edited = run("query", graph, *question), run("query", graph, "--sparql", query)
+        assert edited.out.splitlines()[1:] == asked.out.splitlines()[1:], question

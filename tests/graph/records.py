@@ -12,7 +12,7 @@ from usd2kg.graph import RDF_FORMATS, KnowledgeGraph, instantiate, serialize_gra
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.grounding import Candidate, Grounding, Prediction, Status
 from usd2kg.ontology import TBox
-from usd2kg.query import GraphStore
+from usd2kg.query import Dataset, GraphStore
 from usd2kg.scene import Box, Scene, SceneObject
 
 BASE = "https://my.lab/k/"
@@ -76,7 +76,7 @@ def reread(graph: KnowledgeGraph, ending: str = ".ttl") -> ox.Store:
 
 
 def open_store(graph: KnowledgeGraph) -> GraphStore:
-    return GraphStore(reread(graph), "room.ttl")
+    return GraphStore(Dataset(reread(graph)), "room.ttl")
 
 
 def select(store: ox.Store, query: str) -> list[tuple[str | None, ...]]:

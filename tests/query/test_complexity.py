@@ -6,8 +6,8 @@ import pytest
 from usd2kg.endpoint import EndpointLimits
 from usd2kg.endpoint.worker import answer
 from usd2kg.errors import GraphError
+from usd2kg.query import Dataset, GraphStore
 from usd2kg.query.complexity import check_complexity
-from usd2kg.query.graph_store import GraphStore
 from usd2kg.stores import EmbeddedStore
 
 MANY = 20_000
@@ -61,6 +61,6 @@ def test_accepts_long_data_in_updates(tmp_path):
 
 def test_graphs_and_the_endpoint_refuse_deep_queries():
     with pytest.raises(GraphError, match="brackets are nested"):
-        GraphStore(ox.Store(), "here").sparql(REFUSED["groups"])
+        GraphStore(Dataset(ox.Store()), "here").sparql(REFUSED["groups"])
     with pytest.raises(GraphError, match="brackets are nested"):
         answer(ox.Store(), {}, {"query": REFUSED["groups"], "accept": "*/*"}, EndpointLimits())

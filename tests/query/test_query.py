@@ -259,16 +259,42 @@ class TestSparql:
         ["DELETE WHERE { ?s ?p ?o }", "INSERT DATA { <urn:a> <urn:b> <urn:c> }", "DROP ALL", "CLEAR DEFAULT"],
     )
     def test_refuses_updates(self, store: GraphStore, query: str):
-        before = len(store)
+        before = len(store.store)
         with pytest.raises(GraphError, match="expected SELECT, ASK, CONSTRUCT or DESCRIBE"):
             store.sparql(query)
-        assert len(store) == before > 0
+        assert len(store.store) == before > 0
 
-    @pytest.mark.parametrize("query", ["", "SELECT", "SELECT ?x WHERE { ?x nope:y ?z }", "what is on the table"])
-    def test_a_syntax_error_is_one_line(self, store: GraphStore, query: str):
-        with pytest.raises(GraphError, match="not valid SPARQL") as error:
+    @pytest.mark.parametrize(
+        ("query", "message"),
+        [
+            ("", "query: is empty; expected SELECT, ASK, CONSTRUCT or DESCRIBE"),
+            ("SELECT", "query: not valid SPARQL at line 1, column 7, at the end"),
+            ("what is on the table", "query: begins with 'what'; expected SELECT, ASK, CONSTRUCT or DESCRIBE"),
+            ("DROP ALL", "query: begins with DROP, which changes data; expected SELECT, ASK, CONSTRUCT or DESCRIBE"),
+            (
+                "PREFIX a: <urn:a#>\n# b:c\nSELECT * {\n ?x a:b ?y .\n ?y nope:y 'c:d' }",
+                "line 5, column 5: the prefix nope: ",
+            ),
+            ("SELECT * {\n  ?x ?p ?o LIMIT 3 }", "at line 2, column 20, before '}'"),
+            ("ASK { <http://a b> ?p ?o }", "at line 1, column 19, before '?p ?o }': IRI parsing failed"),
+            ("SELECT ?s { ?s ?p ?o", "at line 1, column 21, at the end; expected one of , . ; { {| } ~"),
+        ],
+    )
+    def test_a_syntax_error_is_one_line_with_its_place(self, store: GraphStore, query: str, message: str):
+        with pytest.raises(GraphError) as error:
             store.sparql(query)
+        assert message in str(error.value)
         assert "\n" not in str(error.value)
+        assert "\\u{" not in str(error.value)
+
+    def test_hints_at_names_that_the_graph_lacks(self, store: GraphStore):
+        query = "SELECT * { ?o u2k:primpath ?p ; a soma:Cups, u2k:Nothing ; rdfs:label 'u2k:text' } # u2k:comment"
+        assert store.hints(query) == [
+            "u2k:primpath is not in the graph; did you mean u2k:primPath?",
+            "soma:Cups is not in the graph; did you mean soma:Cup?",
+            "u2k:Nothing is not in the graph",
+        ]
+        assert store.hints("SELECT * { ?o u2k:primPath ?p FILTER(u2kf:gap(?o, ?o) < 1) }") == []
 
     @pytest.mark.parametrize(
         "query",
@@ -290,7 +316,7 @@ class TestLoading:
         graph = build_graph(home_tbox, ROOM)
         write_graph(graph, path)
         store = load_graph(path)
-        assert len(store) == len(graph.triples)
+        assert len(store.store) == len(graph.triples)
         assert store.ask(["on", "dining table"]).rows == TestOnAndIn.ON_TABLE
 
     def test_loads_named_graphs_as_their_union(self, tmp_path: Path):
@@ -332,7 +358,7 @@ class TestLoading:
         path = tmp_path / "empty.ttl"
         path.write_text("", encoding="utf-8")
         store = load_graph(path)
-        assert len(store) == 0
+        assert len(store.store) == 0
         with pytest.raises(GraphError, match="nothing is named 'table'"):
             store.ask(["on", "table"])
 

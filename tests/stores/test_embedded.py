@@ -9,8 +9,8 @@ import pyoxigraph as ox
 import pytest
 
 from usd2kg.errors import GraphError, StoreError
+from usd2kg.folder_lock import lock_exclusive, lock_shared
 from usd2kg.stores import EmbeddedStore, NamedGraph, open_graph, select_graphs
-from usd2kg.stores.folder_lock import lock_exclusive, lock_shared
 from usd2kg.stores.pending import PENDING_NAME, write_pending
 from usd2kg.stores.store_limits import FolderLimits
 

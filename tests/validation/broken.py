@@ -8,7 +8,7 @@ from tests.graph.records import BASE, build_graph, reread, thing
 from tests.graph.test_joint_patterns import make_joint
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
-from usd2kg.query import GraphStore
+from usd2kg.query import Dataset, GraphStore
 from usd2kg.validation import Finding, validate_graph
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -110,7 +110,7 @@ def open_room(tbox: TBox, profile: str, update: str = "", placed: list[Any] | No
     if update:
         text = update.replace("JOINT", f"{BASE}Cupboard.hinge-joint")
         store.update(text, prefixes={**PREFIXES, "k": BASE})
-    return GraphStore(store, "room.ttl")
+    return GraphStore(Dataset(store), "room.ttl")
 
 
 def found_in(graph: GraphStore, **options: Any) -> tuple[Finding, ...]:

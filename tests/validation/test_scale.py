@@ -8,7 +8,7 @@ import pytest
 from tests.graph.records import BASE
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD, number, text
 from usd2kg.ontology import Closure
-from usd2kg.query import GraphStore
+from usd2kg.query import Dataset, GraphStore
 from usd2kg.validation import validate_graph
 from usd2kg.validation.shacl import compile_shapes, find_violations
 
@@ -43,7 +43,7 @@ def crowd(same_place: bool) -> GraphStore:
     )
     store = ox.Store()
     store.bulk_extend(quads)
-    return GraphStore(store, "crowd.ttl")
+    return GraphStore(Dataset(store), "crowd.ttl")
 
 
 @pytest.mark.parametrize(("same_place", "count"), [(False, 1), (True, COUNT - 1)])

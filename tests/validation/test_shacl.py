@@ -9,7 +9,7 @@ from tests.validation.broken import ROOM, SHAPES, Break, found_in, open_room
 from usd2kg.graph import GraphOptions
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
-from usd2kg.query import GraphStore
+from usd2kg.query import Dataset, GraphStore
 from usd2kg.validation.shacl import compile_shapes, find_violations, read_shapes
 
 CASES = pytest.mark.parametrize("case", SHAPES, ids=[f"{i}-{c.profile}-{c.rule}" for i, c in enumerate(SHAPES)])
@@ -87,7 +87,9 @@ def compare_with_pyshacl(graph: GraphStore, profile: str) -> set[tuple[str, str]
 
 
 def test_checks_confidences_on_triple_terms(home_tbox: TBox):
-    graph = GraphStore(reread(build_graph(home_tbox, ROOM, options=GraphOptions(annotations="rdf12"))), "room.ttl")
+    graph = GraphStore(
+        Dataset(reread(build_graph(home_tbox, ROOM, options=GraphOptions(annotations="rdf12")))), "room.ttl"
+    )
     assert found_in(graph) == ()
     graph.store.update(
         "DELETE { ?x sssom:confidence ?o } INSERT { ?x sssom:confidence 2.0 } "

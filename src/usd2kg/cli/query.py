@@ -7,13 +7,15 @@ from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.stores import OptionalGraphSource, SceneName
-from usd2kg.cli.output import count_noun, emit, format_table, print_json
+from usd2kg.cli.output import count_noun, emit, format_table, notify, print_json
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
-    from usd2kg.query import Answer
+    from collections.abc import Callable
 
-__all__ = ["answer_rows", "answer_text", "query_command", "read_sparql"]
+    from usd2kg.query import Answer, GraphStore
+
+__all__ = ["answer_rows", "answer_text", "ask_scenes", "query_command", "read_sparql"]
 
 
 def query_command(
@@ -38,10 +40,14 @@ def query_command(
         bool, Option("--list", help="List the predefined questions and their parameters, and exit.")
     ] = False,
     scene: SceneName = None,
+    explain: Annotated[
+        bool, Option("--explain", help="Print the SPARQL behind the question, to edit and to run with --sparql.")
+    ] = False,
     json: JsonOutput = False,
 ) -> None:
     """Query a graph by a question in words, a predefined question, or SPARQL."""
-    from usd2kg.stores import is_store, open_graph, open_store, select_graphs  # noqa: PLC0415
+    from usd2kg.query.dataset import with_prefixes  # noqa: PLC0415
+    from usd2kg.stores import is_store, open_store, select_graphs  # noqa: PLC0415
 
     if is_list:
         _print_questions(json)
@@ -58,15 +64,53 @@ def query_command(
         store = open_store(graph)
         answer = store.query(read_sparql(sparql), select_graphs(store, scene))
     elif sparql is not None:
-        answer = open_graph(graph, scene).sparql(read_sparql(sparql))
+        answer = _run_sparql(graph, scene, read_sparql(sparql))
     elif question is not None:
-        answer = open_graph(graph, scene).answer(question, dict(map(_parse_parameter, given or [])))
+        values = dict(map(_parse_parameter, given or []))
+        answer = ask_scenes(graph, scene, lambda store: store.answer(question, values))
     else:
-        answer = open_graph(graph, scene).ask(words or [])
-    if json:
+        answer = ask_scenes(graph, scene, lambda store: store.ask(words or []))
+    if explain:
+        emit(f"{with_prefixes(answer.sparql)}\n")
+    elif json:
         print_json(answer_rows(answer))
     else:
         emit(answer_text(answer))
+
+
+def _run_sparql(place: str, scene: str | None, query: str) -> "Answer":
+    from usd2kg.stores import view_scenes  # noqa: PLC0415
+
+    (graph,) = view_scenes(place, scene).values()
+    answer = graph.sparql(query)
+    if not answer.rows:
+        for hint in graph.hints(query):
+            notify(f"note: {hint}")
+    return answer
+
+
+def ask_scenes(place: str, scene: str | None, ask: "Callable[[GraphStore], Answer]") -> "Answer":
+    """Return the answers about all scenes of a store, with a first column `scene`; or the answer about one graph.
+
+    Scenes that lack what is asked about add no rows.
+
+    Raises:
+        GraphError: the question is wrong, or no scene has what it asks about.
+    """
+    from usd2kg.query.answer import join_scenes  # noqa: PLC0415
+    from usd2kg.stores import view_scenes  # noqa: PLC0415
+
+    answers: dict[str, Answer] = {}
+    problems: list[GraphError] = []
+    graphs = view_scenes(place, scene)
+    for name, graph in graphs.items():
+        try:
+            answers[name] = ask(graph)
+        except GraphError as error:
+            problems.append(error)
+    if not answers:
+        raise problems[0]
+    return next(iter(answers.values())) if len(graphs) == 1 else join_scenes(answers)
 
 
 def _print_questions(is_json: bool) -> None:

@@ -24,8 +24,8 @@ from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.endpoint.pool import BusyError, TimeLimitError, WorkerLostError, WorkerPool
-from usd2kg.graph.vocabulary import PREFIXES, named_node
-from usd2kg.query.functions import FUNCTION_NAMESPACE
+from usd2kg.graph.vocabulary import named_node
+from usd2kg.query.dataset import QUERY_PREFIXES
 
 __all__ = ["RefusedRequestError", "make_app"]
 
@@ -77,7 +77,7 @@ def make_app(
         "title": title,
         "graphs": list(graphs),
         "limits": asdict(limits),
-        "prefixes": {**PREFIXES, "u2kf": FUNCTION_NAMESPACE},
+        "prefixes": QUERY_PREFIXES,
         "examples": [asdict(example) for example in examples],
     }
     page = (files("usd2kg.endpoint") / "page.html").read_text("utf-8")

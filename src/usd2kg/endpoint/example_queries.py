@@ -1,6 +1,5 @@
 """Example queries of the page: the ready questions, with parameters from the served graph."""
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -40,24 +39,15 @@ def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
 
 def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | None]) -> ExampleQuery | None:
     """Return a question with each parameter replaced by a term; None if the graph lacks such a term."""
-    title, query = question.text, question.sparql
+    title, bound = question.text, {}
     for parameter in question.parameters:
         term = _term(parameter, terms)
         if term is None:
             return None
-        query = _replace(query, parameter.variable, term)
+        bound[parameter] = term
         unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
         title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
-    lines = (line for line in query.splitlines() if not re.match(r"# (id|question|parameter|note):", line))
-    return ExampleQuery(title, "\n".join((f"# {_line(title)}", *lines)))
-
-
-def _replace(query: str, name: str, term: ox.NamedNode | ox.Literal) -> str:
-    """Return a query with a variable replaced in WHERE by a term, and removed from SELECT and GROUP BY."""
-    head, where, rest = query.partition("WHERE")
-    body, brace, tail = rest.rpartition("}")
-    variable = re.compile(rf"\s*\?{name}\b")
-    return variable.sub("", head) + where + variable.sub(lambda _: f" {term}", body) + brace + variable.sub("", tail)
+    return ExampleQuery(title, f"# {_line(title)}\n{question.bind(bound)}")
 
 
 def _term(parameter: Parameter, terms: dict[str, ox.NamedNode | None]) -> ox.NamedNode | ox.Literal | None:

@@ -33,7 +33,7 @@ class ServeOptions:
 def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> None:
     """Serve a graph, or a store folder, until the process is interrupted.
 
-    The server answers from a copy made at the start.
+    The server answers from a copy made at the start, or from the index of a large file.
 
     Args:
         place: a graph file, or the folder of a store.
@@ -58,8 +58,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary,
         open_socket(options.host, options.port) as socket,
     ):
-        folder = Path(temporary) / "store"
-        _copy(place, folder)
+        folder, _keeper = _prepare(place, Path(temporary) / "store")
         host, port = socket.getsockname()[:2]
         address = f"http://{f'[{host}]' if ':' in host else host}:{port}/"
         store = ox.Store.read_only(str(folder))
@@ -79,14 +78,17 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         uvicorn.Server(config).run(sockets=[socket])
 
 
-def _copy(place: str, folder: Path) -> None:
-    """Write the graphs to serve to a folder."""
+def _prepare(place: str, folder: Path) -> tuple[Path, object]:
+    """Return the folder with the graphs to serve, and what keeps it: the index of a large file, or a copy."""
     if Path(place).is_dir():
         EmbeddedStore(place).snapshot(folder)
-        return
+        return folder, None
     if "://" in place:
         raise GraphError(f"{place}: is already a server; expected a graph file or a store folder")
-    graph = load_graph(place)
+    graph = load_graph(place, is_indexed=True)
+    if (indexed := graph.dataset.index) is not None:
+        return indexed, graph
     store = ox.Store(str(folder))
     store.bulk_extend(graph.store)
     store.flush()
+    return folder, None

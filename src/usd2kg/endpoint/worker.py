@@ -18,14 +18,14 @@ from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
 from usd2kg.endpoint.negotiation import negotiate
 from usd2kg.errors import GraphError, one_line
-from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.complexity import check_complexity
-from usd2kg.query.functions import FUNCTION_NAMESPACE, make_functions
+from usd2kg.query.dataset import QUERY_PREFIXES, Dataset
+from usd2kg.query.functions import make_functions
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
+from usd2kg.query.sparql_errors import describe_syntax_error
 
 __all__ = ["NotAcceptableError", "answer", "main", "serve_requests"]
-
-_PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 
 
 class NotAcceptableError(Exception):
@@ -43,7 +43,7 @@ def main(arguments: list[str]) -> None:
 
 def serve_requests(store: ox.Store, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer each request; the first line written reports that the process is ready."""
-    functions = make_functions(store)
+    functions = make_functions(BodyIndex(Dataset(store)))
     _write(answers, {"ready": True}, b"")
     for line in requests:
         _terminate_after(limits.seconds + limits.orphan_grace_s)
@@ -70,16 +70,16 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: End
     if has_remote_clause(request["query"]):
         raise GraphError(REMOTE_QUERY)
     try:
-        found = store.query(request["query"], prefixes=_PREFIXES, custom_functions=functions, **_dataset(request))
+        found = store.query(request["query"], prefixes=QUERY_PREFIXES, custom_functions=functions, **_dataset(request))
         offered = GRAPH_TYPES if isinstance(found, ox.QueryTriples) else TABLE_TYPES
         media_type = negotiate(request["accept"], offered)
         if media_type is None:
             raise NotAcceptableError(f"{request['accept']} cannot be written; expected one of {', '.join(offered)}")
         return media_type, render(found, media_type, limits)
-    except (SyntaxError, ValueError) as error:
-        raise GraphError(
-            f"query: not valid SPARQL ({one_line(error)}); expected SELECT, ASK, CONSTRUCT or DESCRIBE"
-        ) from error
+    except SyntaxError as error:
+        raise GraphError(describe_syntax_error(request["query"], error)) from error
+    except ValueError as error:
+        raise GraphError(f"query: not valid ({one_line(error)}); expected IRIs of graphs") from error
     except (RuntimeError, OSError) as error:
         raise GraphError(f"query: cannot be answered ({one_line(error)})") from error
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pyoxigraph as ox
 
-__all__ = ["Answer", "Value", "join_answers", "make_answer", "with_columns", "without_columns"]
+__all__ = ["Answer", "Value", "join_answers", "join_scenes", "make_answer", "with_columns"]
 
 Value = str | float | int | bool | None
 """A cell of a table."""
@@ -26,17 +26,6 @@ class Answer:
     """The query that was run."""
 
 
-def without_columns(answer: Answer, left_out: set[str]) -> Answer:
-    """Return an answer without some of its columns."""
-    kept = [index for index, column in enumerate(answer.columns) if column not in left_out]
-    return replace(
-        answer,
-        columns=tuple(answer.columns[i] for i in kept),
-        rows=tuple(tuple(row[i] for i in kept) for row in answer.rows),
-        values=tuple(tuple(row[i] for i in kept) for row in answer.values),
-    )
-
-
 def with_columns(answer: Answer, added: Mapping[str, str]) -> Answer:
     """Return an answer with additional columns that have the same value in all rows."""
     more = tuple(added.values())
@@ -52,6 +41,17 @@ def join_answers(answers: Sequence[Answer]) -> Answer:
     """Return the union of several answers to one question, without duplicate rows."""
     rows = {row: value for answer in answers for row, value in zip(answer.rows, answer.values, strict=True)}
     return replace(answers[0], rows=tuple(rows), values=tuple(rows.values()))
+
+
+def join_scenes(answers: Mapping[str, Answer]) -> Answer:
+    """Return the answers about several scenes to one question, each row with its scene in the first column."""
+    first = next(iter(answers.values()))
+    return replace(
+        first,
+        columns=("scene", *first.columns),
+        rows=tuple((scene, *row) for scene, answer in answers.items() for row in answer.rows),
+        values=tuple((scene, *row) for scene, answer in answers.items() for row in answer.values),
+    )
 
 
 def make_answer(columns: tuple[str, ...], rows: Sequence[tuple[Any, ...]], query: str) -> Answer:

@@ -7,24 +7,15 @@ import numpy as np
 import pyoxigraph as ox
 from numpy.typing import NDArray
 
-from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.query.body_table import NO_BODY, Body, BodyTable, load_table, parse_number_term, parse_vector
+from usd2kg.query.dataset import Dataset
 
-__all__ = ["Body", "BodyIndex", "JointMotion", "parse_vector"]
+__all__ = ["BodyIndex", "JointMotion"]
 
 Vector = NDArray[np.float64]
 
-_BODIES = """
-SELECT ?o ?center ?width ?depth ?height ?oriented ?mass WHERE {
-  ?o u2k:primPath [] .
-  OPTIONAL {
-    ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center ;
-       (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:width ?width ;
-       (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:depth ?depth ;
-       (soma:hasShape/dul:hasRegion/soma:hasHeight)|u2k:height ?height .
-  }
-  OPTIONAL { ?o u2k:orientedSize ?oriented }
-  OPTIONAL { ?o (soma:hasMassAttribute/soma:hasMassValue)|u2k:mass ?mass }
-} ORDER BY ?o"""
+_ROUNDING = 1e-4
+"""Metres: distances are rounded to four decimals."""
 
 _JOINTS = """
 SELECT ?j ?parent ?child ?whole ?type ?axis ?origin ?lower ?upper ?position WHERE {
@@ -48,19 +39,6 @@ SELECT DISTINCT ?carrier ?o WHERE {
 
 
 @dataclass(frozen=True)
-class Body:
-    """Size and mass of one object, as far as the graph states them."""
-
-    lower: Vector | None
-    """(3,) metres, world frame: lower corner of the AABB; None without a box."""
-    upper: Vector | None
-    extents: tuple[float, float, float] | None
-    """Metres, ascending; along the object's own axes if known."""
-    mass: float | None
-    """Kilograms; None if unknown."""
-
-
-@dataclass(frozen=True)
 class JointMotion:
     """A joint with two limits."""
 
@@ -80,36 +58,49 @@ class JointMotion:
     """From the current position to the farther limit, signed; radians or metres."""
 
 
-def parse_vector(text: str) -> Vector | None:
-    """Return the vector written as "x y z"; None if the text is not three finite numbers.
-
-    >>> parse_vector("1 2.5 0")
-    array([1. , 2.5, 0. ])
-    >>> parse_vector("1 two 3") is None
-    True
-    """
-    try:
-        values = np.array([float(part) for part in text.split()])
-    except ValueError:
-        return None
-    return values if values.shape == (3,) and bool(np.isfinite(values).all()) else None
-
-
 class BodyIndex:
     """The objects of one graph by IRI, read on first access."""
 
-    def __init__(self, store: ox.Store) -> None:
-        self._store = store
+    def __init__(self, dataset: Dataset) -> None:
+        self._dataset = dataset
 
     @cached_property
-    def by_iri(self) -> dict[str, Body]:
-        """Object IRI → its body."""
-        return {row["o"].value: _body(row) for row in self._select(_BODIES)}
+    def table(self) -> BodyTable:
+        """All objects."""
+        return load_table(self._dataset)
+
+    @cached_property
+    def _rows(self) -> dict[str, int]:
+        return {iri: row for row, iri in enumerate(self.table.iris)}
+
+    def find(self, iri: str) -> Body:
+        """Return the body of an object; for another IRI, one without size and mass."""
+        row = self._rows.get(iri)
+        return NO_BODY if row is None else self.table.body(row)
+
+    def within(self, distance: float, origin: str) -> list[str] | None:
+        """Return the IRIs of the objects whose boxes are within a distance in metres of an object or a position.
+
+        Args:
+            distance: metres, to which the rounding of distances is added.
+            origin: an IRI, or "x y z" in metres.
+
+        Returns:
+            None if the origin has no box.
+        """
+        point = parse_vector(origin)
+        body = self.find(origin) if point is None else Body(point, point, None, None)
+        if body.lower is None or body.upper is None:
+            return None
+        gaps = np.maximum(np.maximum(self.table.lower - body.upper, body.lower - self.table.upper), 0)
+        # Objects without a box have NaN, which is not near anything.
+        near = np.flatnonzero(np.linalg.norm(gaps, axis=1) <= distance + _ROUNDING)
+        return [self.table.iris[row] for row in near.tolist()]
 
     @cached_property
     def joints(self) -> dict[str, JointMotion]:
         """Joint IRI → its motion, for joints with an axis and two limits."""
-        found = ((row["j"].value, _motion(row)) for row in self._select(_JOINTS))
+        found = ((row["j"].value, _motion(row)) for row in self._dataset.select(_JOINTS))
         return {iri: motion for iri, motion in found if motion is not None}
 
     def carried_by(self, iri: str) -> set[str]:
@@ -125,46 +116,20 @@ class BodyIndex:
     @cached_property
     def _carried(self) -> dict[str, set[str]]:
         carried: dict[str, set[str]] = {}
-        for row in self._select(_CARRIED):
+        for row in self._dataset.select(_CARRIED):
             carried.setdefault(row["carrier"].value, set()).add(row["o"].value)
         return carried
-
-    def _select(self, query: str) -> list[ox.QuerySolution]:
-        found = self._store.query(query, prefixes=PREFIXES, use_default_graph_as_union=True)
-        assert isinstance(found, ox.QuerySolutions)
-        return list(found)
-
-
-def _body(row: ox.QuerySolution) -> Body:
-    center = parse_vector(row["center"].value) if row["center"] else None
-    mass = _number(row["mass"])
-    if center is None:
-        return Body(None, None, None, mass)
-    half = np.array([_number(row[name]) or 0.0 for name in ("width", "depth", "height")]) / 2
-    oriented = parse_vector(row["oriented"].value) if row["oriented"] else None
-    shortest, middle, longest = sorted(float(side) for side in (2 * half if oriented is None else oriented))
-    return Body(center - half, center + half, (shortest, middle, longest), mass)
 
 
 def _motion(row: ox.QuerySolution) -> JointMotion | None:
     axis, origin = parse_vector(row["axis"].value), parse_vector(row["origin"].value)
-    lower, upper = _number(row["lower"]), _number(row["upper"])
+    lower, upper = parse_number_term(row["lower"]), parse_number_term(row["upper"])
     if axis is None or origin is None or lower is None or upper is None:
         return None
-    position = _number(row["position"])
+    position = parse_number_term(row["position"])
     if position is None:
         position = min(max(0.0, lower), upper)
     parent, child, whole = (row[name].value if row[name] else None for name in ("parent", "child", "whole"))
     is_revolute = row["type"].value.endswith("RevoluteJoint")
     opening = max(lower - position, upper - position, key=abs)
     return JointMotion(parent, child, whole, is_revolute, axis, origin, opening)
-
-
-def _number(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple | None) -> float | None:
-    if not isinstance(term, ox.Literal):
-        return None
-    try:
-        value = float(term.value)
-    except ValueError:
-        return None
-    return value if np.isfinite(value) else None

@@ -8,14 +8,13 @@ from collections.abc import Callable
 import numpy as np
 import pyoxigraph as ox
 
-from usd2kg.query.bodies import Body, BodyIndex, parse_vector
+from usd2kg.query.bodies import BodyIndex
+from usd2kg.query.body_table import Body, parse_vector
+from usd2kg.query.dataset import FUNCTION_NAMESPACE
 from usd2kg.query.settings import SWEEP
 from usd2kg.query.sweep import find_obstacles
 
-__all__ = ["FUNCTIONS", "FUNCTION_NAMESPACE", "make_functions"]
-
-FUNCTION_NAMESPACE = "https://w3id.org/usd2kg/function#"
-"""Prefix `u2kf:` in queries."""
+__all__ = ["FUNCTIONS", "make_functions"]
 
 Term = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 Function = Callable[..., Term | None]
@@ -34,12 +33,11 @@ FUNCTIONS = {
 """Function → its arguments and result."""
 _DECIMALS = 4
 """Decimals of all results; 0.1 mm is finer than any scene is modelled."""
-_NO_BODY = Body(None, None, None, None)
 
 
-def make_functions(store: ox.Store) -> dict[ox.NamedNode, Function]:
-    """Return the functions over the objects of a store, which is read at the first call."""
-    measure = _Measure(BodyIndex(store))
+def make_functions(bodies: BodyIndex) -> dict[ox.NamedNode, Function]:
+    """Return the functions over the objects of a graph, which are read at the first call."""
+    measure = _Measure(bodies)
     functions: dict[str, Function] = {
         "gap": lambda a, b: measure.compare(a, b, _gap),
         "clearance": lambda a, b: measure.compare(a, b, _clearance),
@@ -61,7 +59,7 @@ class _Measure:
         self._obstacles: dict[str, dict[str, float]] = {}
 
     def body(self, term: Term) -> Body:
-        return self._bodies.by_iri.get(_text(term), _NO_BODY)
+        return self._bodies.find(_text(term))
 
     def compare(self, a: Term, b: Term, measure: Callable[[Body, Body], float | None]) -> Term | None:
         return _literal(measure(self.body(a), self.body(b)))

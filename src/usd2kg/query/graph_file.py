@@ -7,13 +7,20 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, one_line
 from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
+from usd2kg.query.dataset import Dataset
+from usd2kg.query.graph_cache import open_cached
 from usd2kg.query.graph_store import GraphStore
 
 __all__ = ["load_graph"]
 
 
-def load_graph(path: Path | str) -> GraphStore:
+def load_graph(path: Path | str, *, is_indexed: bool = False) -> GraphStore:
     """Return the graph in a file.
+
+    Args:
+        path: the file.
+        is_indexed: whether to keep the index of a large file in the user's cache, and to open it there the next time.
+            Questions about single objects are then answered at once; reading the whole graph is slower than in memory.
 
     Raises:
         GraphError: the file is missing, its extension is not that of an RDF format, or it does not parse.
@@ -24,14 +31,21 @@ def load_graph(path: Path | str) -> GraphStore:
     if not path.is_file():
         raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
     syntax = rdf_format(path)
-    store = ox.Store()
-    try:
+
+    def load(store: ox.Store) -> None:
         with open_rdf(path) as file:
             store.bulk_load(file, format=syntax)
+
+    try:
+        if is_indexed and (found := open_cached(path, load)) is not None:
+            index, folder, keeper = found
+            return GraphStore(Dataset(index, folder=folder), str(path), keeper)
+        store = ox.Store()
+        load(store)
     except MemoryError as error:
         # pyoxigraph raises this for a literal above 16 MiB, its parser's limit.
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
         reason = one_line(error)
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
-    return GraphStore(store, str(path))
+    return GraphStore(Dataset(store), str(path))

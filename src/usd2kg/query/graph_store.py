@@ -1,4 +1,4 @@
-"""GraphStore: a graph in memory with its queries."""
+"""GraphStore: a graph with its queries."""
 
 import itertools
 from collections.abc import Mapping, Sequence
@@ -6,40 +6,58 @@ from dataclasses import replace
 
 import pyoxigraph as ox
 
-from usd2kg.errors import GraphError, one_line
-from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.errors import GraphError
 from usd2kg.query import query_templates as templates
-from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns, without_columns
-from usd2kg.query.bodies import parse_vector
+from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns
+from usd2kg.query.bodies import BodyIndex
+from usd2kg.query.body_table import parse_vector
 from usd2kg.query.complexity import check_complexity
-from usd2kg.query.functions import FUNCTION_NAMESPACE, make_functions
+from usd2kg.query.dataset import Dataset
+from usd2kg.query.functions import make_functions
 from usd2kg.query.lookup import Lookup, term_list
-from usd2kg.query.questions import Parameter, find_question, parse_number
+from usd2kg.query.questions import Parameter, Question, find_question, parse_number
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
+from usd2kg.query.settings import LOOKUP
+from usd2kg.query.sparql_errors import describe_syntax_error, unknown_names
+from usd2kg.query.staging import list_found_first
 
 __all__ = ["GraphStore"]
 
-_PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 _Term = ox.NamedNode | ox.Literal
 """A term to which a parameter of a question is bound."""
 
 
 class GraphStore:
-    """An immutable graph in memory that answers SPARQL queries and ready questions."""
+    """An immutable graph that answers SPARQL queries and ready questions."""
 
-    def __init__(self, store: ox.Store, source: str) -> None:
-        self._store = store
+    def __init__(self, dataset: Dataset, source: str, keeper: object = None) -> None:
+        """Wrap a dataset.
+
+        Args:
+            dataset: the graph, in memory or on disk.
+            source: the file or store that it was read from.
+            keeper: what has to exist as long as the graph is used, see `release_when_unused`.
+        """
+        self._dataset = dataset
         self._source = source
-        self._functions = make_functions(store)
-        self._lookup = Lookup(store, source)
+        self._bodies = BodyIndex(dataset)
+        self._functions = make_functions(self._bodies)
+        self._lookup = Lookup(dataset, source)
+        self._keeper = keeper
 
     def __len__(self) -> int:
-        return len(self._store)
+        """Return the number of triples."""
+        return len(self._dataset)
 
     @property
     def store(self) -> ox.Store:
+        """The store; of several graphs in it, `dataset` has those of the graph."""
+        return self._dataset.store
+
+    @property
+    def dataset(self) -> Dataset:
         """The triples; read-only."""
-        return self._store
+        return self._dataset
 
     @property
     def source(self) -> str:
@@ -53,7 +71,11 @@ class GraphStore:
             GraphError: the query does not parse, is an update, is too complex, or contacts another server.
         """
         check_complexity(query)
-        return self._run(query, {})
+        return self._run(query)
+
+    def hints(self, query: str) -> list[str]:
+        """Return a line for each name in a query that the graph does not have, such as a misspelt property."""
+        return unknown_names(query, self._dataset)
 
     def answer(self, question_id: str, given: Mapping[str, str] | None = None) -> Answer:
         """Return the answer to one of `list_questions`, with values for its parameters.
@@ -71,10 +93,17 @@ class GraphStore:
         answers = []
         for terms in itertools.product(*choices):
             bound = dict(zip(filled, terms, strict=True))
-            found = self._run(question.sparql, {ox.Variable(p.variable): term for p, term in bound.items()})
-            found = without_columns(found, {parameter.variable for parameter in filled})
+            found = self._run_staged(question.bind(bound, self._candidates(question, bound)))
             answers.append(with_columns(found, {p.name: labels[str(bound[p].value)] for p in ambiguous}))
         return join_answers(answers)
+
+    def _candidates(self, question: Question, bound: Mapping[Parameter, _Term]) -> Sequence[ox.NamedNode] | None:
+        """Return the objects within the distance that the question allows; None if these are too many to list."""
+        if question.candidates is None:
+            return None
+        distance, origin = ({p.name: term for p, term in bound.items()}[name] for name in question.candidates)
+        found = self._bodies.within(float(distance.value), str(origin.value))
+        return None if found is None or len(found) > LOOKUP.max_listed else [*map(ox.NamedNode, found)]
 
     def _terms(self, parameter: Parameter, value: str) -> Sequence[_Term]:
         """Return the terms that a value can denote."""
@@ -88,22 +117,18 @@ class GraphStore:
             return [ox.Literal(value)]
         return [ox.Literal(parse_number(value, parameter.kind))]
 
-    def _run(self, query: str, bindings: Mapping[ox.Variable, _Term]) -> Answer:
+    def _run_staged(self, query: str) -> Answer:
+        """Return the answer to a query of this package, quickly where it is about few objects."""
+        staged = list_found_first(query, self._dataset.select, LOOKUP.max_listed)
+        return replace(self._run(staged), sparql=query)
+
+    def _run(self, query: str) -> Answer:
         if has_remote_clause(query):
             raise GraphError(REMOTE_QUERY)
         try:
-            found = self._store.query(
-                query,
-                prefixes=_PREFIXES,
-                use_default_graph_as_union=True,
-                substitutions=dict(bindings),
-                custom_functions=self._functions,
-            )
+            found = self._dataset.query(query, custom_functions=self._functions)
         except SyntaxError as error:
-            reason = one_line(error)
-            raise GraphError(
-                f"query: not valid SPARQL ({reason}); expected SELECT, ASK, CONSTRUCT or DESCRIBE"
-            ) from error
+            raise GraphError(describe_syntax_error(query, error)) from error
         if isinstance(found, ox.QueryBoolean):
             return Answer(("answer",), ((str(bool(found)).lower(),),), ((bool(found),),), query)
         if isinstance(found, ox.QueryTriples):
@@ -159,8 +184,8 @@ class GraphStore:
     def find(self, thing: str) -> list[ox.NamedNode]:
         """Return the objects that match a name, by the first criterion with a match.
 
-        Criteria in order: prim path; label; class or concept, with everything below it; all words in the label; all
-        words in the asset's name.
+        Criteria in order: prim path; label, as written, in lower case or capitalised; class or concept, with
+        everything below it; label in any case; all words in the label; all words in the asset's name.
 
         Raises:
             GraphError: no object matches.
@@ -169,5 +194,5 @@ class GraphStore:
 
     def _about(self, template: templates.QueryTemplate, name: str) -> Answer:
         things = self._lookup.kinds(name) if template.takes_kind else self._lookup.find(name)
-        answer = self.sparql(template.fill(term_list(things)))
+        answer = self._run_staged(template.fill(term_list(things)))
         return replace(answer, columns=tuple(template.columns.get(column, column) for column in answer.columns))

@@ -32,60 +32,74 @@ _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
 KIND_OF = "(a/rdfs:subClassOf*)|(u2k:concept/skos:broader*)"
 """From an object to a class that it belongs to, or to its concept and the hypernyms."""
 
-_RELATED = """
-SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{
-  VALUES ?a {{ {things} }}
-  ?o {predicate} ?a ; rdfs:label ?object ; u2k:primPath ?path .
-  ?a rdfs:label ?anchor .
-  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
-  OPTIONAL {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a ; {number} ?number . }}
-}} ORDER BY ?path"""
+# The engine joins the groups below OPTIONAL before it looks at what is around them. So each group that has an
+# annotation begins with the pairs that are asked about; without them, it would read all annotations of the graph.
+_PAIRS = "{{ SELECT DISTINCT ?o ?a {{ VALUES ?a {{ {things} }} ?o {predicate} ?a }} }}"
+"""An object and the thing that it stands in a relation to."""
+_CLASS = "OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}"
 
-_CLOSE = """
-SELECT ?object ?class ?path ?anchor (MIN(?measured) AS ?number) WHERE {{
-  VALUES ?a {{ {things} }}
-  ?o {predicate} ?a ; rdfs:label ?object ; u2k:primPath ?path .
-  ?a rdfs:label ?anchor .
-  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
-  OPTIONAL {{
-    {{ ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a }}
-    UNION {{ ?x owl:annotatedSource ?a ; owl:annotatedTarget ?o }}
-    ?x u2k:distance|u2k:gap ?measured .
-  }}
-}} GROUP BY ?o ?a ?object ?class ?path ?anchor ORDER BY ?number ?path"""
-
-_PARTS = """
-SELECT DISTINCT ?object ?class ?path ?whole WHERE {{
-  VALUES ?a {{ {things} }}
-  ?o ({predicate})+ ?a ; rdfs:label ?object ; u2k:primPath ?path ; {predicate} ?w .
-  ?w rdfs:label ?whole .
-  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
-}} ORDER BY ?path"""
-
-_WHERE = """
-SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{
-  VALUES ?o {{ {things} }}
+_RELATED = f"""
+SELECT DISTINCT ?object ?class ?path ?anchor ?number WHERE {{{{
+  {_PAIRS}
   ?o rdfs:label ?object ; u2k:primPath ?path .
-  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
-  OPTIONAL {{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}
-  OPTIONAL {{ ?o {on} ?a . ?a rdfs:label ?on . }}
-  OPTIONAL {{ ?o {inside} ?b . ?b rdfs:label ?inside . }}
-  OPTIONAL {{ ?o u2k:inRoom ?r . ?r rdfs:label ?room . }}
-}} ORDER BY ?path"""
+  ?a rdfs:label ?anchor .
+  {_CLASS}
+  OPTIONAL {{{{
+    {_PAIRS}
+    ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a ; {{number}} ?number .
+  }}}}
+}}}} ORDER BY ?path"""
 
-_ALL = """
-SELECT DISTINCT ?object ?class ?concept ?path ?confidence WHERE {{
-  VALUES ?wanted {{ {things} }}
-  ?o {predicate} ?wanted ; rdfs:label ?object ; u2k:primPath ?path .
-  OPTIONAL {{ ?o a ?c . ?c rdfs:label ?class . }}
-  OPTIONAL {{ ?o u2k:concept/skos:prefLabel ?concept . }}
-  OPTIONAL {{
-    ?c rdfs:subClassOf* ?wanted .
-    ?x owl:annotatedSource ?o ; owl:annotatedTarget ?c ; sssom:confidence ?of_class .
-  }}
-  OPTIONAL {{ ?o u2k:conceptConfidence ?of_concept . }}
+_CLOSE = f"""
+SELECT ?object ?class ?path ?anchor (MIN(?measured) AS ?number) WHERE {{{{
+  {_PAIRS}
+  ?o rdfs:label ?object ; u2k:primPath ?path .
+  ?a rdfs:label ?anchor .
+  {_CLASS}
+  OPTIONAL {{{{
+    {{{{
+      {_PAIRS}
+      ?x owl:annotatedSource ?o ; owl:annotatedTarget ?a ; u2k:distance|u2k:gap ?measured .
+    }}}} UNION {{{{
+      {_PAIRS}
+      ?x owl:annotatedSource ?a ; owl:annotatedTarget ?o ; u2k:distance|u2k:gap ?measured .
+    }}}}
+  }}}}
+}}}} GROUP BY ?o ?a ?object ?class ?path ?anchor ORDER BY ?number ?path"""
+
+_PARTS = f"""
+SELECT DISTINCT ?object ?class ?path ?whole WHERE {{{{
+  {{{{ SELECT DISTINCT ?o {{{{ VALUES ?a {{{{ {{things}} }}}} ?o ({{predicate}})+ ?a }}}} }}}}
+  ?o rdfs:label ?object ; u2k:primPath ?path ; {{predicate}} ?w .
+  ?w rdfs:label ?whole .
+  {_CLASS}
+}}}} ORDER BY ?path"""
+
+_WHERE = f"""
+SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{{{
+  VALUES ?o {{{{ {{things}} }}}}
+  ?o rdfs:label ?object ; u2k:primPath ?path .
+  {_CLASS}
+  OPTIONAL {{{{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}}}
+  OPTIONAL {{{{ ?o {{on}} ?a . ?a rdfs:label ?on . }}}}
+  OPTIONAL {{{{ ?o {{inside}} ?b . ?b rdfs:label ?inside . }}}}
+  OPTIONAL {{{{ ?o u2k:inRoom ?r . ?r rdfs:label ?room . }}}}
+}}}} ORDER BY ?path"""
+
+_ALL = f"""
+SELECT DISTINCT ?object ?class ?concept ?path ?confidence WHERE {{{{
+  {_PAIRS}
+  ?o rdfs:label ?object ; u2k:primPath ?path .
+  {_CLASS}
+  OPTIONAL {{{{ ?o u2k:concept/skos:prefLabel ?concept . }}}}
+  OPTIONAL {{{{
+    {_PAIRS}
+    ?o a ?k . ?k rdfs:subClassOf* ?a .
+    ?x owl:annotatedSource ?o ; owl:annotatedTarget ?k ; sssom:confidence ?of_class .
+  }}}}
+  OPTIONAL {{{{ ?o u2k:conceptConfidence ?of_concept . }}}}
   BIND (COALESCE(?of_class, ?of_concept) AS ?confidence)
-}} ORDER BY ?path"""
+}}}} ORDER BY ?path"""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["COMPLEXITY", "LOOKUP", "SWEEP", "ComplexitySettings", "LookupSettings", "SweepSettings"]
+__all__ = [
+    "CACHE",
+    "COMPLEXITY",
+    "LOOKUP",
+    "SWEEP",
+    "CacheSettings",
+    "ComplexitySettings",
+    "LookupSettings",
+    "SweepSettings",
+]
 
 
 @dataclass(frozen=True)
@@ -26,6 +35,7 @@ class LookupSettings:
 
     min_label_similarity: float
     max_suggestions: int
+    max_listed: int
 
 
 @dataclass(frozen=True)
@@ -37,6 +47,17 @@ class ComplexitySettings:
     max_triples: int
 
 
+@dataclass(frozen=True)
+class CacheSettings:
+    """Which graph files are indexed, and how much is kept."""
+
+    min_mib: float
+    max_mib: float
+    lock_wait_s: float
+    abandoned_h: float
+
+
 SWEEP = read_settings("query", "sweep", SweepSettings)
 LOOKUP = read_settings("query", "lookup", LookupSettings)
 COMPLEXITY = read_settings("query", "complexity", ComplexitySettings)
+CACHE = read_settings("query", "cache", CacheSettings)

@@ -46,17 +46,16 @@ def find_obstacles(bodies: BodyIndex, motion: JointMotion) -> dict[str, float]:
         return {}
     own = {iri for iri in (motion.parent, motion.child, motion.whole) if iri}
     own |= bodies.carried_by(motion.child or motion.whole or "")
-    others = [(iri, body) for iri, body in bodies.by_iri.items() if iri not in own and body.lower is not None]
-    if not others:
-        return {}
-    lower = np.array([body.lower for _, body in others])
-    upper = np.array([body.upper for _, body in others])
+    table = bodies.table
+    is_other = ~np.isnan(table.lower[:, 0]) & np.array([iri not in own for iri in table.iris], dtype=bool)
+    others = [table.iris[row] for row in np.flatnonzero(is_other).tolist()]
+    lower, upper = table.lower[is_other], table.upper[is_other]
     center, half = (lower + upper) / 2, np.maximum((upper - lower) / 2 - SWEEP.tolerated_overlap / 2, 0)
     is_free = ~_overlaps(_pose(part, motion, 0.0), center, half)
     collisions: dict[str, float] = {}
     for position in np.linspace(0, motion.opening, _count_steps(part, motion) + 1)[1:]:
         hits = is_free & _overlaps(_pose(part, motion, position), center, half)
-        collisions.update((others[i][0], float(position)) for i in np.flatnonzero(hits))
+        collisions.update((others[i], float(position)) for i in np.flatnonzero(hits))
         is_free &= ~hits
     return collisions
 
@@ -100,8 +99,8 @@ def _overlaps(part: _PosedBox, center: Array, half: Array) -> NDArray[np.bool_]:
 
 def _moving_box(bodies: BodyIndex, motion: JointMotion) -> _Box | None:
     """Return the box that moves: the child, or the opening side of `whole` if the moving part is not an object."""
-    body = bodies.by_iri.get(motion.child or motion.whole or "")
-    if body is None or body.lower is None or body.upper is None:
+    body = bodies.find(motion.child or motion.whole or "")
+    if body.lower is None or body.upper is None:
         return None
     if motion.child is None and float(np.min(body.upper - body.lower)) > SWEEP.max_panel_thickness:
         return _opening_side(body.lower, body.upper, motion)

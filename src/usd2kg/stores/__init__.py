@@ -3,7 +3,7 @@
 from usd2kg.stores.embedded import EmbeddedStore
 from usd2kg.stores.named_graph import NamedGraph, make_named_graph, make_ontology_graph, read_named_graph
 from usd2kg.stores.named_graphs import StoredGraph, choose_graph
-from usd2kg.stores.opening import SceneStore, is_store, open_graph, open_store, select_graphs
+from usd2kg.stores.opening import SceneStore, is_store, open_graph, open_store, select_graphs, view_scenes
 from usd2kg.stores.remote import RemoteStore
 
 __all__ = [
@@ -20,4 +20,5 @@ __all__ = [
     "open_store",
     "read_named_graph",
     "select_graphs",
+    "view_scenes",
 ]

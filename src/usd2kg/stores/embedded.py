@@ -2,19 +2,20 @@
 
 import logging
 import re
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, StoreError, one_line
+from usd2kg.folder_lock import LOCK_NAME, lock_exclusive, lock_shared, release_when_unused
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer
 from usd2kg.query.complexity import check_complexity
+from usd2kg.query.dataset import Dataset
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_UPDATE, has_remote_clause
-from usd2kg.stores.folder_lock import LOCK_NAME, lock_exclusive, lock_shared
 from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
 from usd2kg.stores.named_graphs import StoredGraph, list_graphs
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
@@ -118,7 +119,7 @@ class EmbeddedStore:
             GraphError: the query does not parse, is an update, is too complex, or contacts another server.
             StoreError: the folder is not a store, or another process writes to it.
         """
-        return self.fetch(graphs).sparql(sparql)
+        return self.views([graphs])[0].sparql(sparql)
 
     def fetch(self, graphs: Sequence[str]) -> GraphStore:
         """Return the union of the given graphs in memory; 10 million triples need several gigabytes.
@@ -131,7 +132,21 @@ class EmbeddedStore:
             for iri in graphs:
                 quads = store.quads_for_pattern(None, None, None, ox.NamedNode(iri))
                 copy.bulk_extend(ox.Quad(quad.subject, quad.predicate, quad.object) for quad in quads)
-        return GraphStore(copy, self.address)
+        return GraphStore(Dataset(copy), self.address)
+
+    def views(self, selections: Iterable[Sequence[str]]) -> list[GraphStore]:
+        """Return the union of each selection of graphs, in place; writers wait until all are no longer used.
+
+        Raises:
+            StoreError: the folder is not a store, or another process writes to it.
+        """
+        with ExitStack() as locks:
+            store = locks.enter_context(self._reading())
+            keeper = release_when_unused(locks.pop_all())
+        everything = set(store.named_graphs())
+        chosen = (tuple(map(ox.NamedNode, graphs)) for graphs in selections)
+        datasets = (Dataset(store, None if everything <= set(graphs) else graphs) for graphs in chosen)
+        return [GraphStore(dataset, self.address, keeper) for dataset in datasets]
 
     def snapshot(self, target: Path) -> None:
         """Copy the store to a new folder.

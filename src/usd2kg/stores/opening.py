@@ -1,6 +1,7 @@
 """Open a graph file, a store folder or a server by path or address."""
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Protocol
 
@@ -15,7 +16,7 @@ from usd2kg.stores.named_graphs import StoredGraph, choose_graph
 from usd2kg.stores.remote import RemoteStore
 from usd2kg.stores.server_addresses import read_credentials
 
-__all__ = ["SceneStore", "is_store", "open_graph", "open_store", "select_graphs"]
+__all__ = ["SceneStore", "is_store", "open_graph", "open_store", "select_graphs", "view_scenes"]
 
 
 class SceneStore(Protocol):
@@ -58,6 +59,10 @@ class SceneStore(Protocol):
         """Return the union of the given graphs in memory."""
         ...
 
+    def views(self, selections: Iterable[Sequence[str]]) -> list[GraphStore]:
+        """Return the union of each selection of graphs for a few questions, in place where the store is local."""
+        ...
+
 
 def is_store(place: str) -> bool:
     """Return whether a place is a folder or an address, rather than a file."""
@@ -93,6 +98,31 @@ def select_graphs(store: SceneStore, scene: str | None) -> list[str]:
     return [chosen.iri, *(graph.iri for graph in graphs if not graph.is_scene and graph != chosen)]
 
 
+def view_scenes(place: str, scene: str | None = None) -> dict[str, GraphStore]:
+    """Return scene → its graph with the ontologies of the store, for a few questions; for a file, its only graph.
+
+    Positions of two scenes cannot be compared, so a question is asked of each scene. A large file is indexed in the
+    user's cache, and a folder is queried in place: writers wait until the graphs are no longer used.
+
+    Raises:
+        GraphError: the file cannot be read, or the scene is unknown.
+        StoreError: the store is unreachable, denies access, or is locked by another process.
+    """
+    if not is_store(place):
+        _refuse_scene(place, scene)
+        return {Path(place).name: load_graph(place, is_indexed=True)}
+    store = open_store(place)
+    chosen = set(select_graphs(store, scene))
+    graphs = [graph for graph in store.graphs() if graph.iri in chosen]
+    shared = [graph.iri for graph in graphs if not graph.is_scene]
+    found = [graph for graph in graphs if graph.is_scene]
+    names = Counter(graph.name for graph in found)
+    scenes = {graph.name if names[graph.name] == 1 else graph.iri: [graph.iri, *shared] for graph in found}
+    if not scenes:
+        scenes = {graphs[0].name: shared}
+    return dict(zip(scenes, store.views(scenes.values()), strict=True))
+
+
 def open_graph(place: str, scene: str | None = None) -> GraphStore:
     """Return the graph in a file, or one scene of a store, or the union of all its scenes, in memory.
 
@@ -103,9 +133,13 @@ def open_graph(place: str, scene: str | None = None) -> GraphStore:
     if is_store(place):
         store = open_store(place)
         return store.fetch(select_graphs(store, scene))
+    _refuse_scene(place, scene)
+    return load_graph(place)
+
+
+def _refuse_scene(place: str, scene: str | None) -> None:
     if scene is not None:
         raise GraphError(f"{place}: is a single graph; --scene selects one of a store")
-    return load_graph(place)
 
 
 def _is_address(place: str) -> bool:

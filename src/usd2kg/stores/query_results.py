@@ -1,14 +1,11 @@
 """Conversion of queries and answers to and from the SPARQL Protocol."""
 
-import re
-
 import pyoxigraph as ox
 
 from usd2kg.errors import StoreError
-from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer, make_answer
 
-__all__ = ["declare_prefixes", "parse_results"]
+__all__ = ["parse_results"]
 
 
 def parse_results(body: bytes, sparql: str) -> Answer:
@@ -31,14 +28,3 @@ def parse_results(body: bytes, sparql: str) -> Answer:
             f"the server's answer is neither SPARQL results JSON nor N-Triples ({error}); check that it is a SPARQL "
             "server"
         ) from error
-
-
-def declare_prefixes(sparql: str) -> str:
-    """Return a query or update with declarations of the package's prefixes that it uses and does not declare.
-
-    >>> declare_prefixes("ASK { ?s u2k:primPath ?p }")
-    'PREFIX u2k: <https://w3id.org/usd2kg#> ASK { ?s u2k:primPath ?p }'
-    """
-    declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
-    used = [n for n in PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
-    return "".join(f"PREFIX {name}: <{PREFIXES[name]}> " for name in used) + sparql

@@ -2,7 +2,7 @@
 
 import logging
 import uuid
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import ExitStack, suppress
 from datetime import UTC, datetime
 from functools import cached_property
@@ -13,6 +13,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.vocabulary import DCTERMS
 from usd2kg.query.answer import Answer
+from usd2kg.query.dataset import Dataset, with_prefixes
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_QUERY, REMOTE_UPDATE, has_remote_clause
 from usd2kg.stores.chunking import split_triples
@@ -20,7 +21,7 @@ from usd2kg.stores.endpoints import FORM, Endpoints, find_query, find_writing
 from usd2kg.stores.http_client import HttpRequest, HttpResponse, OutcomeUnknownError, SparqlClient
 from usd2kg.stores.named_graph import NamedGraph
 from usd2kg.stores.named_graphs import StoredGraph, list_graphs, read_number
-from usd2kg.stores.query_results import declare_prefixes, parse_results
+from usd2kg.stores.query_results import parse_results
 from usd2kg.stores.server_addresses import check_address, redact_address
 from usd2kg.stores.store_limits import UploadLimits
 
@@ -176,7 +177,7 @@ class RemoteStore:
         """
         if has_remote_clause(sparql):
             raise GraphError(REMOTE_UPDATE)
-        self._update(declare_prefixes(sparql), is_idempotent=False)
+        self._update(with_prefixes(sparql), is_idempotent=False)
 
     def graphs(self) -> tuple[StoredGraph, ...]:
         """Return the graphs of scenes and ontologies, without graphs of other programs."""
@@ -196,7 +197,7 @@ class RemoteStore:
         """
         if has_remote_clause(sparql):
             raise GraphError(REMOTE_QUERY)
-        return parse_results(self._query(declare_prefixes(sparql), graphs).body, sparql)
+        return parse_results(self._query(with_prefixes(sparql), graphs).body, sparql)
 
     def fetch(self, graphs: Sequence[str]) -> GraphStore:
         """Return the union of the given graphs in memory.
@@ -213,7 +214,11 @@ class RemoteStore:
                 raise StoreError(
                     f"{self.address}: the answer for <{iri}> is not N-Triples ({error}); check the address"
                 ) from error
-        return GraphStore(copy, self.address)
+        return GraphStore(Dataset(copy), self.address)
+
+    def views(self, selections: Iterable[Sequence[str]]) -> list[GraphStore]:
+        """Return the union of each selection of graphs in memory: the server lacks the functions of this package."""
+        return [self.fetch(graphs) for graphs in selections]
 
     def _query(self, sparql: str, graphs: Sequence[str]) -> HttpResponse:
         form = [("query", sparql), *(("default-graph-uri", iri) for iri in graphs)]

@@ -13,7 +13,6 @@ stored instead of token log-probabilities. Versions of usd2kg that know only for
 import json
 import os
 import sqlite3
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -22,6 +21,7 @@ from threading import Lock, RLock
 from types import TracebackType
 from typing import Self
 
+from usd2kg.cache_folder import cache_folder
 from usd2kg.errors import GroundingError, OutputError
 from usd2kg.files import write_whole
 from usd2kg.grounding.llm.completion import Completion, Request
@@ -58,26 +58,17 @@ _creating = Lock()
 
 
 def default_cache_path() -> Path:
-    """Return the default path of the cache: `$USD2KG_CACHE`, else a file in the user's cache folder.
-
-    The file is `usd2kg/completions.sqlite` in `%LOCALAPPDATA%` on Windows, elsewhere in `$XDG_CACHE_HOME` or
-    `~/.cache` (XDG Base Directory Specification 0.8, which ignores a relative `$XDG_CACHE_HOME`).
+    """Return the default path of the cache: `$USD2KG_CACHE`, else a file in the `cache_folder`.
 
     Raises:
         GroundingError: the home folder cannot be determined.
     """
     if chosen := os.environ.get("USD2KG_CACHE"):
         return Path(chosen)
-    is_windows = sys.platform == "win32"
-    folder = Path(os.environ.get("LOCALAPPDATA" if is_windows else "XDG_CACHE_HOME", ""))
-    if not folder.is_absolute():
-        try:
-            folder = Path.home() / ("AppData/Local" if is_windows else ".cache")
-        except RuntimeError as error:
-            raise GroundingError(
-                f"cache of completions: {error}; set USD2KG_CACHE to a file to keep them in"
-            ) from error
-    return folder / "usd2kg" / "completions.sqlite"
+    try:
+        return cache_folder() / "completions.sqlite"
+    except RuntimeError as error:
+        raise GroundingError(f"cache of completions: {error}; set USD2KG_CACHE to a file to keep them in") from error
 
 
 class CompletionCache:

@@ -1,17 +1,20 @@
 """Ready questions for robot tasks: parameterised SPARQL, one file each.
 
 A file begins with comments: `# id:`, `# question:` with the parameters in braces, `# parameter: NAME | KIND | DEFAULT`
-for each parameter, and `# note:`. A kind is `object`, `class`, `position`, or the unit of a number: `m`, `kg` or
-`share`. In the query, the parameter is the variable `?the_NAME`. The query must select it, because only selected
-variables can be bound; the answer omits it. Values are bound as terms, never inserted as text.
+for each parameter, `# candidates: DISTANCE | FROM` if only objects within a distance of an object or position can be an
+answer, and `# note:`. A kind is `object`, `class`, `position`, or the unit of a number: `m`, `kg` or
+`share`. In the query, the parameter is the variable `?the_NAME`, outside SELECT. Values are bound as terms in SPARQL's
+syntax, never inserted as text.
 """
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+
+import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 
@@ -58,6 +61,24 @@ class Question:
     note: str
     """Method and limits of the answer; may be empty."""
     sparql: str
+    candidates: tuple[str, str] | None = None
+    """Names of the parameters that limit the answer: all objects `?o` are within this distance of this object or
+    position. None if other objects can be an answer."""
+
+    def bind(
+        self, terms: Mapping[Parameter, ox.NamedNode | ox.Literal], candidates: Iterable[ox.NamedNode] | None = None
+    ) -> str:
+        """Return the query with a term in place of each parameter, without the comments of its file.
+
+        Args:
+            terms: the values.
+            candidates: the only objects that can be an answer; None for all.
+        """
+        written = {parameter.variable: str(term) for parameter, term in terms.items()}
+        query = re.sub(r"\?(the_[a-z]+)", lambda found: written.get(found[1], found[0]), self.sparql)
+        if candidates is None:
+            return query
+        return query.replace("WHERE {", f"WHERE {{\n  VALUES ?o {{ {' '.join(map(str, candidates))} }}", 1)
 
     def fill(self, given: Mapping[str, str]) -> dict[Parameter, str]:
         """Return parameter → value as text, with defaults for omitted parameters.
@@ -119,11 +140,14 @@ def parse_number(text: str, unit: str) -> float:
 def _parse(text: str) -> Question:
     head: dict[str, list[str]] = {}
     for line in text.splitlines():
-        found = re.fullmatch(r"# (id|question|parameter|note): (.+)", line)
+        found = re.fullmatch(r"# (id|question|parameter|candidates|note): (.+)", line)
         if found:
             head.setdefault(found.group(1), []).append(found.group(2))
     parameters = tuple(_parse_parameter(line) for line in head.get("parameter", ()))
-    return Question(head["id"][0], head["question"][0], parameters, " ".join(head.get("note", ())), text)
+    distance, _, origin = "".join(head.get("candidates", ())).partition(" | ")
+    candidates = (distance, origin) if origin else None
+    query = "\n".join(line for line in text.splitlines() if not line.startswith("# "))
+    return Question(head["id"][0], head["question"][0], parameters, " ".join(head.get("note", ())), query, candidates)
 
 
 def _parse_parameter(line: str) -> Parameter:

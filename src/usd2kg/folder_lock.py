@@ -2,15 +2,27 @@
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
+from weakref import finalize
 
 from usd2kg.errors import StoreError
 
-__all__ = ["LOCK_NAME", "lock_exclusive", "lock_shared"]
+__all__ = ["LOCK_NAME", "lock_exclusive", "lock_shared", "release_when_unused"]
 
 LOCK_NAME = "usd2kg.lock"
 """An empty SQLite database, whose file locks are shared or exclusive on every platform."""
+
+
+class _Keeper:
+    """An object that can be referred to weakly."""
+
+
+def release_when_unused(locks: ExitStack) -> object:
+    """Return an object; the locks are released when nothing refers to it any more."""
+    keeper = _Keeper()
+    finalize(keeper, locks.close)
+    return keeper
 
 
 @contextmanager

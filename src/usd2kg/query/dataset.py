@@ -1,0 +1,72 @@
+"""Dataset: the graphs of a store that queries run on."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pyoxigraph as ox
+
+from usd2kg.graph.vocabulary import PREFIXES
+
+__all__ = ["FUNCTION_NAMESPACE", "INDEX_NAME", "QUERY_PREFIXES", "Dataset", "with_prefixes"]
+
+FUNCTION_NAMESPACE = "https://w3id.org/usd2kg/function#"
+"""Prefix `u2kf:` in queries."""
+QUERY_PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
+"""Prefixes that are predefined in queries."""
+INDEX_NAME = "index"
+"""Subfolder of `Dataset.folder` with the files of the engine."""
+
+
+def with_prefixes(sparql: str) -> str:
+    """Return a query with declarations of the predefined prefixes that it uses and does not declare.
+
+    >>> print(with_prefixes("ASK { ?s u2k:primPath ?p }"))
+    PREFIX u2k: <https://w3id.org/usd2kg#>
+    ASK { ?s u2k:primPath ?p }
+    """
+    declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
+    used = [n for n in QUERY_PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
+    return "".join(f"PREFIX {name}: <{QUERY_PREFIXES[name]}>\n" for name in used) + sparql.strip()
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """Graphs of a store, queried as their union."""
+
+    store: ox.Store
+    graphs: tuple[ox.NamedNode, ...] | None = None
+    """None for all graphs."""
+    folder: Path | None = None
+    """Folder of the index of a file, where tables that are computed from the graphs may be kept."""
+
+    @property
+    def index(self) -> Path | None:
+        """The files of the engine; None in memory and for a store of the user."""
+        return None if self.folder is None else self.folder / INDEX_NAME
+
+    def __len__(self) -> int:
+        """Return the number of triples; those of several graphs count each time."""
+        if self.graphs is None:
+            return len(self.store)
+        return sum(1 for graph in self.graphs for _ in self.store.quads_for_pattern(None, None, None, graph))
+
+    def query(self, sparql: str, **options: Any) -> ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples:
+        """Return the result of a query; the package's prefixes are predefined.
+
+        Args:
+            sparql: the query.
+            options: further arguments of `pyoxigraph.Store.query`.
+        """
+        graphs: Mapping[str, Any] = (
+            {"use_default_graph_as_union": True} if self.graphs is None else {"default_graph": [*self.graphs]}
+        )
+        return self.store.query(sparql, prefixes=QUERY_PREFIXES, **graphs, **options)
+
+    def select(self, sparql: str, **options: Any) -> list[Any]:
+        """Return the rows of a SELECT query."""
+        rows = self.query(sparql, **options)
+        assert isinstance(rows, ox.QuerySolutions)
+        return list(rows)
