@@ -2,8 +2,8 @@
 
 Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
-The lists are in `judged`; that of the demo kitchen is written with the scene. The two real scenes are read from the
-folder that the variable USD2KG_SHARED names, `../shared` by default; a missing one is skipped.
+The lists are in `judged`; `on` and `inside` of the demo kitchen are written with the scene. The real scenes are read
+from the folder that the variable USD2KG_SHARED names, `../shared` by default; a missing one is skipped.
 """
 
 import csv
@@ -21,21 +21,23 @@ from usd2kg.demo import demo_relations, demo_scene
 from usd2kg.relations import Relation
 
 HERE = Path(__file__).parent
-KINDS = ("on", "inside", "part-of", "room", "touching")
+KINDS = ("on", "inside", "part-of", "attached-to", "room", "touching")
 ANY = "*"
 
 
 class Sources(NamedTuple):
-    """A scene and its judged list."""
+    """A scene and its judged lists."""
 
     stage: Path
-    judged: Path
+    judged: tuple[Path, ...]
 
 
 SCENES = {
-    "demo_kitchen": Sources(demo_scene(), demo_relations()),
-    "apartment": Sources(SHARED / "scenes/iai_apartment/apartment.usdc", HERE / "judged/apartment.csv"),
-    "small_house": Sources(SHARED / "scenes/aws_robomaker/small_house.usdc", HERE / "judged/small_house.csv"),
+    "demo_kitchen": Sources(demo_scene(), (demo_relations(), HERE / "judged/demo_kitchen.csv")),
+    "apartment": Sources(SHARED / "scenes/iai_apartment/apartment.usdc", (HERE / "judged/apartment.csv",)),
+    "small_house": Sources(SHARED / "scenes/aws_robomaker/small_house.usdc", (HERE / "judged/small_house.csv",)),
+    "bookstore": Sources(SHARED / "scenes/aws_robomaker/bookstore.usdc", (HERE / "judged/bookstore.csv",)),
+    "dlr_kitchen": Sources(SHARED / "scenes/dlr_kitchen/source/dlr_kitchen.usda", (HERE / "judged/dlr_kitchen.csv",)),
 }
 
 
@@ -164,7 +166,8 @@ def main(names: list[str]) -> None:
         if not source.stage.exists():
             errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set USD2KG_SHARED")
             continue
-        tallies = compare(read_judged(source.judged), usd2kg.build(source.stage).graph.relations)
+        facts = [fact for path in source.judged for fact in read_judged(path)]
+        tallies = compare(facts, usd2kg.build(source.stage).graph.relations)
         rows += table(name, tallies)
         errors_and_notes += [f"{name}: {line}" for line in errors(tallies)]
     print("\n".join([*rows, "", *errors_and_notes]))

@@ -1,9 +1,12 @@
 """Time the spatial relations on synthetic rooms: tables, shelves, nested boxes, and small objects on and in them.
 
-Usage: python benchmarks/relations/run.py [OBJECTS...] (default 1000 10000 100000)
+Usage: python benchmarks/relations/run.py [--meshes | --pile] [OBJECTS...] (default 1000 10000 100000)
 
 Scenes are built in memory, without a stage. For each size, times each kind alone and the default set, as the minimum of
-a few runs. All kinds except part-of include `inside` and `on`, on which they depend.
+a few runs, in processor time. All kinds except part-of include `inside` and `on`, on which they depend.
+
+--meshes gives each table, chair, shelf, bowl, cup and plate a mesh instead of a box of 60
+to 240 triangles. --pile puts all objects in one heap, in whose boxes they overlap.
 """
 
 import gc
@@ -14,10 +17,13 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from usd2kg.grounding import Grounding, Prediction, Status
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, Viewpoint, find_relations
 from usd2kg.scene import Box, Scene, SceneObject, StageFrame
+from usd2kg.shapes.surface import Surface, SurfacePiece
 
 ROOM = 6.0
 """Side length of a room in metres."""
@@ -56,14 +62,24 @@ class Maker:
         self.objects.append(SceneObject(prim_path=path, name=name, **blank, **empty, **texts, **known))
         self.classes.append(cls)
 
-    def fill(self) -> None:
-        """Add room after room, in rows."""
+    def fill(self, layout: str) -> None:
+        """Add room after room, in rows, or a heap."""
+        if layout == "pile":
+            self.pile()
+            return
         rooms = 0
         per_row = max(1, math.isqrt(self.wanted // 150))
         while len(self.objects) < self.wanted:
             self.room(rooms % per_row * ROOM, rooms // per_row * ROOM)
             rooms += 1
         del self.objects[self.wanted :], self.classes[self.wanted :]
+
+    def pile(self) -> None:
+        """Add a heap of boxes 10 cm long, one per cubic decimetre, seven of which overlap each box."""
+        side = 0.1 * self.wanted ** (1 / 3)
+        for _ in range(self.wanted):
+            x, y, z = (self.random.uniform(0, side) for _ in range(3))
+            self.add("thing", "DesignedArtifact", (x, y, z), (0.1, 0.1, 0.1))
 
     def room(self, x: float, y: float) -> None:
         """Add a room with floor, walls, four tables, three shelves and six nests of boxes."""
@@ -111,17 +127,69 @@ class Maker:
             self.add("box", "Box", (x + 0.06 * depth, y + 0.06 * depth, 0.03 * depth), (side, side, side))
 
 
-def make_scene(count: int, tbox: TBox) -> tuple[Scene, Grounding]:
+def boxes_mesh(*boxes: tuple[Corner, Corner]) -> tuple[Any, Any]:
+    """Return points and triangles of boxes, given by lower and upper corners in shares of the object's box."""
+    ends = np.array(boxes)
+    corners = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
+    points = np.concatenate([np.choose(corners, box) for box in ends])
+    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    return points, np.concatenate([faces + 8 * number for number in range(len(ends))])
+
+
+def turned_mesh(profile: list[tuple[float, float]], segments: int = 24) -> tuple[Any, Any]:
+    """Return points and triangles of a solid of revolution, given by (radius, height) in shares of the object's box."""
+    angles = np.arange(segments) * 2 * np.pi / segments
+    points = [
+        np.stack([0.5 + r / 2 * np.cos(angles), 0.5 + r / 2 * np.sin(angles), np.full(segments, z)], 1)
+        for r, z in profile
+    ]
+    here, after = np.arange(segments), np.roll(np.arange(segments), -1)
+    rows = [n * segments for n in range(len(profile) - 1)]
+    faces = [np.stack([row + here, row + after, row + segments + after], 1) for row in rows]
+    faces += [np.stack([row + here, row + segments + after, row + segments + here], 1) for row in rows]
+    return np.concatenate(points), np.concatenate(faces)
+
+
+LEGS = [((x, y, 0.0), (x + 0.06, y + 0.06, 0.95)) for x in (0.0, 0.94) for y in (0.0, 0.94)]
+SHELF = [((0.0, 0.0, 0.05 + 0.2 * board), (1.0, 1.0, 0.06 + 0.2 * board)) for board in range(5)]
+VESSEL = [(0.0, 0.0), (0.6, 0.0), (1.0, 1.0), (0.95, 1.0), (0.55, 0.06), (0.0, 0.06)]
+MESHES = {
+    "table": boxes_mesh(((0.0, 0.0, 0.95), (1.0, 1.0, 1.0)), *LEGS),
+    "chair": boxes_mesh(((0.0, 0.0, 0.45), (1.0, 1.0, 0.5)), ((0.0, 0.95, 0.5), (1.0, 1.0, 1.0)), *LEGS),
+    "shelf": boxes_mesh(*SHELF, ((0.0, 0.0, 0.0), (0.02, 1.0, 1.0)), ((0.98, 0.0, 0.0), (1.0, 1.0, 1.0))),
+    "bowl": turned_mesh(VESSEL),
+    "cup": turned_mesh(VESSEL),
+    "plate": turned_mesh([(0.0, 0.0), (0.6, 0.0), (1.0, 1.0), (0.6, 0.2), (0.0, 0.2)]),
+    "lamp": turned_mesh(VESSEL),
+}
+"""Name → points in the unit cube and triangles."""
+
+
+def make_surfaces(objects: list[SceneObject]) -> dict[str, Surface]:
+    """Return the meshes of the objects that have one; the points are shared."""
+    found = {}
+    for obj in objects:
+        mesh = MESHES.get(obj.name)
+        if mesh is not None and obj.own_box is not None:
+            matrix = np.diag([*obj.own_box.size, 1.0])
+            matrix[3, :3] = obj.own_box.lower
+            found[obj.prim_path] = Surface((SurfacePiece(*mesh, matrix),))
+    return found
+
+
+def make_scene(count: int, tbox: TBox, layout: str) -> tuple[Scene, Grounding]:
     """Return a scene with the given number of objects, and its grounding."""
     maker = Maker(count)
-    maker.fill()
+    maker.fill(layout)
+    surfaces = make_surfaces(maker.objects) if layout == "meshes" else {}
     iris = {name: tbox.resolve(name) for name in set(maker.classes)}
     predictions = tuple(
         Prediction(obj.prim_path, iris[cls], 1.0, Status.GROUNDED, "made", "made")
         for obj, cls in zip(maker.objects, maker.classes, strict=True)
     )
     frame = StageFrame("Z", 1.0, 1.0, is_authored=True)
-    scene = Scene("made", "sha256:0", frame, None, count, tuple(maker.objects), {})
+    scene = Scene("made", "sha256:0", frame, None, count, tuple(maker.objects), {}, surfaces=surfaces)
     settings = {"regime": "semantic"}
     grounding = Grounding(
         scene="made",
@@ -137,9 +205,9 @@ def make_scene(count: int, tbox: TBox) -> tuple[Scene, Grounding]:
     return scene, grounding
 
 
-def measured(count: int, tbox: TBox) -> Iterator[tuple[str, float, int]]:
+def measured(count: int, tbox: TBox, layout: str) -> Iterator[tuple[str, float, int]]:
     """Yield (what, seconds, relations) for each kind and for the default set."""
-    scene, grounding = make_scene(count, tbox)
+    scene, grounding = make_scene(count, tbox, layout)
     assert len(grounding.by_path) == count
     chosen = [(kind, (kind,)) for kind in ALL_KINDS if kind not in VIEWPOINT_KINDS]
     for name, kinds in [*chosen, ("sides", VIEWPOINT_KINDS), ("default set", DEFAULT_KINDS)]:
@@ -147,9 +215,9 @@ def measured(count: int, tbox: TBox) -> Iterator[tuple[str, float, int]]:
         seconds = []
         for _ in range(5 if count <= 10_000 else 2):
             gc.collect()
-            start = time.perf_counter()
+            start = time.process_time()
             found = find_relations(scene, tbox, grounding, RelationOptions(tuple(kinds), viewpoint))
-            seconds.append(time.perf_counter() - start)
+            seconds.append(time.process_time() - start)
             relations = len(found)
             del found
         yield name, min(seconds), relations
@@ -165,9 +233,10 @@ def exponent(sizes: list[int], seconds: list[float]) -> float:
 
 def main() -> None:
     """Measure and print a table."""
-    sizes = [int(argument) for argument in sys.argv[1:]] or [1_000, 10_000, 100_000]
+    layout = next((argument[2:] for argument in sys.argv[1:] if argument.startswith("--")), "boxes")
+    sizes = [int(argument) for argument in sys.argv[1:] if argument.isdecimal()] or [1_000, 10_000, 100_000]
     tbox = load_home_tbox()
-    columns = [list(measured(size, tbox)) for size in sizes]
+    columns = [list(measured(size, tbox, layout)) for size in sizes]
     print("| kind | " + " | ".join(f"{size:,} objects, s" for size in sizes) + " | exponent | relations |")
     print("| --- |" + " --- |" * (len(sizes) + 2))
     for row in zip(*columns, strict=True):

@@ -42,15 +42,16 @@ def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_
 
 def _box(name: str, lower: tuple[float, ...], size: tuple[float, ...], extra: str = "") -> str:
     (x0, y0, z0), (x1, y1, z1) = lower, tuple(a + b for a, b in zip(lower, size, strict=True))
+    points = ", ".join(f"({x}, {y}, {z})" for x in (x0, x1) for y in (y0, y1) for z in (z0, z1))
     return f"""
     def Xform "{name}" ( kind = "component" {extra} )
     {{
         def Mesh "geo"
         {{
             float3[] extent = [({x0}, {y0}, {z0}), ({x1}, {y1}, {z1})]
-            point3f[] points = [({x0}, {y0}, {z0}), ({x1}, {y1}, {z0}), ({x1}, {y1}, {z1})]
-            int[] faceVertexCounts = [3]
-            int[] faceVertexIndices = [0, 1, 2]
+            point3f[] points = [{points}]
+            int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+            int[] faceVertexIndices = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3]
         }}
     }}"""
 

@@ -8,7 +8,7 @@ import pytest
 
 import usd2kg
 from benchmarks.intervals import wilson
-from benchmarks.relations.judged import SCENES, Fact, compare, errors, read_judged, table
+from benchmarks.relations.judged import KINDS, SCENES, Fact, compare, errors, read_judged, table
 from tests.conftest import shared_file
 from usd2kg.relations import Relation
 
@@ -16,47 +16,64 @@ JUDGED = Path(__file__).parents[2] / "benchmarks" / "relations" / "judged"
 STAGES = {
     "apartment": "scenes/iai_apartment/apartment.usdc",
     "small_house": "scenes/aws_robomaker/small_house.usdc",
+    "bookstore": "scenes/aws_robomaker/bookstore.usdc",
+    "dlr_kitchen": "scenes/dlr_kitchen/source/dlr_kitchen.usda",
 }
 FLOORS = {
-    # scene → kind → lowest precision, lowest recall. Measured precision and recall of the apartment: on 7/7 and 9/11;
-    # inside 1 and 1; part-of 68/69 and 66/68; room 82/82 and 82/95; touching 10/10 and 10/14. Of the house: on 44/45
-    # and 44/45; inside 1/1 and 1/4, since a coffee table is no container by its class; touching recall 2/4.
+    # scene → kind → lowest precision, lowest recall; docs/relations.md has the measured values. A kind of which nothing
+    # is true, or nothing is found, has no recall or precision: None.
     "apartment": {
         "on": (0.9, 0.8),
         "inside": (0.95, 0.95),
         "part-of": (0.95, 0.95),
+        "attached-to": (0.9, 0.9),
         "room": (0.95, 0.8),
         "touching": (0.9, 0.7),
     },
-    "small_house": {"on": (0.93, 0.93), "inside": (0.9, 0.25), "part-of": (0.9, 0.9), "touching": (0.9, 0.5)},
+    "small_house": {
+        "on": (0.97, 0.95),
+        "inside": (0.9, 0.9),
+        "part-of": (0.9, 0.9),
+        "attached-to": (0.95, 0.9),
+        "touching": (0.9, 0.5),
+    },
+    "bookstore": {"on": (0.97, 0.97), "inside": (None, None), "part-of": (None, None), "attached-to": (0.95, 0.9)},
+    "dlr_kitchen": {
+        "on": (None, None),
+        "inside": (0.9, 0.9),
+        "part-of": (0.95, 0.95),
+        "attached-to": (None, None),
+        "room": (None, None),
+    },
 }
 
 
 @pytest.mark.parametrize("scene", FLOORS)
 def test_found_relations_agree_with_judgements(scene: str):
-    tallies = compare(read_judged(SCENES[scene].judged), usd2kg.build(shared_file(STAGES[scene])).graph.relations)
+    facts = [fact for path in SCENES[scene].judged for fact in read_judged(path)]
+    tallies = compare(facts, usd2kg.build(shared_file(STAGES[scene])).graph.relations)
     assert tallies.keys() == FLOORS[scene].keys()
     for kind, (precision, recall) in FLOORS[scene].items():
         message = "\n".join([kind, *errors(tallies)])
-        assert tallies[kind].precision >= precision, message
-        assert tallies[kind].recall >= recall, message
+        for measured, least in ((tallies[kind].precision, precision), (tallies[kind].recall, recall)):
+            assert math.isnan(measured) if least is None else measured >= least, message
 
 
-@pytest.mark.parametrize("scene", FLOORS)
+@pytest.mark.parametrize("scene", STAGES)
 def test_judgements_are_well_formed(scene: str):
     with (JUDGED / f"{scene}.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert len({row["subject"] for row in rows}) >= 60
+    assert len({row["subject"] for row in rows}) >= 20
     assert len({tuple(row.values()) for row in rows}) == len(rows)
-    known = {"on", "inside", "part-of", "room", "touching", "nothing"}
+    known = {*KINDS, "nothing"}
     assert {kind for row in rows for kind in row["relation"].removeprefix("?").split("|")} <= known
     assert all(bool(row["object"]) == (row["relation"] != "nothing") for row in rows)
 
 
-@pytest.mark.parametrize("scene", FLOORS)
+@pytest.mark.parametrize("scene", STAGES)
 def test_judgements_name_objects_of_the_scenes(scene: str):
     objects = {obj.prim_path for obj in usd2kg.read_scene(shared_file(STAGES[scene])).objects}
-    facts = read_judged(SCENES[scene].judged)
+    facts = [fact for path in SCENES[scene].judged for fact in read_judged(path)]
     assert {fact.subject for fact in facts} <= objects
     assert len(objects - {fact.subject for fact in facts}) <= 1
     anchors = {path for fact in facts if "room" not in fact.kinds for path in fact.objects} - {"*", ""}

@@ -62,6 +62,7 @@ def rich_graph(profile: str) -> KnowledgeGraph:
         position=(0.0, 0.0, 0.0),
         orientation=(0.0, 0.0, 0.0, 1.0),
         oriented_size=(0.1, 0.1, 0.1),
+        shell_boxes=(box, box),
         mass_kg=0.2,
         center_of_mass=(0.0, 0.0, 0.0),
         display_name="a cup",
@@ -92,7 +93,7 @@ def rich_graph(profile: str) -> KnowledgeGraph:
     concepts = {CUP_CONCEPT.iri: CUP_CONCEPT, VESSEL_CONCEPT.iri: VESSEL_CONCEPT}
     grounding = replace(grounding, predictions=(first, *others), concepts=concepts)
     numbers = {"gap": 0.0, "overlapRatio": 1.0, "insideRatio": 1.0}
-    relations = [Relation(kind, "/Cup", "/Table", f"{kind}/1", numbers) for kind in ("on", "inside")]
+    relations = [Relation(kind, "/Cup", "/Table", f"{kind}/1", numbers) for kind in ("on", "inside", "attached-to")]
     return instantiate(scene, TBOX, grounding, base=BASE, profile=profile, relations=relations, options=GraphOptions())
 
 

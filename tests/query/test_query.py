@@ -101,17 +101,19 @@ class TestWhere:
     @pytest.mark.parametrize("question", ["where is the mug?", "Where is mug_red", "where's mug red", "where mug"])
     def test_locates_an_object_on_another(self, store: GraphStore, question: str):
         answer = store.ask(question.split())
-        assert answer.columns == ("object", "class", "path", "center_m", "on", "inside", "room")
+        assert answer.columns == ("object", "class", "path", "center_m", "on", "inside", "attached_to", "room")
         # The middle of the box: 1 + 0.05, 0.4 + 0.05, 0.7 + 0.05.
-        assert answer.rows == (("mug_red", "cup", "/Room/mug_red", "1.05 0.45 0.75", "dining table", None, "Room"),)
+        assert answer.rows == (
+            ("mug_red", "cup", "/Room/mug_red", "1.05 0.45 0.75", "dining table", None, None, "Room"),
+        )
 
     def test_locates_an_object_in_a_container(self, store: GraphStore):
         (row,) = store.ask(["where", "is", "the", "apple"]).rows
-        assert row == ("Apple", "artifact", "/Room/Apple", "0.24 0.34 0.76", None, "FruitBowl", "Room")
+        assert row == ("Apple", "artifact", "/Room/Apple", "0.24 0.34 0.76", None, "FruitBowl", None, "Room")
 
     def test_lists_an_object_without_box_and_class(self, store: GraphStore):
         (row,) = store.ask(["where", "is", "ghost"]).rows
-        assert row == ("Ghost", None, "/Room/Ghost", None, None, None, None)
+        assert row == ("Ghost", None, "/Room/Ghost", None, None, None, None, None)
 
     def test_locates_all_objects_of_a_class(self, store: GraphStore):
         assert column(store.ask(["where", "are", "crockery"]), "object") == ["FruitBowl", "mug_red", "plate_1"]

@@ -1,6 +1,7 @@
 """Small rooms of boxes with given classes, and their relations."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -9,6 +10,7 @@ from tests.grounding.records import make_scene
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.relations import Relation, RelationOptions, find_relations, load_rules
 from usd2kg.scene import SceneObject
+from usd2kg.shapes.surface import Surface
 
 RULES = load_rules()
 HAIR = 1e-4
@@ -28,11 +30,12 @@ def relate(
     kinds: Iterable[str] | None = ("on", "inside"),
     tbox: TBox | None = None,
     joints: Any = (),
+    surfaces: Mapping[str, Surface] | None = None,
     **options: Any,
 ) -> tuple[Relation, ...]:
     """Return the relations of the given kinds in a scene of these objects."""
     tbox = tbox or home()
-    scene = make_scene(*(obj for obj, _ in placed), joints=joints)
+    scene = replace(make_scene(*(obj for obj, _ in placed), joints=joints), surfaces=surfaces or {})
     grounding = ground_as(tbox, scene, {obj.prim_path: cls for obj, cls in placed if cls})
     chosen = tuple(kinds) if kinds is not None else None
     return find_relations(scene, tbox, grounding, RelationOptions(kinds=chosen, **options))

@@ -113,9 +113,10 @@ class TestWallsInOneMesh:
         (relation,) = relate(FLOOR, self.HOUSE, chair)
         assert (relation.target, relation.anchor, relation.rule) == ("/chair", "/floor", RULES.hovering.rule)
 
-    @pytest.mark.parametrize(("step", "is_on"), [(-HAIR, False), (HAIR, True)])
-    def test_thicker_boxes_are_not_walls(self, step: float, is_on: bool):
-        thick = RULES.hovering.max_wall_thickness + step
+    @pytest.mark.parametrize(("step", "kind"), [(-HAIR, "attached-to"), (HAIR, "on")])
+    def test_thicker_boxes_are_not_walls(self, step: float, kind: str):
+        thick = RULES.attached.max_wall_thickness + step
         wall = (thing("/wall", (-5, 1, 0), (10, thick, 2.5)), "Wall")
-        chair = (thing("/chair", (0, 0.5, 0.05), (0.5, 0.5, 0.9)), "DesignedChair")
-        assert bool(relate(FLOOR, wall, chair)) is is_on
+        radiator = (thing("/radiator", (0, 0.9, 0.05), (0.5, 0.1, 0.9)), "Appliance")
+        (relation,) = relate(FLOOR, wall, radiator, kinds=("on", "attached-to"))
+        assert relation.kind == kind

@@ -101,7 +101,9 @@ class TestParsing:
         assert parse_kinds("all", Viewpoint((0, 0, 0))) == ALL_KINDS
 
     def test_rejects_unknown_kinds(self):
-        with pytest.raises(GraphError, match="kind 'under' is unknown; expected a list of on, inside, above"):
+        with pytest.raises(
+            GraphError, match="kind 'under' is unknown; expected a list of on, inside, attached-to, above"
+        ):
             parse_kinds("on,under")
         with pytest.raises(GraphError, match="no kind is named"):
             parse_kinds(" , ")

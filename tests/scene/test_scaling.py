@@ -139,8 +139,9 @@ def test_a_scene_holds_objects_and_not_prims():
     (few, small), (many, large) = bytes_held(furniture(2)), bytes_held(furniture(40))
     assert (few.prim_count, many.prim_count) == (301, 4_101)
     # A part has a name, a place in two tuples, and a box: two tuples of three floats and the record. That is
-    # 56 + 2 * 8 + 2 * 64 + 6 * 24 + 48 = 392 bytes; its prim or outline node would be another 300.
-    of_parts = 100 * 38 * 392
+    # 56 + 2 * 8 + 2 * 64 + 6 * 24 + 48 = 392 bytes; its prim or outline node would be another 300. The surface of a
+    # cube has 8 points and 12 triangles of 12 bytes each.
+    of_parts = 100 * 38 * (392 + 20 * 12)
     assert 0.5 * of_parts < large - small < 1.25 * of_parts
     assert small < 100 * 5_000
 

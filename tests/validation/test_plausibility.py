@@ -163,7 +163,7 @@ def test_accepts_a_top_on_several_slim_legs_but_not_on_one(home_tbox: TBox, prof
     legs = [(thing(f"/Leg_{i}", (x, 4, 0), (0.05, 0.05, 0.7)), "DesignedComponent") for i, x in enumerate((4, 6.95))]
     placed = [*with_thing("/Top", (4, 3.6, 0.7), (3, 0.8, 0.04), "DesignedComponent"), *legs]
     one, other = (f"k:Top {LINKS[profile][0]} k:Leg_{i} ." for i in (0, 1))
-    found = {f.rule for f in found_in(open_room(home_tbox, profile, added(one), placed=placed))}
+    found = {f.rule for f in found_in(open_room(home_tbox, profile, added(one), placed=placed[:-1]))}
     assert "support-smaller" in found
     found = {f.rule for f in found_in(open_room(home_tbox, profile, added(one + other), placed=placed))}
     assert "support-smaller" not in found

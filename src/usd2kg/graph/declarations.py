@@ -42,7 +42,8 @@ _EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
     OWL.ObjectProperty: {
         SOMA: """
             containsObject hasChildLink hasColor hasJointLimit hasJointState hasLocalization hasMassAttribute
-            hasParentLink hasPhysicalComponent hasShape isDepositOf isInsideOf isOntopOf isSupportedBy supports
+            hasParentLink hasPhysicalComponent hasShape isDepositOf isInsideOf isLinkedTo isOntopOf isSupportedBy
+            supports
         """,
         DUL: """
             hasCommonBoundary hasComponent hasLocation hasMember hasPart hasRegion isComponentOf isLocationOf isPartOf

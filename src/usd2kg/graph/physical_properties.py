@@ -28,11 +28,14 @@ def declare_individual(node: ox.NamedNode, cls: ox.NamedNode) -> Iterator[Triple
 
 
 def shared_properties(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
-    """Yield the properties that all profiles share: centre of mass, oriented size, number of copies."""
+    """Yield the properties that all profiles share: centre of mass, oriented size, shell, number of copies."""
     if obj.center_of_mass is not None:
         yield node, U2K.centerOfMass, text(vector_text(obj.center_of_mass))
     if obj.oriented_size is not None:
         yield node, U2K.orientedSize, text(vector_text(obj.oriented_size))
+    if obj.shell_boxes:
+        boxes = "; ".join(vector_text((*box.lower, *box.upper)) for box in obj.shell_boxes)
+        yield node, U2K.shellBoxes, text(boxes)
     if obj.instances is not None:
         yield node, U2K.copies, number(obj.instances.count, "integer")
 

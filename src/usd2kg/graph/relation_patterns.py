@@ -21,6 +21,7 @@ __all__ = [
 _SOMA: Mapping[str, tuple[ox.NamedNode, ...]] = {
     "on": (SOMA.isOntopOf, SOMA.isSupportedBy),
     "inside": (SOMA.isInsideOf,),
+    "attached-to": (U2K.attachedTo, SOMA.isLinkedTo),
     "above": (KNOWROB.isAboveOf,),
     "below": (KNOWROB.isBelowOf,),
     "touching": (DUL.hasCommonBoundary,),
@@ -35,6 +36,7 @@ _SOMA: Mapping[str, tuple[ox.NamedNode, ...]] = {
 _PLAIN: Mapping[str, ox.NamedNode] = {
     "on": U2K.on,
     "inside": U2K.inside,
+    "attached-to": U2K.attachedTo,
     "above": U2K.above,
     "below": U2K.below,
     "touching": U2K.touching,

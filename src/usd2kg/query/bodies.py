@@ -31,7 +31,7 @@ SELECT ?j ?parent ?child ?whole ?type ?axis ?origin ?lower ?upper ?position WHER
 
 _CARRIED = """
 SELECT DISTINCT ?carrier ?o WHERE {
-  { ?o soma:isOntopOf|u2k:on|soma:isInsideOf|u2k:inside|u2k:partOf|^soma:hasPhysicalComponent ?carrier }
+  { ?o soma:isOntopOf|u2k:on|soma:isInsideOf|u2k:inside|u2k:attachedTo|u2k:partOf|^soma:hasPhysicalComponent ?carrier }
   UNION
   { ?j soma:hasParentLink|u2k:parentObject ?carrier ; soma:hasChildLink|u2k:childObject ?o }
   ?o u2k:primPath [] .

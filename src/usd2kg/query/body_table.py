@@ -5,7 +5,7 @@ import math
 import os
 import tempfile
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,6 +25,7 @@ Vector = NDArray[np.float64]
 
 _FILE = "bodies.npz"
 _NUMBERS = ("lower", "upper", "extents", "mass")
+_SHELLS = ("shell_rows", "shells")
 
 # Simple patterns, joined here: the engine takes ten times as long for one query with all of them.
 _PATHS = {
@@ -37,6 +38,7 @@ _PATHS = {
     "depth": "?s soma:hasWidth|u2k:depth ?v",
     "height": "?s soma:hasHeight|u2k:height ?v",
     "oriented": "?s u2k:orientedSize ?v",
+    "shell": "?s u2k:shellBoxes ?v",
     "mass": "?s soma:hasMassValue|u2k:mass ?v",
 }
 
@@ -52,6 +54,8 @@ class Body:
     """Metres, ascending; along the object's own axes if known."""
     mass: float | None
     """Kilograms; None if unknown."""
+    shell: tuple[Vector, ...] = ()
+    """(6,) metres each: lower and upper corners of boxes that cover the surface of a hollow object; else empty."""
 
 
 NO_BODY = Body(None, None, None, None)
@@ -71,6 +75,10 @@ class BodyTable:
     """(n, 3) metres, ascending."""
     mass: Vector
     """(n,) kilograms."""
+    shell_rows: NDArray[np.int64]
+    """(m,): the object of each box of a shell, ascending."""
+    shells: Vector
+    """(m, 6) metres, world frame: lower and upper corners of boxes that cover the surfaces of hollow objects."""
 
     def body(self, row: int) -> Body:
         """Return the body of one object."""
@@ -78,11 +86,13 @@ class BodyTable:
         if math.isnan(self.lower[row, 0]):
             return Body(None, None, None, mass)
         shortest, middle, longest = self.extents[row].tolist()
-        return Body(self.lower[row], self.upper[row], (shortest, middle, longest), mass)
+        first, last = np.searchsorted(self.shell_rows, (row, row + 1))
+        shell = tuple(self.shells[first:last])
+        return Body(self.lower[row], self.upper[row], (shortest, middle, longest), mass, shell)
 
 
-def parse_vector(text: str) -> Vector | None:
-    """Return the vector written as "x y z"; None if the text is not three finite numbers.
+def parse_vector(text: str, size: int = 3) -> Vector | None:
+    """Return the vector written as "x y z"; None if the text is not `size` finite numbers.
 
     >>> parse_vector("1 2.5 0")
     array([1. , 2.5, 0. ])
@@ -93,7 +103,7 @@ def parse_vector(text: str) -> Vector | None:
         values = np.array([float(part) for part in text.split()])
     except ValueError:
         return None
-    return values if values.shape == (3,) and bool(np.isfinite(values).all()) else None
+    return values if values.shape == (size,) and bool(np.isfinite(values).all()) else None
 
 
 def parse_number_term(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple | None) -> float | None:
@@ -130,11 +140,12 @@ def _read(dataset: Dataset) -> BodyTable:
     def of_objects(name: str) -> Mapping[Any, Any]:
         return {owners.get(subject, subject): value for subject, value in values[name].items()}
 
-    columns = {name: of_objects(name) for name in ("center", "width", "depth", "height", "oriented", "mass")}
+    columns = {name: of_objects(name) for name in ("center", "width", "depth", "height", "oriented", "shell", "mass")}
     objects = sorted(values["object"], key=lambda node: str(node.value))
     count = len(objects)
     lower, upper, extents = (np.full((count, 3), np.nan) for _ in range(3))
     mass = np.full(count, np.nan)
+    shells: list[tuple[int, Vector]] = []
     for row, node in enumerate(objects):
         kilograms = parse_number_term(columns["mass"].get(node))
         mass[row] = math.nan if kilograms is None else kilograms
@@ -145,7 +156,19 @@ def _read(dataset: Dataset) -> BodyTable:
         lower[row], upper[row] = middle - size / 2, middle + size / 2
         oriented = _vector(columns["oriented"].get(node))
         extents[row] = np.sort(size if oriented is None else oriented)
-    return BodyTable([node.value for node in objects], lower, upper, extents, mass)
+        shells += [(row, box) for box in _boxes(columns["shell"].get(node))]
+    return BodyTable(
+        [node.value for node in objects],
+        *(lower, upper, extents, mass),
+        np.array([row for row, _ in shells], dtype=np.int64),
+        np.array([box for _, box in shells]).reshape(-1, 6),
+    )
+
+
+def _boxes(term: Any) -> Iterator[Vector]:
+    """Yield the boxes written as "x y z x y z; …", without malformed ones."""
+    parts = term.value.split(";") if isinstance(term, ox.Literal) else ()
+    yield from (box for part in parts if (box := parse_vector(part, 6)) is not None)
 
 
 def _values(dataset: Dataset, pattern: str) -> dict[Any, Any]:
@@ -167,9 +190,10 @@ def _load(path: Path) -> BodyTable:
     with np.load(path, allow_pickle=False) as file:
         iris = file["iris"].tobytes().decode().split("\n")
         numbers = [file[name] for name in _NUMBERS]
+        shells = [file[name] for name in _SHELLS]
     if any(len(iris) != len(column) for column in numbers):
         raise ValueError(f"{len(iris)} objects, other numbers of values")
-    return BodyTable(iris, *numbers)
+    return BodyTable(iris, *numbers, *shells)
 
 
 def _save(table: BodyTable, path: Path) -> None:
@@ -180,7 +204,7 @@ def _save(table: BodyTable, path: Path) -> None:
     handle, name = tempfile.mkstemp(suffix=".npz", dir=path.parent)
     os.close(handle)
     try:
-        np.savez(name, iris=iris, **{column: getattr(table, column) for column in _NUMBERS})
+        np.savez(name, iris=iris, **{column: getattr(table, column) for column in (*_NUMBERS, *_SHELLS)})
         Path(name).replace(path)
     finally:
         Path(name).unlink(missing_ok=True)

@@ -1,6 +1,7 @@
 """SPARQL functions for distances, extents and joint motions: positions are text, which SPARQL cannot compute with.
 
-Objects are measured by their boxes. A function is unbound for an object without a box and for wrong arguments.
+Objects are measured by their boxes, large hollow ones by those of their walls. A function is unbound for an object
+without a box and for wrong arguments.
 """
 
 from collections.abc import Callable
@@ -97,10 +98,16 @@ def _literal(value: float | None) -> ox.Literal | None:
 
 
 def _gap(a: Body, b: Body) -> float | None:
-    """Return the distance between two boxes in metres, 0 if they meet; None if one has no box."""
+    """Return the distance between two objects in metres, 0 if they meet; None if one has no box.
+
+    Objects are boxes, hollow ones several.
+    """
     if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
         return None
-    return float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0)))
+    one = np.array(a.shell or (np.concatenate([a.lower, a.upper]),))[:, None]
+    other = np.array(b.shell or (np.concatenate([b.lower, b.upper]),))[None]
+    apart = np.maximum(one[..., :3] - other[..., 3:], other[..., :3] - one[..., 3:])
+    return float(np.linalg.norm(np.maximum(apart, 0), axis=-1).min())
 
 
 def _clearance(a: Body, b: Body) -> float | None:

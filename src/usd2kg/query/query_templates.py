@@ -1,4 +1,4 @@
-"""SPARQL templates of the short questions: on X, in X, near X, above X, parts of X, where is X, all of KIND."""
+"""SPARQL templates of the short questions: on, in, attached to, near, above, parts of X, where is X, all of KIND."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -11,6 +11,7 @@ __all__ = [
     "ALL_INSIDE",
     "ALL_OF",
     "ALL_ON",
+    "ATTACHED",
     "INSIDE",
     "KIND_OF",
     "NEAR",
@@ -23,6 +24,7 @@ __all__ = [
 
 _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
+_ATTACHED = "u2k:attachedTo"
 _WITHIN = f"{_INSIDE}|u2k:inRoom"
 _NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
@@ -76,13 +78,14 @@ SELECT DISTINCT ?object ?class ?path ?whole WHERE {{{{
 }}}} ORDER BY ?path"""
 
 _WHERE = f"""
-SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?room WHERE {{{{
+SELECT DISTINCT ?object ?class ?path ?center ?on ?inside ?attached ?room WHERE {{{{
   VALUES ?o {{{{ {{things}} }}}}
   ?o rdfs:label ?object ; u2k:primPath ?path .
   {_CLASS}
   OPTIONAL {{{{ ?o (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center . }}}}
   OPTIONAL {{{{ ?o {{on}} ?a . ?a rdfs:label ?on . }}}}
   OPTIONAL {{{{ ?o {{inside}} ?b . ?b rdfs:label ?inside . }}}}
+  OPTIONAL {{{{ ?o {{attached}} ?d . ?d rdfs:label ?attached . }}}}
   OPTIONAL {{{{ ?o u2k:inRoom ?r . ?r rdfs:label ?room . }}}}
 }}}} ORDER BY ?path"""
 
@@ -130,15 +133,19 @@ ALL_INSIDE = QueryTemplate(
     {"number": "inside_ratio"},
 )
 """Inside an object, or on or in objects inside it."""
+ATTACHED = QueryTemplate(_RELATED, {"predicate": _ATTACHED, "number": "u2k:gap"}, {"number": "gap_m"})
 ABOVE = QueryTemplate(_RELATED, {"predicate": _ABOVE, "number": "u2k:gap"}, {"number": "gap_m"})
 NEAR = QueryTemplate(_CLOSE, {"predicate": _NEAR}, {"number": "distance_m"})
 PARTS_OF = QueryTemplate(_PARTS, {"predicate": _PART_OF})
-WHERE_IS = QueryTemplate(_WHERE, {"on": _ON, "inside": _INSIDE}, {"center": "center_m"})
+WHERE_IS = QueryTemplate(
+    _WHERE, {"on": _ON, "inside": _INSIDE, "attached": _ATTACHED}, {"center": "center_m", "attached": "attached_to"}
+)
 ALL_OF = QueryTemplate(_ALL, {"predicate": KIND_OF}, takes_kind=True)
 
 _PHRASES = (
     (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
     (r"(what\s+is\s+)?(in|inside)( of)?\s+(?P<thing>.+)", INSIDE),
+    (r"(what\s+(is|hangs)\s+)?(attached to|fixed to|hanging (on|from)|from)\s+(?P<thing>.+)", ATTACHED),
     (r"(what\s+is\s+)?(near|next)( to)?\s+(?P<thing>.+)", NEAR),
     (r"(what\s+is\s+)?above\s+(?P<thing>.+)", ABOVE),
     (r"(what\s+are\s+)?(the\s+)?parts(\s+of|-of)\s+(?P<thing>.+)", PARTS_OF),
@@ -162,6 +169,6 @@ def parse_question(words: Sequence[str]) -> tuple[QueryTemplate, str]:
         if found:
             return question, found.group("thing").strip()
     raise GraphError(
-        f"question {text!r} is not understood; expected 'on X', 'in X', 'near X', 'above X', "
+        f"question {text!r} is not understood; expected 'on X', 'in X', 'attached to X', 'near X', 'above X', "
         "'parts of X', 'where is X' or 'all of KIND', or a query with --sparql"
     )

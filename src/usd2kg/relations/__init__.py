@@ -1,4 +1,4 @@
-"""Spatial relations between objects, from their boxes and classes; no RDF.
+"""Spatial relations between objects, from their surfaces, boxes and classes; no RDF.
 
 Each relation carries its measurements and the id of its rule. `knowledge/spatial.toml` holds the thresholds;
 docs/relations.md defines each kind.

@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, ratios, rounded, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects
-from usd2kg.relations.distances import box_gaps, distances
+from usd2kg.relations.distances import box_gaps, distances, surface_distances
 from usd2kg.relations.model import Links, margin_above, margin_below, margin_score
 from usd2kg.relations.protrusions import has_protrusion
 from usd2kg.relations.thresholds import BlockingRule, NearRule, NextToRule, RelationRules
 from usd2kg.shapes import overlapping_pairs
+from usd2kg.shapes.ragged import ragged_indices
 
 __all__ = [
     "NearbyPairs",
@@ -21,12 +22,15 @@ __all__ = [
     "find_next_to",
     "find_touching",
     "height_overlaps",
+    "measure_contacts",
 ]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
+_PREFIX = 4
+"""Nearest pairs of each object tested for blockers, per pair kept; bounds the running time in heaps."""
 _UP = 2
 """Index of the vertical axis."""
 
@@ -56,6 +60,20 @@ def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules
         distance = distances(boxed, one, other)
         found.append(select_rows(NearbyPairs(one, other, distance), distance <= limit))
     return concatenate_rows(found)
+
+
+def measure_contacts(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules) -> NearbyPairs:
+    """Return the pairs with the distance between their surfaces where their boxes touch or overlap.
+
+    A pair is left out if its surfaces are farther apart than the widest limit of the rules: a chair under a table.
+    """
+    is_met = pairs.distance <= rules.touching.max_gap
+    is_met &= boxed.has_surface[pairs.one] | boxed.has_surface[pairs.other]
+    reach = np.maximum(_limits(boxed, rules.near), _limits(boxed, rules.next_to))
+    limit = np.maximum(np.minimum(reach[pairs.one], reach[pairs.other]), rules.touching.max_gap)[is_met]
+    distance = pairs.distance.copy()
+    distance[is_met] = np.clip(surface_distances(boxed, pairs.one[is_met], pairs.other[is_met], limit), 0, None)
+    return select_rows(pairs._replace(distance=distance), np.isfinite(distance))
 
 
 def _limits(boxed: BoxedObjects, rule: NearRule | NextToRule) -> Array:
@@ -121,6 +139,7 @@ def find_next_to(
     is_rotated = boxed.footprints.is_rotated[pairs.one] | boxed.footprints.is_rotated[pairs.other]
     is_apart = (is_rotated & (pairs.distance > 0)) | (gaps >= -rule.max_overlap_ratio * smaller)[:, :2].any(axis=1)
     is_good = (pairs.distance <= limit) & (beside >= rule.min_height_share) & is_apart
+    is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), _PREFIX * rule.most)
     is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around, rules.blocking)
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)
     near = margin_below(pairs.distance[is_good], limit[is_good])
@@ -134,6 +153,7 @@ def find_near(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, rule
     rule = rules.near
     limit = np.minimum(*(_limits(boxed, rule)[side] for side in (pairs.one, pairs.other)))
     is_good = pairs.distance <= limit
+    is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), _PREFIX * rule.most)
     is_good[is_good] = ~_is_blocked(boxed, select_rows(pairs, is_good), around, rules.blocking)
     is_good[is_good] = are_nearest(boxed, select_rows(pairs, is_good), rule.most)
     kept = select_rows(pairs, is_good)
@@ -160,14 +180,14 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
     nth = np.arange(len(pair)) - np.repeat(np.cumsum(count) - count, count)
     third = neighbour[starts[pairs.one[pair]] + nth]
     is_other = third != pairs.other[pair]
-    pair, third = pair[is_other], third[is_other]
+    pair, (lowest, highest) = _pieces(boxed, pair[is_other], third[is_other])
     one, other = pairs.one[pair], pairs.other[pair]
     # Along each axis: the gap between the two, or their overlap.
     edges = np.stack(
         [np.maximum(boxed.lower[one], boxed.lower[other]), np.minimum(boxed.upper[one], boxed.upper[other])]
     )
     low, high = edges.min(axis=0), edges.max(axis=0)
-    filled = np.minimum(boxed.upper[third], high) - np.maximum(boxed.lower[third], low)
+    filled = np.minimum(highest, high) - np.maximum(lowest, low)
     shares = ratios(np.clip(filled, 0, None), high - low)
     is_gap = edges[0] > edges[1]
     # A blocker reaches into the gap along the axes that have one, and fills a share of the overlap along the others.
@@ -175,9 +195,19 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
     # The box of a mesh of several walls may contain both objects; it is not between them.
     for index in (one, other):
         middle = boxed.middle[index]
-        blocks &= ~((middle > boxed.lower[third]) & (middle < boxed.upper[third])).all(axis=1)
+        blocks &= ~((middle > lowest) & (middle < highest)).all(axis=1)
     found[pair[blocks]] = True
     return found
+
+
+def _pieces(boxed: BoxedObjects, pair: Indices, third: Indices) -> tuple[Indices, tuple[Array, Array]]:
+    """Return the boxes between pairs of objects: those of the walls of a hollow object, else the object's own."""
+    starts, lower, upper = boxed.parts
+    is_hollow = np.array([bool(obj.shell_boxes) for obj in boxed.objects], np.bool_)[third]
+    row, nth = ragged_indices(np.where(is_hollow, starts[third + 1] - starts[third], 1))
+    part, third, is_hollow = starts[third[row]] + nth, third[row], is_hollow[row, None]
+    corners = np.where(is_hollow, lower[part], boxed.lower[third]), np.where(is_hollow, upper[part], boxed.upper[third])
+    return pair[row], corners
 
 
 def _nearest_of_each(boxed: BoxedObjects, pairs: NearbyPairs, most: int) -> Indices:

@@ -1,6 +1,6 @@
 """Objects as arrays: boxes, footprints, feet, parts, and membership in class lists."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.ontology import expand_curie
+from usd2kg.relations.feet import find_feet, find_undersides, grid_feet
 from usd2kg.relations.object_kinds import ObjectKind
 from usd2kg.relations.settings import FOOTPRINT
 from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
 from usd2kg.scene import Box, SceneObject
+from usd2kg.shapes.surface import Surface, SurfaceCache
 
 __all__ = ["BoxedObjects", "ClassMembership", "Footprints", "corners_of", "overlap_areas"]
 
@@ -59,11 +61,18 @@ class Footprints(NamedTuple):
 class BoxedObjects:
     """Objects with a box of their own as arrays, one row each; metres, world frame, z-up."""
 
-    def __init__(self, objects: Sequence[SceneObject], geometry: ObjectGeometry) -> None:
+    def __init__(
+        self, objects: Sequence[SceneObject], geometry: ObjectGeometry, surfaces: Mapping[str, Surface]
+    ) -> None:
         self.geometry = geometry
         self.scene_index = np.array([index for index, obj in enumerate(objects) if obj.own_box is not None], np.int64)
         """Index among all objects of the scene."""
         self.objects = [obj for obj in objects if obj.own_box is not None]
+        cache = SurfaceCache()
+        known = [surfaces.get(obj.prim_path) for obj in self.objects]
+        self.surfaces = [None if surface is None else Surface(surface.pieces, cache) for surface in known]
+        """The surface of each object; None where its boxes say it all, or the surface is not known."""
+        self.has_surface = np.array([surface is not None for surface in self.surfaces], np.bool_)
         boxes = [obj.own_box for obj in self.objects if obj.own_box is not None]
         self.lower = np.array([box.lower for box in boxes], np.float64).reshape(-1, 3)
         self.upper = np.array([box.upper for box in boxes], np.float64).reshape(-1, 3)
@@ -99,9 +108,31 @@ class BoxedObjects:
         return lower, upper
 
     @cached_property
+    def foot_area(self) -> Array:
+        """Area (n,) of the box around the feet of each object in square metres."""
+        lower, upper = self.feet
+        return np.asarray((upper - lower)[:, :2].prod(axis=1))
+
+    def feet_of(self, indices: Indices) -> dict[int, Array]:
+        """Return index → points (n, 3) on the underside of objects: of their surface, else of the box of their feet."""
+        lower, upper = self.feet
+        feet = {i: grid_feet(lower[i], upper[i]) for i in indices[~self.has_surface[indices]].tolist()}
+        meshes = self._surfaces_of(indices)
+        return feet | dict(zip(meshes, find_feet([*meshes.values()], self.geometry.foot_height), strict=True))
+
+    def undersides_of(self, indices: Indices) -> dict[int, Array]:
+        """Return index → points (n, 3) on the whole underside of the objects with a surface."""
+        meshes = self._surfaces_of(indices)
+        return dict(zip(meshes, find_undersides([*meshes.values()]), strict=True))
+
+    def _surfaces_of(self, indices: Indices) -> dict[int, Surface]:
+        found = ((index, self.surfaces[index]) for index in indices.tolist())
+        return {index: surface for index, surface in found if surface is not None}
+
+    @cached_property
     def parts(self) -> tuple[Indices, Array, Array]:
         """Start index of each object's parts (n + 1,), and the parts' corners; an object without parts is one part."""
-        own = [obj.part_boxes or (obj.own_box,) for obj in self.objects]
+        own = [obj.shell_boxes or obj.part_boxes or (obj.own_box,) for obj in self.objects]
         starts = np.cumsum([0, *(len(boxes) for boxes in own)])
         lower, upper = corners_of([box for boxes in own for box in boxes if box is not None])
         return starts.astype(np.int64), lower, upper

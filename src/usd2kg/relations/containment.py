@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, is_on_cycle, ratios, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership, corners_of, overlap_areas
+from usd2kg.relations.enclosure import measure_enclosures
 from usd2kg.relations.model import Links, margin_above, margin_score
 from usd2kg.relations.thresholds import InsideRule, RelationRules, StandingInRule
 from usd2kg.shapes import overlapping_pairs
@@ -35,6 +36,8 @@ class _ContainmentPairs(NamedTuple):
     confidence: Array
     sticks_out: Mask
     """Whether the target stands in the container and protrudes at its top."""
+    is_surrounded: Mask
+    """Whether the anchor is no container by its class, but surrounds the target."""
 
 
 def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, rules: RelationRules) -> Containment:
@@ -54,6 +57,10 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
     may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[boxed.scene_index]
     has_parts = bool((wholes >= 0).any())
     is_open = can_contain & ~classes.are_in("closed")[boxed.scene_index]
+    never = classes.are_in("not_containers") | classes.are_in("walls") | classes.are_in("not_neighbours")
+    is_room_sized = boxed.size.min(axis=1) >= rules.room.min_side
+    is_room_sized &= boxed.size[:, 2] >= rules.room.min_height
+    may_surround = boxed.has_surface & ~(can_contain | never[boxed.scene_index] | is_room_sized)
     found = [_no_pairs()]
     for i, j in overlapping_pairs(boxed.lower[:, :2], boxed.upper[:, :2]):
         for target, anchor in ((i, j), (j, i)):
@@ -63,15 +70,20 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
                 may &= ~_overlap_as_parts(target, anchor, wholes, is_drawer)
             may &= _overlap_vertically(boxed, target, anchor)
             found.append(_enclosed(boxed, target[may], anchor[may], rules.inside))
+            is_around = may_be_in[target] & may_surround[anchor] & ~may & (wholes[target] != anchor)
+            is_around &= _overlap_vertically(boxed, target, anchor)
+            around = _enclosed(boxed, target[is_around], anchor[is_around], rules.inside)
+            found.append(around._replace(is_surrounded=np.ones(len(around.target), np.bool_)))
             may &= is_open[anchor]
             found.append(_standing(boxed, target[may], anchor[may], rules.standing_in))
     pairs = concatenate_rows(found)
+    pairs = select_rows(pairs, _surfaces_agree(boxed, pairs, is_open, wholes, rules))
     return _smallest(boxed, select_rows(pairs, ~_are_on_top(boxed, pairs, ~is_open, rules)), rules)
 
 
 def _no_pairs() -> _ContainmentPairs:
     nothing, no_number = np.zeros(0, np.int64), np.zeros(0)
-    return _ContainmentPairs(nothing, nothing, no_number, no_number, np.zeros(0, np.bool_))
+    return _ContainmentPairs(nothing, nothing, no_number, no_number, np.zeros(0, np.bool_), np.zeros(0, np.bool_))
 
 
 def _overlap_as_parts(target: Indices, anchor: Indices, wholes: Indices, is_drawer: Mask) -> Mask:
@@ -105,7 +117,8 @@ def _enclosed(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: Insid
         & ((middle >= boxed.lower[anchor]) & (middle <= boxed.upper[anchor])).all(axis=1)
     )
     clear = margin_score(margin_above(ratio, rule.min_volume_ratio))
-    return select_rows(_ContainmentPairs(target, anchor, ratio, clear, np.zeros(len(target), np.bool_)), is_good)
+    no = np.zeros(len(target), np.bool_)
+    return select_rows(_ContainmentPairs(target, anchor, ratio, clear, no, no), is_good)
 
 
 def _standing(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: StandingInRule) -> _ContainmentPairs:
@@ -121,7 +134,32 @@ def _standing(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: Stand
         & (boxed.area[target] <= rule.max_area_ratio * boxed.area[anchor])
     )
     clear = margin_score(margin_above(over, least), margin_above(depth, rule.min_depth_share))
-    return select_rows(_ContainmentPairs(target, anchor, over * depth, clear, np.ones(len(target), np.bool_)), is_good)
+    no = np.zeros(len(target), np.bool_)
+    return select_rows(_ContainmentPairs(target, anchor, over * depth, clear, ~no, no), is_good)
+
+
+def _surfaces_agree(
+    boxed: BoxedObjects, pairs: _ContainmentPairs, is_open: Mask, wholes: Indices, rules: RelationRules
+) -> Mask:
+    """Return for each pair whether the surface of the anchor encloses the target, as far as it is known.
+
+    Parts are in their whole, whose surface may be that of its front or of a solid.
+    """
+    agrees = np.ones(len(pairs.target), np.bool_)
+    known = np.flatnonzero(boxed.has_surface[pairs.anchor] & (wholes[pairs.target] != pairs.anchor))
+    some, rule = select_rows(pairs, known), rules.inside
+    found = measure_enclosures(boxed, some.target, some.anchor)
+    is_caged = (found.below < rule.min_below) & (found.caged >= rule.min_caged)
+    is_in = ((found.below >= rule.min_below) & (np.maximum(found.beside, found.above) >= rule.min_beside)) | is_caged
+    is_in &= (found.buried <= rule.max_buried) | ~is_open[some.anchor]
+    is_around = np.minimum(np.minimum(found.below, found.above), found.beside) >= rule.min_surrounded
+    depth = boxed.upper[some.anchor, 2] - boxed.lower[some.target, 2]
+    is_deep = depth >= rule.min_cavity_depth * boxed.size[some.anchor, :2].min(axis=1)
+    is_around |= is_deep & (found.below >= rule.min_surrounded) & (found.beside >= rule.min_walled)
+    is_around &= found.buried <= rule.max_buried
+    stands = np.maximum(found.beside, found.caged) >= rules.standing_in.min_beside
+    agrees[known] = np.where(some.sticks_out, stands, np.where(some.is_surrounded, is_around, is_in))
+    return agrees
 
 
 def _are_on_top(boxed: BoxedObjects, pairs: _ContainmentPairs, is_closed: Mask, rules: RelationRules) -> Mask:
@@ -151,11 +189,18 @@ def _smallest(boxed: BoxedObjects, pairs: _ContainmentPairs, rules: RelationRule
     is_round = is_on_cycle(_pointers(boxed, pairs, best), pairs.target[best])
     best = best[~is_round]
     links = []
-    for sticks_out, rule in ((False, rules.inside.rule), (True, rules.standing_in.rule)):
-        chosen = best[pairs.sticks_out[best] == sticks_out]
+    is_surrounded, sticks_out = pairs.is_surrounded[best], pairs.sticks_out[best]
+    chosen_by = {
+        rules.inside.rule: ~(is_surrounded | sticks_out),
+        rules.standing_in.rule: sticks_out,
+        rules.inside.surrounded_rule: is_surrounded,
+    }
+    for rule, is_chosen in chosen_by.items():
+        chosen = best[is_chosen]
         numbers = {"insideRatio": pairs.ratio[chosen]}
-        target, anchor = pairs.target[chosen], pairs.anchor[chosen]
-        links.append(Links("inside", rule, target, anchor, numbers, pairs.confidence[chosen]))
+        links.append(
+            Links("inside", rule, pairs.target[chosen], pairs.anchor[chosen], numbers, pairs.confidence[chosen])
+        )
     return Containment(links, _pointers(boxed, pairs, best))
 
 

@@ -5,8 +5,9 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.settings import DISTANCE
+from usd2kg.shapes.mesh_distance import Solid, mesh_distance
 
-__all__ = ["box_gaps", "distances"]
+__all__ = ["box_gaps", "distances", "surface_distances"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -86,3 +87,22 @@ def _to_rectangle(boxed: BoxedObjects, one: Indices, other: Indices) -> tuple[Ar
     nearest = np.hypot(excess[..., 0], excess[..., 1]).min(axis=1)
     is_apart = (local.min(axis=1) > half[other]) | (local.max(axis=1) < -half[other])
     return nearest, is_apart.any(axis=1)
+
+
+def surface_distances(boxed: BoxedObjects, one: Indices, other: Indices, reach: Array) -> Array:
+    """Return the distances between pairs of objects in metres, up to a reach per pair, else inf.
+
+    Negative for penetration. Objects without a surface are boxes.
+    """
+    gaps = box_gaps(boxed, one, other)
+    found = np.where((gaps > 0).any(axis=1), np.sqrt((np.clip(gaps, 0, None) ** 2).sum(axis=1)), gaps.max(axis=1))
+    found = np.where(found <= reach, found, np.inf)
+    is_mesh = (boxed.has_surface[one] | boxed.has_surface[other]) & np.isfinite(found)
+    for pair in np.flatnonzero(is_mesh).tolist():
+        found[pair] = mesh_distance(_solid(boxed, one[pair]), _solid(boxed, other[pair]), float(reach[pair]))
+    return np.asarray(found)
+
+
+def _solid(boxed: BoxedObjects, index: int) -> Solid:
+    surface = boxed.surfaces[index]
+    return Solid(boxed.lower[index], boxed.upper[index], surface)

@@ -9,8 +9,16 @@ from usd2kg.garbage import paused_collection
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox
 from usd2kg.relations.above_below import find_above, reverse_links
-from usd2kg.relations.adjacency import NearbyPairs, find_near, find_nearby_pairs, find_next_to, find_touching
+from usd2kg.relations.adjacency import (
+    NearbyPairs,
+    find_near,
+    find_nearby_pairs,
+    find_next_to,
+    find_touching,
+    measure_contacts,
+)
 from usd2kg.relations.array_records import select_rows
+from usd2kg.relations.attachment import find_attached
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.containment import find_inside
@@ -21,7 +29,7 @@ from usd2kg.relations.part_of import PartLinks, find_parts, wholes_of
 from usd2kg.relations.room_membership import find_rooms
 from usd2kg.relations.sides import find_sides
 from usd2kg.relations.stronger import StrongerRelations
-from usd2kg.relations.support import find_support
+from usd2kg.relations.support import find_hovering, find_support
 from usd2kg.scene import Scene
 
 __all__ = ["find_relations"]
@@ -53,7 +61,7 @@ class _Finder:
         self.rules = options.chosen_rules
         self.viewpoint = options.viewpoint
         self.classes = ClassMembership(self.rules.classes, find_kinds(scene, tbox, grounding))
-        self.boxed = BoxedObjects(scene.objects, self.rules.geometry)
+        self.boxed = BoxedObjects(scene.objects, self.rules.geometry, scene.surfaces)
         self.groups: list[str] = []
         """Paths of the group prims that are rooms."""
 
@@ -70,10 +78,12 @@ class _Finder:
         containment = find_inside(self.boxed, self.classes, wholes, self.rules)
         yield from containment.links
         stronger = StrongerRelations(self.boxed, containment, parts)
-        support = stronger.add_support(
-            find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
-        )
-        yield from support
+        support = find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
+        yield from stronger.add_support(support.links)
+        # What is near a wall hangs there rather than hovering over what is below; the rest may hang from what hovers.
+        yield self._attached(stronger, needs_mount=True)
+        yield from stronger.add_support([find_hovering(self.boxed, support.near, stronger.is_free, self.rules)])
+        yield self._attached(stronger, needs_mount=False)
         if "room" in kinds:
             found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
             self.groups = found.groups
@@ -86,12 +96,18 @@ class _Finder:
             yield reverse_links("below", above)
         yield from self._adjacent(kinds, takes_part, stronger)
 
+    def _attached(self, stronger: StrongerRelations, *, needs_mount: bool) -> Links:
+        rule = self.rules.attached
+        found = find_attached(self.boxed, self.classes, stronger, rule, needs_mount=needs_mount)
+        return stronger.add_attached(found)
+
     def _adjacent(self, kinds: frozenset[str], takes_part: Mask, stronger: StrongerRelations) -> Iterator[Links]:
         sides = kinds & frozenset(VIEWPOINT_KINDS)
         if kinds & SYMMETRIC_KINDS or sides:
             walls = self.classes.are_in("walls")[self.boxed.scene_index]
             around = stronger.in_same_frame(find_nearby_pairs(self.boxed, takes_part | walls, self.rules))
             pairs = stronger.drop_related(select_rows(around, takes_part[around.one] & takes_part[around.other]))
+            pairs = measure_contacts(self.boxed, pairs, self.rules)
             yield from self._symmetric(kinds, pairs, around)
             if sides and self.viewpoint is not None:
                 yield from find_sides(self.boxed, pairs, self.viewpoint, self.rules.side)

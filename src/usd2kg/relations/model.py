@@ -30,7 +30,7 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Vector = tuple[float, float, float]
 
-DEFAULT_KINDS = ("on", "inside", "above", "below", "touching", "next-to", "near", "room", "part-of")
+DEFAULT_KINDS = ("on", "inside", "attached-to", "above", "below", "touching", "next-to", "near", "room", "part-of")
 """Kinds that are found by default."""
 VIEWPOINT_KINDS = ("left", "right", "front", "behind")
 """Kinds that need a viewpoint; found by default if there is one."""

@@ -30,9 +30,9 @@ class ObjectKind:
     """The classes of one object."""
 
     own: frozenset[ClassIRI] = frozenset()
-    """Its class, and its home class if it has one."""
+    """Its class, its home class if it has one, and the concept that its name means."""
     above: frozenset[ClassIRI] = frozenset()
-    """The same with all superclasses."""
+    """The same with all superclasses and hypernyms."""
     dispositions: frozenset[str] = frozenset()
     """The dispositions that its classes state."""
 
@@ -48,14 +48,31 @@ def find_kinds(scene: Scene, tbox: TBox, grounding: Grounding) -> list[ObjectKin
     homely: dict[str, ClassIRI | None] = {path: iri for path, iri in classes.items() if iri in home.by_iri}
     if foreign := classes.keys() - homely.keys():
         homely |= _home_classes(scene, tbox, grounding, foreign)
-    return [_make_kind([(tbox, classes[obj.prim_path]), (home, homely.get(obj.prim_path))]) for obj in scene.objects]
+    return [
+        _make_kind(
+            [(tbox, classes[obj.prim_path]), (home, homely.get(obj.prim_path))],
+            _concepts_of(grounding, grounding.by_path.get(obj.prim_path)),
+        )
+        for obj in scene.objects
+    ]
 
 
-def _make_kind(found: Sequence[tuple[TBox, ClassIRI | None]]) -> ObjectKind:
+def _concepts_of(grounding: Grounding, prediction: Prediction | None) -> tuple[str, ...]:
+    """Return the IRIs of the concept that an object's name means, and of its hypernyms; none if a person disagrees."""
+    if prediction is None or prediction.concept is None or prediction.status is Status.REVIEWED:
+        return ()
+    found = [prediction.concept]
+    for iri in found:
+        concept = grounding.concepts.get(iri)
+        found.extend(above for above in (concept.broader if concept else ()) if above not in found)
+    return tuple(found)
+
+
+def _make_kind(found: Sequence[tuple[TBox, ClassIRI | None]], concepts: tuple[str, ...]) -> ObjectKind:
     known = [(tbox, iri) for tbox, iri in found if iri is not None]
     return ObjectKind(
-        own=frozenset(iri for _, iri in known),
-        above=frozenset().union(*(tbox.closure(iri) for tbox, iri in known)),
+        own=frozenset((*(iri for _, iri in known), *concepts[:1])),
+        above=frozenset(concepts).union(*(tbox.closure(iri) for tbox, iri in known)),
         dispositions=frozenset().union(*(tbox.by_iri[iri].dispositions for tbox, iri in known)),
     )
 

@@ -17,7 +17,7 @@ Mask = NDArray[np.bool_]
 
 
 class StrongerRelations:
-    """The `on`, `inside` and `part-of` relations found so far."""
+    """The `on`, `inside`, `attached-to` and `part-of` relations found so far."""
 
     def __init__(self, boxed: BoxedObjects, containment: Containment, parts: PartLinks) -> None:
         self._count = len(boxed)
@@ -27,6 +27,8 @@ class StrongerRelations:
         """The whole of each object, else its container; -1 for neither."""
         self.supporter = np.full(len(boxed), -1)
         """One supporter of each object; -1 for none."""
+        self.is_attached = np.zeros(len(boxed), np.bool_)
+        """Whether each object is attached to another."""
         self._part_keys = np.concatenate([self._keep_parts(*boxed_ends(boxed, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
         moved, _ = boxed_ends(boxed, parts.stated)
@@ -45,12 +47,28 @@ class StrongerRelations:
             self._keys.append(self._key(links.target, links.anchor))
         return kept
 
+    def add_attached(self, links: Links) -> Links:
+        """Record `attached-to` links and return them."""
+        self.is_attached[links.target] = True
+        self._keys.append(self._key(links.target, links.anchor))
+        return links
+
+    @property
+    def is_free(self) -> Mask:
+        """Whether each object is on, in, part of and attached to nothing."""
+        return np.asarray((self.supporter < 0) & (self.frame < 0) & ~self.is_attached)
+
+    @property
+    def holder(self) -> Indices:
+        """The supporter of each object, else its whole or container; -1 for none."""
+        return np.where(self.supporter >= 0, self.supporter, self.frame)
+
     def _key(self, one: Indices, other: Indices) -> Indices:
         return np.asarray(np.minimum(one, other) * self._count + np.maximum(one, other))
 
     def drop_implied(self, links: Links) -> Links:
         """Return the links between objects without a stronger relation."""
-        return links.where(~self._are_related(links.target, links.anchor))
+        return links.where(~self.are_related(links.target, links.anchor))
 
     def in_same_frame(self, pairs: NearbyPairs) -> NearbyPairs:
         """Return the pairs with the same whole or container, or with neither."""
@@ -58,7 +76,8 @@ class StrongerRelations:
 
     def drop_related(self, pairs: NearbyPairs) -> NearbyPairs:
         """Return the pairs without a stronger relation."""
-        return select_rows(pairs, ~self._are_related(pairs.one, pairs.other))
+        return select_rows(pairs, ~self.are_related(pairs.one, pairs.other))
 
-    def _are_related(self, one: Indices, other: Indices) -> Mask:
+    def are_related(self, one: Indices, other: Indices) -> Mask:
+        """Return for each pair whether one of the relations holds between the two."""
         return np.isin(self._key(one, other), np.concatenate(self._keys))

@@ -1,5 +1,6 @@
 """`on`: the surfaces that objects rest on."""
 
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -16,44 +17,79 @@ from usd2kg.relations.array_records import (
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership, corners_of, overlap_areas
 from usd2kg.relations.model import Links, margin_above, margin_below, margin_score
 from usd2kg.relations.protrusions import has_protrusion
+from usd2kg.relations.surface_contact import Standing, measure_contacts
 from usd2kg.relations.thresholds import OnRule, RelationRules
 from usd2kg.scene import Box
 from usd2kg.shapes import overlapping_pairs
 
-__all__ = ["find_support"]
+__all__ = ["Support", "find_hovering", "find_support"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
+_BLOCK = 1 << 12
+"""Pairs of objects and meshes that are measured at a time, which bounds memory."""
 
-class _Surfaces(NamedTuple):
-    """Supporting surfaces: the tops of parts, and level faces of meshes."""
+
+class _Contacts(NamedTuple):
+    """Pairs of a target and an object that has a surface near the height of the target's feet."""
+
+    target: Indices
+    anchor: Indices
+    gap: Array
+    ratio: Array
+    """Share of the target's feet that is over the surface."""
+    area: Array
+    """Square metres of the target's footprint that the surface bears."""
+    allowed: Array
+    """Tolerated gap or penetration in metres."""
+    lower: Array
+    """(n, 3): lower corner of what bears the target, a part or the anchor; z is that of its underside."""
+    upper: Array
+    """(n, 3): its upper corner."""
+
+
+class _Tops(NamedTuple):
+    """The tops of the boxes and parts of objects without a surface."""
 
     owner: Indices
     lower: Array
     upper: Array
     thickness: Array
-    """Height of the part; 0 for a level face."""
-    area: Array
 
 
-class _Contacts(NamedTuple):
-    """Pairs of a target and a surface near the height of its bottom."""
+class _Limits(NamedTuple):
+    """How far each object may be from what bears it."""
 
-    target: Indices
-    surface: Indices
-    gap: Array
-    ratio: Array
-    """Share of the target's feet that is over the surface."""
-    allowed: Array
-    """Tolerated gap or penetration in metres."""
+    tolerance: Array
+    """Gap in metres."""
+    is_ground: Mask
+    """Whether each object is the ground. Nothing is below it: an object whose upper half is above it stands on it."""
+    hangs: Mask
+    """Whether each object hangs by its nature, so that it is not on a ground that it reaches."""
+    rules: RelationRules
+
+    def sinks(self, boxed: BoxedObjects, target: Indices, anchor: Indices, thickness: Array) -> Array:
+        """Return how deep the targets may sink into anchors of a thickness, in metres."""
+        rule = self.rules.on
+        usual = np.maximum(self.tolerance[target], np.minimum(rule.sink_share * thickness, rule.max_sink))
+        return np.where(self.is_ground[anchor], boxed.size[target, 2] / 2, usual)
+
+
+class Support(NamedTuple):
+    """What bears the objects of a scene."""
+
+    links: list[Links]
+    """`on` with one anchor, and with several that bear the target jointly."""
+    near: _Contacts
+    """All surfaces near the feet of an object, closer than what it may hover over."""
 
 
 def find_support(
     boxed: BoxedObjects, classes: ClassMembership, is_loose: Mask, container: Indices, rules: RelationRules
-) -> list[Links]:
-    """Return the `on` links: with one anchor, with several that bear the target jointly, or across a small gap.
+) -> Support:
+    """Return the `on` links of the objects that touch what bears them.
 
     The surface with the highest underside wins: a book on a tray on a table is on the tray. An object inside a
     container only rests on objects in the same container, and not on the container itself.
@@ -66,28 +102,51 @@ def find_support(
         rules: the thresholds.
     """
     may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.scene_index]
-    surfaces = _support_surfaces(boxed, ~classes.are_in("not_supporting")[boxed.scene_index], rules)
-    near = _find_contacts(boxed, np.flatnonzero(may_rest), surfaces, container, rules)
+    can_support = ~classes.are_in("not_supporting")[boxed.scene_index]
+    tolerance = np.clip(rules.on.gap_share * boxed.size[:, 2], rules.on.min_gap, rules.on.max_gap)
+    is_ground, hangs = (classes.are_in(name)[boxed.scene_index] for name in ("grounds", "hanging"))
+    limits = _Limits(tolerance, is_ground, hangs, rules)
+    near = _find_contacts(boxed, np.flatnonzero(may_rest), can_support, container, limits)
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
-    single = _on_single(boxed, surfaces, contacts, rules.on)
+    single = _on_single(boxed, contacts, rules.on)
     bears = ~classes.are_in("not_bearing")[boxed.scene_index]
     is_left = np.ones(len(boxed), np.bool_)
     is_left[single.target] = False
-    several = _on_several(
-        boxed,
-        surfaces,
-        select_rows(contacts, is_left[contacts.target] & bears[surfaces.owner[contacts.surface]]),
-        rules,
+    several = _on_several(boxed, select_rows(contacts, is_left[contacts.target] & bears[contacts.anchor]), rules)
+    return Support([single, several], near)
+
+
+def find_hovering(boxed: BoxedObjects, near: _Contacts, is_left: Mask, rules: RelationRules) -> Links:
+    """Return the `on` links across a small gap, of the objects of a mask."""
+    rule, near = rules.hovering, select_rows(near, is_left[near.target])
+    fits = boxed.area[near.target] < rules.on.max_area_ratio * boxed.area[near.anchor]
+    is_good = fits & (near.gap >= 0) & (near.gap <= rule.max_gap) & (near.ratio >= rule.min_overlap_ratio)
+    near = select_rows(near, is_good)
+    keys = (boxed.rank[near.anchor], -rounded(near.ratio), rounded(near.gap))
+    best = select_rows(near, first_of_each_group(near.target, keys))
+    over = margin_above(best.ratio, rule.min_overlap_ratio)
+    return _links(rule.rule, best, margin_score(margin_below(best.gap, rule.max_gap), over))
+
+
+def _find_contacts(
+    boxed: BoxedObjects, targets: Indices, can_support: Mask, container: Indices, limits: _Limits
+) -> _Contacts:
+    tops = _box_tops(boxed, can_support & ~boxed.has_surface, limits.rules)
+    surfaces = _on_surfaces(boxed, targets, np.flatnonzero(can_support & boxed.has_surface), limits)
+    found = concatenate_rows([*_on_boxes(boxed, targets, tops, limits), *surfaces])
+    # The ground has no underside.
+    found.lower[limits.is_ground[found.anchor], 2] = -np.inf
+    is_good = (
+        (found.anchor != found.target)
+        # The underside of a supporter is below the target's bottom; that of an object beside it is not.
+        & (found.lower[:, 2] < boxed.lower[found.target, 2])
+        & (container[found.anchor] == container[found.target])
+        & ~(limits.is_ground[found.anchor] & limits.hangs[found.target])
     )
-    is_left[several.target] = False
-    is_left &= container < 0
-    # The box of a mesh of several walls does not locate the walls.
-    is_wall = classes.are_in("walls")[boxed.scene_index] & (_thickness(boxed) <= rules.hovering.max_wall_thickness)
-    is_left[_near_walls(boxed, np.flatnonzero(is_left), is_wall, rules)] = False
-    return [single, several, _hovering(boxed, surfaces, select_rows(near, is_left[near.target]), rules)]
+    return select_rows(found, is_good)
 
 
-def _support_surfaces(boxed: BoxedObjects, can_support: Mask, rules: RelationRules) -> _Surfaces:
+def _box_tops(boxed: BoxedObjects, can_support: Mask, rules: RelationRules) -> _Tops:
     owner: list[int] = []
     boxes: list[Box] = []
     is_level: list[bool] = []
@@ -101,131 +160,154 @@ def _support_surfaces(boxed: BoxedObjects, can_support: Mask, rules: RelationRul
         is_level.extend([False] * (len(own) - len(obj.support_levels)) + [True] * len(obj.support_levels))
     lower, upper = corners_of(boxes)
     number, level = np.array(owner, np.int64), np.array(is_level, np.bool_)
-    thickness = upper[:, 2] - lower[:, 2]
+    thickness = np.where(level, 0, upper[:, 2] - lower[:, 2])
     # A level has no thickness of its own: its underside is that of the object, below whatever is on it.
     lower[level, 2] = boxed.lower[number[level], 2]
     # Objects may penetrate a sheet, such as a floor without thickness.
     is_sheet = ~level & (boxed.size[number, 2] < rules.geometry.sheet_thickness)
     lower[is_sheet, 2] -= rules.on.min_gap
-    return _Surfaces(number, lower, upper, np.where(level, 0, thickness), boxed.area[number])
+    return _Tops(number, lower, upper, thickness)
 
 
-def _find_contacts(
-    boxed: BoxedObjects, targets: Indices, surfaces: _Surfaces, container: Indices, rules: RelationRules
-) -> _Contacts:
-    rule = rules.on
-    gaps = np.clip(rule.gap_share * boxed.size[:, 2], rule.min_gap, rule.max_gap)
-    highest = np.maximum(gaps, rules.hovering.max_gap)
-    found = [_Contacts(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros(0))]
+def _on_boxes(boxed: BoxedObjects, targets: Indices, tops: _Tops, limits: _Limits) -> Iterator[_Contacts]:
+    highest = np.maximum(limits.tolerance, limits.rules.hovering.max_gap)
     lower, upper = boxed.feet
-    foot_area = (upper - lower)[:, :2].prod(axis=1)
     feet = lower[targets, :2], upper[targets, :2]
-    for chosen, number in overlapping_pairs(*feet, (surfaces.lower[:, :2], surfaces.upper[:, :2])):
-        target, owner = targets[chosen], surfaces.owner[number]
-        gap = boxed.lower[target, 2] - surfaces.upper[number, 2]
-        may_sink = np.maximum(gaps[target], np.minimum(rule.sink_share * surfaces.thickness[number], rule.max_sink))
-        is_good = (
-            (owner != target)
-            & (gap <= highest[target])
-            & (-gap <= may_sink)
-            # The underside of a supporter is below the target's bottom; that of an object beside it is not.
-            & (surfaces.lower[number, 2] < boxed.lower[target, 2])
-            & (container[owner] == container[target])
-        )
-        allowed = np.where(gap < 0, may_sink, gaps[target])
-        contacts = select_rows(_Contacts(target, number, gap, np.zeros(len(target)), allowed), is_good)
-        shared = overlap_areas(
-            lower[contacts.target],
-            upper[contacts.target],
-            surfaces.lower[contacts.surface],
-            surfaces.upper[contacts.surface],
-        )
-        ratio = np.minimum(ratios(shared, foot_area[contacts.target]), 1.0)
-        found.append(contacts._replace(ratio=ratio))
-    return concatenate_rows(found)
+    for chosen, number in overlapping_pairs(*feet, (tops.lower[:, :2], tops.upper[:, :2])):
+        target = targets[chosen]
+        gap = boxed.lower[target, 2] - tops.upper[number, 2]
+        sinks = limits.sinks(boxed, target, tops.owner[number], tops.thickness[number])
+        is_good = (gap <= highest[target]) & (-gap <= sinks)
+        target, number, gap, sinks = target[is_good], number[is_good], gap[is_good], sinks[is_good]  # noqa: PLW2901
+        shared = overlap_areas(lower[target], upper[target], tops.lower[number], tops.upper[number])
+        ratio = np.minimum(ratios(shared, boxed.foot_area[target]), 1.0)
+        allowed = np.where(gap < 0, sinks, limits.tolerance[target])
+        yield _Contacts(target, tops.owner[number], gap, ratio, shared, allowed, tops.lower[number], tops.upper[number])
 
 
-def _on_single(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts, rule: OnRule) -> Links:
-    fits = boxed.area[contacts.target] < rule.max_area_ratio * surfaces.area[contacts.surface]
-    best = _best(boxed, surfaces, select_rows(contacts, (contacts.ratio > rule.min_overlap_ratio) & fits))
-    is_round = is_on_cycle(_pointers(boxed, surfaces, best), best.target)
+def _on_surfaces(boxed: BoxedObjects, targets: Indices, anchors: Indices, limits: _Limits) -> Iterator[_Contacts]:
+    """Yield the contacts with meshes, measured from the feet down to the mesh.
+
+    What meets nothing at its feet may rest on something under the rest of its underside: a worktop whose front edge
+    reaches down, a tablet on a tilted plate.
+    """
+    target, anchor = _feet_over(boxed, targets, anchors, limits)
+    at_feet = _measure(boxed, target, anchor, boxed.feet_of(np.unique(target)), limits)
+    yield at_feet
+    is_met = (np.abs(at_feet.gap) <= at_feet.allowed) & (at_feet.ratio > limits.rules.on.min_overlap_ratio)
+    is_left = boxed.has_surface.copy()
+    is_left[at_feet.target[is_met]] = False
+    target, anchor = target[is_left[target]], anchor[is_left[target]]
+    below = _measure(boxed, target, anchor, boxed.undersides_of(np.unique(target)), limits)
+    yield select_rows(below, np.abs(below.gap) <= below.allowed)
+
+
+def _measure(
+    boxed: BoxedObjects, target: Indices, anchor: Indices, points: Mapping[int, Array], limits: _Limits
+) -> _Contacts:
+    blocks = np.array_split(np.arange(len(target)), len(target) // _BLOCK + 1)
+    return concatenate_rows([_measure_some(boxed, target[some], anchor[some], points, limits) for some in blocks])
+
+
+def _measure_some(
+    boxed: BoxedObjects, target: Indices, anchor: Indices, points: Mapping[int, Array], limits: _Limits
+) -> _Contacts:
+    rules = limits.rules
+    is_some = np.array([len(points[index]) > 0 for index in target.tolist()], np.bool_)
+    target, anchor = target[is_some], anchor[is_some]
+    standing = Standing(
+        feet=[points[index] for index in target.tolist()],
+        surfaces=[surface for index in anchor.tolist() if (surface := boxed.surfaces[index]) is not None],
+        own_surfaces=[boxed.surfaces[index] for index in target.tolist()],
+        lower=boxed.lower[target],
+        upper=boxed.upper[target],
+        foot_area=boxed.foot_area[target],
+        tolerance=limits.tolerance[target],
+        max_sink=np.where(limits.is_ground[anchor], boxed.size[target, 2] / 2, rules.on.max_sink),
+        is_grounded=limits.is_ground[anchor],
+    )
+    found = measure_contacts(standing, rules)
+    is_met = np.isfinite(found.gap)
+    found, target, anchor = select_rows(found, is_met), target[is_met], anchor[is_met]
+    # Objects may penetrate a sheet; what has no underside of its own reaches down to the bottom of the anchor.
+    is_thick = found.height - boxed.lower[anchor, 2] > rules.geometry.sheet_thickness
+    bottom = np.where(is_thick, boxed.lower[anchor, 2], found.height - rules.on.min_gap)
+    underside = np.where(found.underside >= found.height, bottom, found.underside)
+    lower, upper = boxed.lower[anchor].copy(), boxed.upper[anchor].copy()
+    lower[:, 2], upper[:, 2] = np.where(np.isfinite(underside), underside, boxed.lower[anchor, 2]), found.height
+    return _Contacts(target, anchor, found.gap, found.ratio, found.area, found.allowed, lower, upper)
+
+
+def _feet_over(boxed: BoxedObjects, targets: Indices, anchors: Indices, limits: _Limits) -> tuple[Indices, Indices]:
+    """Return the pairs for which the feet of the target are over the anchor's box, at a height within it."""
+    rules = limits.rules
+    highest = max(rules.on.max_gap, rules.hovering.max_gap)
+    lower, upper = boxed.feet
+    feet = lower[targets, :2], upper[targets, :2]
+    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
+    for i, j in overlapping_pairs(*feet, (boxed.lower[anchors, :2], boxed.upper[anchors, :2])):
+        target, anchor = targets[i], anchors[j]
+        bottom = boxed.lower[target, 2]
+        sinks = np.where(limits.is_ground[anchor], boxed.size[target, 2] / 2, rules.on.max_sink)
+        is_level = (bottom >= boxed.lower[anchor, 2] - sinks) & (bottom <= boxed.upper[anchor, 2] + highest)
+        is_level &= target != anchor
+        found.append((target[is_level], anchor[is_level]))
+    target, anchor = (np.concatenate(column) for column in zip(*found, strict=True))
+    # Each surface is used at once, and need not be kept.
+    order = np.argsort(anchor, kind="stable")
+    return target[order], anchor[order]
+
+
+def _on_single(boxed: BoxedObjects, contacts: _Contacts, rule: OnRule) -> Links:
+    fits = boxed.area[contacts.target] < rule.max_area_ratio * boxed.area[contacts.anchor]
+    best = _best(boxed, select_rows(contacts, (contacts.ratio > rule.min_overlap_ratio) & fits))
+    is_round = is_on_cycle(_pointers(boxed, best), best.target)
     # If two sheets at the same height support each other, the larger one is the supporter.
-    best = select_rows(best, ~is_round | (boxed.area[best.target] < surfaces.area[best.surface]))
-    best = select_rows(best, ~is_on_cycle(_pointers(boxed, surfaces, best), best.target))
+    best = select_rows(best, ~is_round | (boxed.area[best.target] < boxed.area[best.anchor]))
+    best = select_rows(best, ~is_on_cycle(_pointers(boxed, best), best.target))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
-    return _links(rule.rule, surfaces, best, margin_score(margin_below(best.gap, best.allowed), over))
+    return _links(rule.rule, best, margin_score(margin_below(best.gap, best.allowed), over))
 
 
-def _pointers(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> Indices:
+def _pointers(boxed: BoxedObjects, contacts: _Contacts) -> Indices:
     pointers = np.full(len(boxed), -1)
-    pointers[contacts.target] = surfaces.owner[contacts.surface]
+    pointers[contacts.target] = contacts.anchor
     return pointers
 
 
-def _best(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> _Contacts:
+def _best(boxed: BoxedObjects, contacts: _Contacts) -> _Contacts:
     """Return each target's contact with the surface whose underside is highest."""
-    owner, lowest = surfaces.owner[contacts.surface], surfaces.lower[contacts.surface, 2]
+    owner, lowest = contacts.anchor, contacts.lower[:, 2]
     keys = (boxed.rank[owner], -rounded(contacts.ratio), rounded(np.abs(contacts.gap)), -rounded(lowest))
     return select_rows(contacts, first_of_each_group(contacts.target, keys))
 
 
-def _links(rule: str, surfaces: _Surfaces, contacts: _Contacts, confidence: Array) -> Links:
+def _links(rule: str, contacts: _Contacts, confidence: Array) -> Links:
     numbers = {"gap": contacts.gap, "overlapRatio": contacts.ratio}
-    return Links("on", rule, contacts.target, surfaces.owner[contacts.surface], numbers, confidence)
+    return Links("on", rule, contacts.target, contacts.anchor, numbers, confidence)
 
 
-def _on_several(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts, rules: RelationRules) -> Links:
+def _on_several(boxed: BoxedObjects, contacts: _Contacts, rules: RelationRules) -> Links:
     rule = rules.on_several
-    own = (surfaces.upper - surfaces.lower)[contacts.surface, :2].prod(axis=1)
-    lower, upper = boxed.feet
-    foot_area = (upper - lower)[:, :2].prod(axis=1)
-    share = np.minimum(ratios(contacts.ratio * foot_area[contacts.target], own), 1.0)
+    own = (contacts.upper - contacts.lower)[:, :2].prod(axis=1)
+    share = np.minimum(ratios(contacts.area, own), 1.0)
     bears = share >= rule.min_anchor_ratio
     contacts, share = select_rows(contacts, bears), share[bears]
     # Keep the part of each anchor with the largest share.
-    anchors = contacts.target * len(boxed) + surfaces.owner[contacts.surface]
-    best = first_of_each_group(anchors, (contacts.surface, -rounded(contacts.ratio)))
+    anchors = contacts.target * len(boxed) + contacts.anchor
+    best = first_of_each_group(anchors, (np.arange(len(anchors)), -rounded(contacts.ratio)))
     contacts, share = select_rows(contacts, best), share[best]
     count = np.bincount(contacts.target, minlength=len(boxed))
-    is_good = (count >= rule.min_anchors)[contacts.target] & _supports_center(boxed, surfaces, contacts)[
-        contacts.target
-    ]
+    is_good = (count >= rule.min_anchors)[contacts.target] & _supports_center(boxed, contacts)[contacts.target]
     contacts, share = select_rows(contacts, is_good), share[is_good]
     clear = margin_above(share, rule.min_anchor_ratio)
-    return _links(rule.rule, surfaces, contacts, margin_score(margin_below(contacts.gap, contacts.allowed), clear))
+    return _links(rule.rule, contacts, margin_score(margin_below(contacts.gap, contacts.allowed), clear))
 
 
-def _supports_center(boxed: BoxedObjects, surfaces: _Surfaces, contacts: _Contacts) -> Mask:
+def _supports_center(boxed: BoxedObjects, contacts: _Contacts) -> Mask:
     """Return whether the box around the supporters of each object covers its centre; else it would tip over."""
     low, high = np.full((len(boxed), 2), np.inf), np.full((len(boxed), 2), -np.inf)
-    np.minimum.at(low, contacts.target, surfaces.lower[contacts.surface, :2])
-    np.maximum.at(high, contacts.target, surfaces.upper[contacts.surface, :2])
+    np.minimum.at(low, contacts.target, contacts.lower[:, :2])
+    np.maximum.at(high, contacts.target, contacts.upper[:, :2])
     middle = boxed.middle[:, :2]
     return np.asarray(((low <= middle) & (high >= middle)).all(axis=1))
-
-
-def _hovering(boxed: BoxedObjects, surfaces: _Surfaces, near: _Contacts, rules: RelationRules) -> Links:
-    rule = rules.hovering
-    fits = boxed.area[near.target] < rules.on.max_area_ratio * surfaces.area[near.surface]
-    is_good = fits & (near.gap >= 0) & (near.gap <= rule.max_gap) & (near.ratio >= rule.min_overlap_ratio)
-    near = select_rows(near, is_good)
-    keys = (boxed.rank[surfaces.owner[near.surface]], -rounded(near.ratio), rounded(near.gap))
-    best = select_rows(near, first_of_each_group(near.target, keys))
-    over = margin_above(best.ratio, rule.min_overlap_ratio)
-    return _links(rule.rule, surfaces, best, margin_score(margin_below(best.gap, rule.max_gap), over))
-
-
-def _thickness(boxed: BoxedObjects) -> Array:
-    """Return the shorter side of each footprint in metres."""
-    return np.asarray(2 * boxed.footprints.half_sides.min(axis=1))
-
-
-def _near_walls(boxed: BoxedObjects, chosen: Indices, is_wall: Mask, rules: RelationRules) -> Indices:
-    """Return the chosen objects that are close enough to a wall to hang on it, with repetitions."""
-    reach = rules.hovering.max_wall_gap
-    lower, upper = boxed.lower[chosen] - reach, boxed.upper[chosen] + reach
-    walls = boxed.lower[is_wall], boxed.upper[is_wall]
-    found = [np.zeros(0, np.int64)]
-    for i, j in overlapping_pairs(lower[:, :2], upper[:, :2], (walls[0][:, :2], walls[1][:, :2])):
-        found.append(chosen[i[(lower[i, 2] <= walls[1][j, 2]) & (upper[i, 2] >= walls[0][j, 2])]])
-    return np.concatenate(found)

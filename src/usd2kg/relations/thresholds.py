@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 __all__ = [
     "AboveRule",
+    "AttachedRule",
     "BetweenRule",
     "BlockingRule",
     "ClassLists",
@@ -73,8 +74,6 @@ class HoveringRule:
     rule: str
     max_gap: float
     min_overlap_ratio: float
-    max_wall_gap: float
-    max_wall_thickness: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,8 +81,16 @@ class InsideRule:
     """`inside` an enclosing anchor."""
 
     rule: str
+    surrounded_rule: str
     min_volume_ratio: float
     max_floor_share: float
+    min_below: float
+    min_beside: float
+    min_caged: float
+    min_surrounded: float
+    min_walled: float
+    min_cavity_depth: float
+    max_buried: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,10 +99,26 @@ class StandingInRule:
 
     rule: str
     min_depth_share: float
+    min_beside: float
     min_overlap_ratio: float
     min_level_overlap_ratio: float
     same_level: float
     max_area_ratio: float
+
+
+@dataclass(frozen=True, slots=True)
+class AttachedRule:
+    """`attached-to`."""
+
+    rule: str
+    max_gap: float
+    max_contact: float
+    max_hanging_gap: float
+    mount_preference: float
+    min_clearance: float
+    max_plinth: float
+    ground_reach: float
+    max_wall_thickness: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,7 +220,13 @@ class ClassLists:
     not_laid: tuple[str, ...]
     not_supporting: tuple[str, ...]
     not_bearing: tuple[str, ...]
+    grounds: tuple[str, ...]
     walls: tuple[str, ...]
+    mounts: tuple[str, ...]
+    not_mounts: tuple[str, ...]
+    not_attached: tuple[str, ...]
+    standing: tuple[str, ...]
+    hanging: tuple[str, ...]
     not_contained: tuple[str, ...]
     containers: tuple[str, ...]
     not_containers: tuple[str, ...]
@@ -223,6 +252,7 @@ class RelationRules:
     hovering: HoveringRule
     inside: InsideRule
     standing_in: StandingInRule
+    attached: AttachedRule
     above: AboveRule
     touching: TouchingRule
     next_to: NextToRule

@@ -1,11 +1,12 @@
 """Scene and its records: what was read from a stage, immutable and independent of OpenUSD."""
 
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, NamedTuple
 
 from usd2kg.languages import split_compound
+from usd2kg.shapes.surface import Surface
 from usd2kg.words import words_of
 
 __all__ = [
@@ -254,6 +255,9 @@ class SceneObject:
     support_levels: tuple[Box, ...] = ()
     """Broad horizontal faces of its meshes that face up, as flat boxes from the bottom up, such as the boards of a
     shelf. At most 32; measured only if the bottom of another object is within its box."""
+    shell_boxes: tuple[Box, ...] = ()
+    """World AABBs that together cover the surface of a large object whose box holds the middle of another: the walls of
+    a flat in one mesh. Empty if the surface fills its box."""
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -285,6 +289,8 @@ class Scene:
     """Requested paths that are not on the stage."""
     joints: tuple[Joint, ...] = ()
     """In traversal order."""
+    surfaces: Mapping[str, Surface] = field(default_factory=dict, compare=False, repr=False)
+    """Prim path → triangles, for objects near others whose box does not say it all; not for axis-aligned boxes."""
 
     @cached_property
     def by_path(self) -> Mapping[str, SceneObject]:

@@ -35,7 +35,9 @@ from usd2kg.scene.stage import (
     time_code,
     translated_errors,
 )
+from usd2kg.scene.surfaces import SurfaceReader, are_near_others, hold_middles, read_shell
 from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage, paths_above_endless
+from usd2kg.shapes.surface import Surface
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
@@ -78,7 +80,8 @@ def read_scene(
         boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
         selection = select_objects(outline, options.selection, boxes.read_below, tuple(dict.fromkeys(paths or ())))
         reader = _ObjectReader(opened, outline, selection.chosen, boxes)
-        objects = _read_objects(reader, outline, selection, options.expand_instancers)
+        found = _find_objects(outline, selection.chosen, options.expand_instancers)
+        objects = _read_objects(reader, found)
         joints = read_joints(outline.joint_prims, opened.frame, time)
         label_notes = lint_labels(outline.labelled_prims, time)
         time_read = _time_read(opened, options)
@@ -95,9 +98,10 @@ def read_scene(
         left_out=dict(sorted(selection.left_out.items())),
         missing_paths=selection.missing,
         joints=joints.joints,
+        surfaces=reader.surfaces,
     )
-    found = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))
-    return replace(scene, diagnostics=tuple(map(_on_one_line, (*opened.diagnostics, *openusd_notes, *found))))
+    notes = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))
+    return replace(scene, diagnostics=tuple(map(_on_one_line, (*opened.diagnostics, *openusd_notes, *notes))))
 
 
 def _left_out_notes(outline: Outline) -> Iterator[Diagnostic]:
@@ -153,11 +157,9 @@ def _no_object_message(source: str, outline: Outline, selection: Selection, open
     return f"{source}: no object among {found}, expected prims with geometry; check the referenced files{problem}"
 
 
-def _read_objects(
-    reader: "_ObjectReader", outline: Outline, selection: Selection, expand_instancers: bool
-) -> list[SceneObject]:
-    found = _find_objects(outline, selection.chosen, expand_instancers)
+def _read_objects(reader: "_ObjectReader", found: list["_SelectedPrim"]) -> list[SceneObject]:
     boxes = reader.measure([entry for entry in found if entry.is_read])
+    reader.read_surfaces([entry for entry in found if entry.is_read], boxes)
     levels = reader.read_levels([entry for entry in found if entry.is_read], boxes)
     objects: list[SceneObject] = []
     for index, entry in enumerate(found):
@@ -235,6 +237,8 @@ class _ObjectReader:
         self.has_labels = bool(outline.labelled_prims)
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
+        self.surfaces: dict[str, Surface] = {}
+        self.shells: dict[str, tuple[Box, ...]] = {}
 
     def measure(self, found: list[_SelectedPrim]) -> dict[str, _ObjectBoxes]:
         """Return the boxes of the objects by path."""
@@ -262,6 +266,23 @@ class _ObjectReader:
         if below is None:
             self._note("empty-box", records[0], "it has no measurable geometry; it has no size in the graph")
         return _ObjectBoxes(below, own if nested else below, _largest(parts) if len(parts) > 1 else ())
+
+    def read_surfaces(self, found: list[_SelectedPrim], boxes: dict[str, _ObjectBoxes]) -> None:
+        """Read the surfaces of the objects that others are near, and the shells of large ones around others."""
+        surfaces = SurfaceReader(self.boxes, self.frame)
+        own = [boxes[entry.records[0].path].own for entry in found]
+        for entry, is_near, is_holder in zip(found, are_near_others(own), hold_middles(own), strict=True):
+            if is_near:
+                try:
+                    surface = surfaces.read(entry.records)
+                except UNREADABLE as error:
+                    message = f"its surface cannot be read ({_why(error)}); its relations follow from its box"
+                    self._note("geometry", entry.records[0], message)
+                    continue
+                if surface is not None:
+                    self.surfaces[entry.records[0].path] = surface
+                    if is_holder:
+                        self.shells[entry.records[0].path] = read_shell(surface)
 
     def read_levels(self, found: list[_SelectedPrim], boxes: dict[str, _ObjectBoxes]) -> dict[str, tuple[Box, ...]]:
         """Return path → support levels, for the objects that may have others on an inner level."""
@@ -307,6 +328,7 @@ class _ObjectReader:
             parts=part_names(entry.records),
             instance_of=record.first_instance,
             support_levels=levels,
+            shell_boxes=self.shells.get(record.path, ()),
             **evidence,
         )
 

@@ -14,6 +14,7 @@ __all__ = [
     "ROBOTS",
     "SANITY",
     "SOLIDS",
+    "SURFACES",
     "TEXTS",
     "UNNAMED",
     "JointSettings",
@@ -24,6 +25,7 @@ __all__ = [
     "RobotSettings",
     "SanitySettings",
     "SolidSettings",
+    "SurfaceSettings",
     "TextSettings",
     "UnnamedSettings",
 ]
@@ -82,6 +84,17 @@ class LevelSettings:
 
 
 @dataclass(frozen=True)
+class SurfaceSettings:
+    """Surfaces that are kept for the spatial relations."""
+
+    reach: float
+    min_shell_side: float
+    max_gprims: int
+    max_points: int
+    max_total_points: int
+
+
+@dataclass(frozen=True)
 class UnnamedSettings:
     """Pieces without meaningful names."""
 
@@ -135,6 +148,7 @@ LIMITS = read_settings("scene", "limits", LimitSettings)
 SOLIDS = read_settings("scene", "solids", SolidSettings)
 MESHES = read_settings("scene", "meshes", MeshSettings)
 LEVELS = read_settings("scene", "levels", LevelSettings)
+SURFACES = read_settings("scene", "surfaces", SurfaceSettings)
 UNNAMED = read_settings("scene", "unnamed", UnnamedSettings)
 ROBOTS = read_settings("scene", "robots", RobotSettings)
 JOINTS = read_settings("scene", "joints", JointSettings)

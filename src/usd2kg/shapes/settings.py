@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["BOUNDING_BOX", "MESH", "VESSEL", "BoundingBoxSettings", "TriangleMeshSettings", "VesselSettings"]
+__all__ = [
+    "BOUNDING_BOX",
+    "MESH",
+    "SHELL",
+    "VESSEL",
+    "BoundingBoxSettings",
+    "ShellSettings",
+    "TriangleMeshSettings",
+    "VesselSettings",
+]
 
 
 @dataclass(frozen=True)
@@ -41,6 +50,19 @@ class VesselSettings:
     max_rows: int
 
 
+@dataclass(frozen=True)
+class ShellSettings:
+    """Division of a surface into boxes."""
+
+    cells: int
+    min_cell: float
+    max_blocks: int
+    max_boxes: int
+    max_growth: float
+    min_saving: float
+
+
 MESH = read_settings("shapes", "mesh", TriangleMeshSettings)
 BOUNDING_BOX = read_settings("shapes", "bounding_box", BoundingBoxSettings)
+SHELL = read_settings("shapes", "shell", ShellSettings)
 VESSEL = read_settings("shapes", "vessel", VesselSettings)

@@ -24,8 +24,8 @@ class SpatialOptions(OptionBundle):
         str | None,
         Option(
             "--relation-kinds",
-            help="Comma-separated spatial relations to find: on, inside, above, below, touching, next-to, near, room, "
-            "part-of, between, or all; default: all of these but between.",
+            help="Comma-separated spatial relations to find: on, inside, attached-to, above, below, touching, next-to, "
+            "near, room, part-of, between, or all; default: all of these but between.",
         ),
     ] = None
     relation_rules: Annotated[

@@ -1,0 +1,165 @@
+"""`attached-to`: what hangs from an object or is fixed to it, with nothing below."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, rounded, select_rows
+from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.distances import surface_distances
+from usd2kg.relations.model import Links, margin_below, margin_score
+from usd2kg.relations.stronger import StrongerRelations
+from usd2kg.relations.thresholds import AttachedRule
+from usd2kg.shapes import overlapping_pairs
+
+__all__ = ["find_attached"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_NO_MOUNT = 1.0
+"""Metres added to the gap of an object beside the target, so that every wall, ceiling or object above is nearer."""
+
+
+class _Mounts(NamedTuple):
+    """Pairs of an object without support and one that may hold it."""
+
+    target: Indices
+    anchor: Indices
+    gap: Array
+    limit: Array
+    """Largest gap, metres."""
+    hangs: Mask
+    """Whether the anchor is above the middle of the target."""
+
+
+def find_attached(
+    boxed: BoxedObjects,
+    classes: ClassMembership,
+    stronger: StrongerRelations,
+    rule: AttachedRule,
+    *,
+    needs_mount: bool,
+) -> Links:
+    """Return the `attached-to` links of objects that are on, in and part of nothing so far.
+
+    Walls and ceilings hold whatever is within a few centimetres, other objects what touches them. What reaches down to
+    the ground stands on it, and so does furniture on a plinth or legs, even where no floor is drawn.
+
+    Args:
+        boxed: the objects.
+        classes: membership in class lists.
+        stronger: the relations found so far.
+        rule: the thresholds.
+        needs_mount: return only objects near a wall or ceiling.
+    """
+    may_hang = stronger.is_free & ~classes.are_in("not_attached")[boxed.scene_index]
+    is_mount = classes.are_in("mounts")[boxed.scene_index]
+    clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
+    hangs = classes.are_in("hanging")[boxed.scene_index]
+    clearance[hangs] = 0.0
+    targets = np.flatnonzero(may_hang)
+    targets = targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]]
+    # The box of a mesh of several walls does not locate the walls.
+    is_located = boxed.has_surface | (boxed.size.min(axis=1) <= rule.max_wall_thickness) | ~is_mount
+    may_hold = is_located & ~classes.are_in("not_mounts")[boxed.scene_index]
+    reach = np.where(hangs, rule.max_hanging_gap, rule.max_gap)
+    pairs = _near_pairs(boxed, targets, np.flatnonzero(may_hold), is_mount, reach, rule)
+    pairs = select_rows(pairs, ~stronger.are_related(pairs.target, pairs.anchor))
+    pairs = select_rows(pairs, ~_are_held_by_target(boxed, pairs, stronger.holder))
+    gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
+    pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
+    if needs_mount:
+        pairs = select_rows(pairs, np.isin(pairs.target, pairs.target[is_mount[pairs.anchor]]))
+    best = _nearest_held(boxed, pairs, is_mount, rule)
+    confidence = margin_score(margin_below(np.clip(best.gap, 0, None), best.limit))
+    return Links("attached-to", rule.rule, best.target, best.anchor, {"gap": best.gap}, confidence)
+
+
+def _ground_below(boxed: BoxedObjects, targets: Indices, rule: AttachedRule) -> Array:
+    """Return the lowest height of any object around each target, in metres: that of the floor or the foot of a wall.
+
+    Large objects count if their box is within reach, small ones if their middle is in the same square or one beside it.
+    """
+    cell = rule.ground_reach
+    lowest = boxed.lower[targets, 2].copy()
+    is_large = boxed.size[:, :2].max(axis=1) > 2 * cell
+    large, small = np.flatnonzero(is_large), np.flatnonzero(~is_large)
+    lower, upper = boxed.lower[targets, :2] - cell, boxed.upper[targets, :2] + cell
+    for i, j in overlapping_pairs(lower, upper, (boxed.lower[large, :2], boxed.upper[large, :2])):
+        np.minimum.at(lowest, i, boxed.lower[large[j], 2])
+    squares, which = np.unique(_squares(boxed, small, cell), axis=0, return_inverse=True)
+    height = np.full(len(squares), np.inf)
+    np.minimum.at(height, which.reshape(-1), boxed.lower[small, 2])
+    known = dict(zip(map(tuple, squares.tolist()), height.tolist(), strict=True))
+    for place, (x, y) in enumerate(_squares(boxed, targets, cell).tolist()):
+        around = (known.get((x + dx, y + dy), np.inf) for dx in (-1, 0, 1) for dy in (-1, 0, 1))
+        lowest[place] = min(lowest[place], *around)
+    return np.asarray(lowest)
+
+
+def _squares(boxed: BoxedObjects, chosen: Indices, side: float) -> Indices:
+    return np.floor(boxed.middle[chosen, :2] / side).astype(np.int64)
+
+
+def _near_pairs(
+    boxed: BoxedObjects, targets: Indices, holders: Indices, is_mount: Mask, reach: Array, rule: AttachedRule
+) -> _Mounts:
+    widest = np.maximum(reach, rule.max_contact)[:, None]
+    lower, upper = boxed.lower - widest, boxed.upper + widest
+    none = np.zeros(0, np.int64)
+    found = [_Mounts(none, none, np.zeros(0), np.zeros(0), np.zeros(0, np.bool_))]
+    others = boxed.lower[holders, :2], boxed.upper[holders, :2]
+    for i, j in overlapping_pairs(lower[targets, :2], upper[targets, :2], others):
+        target, anchor = targets[i], holders[j]
+        hangs = boxed.lower[anchor, 2] >= boxed.middle[target, 2]
+        limit = np.where(is_mount[anchor], reach[target], rule.max_contact)
+        is_near = (lower[target, 2] <= boxed.upper[anchor, 2]) & (upper[target, 2] >= boxed.lower[anchor, 2])
+        is_near &= (target != anchor) & (is_mount[anchor] | hangs | (boxed.volume[anchor] > boxed.volume[target]))
+        found.append(select_rows(_Mounts(target, anchor, np.zeros(len(target)), limit, hangs), is_near))
+    return concatenate_rows(found)
+
+
+def _are_held_by_target(boxed: BoxedObjects, pairs: _Mounts, holder: Indices) -> Mask:
+    """Return for each pair whether the anchor is nested below the target, or held by it by way of other objects."""
+    here, found = holder[pairs.anchor], np.zeros(len(pairs.target), np.bool_)
+    for _ in range(len(holder)):
+        found |= here == pairs.target
+        if not (here >= 0).any():
+            break
+        here = np.where((here >= 0) & ~found, holder[here], -1)
+    paths = [obj.prim_path for obj in boxed.objects]
+    ends = zip(pairs.target.tolist(), pairs.anchor.tolist(), strict=True)
+    nested = [paths[anchor].startswith(f"{paths[target]}/") for target, anchor in ends]
+    return np.asarray(found | np.array(nested, np.bool_))
+
+
+def _nearest_held(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> _Mounts:
+    """Return the best anchor of each target, from what is held to what hangs from it.
+
+    A wall or ceiling takes precedence over an object beside the target, and over one above that is hardly nearer.
+    """
+    pending = np.zeros(len(boxed), np.bool_)
+    pending[pairs.target] = True
+    penalty = np.where(pairs.hangs, rule.mount_preference, _NO_MOUNT)
+    distance = np.clip(pairs.gap, 0, None) + np.where(is_mount[pairs.anchor], 0.0, penalty)
+    chosen = [np.zeros(0, np.int64)]
+    while True:
+        best = _best(boxed, pairs, np.flatnonzero(pending[pairs.target]), distance)
+        best = best[~pending[pairs.anchor[best]]]
+        if not len(best):
+            # The rest hang from each other; begin with those that something else holds.
+            is_held = pending[pairs.target] & ~pending[pairs.anchor]
+            best = _best(boxed, pairs, np.flatnonzero(is_held), distance)
+        if not len(best):
+            break
+        chosen.append(best)
+        pending[pairs.target[best]] = False
+    return select_rows(pairs, np.sort(np.concatenate(chosen)))
+
+
+def _best(boxed: BoxedObjects, pairs: _Mounts, some: Indices, distance: Array) -> Indices:
+    keys = (boxed.rank[pairs.anchor[some]], rounded(distance[some]))
+    return np.asarray(some[first_of_each_group(pairs.target[some], keys)])

@@ -1,0 +1,120 @@
+"""Enclosure: how far the surface of one object surrounds another, by rays along the axes."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.relations.array_records import concatenate_rows
+from usd2kg.relations.boxed_objects import BoxedObjects
+from usd2kg.relations.settings import ENCLOSURE
+from usd2kg.shapes.axis_rays import find_crossings
+from usd2kg.shapes.surface import Surface
+
+__all__ = ["Enclosures", "measure_enclosures"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_BLOCK = 1 << 12
+"""Pairs measured at a time, which bounds memory."""
+_UP = 2
+_AXES = 3
+
+
+class Enclosures(NamedTuple):
+    """For pairs of objects: shares of the points of the one from which rays meet the surface of the other."""
+
+    below: Array
+    """Downward."""
+    above: Array
+    """Upward."""
+    beside: Array
+    """In the four horizontal directions, the mean."""
+    buried: Array
+    """Of all rays: those that start within the material, not in a cavity."""
+    caged: Array
+    """Share of the four sides beyond which the surface has corners, at the height of the object and no farther than it
+    is long: the wires of a rack, which rays miss."""
+
+
+def measure_enclosures(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Enclosures:
+    """Return how far objects with a surface enclose the part of another that is in their box.
+
+    Args:
+        boxed: the objects.
+        target: indices of the objects that may be inside.
+        anchor: indices of the objects that may contain them; they have a surface.
+    """
+    blocks = np.array_split(np.arange(len(target)), len(target) // _BLOCK + 1)
+    return concatenate_rows([_measure_some(boxed, target[some], anchor[some]) for some in blocks])
+
+
+def _measure_some(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Enclosures:
+    points = {index: _points_of(boxed, index) for index in np.unique(target).tolist()}
+    pairs = list(zip(target.tolist(), anchor.tolist(), strict=True))
+    within = [_within(points[one], boxed.lower[other], boxed.upper[other]) for one, other in pairs]
+    some = np.array([pair for pair, inner in enumerate(within) if len(inner)], np.int64)
+    surfaces = [surface for pair in some.tolist() if (surface := boxed.surfaces[pairs[pair][1]]) is not None]
+    found = Enclosures(*(np.zeros(len(pairs)) for _ in Enclosures._fields))
+    if len(some):
+        hits, buried = _cast([within[pair] for pair in some.tolist()], surfaces)
+        found.below[some], found.above[some] = hits[_UP]
+        found.beside[some] = hits[:_UP].mean(axis=(0, 1))
+        found.buried[some] = buried
+    for pair in some.tolist():
+        one, other = pairs[pair]
+        surface = boxed.surfaces[other]
+        assert surface is not None, "anchors have a surface"
+        found.caged[pair] = _caged(surface, boxed.lower[one], boxed.upper[one])
+    return found
+
+
+def _within(points: Array, lower: Array, upper: Array) -> Array:
+    return np.asarray(points[((points >= lower) & (points <= upper)).all(axis=1)])
+
+
+def _points_of(boxed: BoxedObjects, index: int) -> Array:
+    """Return points (n, 3) of an object, slightly within its surface: a grid for a box."""
+    surface, middle = boxed.surfaces[index], boxed.middle[index]
+    if surface is None:
+        return np.asarray(middle + ENCLOSURE.inset * _GRID * boxed.size[index] / 2)
+    corners = surface.corners.reshape(-1, 3)
+    step = max(1, len(corners) // ENCLOSURE.max_points)
+    return np.asarray(middle + ENCLOSURE.inset * (corners[::step] - middle))
+
+
+_STEPS = np.linspace(-1.0, 1.0, ENCLOSURE.grid)
+_GRID = np.stack(np.meshgrid(_STEPS, _STEPS, _STEPS), axis=-1).reshape(-1, 3)
+
+
+def _cast(points: Sequence[Array], surfaces: Sequence[Surface]) -> tuple[Array, Array]:
+    """Return the shares of rays (axis, against or along it, pair) that meet a surface, and of buried ones (pair)."""
+    count = np.array([len(inner) for inner in points], np.int64)
+    pair = np.repeat(np.arange(len(points)), count)
+    orientation = np.repeat(np.array([surface.orientation for surface in surfaces]), count)
+    lines = np.concatenate(points)
+    hits, buried = np.zeros((_AXES, 2, len(points))), np.zeros(len(points))
+    for axis in range(_AXES):
+        found = find_crossings(points, surfaces, axis)
+        is_after = found.at > lines[found.line, axis]
+        for place, (is_ahead, sign) in enumerate(((~is_after, -1.0), (is_after, 1.0))):
+            line = found.line[is_ahead]
+            is_hit = np.bincount(line, minlength=len(lines)) > 0
+            # A ray that leaves the material more often than it enters it starts within.
+            leaves = np.bincount(line, sign * orientation[line] * np.sign(found.faces[is_ahead]), len(lines))
+            hits[axis, place] = np.bincount(pair[is_hit], minlength=len(points)) / count
+            buried += np.bincount(pair[leaves > 0], minlength=len(points)) / count
+    return hits, buried / (2 * _AXES)
+
+
+def _caged(surface: Surface, lower: Array, upper: Array) -> float:
+    """Return the share of the four sides of a box beyond which a surface has corners close by."""
+    corners = surface.corners.reshape(-1, 3)
+    around = np.array([1.0, 1.0, 0.0]) * (upper - lower)[:_UP].max()
+    near = corners[((corners >= lower - around) & (corners <= upper + around)).all(axis=1)]
+    return float(
+        np.mean([[(near[:, side] < lower[side]).any(), (near[:, side] > upper[side]).any()] for side in (0, 1)])
+    )
