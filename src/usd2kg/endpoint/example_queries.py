@@ -10,13 +10,17 @@ from usd2kg.query.questions import Parameter, Question, list_questions, parse_nu
 
 __all__ = ["ExampleQuery", "make_examples"]
 
-_MOST_USED = """
+# A sample is enough for examples, and takes milliseconds on any graph.
+_SUPPORT = """
 SELECT ?o (COUNT(DISTINCT ?x) AS ?n) WHERE {
-  ?o u2k:primPath ?p . OPTIONAL { ?x soma:isOntopOf|u2k:on ?o }
+  { SELECT ?x ?o WHERE { ?x soma:isOntopOf|u2k:on ?o } LIMIT 2000 }
 } GROUP BY ?o ORDER BY DESC(?n) ?o LIMIT 1"""
+_OBJECT = "SELECT ?o WHERE { ?o u2k:primPath ?p } ORDER BY ?o LIMIT 1"
 _CLASS = """
-SELECT ?c (COUNT(*) AS ?n) WHERE { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class ; rdfs:label ?l }
-GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
+SELECT ?c (COUNT(*) AS ?n) WHERE {
+  { SELECT ?o WHERE { ?o u2k:primPath ?p } LIMIT 2000 }
+  ?o a ?c . ?c a owl:Class ; rdfs:label ?l
+} GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
 _POSITION = "0 0 1"
 _FIRST = "count"
 """Id of the question that the page opens with; every graph answers it."""
@@ -32,7 +36,7 @@ class ExampleQuery:
 
 def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
     """Return the ready questions as queries, with each parameter replaced by a term of the store or its default."""
-    terms = {"object": _first(store, _MOST_USED), "class": _first(store, _CLASS)}
+    terms = {"object": _first(store, _SUPPORT) or _first(store, _OBJECT), "class": _first(store, _CLASS)}
     questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
     return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)
 
