@@ -60,7 +60,7 @@ def test_each_tool_answers(kitchen: Path):
         assert table["stands_on"] == ["rug"]
 
         asked = await call(client, "ask", question="How many forks are on the dining table?")
-        assert (asked["understood"], asked["count"]) == ("forks on the dining table", 6)
+        assert (asked["understood"], asked["count"]) == ("number of forks on dining table", 6)
 
         questions = {question["id"]: question for question in (await call(client, "questions"))["questions"]}
         assert questions["contents"]["parameters"] == {"thing": "OBJECT"}

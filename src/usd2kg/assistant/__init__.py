@@ -1,8 +1,9 @@
 """Questions in English, answered with the ready questions or by a language model, and tools for assistants."""
 
 from usd2kg.assistant.describe import describe_objects, list_objects
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.model_queries import ask_model
-from usd2kg.assistant.offline import InterpretedAnswer, ask_offline
+from usd2kg.assistant.offline import ask_offline
 
 __all__ = [
     "InterpretedAnswer",

@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable
 from importlib.resources import files
 
-from usd2kg.assistant.offline import InterpretedAnswer
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.settings import PROMPT
 from usd2kg.errors import GraphError, GroundingError
 from usd2kg.grounding.llm.completion import Completion, Finish, Request

@@ -1,92 +1,318 @@
-"""ask_offline: answer a question in English with the ready questions, without a language model."""
+"""ask_offline: answer a question in people's words, without a language model."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
 
 from usd2kg.assistant.describe import description_answer
-from usd2kg.assistant.phrases import Phrase, match_phrase
+from usd2kg.assistant.facts import SceneFacts
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.measures import MeasureAnswers
+from usd2kg.assistant.nouns import Nouns, Things, UnknownWordError
+from usd2kg.assistant.phrases import RELATIONS, Phrase, match_phrase, normalize
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
 from usd2kg.errors import GraphError
-from usd2kg.query import Answer, GraphStore, term_list
+from usd2kg.query import Answer, GraphStore
+from usd2kg.query.answer import join_answers
 from usd2kg.query.questions import list_questions
 
-__all__ = ["InterpretedAnswer", "ask_offline"]
+__all__ = ["ask_offline"]
 
 _UNITS = (("centimet", "cm"), ("millimet", "mm"), ("met", "m"), ("kilo", "kg"), ("gram", "g"))
 """Beginning of a unit's name → symbol, tried in order."""
-_RELATIONS = {"on": "on", "in": "inside"}
-"""Suffix of a phrase id → relation."""
-
-
-@dataclass(frozen=True)
-class InterpretedAnswer:
-    """An answer with the interpretation of its question."""
-
-    understood: str
-    """The interpretation in English, for the user to check."""
-    answer: Answer
-    verdict: bool | None = None
-    """Answer to a yes/no question; None for other questions."""
-    number: int | None = None
-    """Answer to "how many"; None for other questions."""
-
-    def as_json(self) -> dict[str, Any]:
-        """Return the interpretation, with the verdict or the number if there is one."""
-        result = {"verdict": self.verdict, "number": self.number}
-        return {"understood": self.understood, **{key: value for key, value in result.items() if value is not None}}
-
-    def summary(self) -> str:
-        """Return yes, no or the number as one line; empty for other questions."""
-        if self.number is not None:
-            return f"{self.number}\n"
-        return "" if self.verdict is None else "yes\n" if self.verdict else "no\n"
+_SAID = {
+    "on": "on",
+    "inside": "in",
+    "near": "near",
+    "above": "above",
+    "below": "below",
+    "attached": "attached to",
+}
+"""Relation → preposition."""
 
 
 def ask_offline(graph: GraphStore, text: str) -> InterpretedAnswer:
-    """Return the answer to a question in English.
+    """Return the answer to a question in English; frequent questions in German, French, Spanish and Italian too.
+
+    A word that is not understood is an error, never the answer "no".
 
     Raises:
-        GraphError: the question is not understood, or its object or class is not in the graph.
+        GraphError: the question or one of its words is not understood.
     """
-    phrase = match_phrase(text)
-    if phrase is None:
-        raise GraphError(
-            f"question {text!r} is not understood; expected a question like 'what is on the table?', 'where is the "
-            "kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' (usd2kg query --list "
-            "shows more); or let a language model write the query with --model"
+    return _Answerer(graph).answer(text)
+
+
+class _Answerer:
+    """Answers questions about one graph."""
+
+    def __init__(self, graph: GraphStore) -> None:
+        self._graph = graph
+        self._facts = SceneFacts(graph)
+        self._nouns = Nouns(self._facts)
+        self._measures = MeasureAnswers(self._facts, self._nouns)
+        self._handlers: Mapping[str, Callable[..., InterpretedAnswer]] = {
+            "about": self._about,
+            "all": self._all,
+            "how-many": self._how_many,
+            "is-blocked": self._is_blocked,
+            "is-there": self._is_there,
+            "parts": self._parts,
+            "parts-of": self._parts_of,
+            "rel-count": self._rel_count,
+            "rel-is": self._rel_is,
+            "rel-some": self._rel_some,
+            "rel-what": self._rel_what,
+            "stands-on": self._stands_on,
+            "where": self._where,
+        }
+
+    def answer(self, text: str) -> InterpretedAnswer:
+        phrase = match_phrase(text)
+        if phrase is not None:
+            return self._answer_phrase(phrase)
+        # A noun alone: “laptops?”
+        try:
+            things = self._nouns.find(normalize(text))
+        except UnknownWordError as error:
+            raise GraphError(
+                f"question {text!r} is not understood ({error}); expected a question like 'what is on the table?', "
+                "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
+                "(usd2kg query --list shows more); or let a language model write the query with --model"
+            ) from error
+        return self._list(things)
+
+    def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
+        question, given, self._nouns.is_english = phrase
+        handler = self._handlers.get(question) or self._measures.find(question)
+        if handler is None:
+            return self._ready_question(question, given)
+        return handler(**{name.replace("class", "kind"): value for name, value in given.items()})
+
+    # Lists and counts.
+
+    def _all(self, kind: str = "things", **_: str) -> InterpretedAnswer:
+        return self._list(self._nouns.find(kind))
+
+    def _list(self, things: Things) -> InterpretedAnswer:
+        table = self._located(things.iris)
+        if not things.iris:
+            return InterpretedAnswer(f"all {things.text}", table, sentence=begin_sentence(self._absent(things)))
+        verb = "is" if len(things.iris) == 1 else "are"
+        sentence = f"There {verb} {name_things(self._facts, things.iris)}{things.suffix}."
+        return InterpretedAnswer(f"all {things.text}", table, sentence=sentence)
+
+    def _how_many(self, kind: str) -> InterpretedAnswer:
+        things = self._nouns.find(kind)
+        count = len(things.iris)
+        verb = "is" if count == 1 else "are"
+        sentence = (
+            f"There {verb} {count} {things.text}{things.suffix}." if count else begin_sentence(self._absent(things))
         )
-    return _answer(graph, phrase)
+        return InterpretedAnswer(
+            f"number of {things.text}", self._located(things.iris), number=count, sentence=sentence
+        )
+
+    def _is_there(self, kind: str) -> InterpretedAnswer:
+        things = self._nouns.find(kind)
+        answer = self._list(things)
+        yes = bool(things.iris)
+        said = f"Yes: {answer.sentence[0].lower()}{answer.sentence[1:]}" if yes else f"No: {self._absent(things)}"
+        return InterpretedAnswer(f"whether there is {things.text}", answer.answer, yes, sentence=said)
+
+    def _absent(self, things: Things) -> str:
+        return f"there is no {things.text} in this scene{things.suffix}."
+
+    def _located(self, iris: Sequence[str]) -> Answer:
+        """Return objects with what they are on and in."""
+        facts = self._facts
+        columns = {}
+        for name in ("on", "inside"):
+            anchors: dict[str, str] = {}
+            for anchor, found in facts.related(name).items():
+                for iri in found:
+                    if anchor in facts.objects:
+                        anchors.setdefault(iri, facts.label(anchor))
+            columns[name] = anchors
+        return facts.table(facts.sorted(iris), **columns)
+
+    # Relations.
+
+    def _rel_what(self, relation: str, thing: str) -> InterpretedAnswer:
+        return self._related(relation, thing, None)
+
+    def _rel_some(self, relation: str, thing: str = "", kind: str = "things", other: str = "") -> InterpretedAnswer:
+        if other:
+            # “Which chairs have a cushion on them?”: the anchors.
+            anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
+            name = _relation(relation)
+            chosen = [iri for iri in anchors.iris if self._nouns.related(name, [iri], is_direct=False) & targets]
+            return self._list(Things(tuple(chosen), f"{anchors.text} with {other} {_SAID[name]} them"))
+        return self._related(relation, thing, kind)
+
+    def _rel_count(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
+        found = self._related(relation, thing, kind)
+        return InterpretedAnswer(
+            f"number of {found.understood}", found.answer, number=len(found.answer.rows), sentence=found.sentence
+        )
+
+    def _rel_is(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
+        found = self._related(relation, thing, kind)
+        yes = bool(found.answer.rows)
+        said = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
+        return InterpretedAnswer(f"whether {found.understood}", found.answer, yes, sentence=said)
+
+    def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:
+        """Return the things of a kind, or all things, in a relation to others."""
+        name, facts = _relation(relation), self._facts
+        what = None if kind is None else self._nouns.find(kind)
+        anchors = self._anchors(name, thing)
+        understood = f"{'things' if what is None else what.text} {_SAID[name]} {anchors.text}"
+        if name == "below":
+            found = self._below(anchors.iris)
+        else:
+            found = self._nouns.around(name, thing, is_direct=what is None)
+        chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors.iris]
+        notes = f"{what.suffix if what else ''}{anchors.suffix}"
+        place = f"{_SAID[name]} {self._the(anchors)}"
+        if chosen:
+            verb = "is" if len(chosen) == 1 else "are"
+            named = name_things(facts, chosen)
+            sentence = begin_sentence(f"{named} {verb} {place}{notes}.")
+        elif what is not None and not what.iris:
+            sentence = begin_sentence(self._absent(what))
+        else:
+            sentence = f"{'Nothing' if what is None else f'No {what.text}'} is {place}{notes}."
+        return InterpretedAnswer(understood, self._located(chosen), sentence=sentence)
+
+    def _anchors(self, relation: str, text: str) -> Things:
+        """Return the things that a relation leads to; none for a part of the scene.
+
+        Raises:
+            GraphError: there are none.
+        """
+        if relation != "inside" or not self._nouns.in_area(text):
+            return self._found(text)
+        try:
+            return self._nouns.find(text)
+        except UnknownWordError:
+            return Things((), text)
+
+    def _below(self, anchors: Sequence[str]) -> set[str]:
+        answers = [self._graph.answer("below", {"thing": self._facts.objects[iri].path}) for iri in anchors]
+        by_path = {one.path: one.iri for one in self._facts.objects.values()}
+        below = {by_path[path] for answer in answers for path in _column(answer, "path") if path in by_path}
+        return below | {iri for anchor in anchors for iri in self._measures.between_legs(anchor)}
+
+    def _the(self, things: Things) -> str:
+        labels = [self._facts.label(iri) for iri in things.iris]
+        if not labels:
+            return things.text
+        if len(labels) == 1:
+            return f"the {self._facts.kind(things.iris[0])} {labels[0]}"
+        return f"the {count_phrase(len(labels), things.text).partition(' ')[0]} {things.text}"
+
+    def _where(self, thing: str) -> InterpretedAnswer:
+        facts, things = self._facts, self._nouns.find(thing)
+        if not things.iris:
+            return InterpretedAnswer(
+                f"where: {things.text}", facts.table(()), sentence=begin_sentence(self._absent(things))
+            )
+        parts, places = [], []
+        for iri in things.iris:
+            said: list[str] = []
+            for name in ("inside", "on", "attached", "room"):
+                rooms = set(facts.anchors("room", iri))
+                anchors = [
+                    a for a in facts.anchors(name, iri) if a in facts.objects and (name == "room" or a not in rooms)
+                ]
+                places += anchors
+                if name != "room" or not said:
+                    said += [f"{_SAID.get(name, 'in')} the {facts.kind(a)} {facts.label(a)}" for a in anchors[:1]]
+            body = facts.body(iri)
+            if body.lower is not None and body.upper is not None:
+                x, y, z = (body.lower + body.upper) / 2
+                said.append(f"at ({x:.2f}, {y:.2f}, {z:.2f}) m")
+            parts.append(f"{facts.label(iri)} is {', '.join(said) or 'somewhere, without a known place'}")
+        sentence = f"{'; '.join(parts[:4])}{f'; and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
+        named = tuple(dict.fromkeys(facts.objects[iri].path for iri in places))
+        return InterpretedAnswer(f"where: {things.text}", self._located(things.iris), sentence=sentence, places=named)
+
+    def _stands_on(self, thing: str) -> InterpretedAnswer:
+        facts, things = self._facts, self._nouns.find(thing)
+        anchors = [anchor for iri in things.iris for anchor in facts.anchors("on", iri) or facts.anchors("inside", iri)]
+        sentence = f"{things.text} is on {name_things(facts, anchors)}." if anchors else f"{things.text} is on nothing."
+        return InterpretedAnswer(f"what {things.text} is on", self._located(anchors), sentence=sentence)
+
+    def _parts_of(self, kind: str, thing: str) -> InterpretedAnswer:
+        wholes, what = self._nouns.find(thing), self._nouns.find(kind)
+        parts = self._nouns.related("part", wholes.iris, is_direct=True)
+        chosen = [iri for iri in what.iris if iri in parts]
+        sentence = f"{begin_sentence(self._the(wholes))} has {count_phrase(len(chosen), what.text)}."
+        return InterpretedAnswer(
+            f"{what.text} that are parts of {wholes.text}", self._located(chosen), number=len(chosen), sentence=sentence
+        )
+
+    def _parts(self, thing: str) -> InterpretedAnswer:
+        answers = [self._graph.parts_of(self._facts.objects[iri].path) for iri in self._found(thing).iris]
+        return InterpretedAnswer(f"parts of {thing}", join_answers(answers))
+
+    def _about(self, thing: str) -> InterpretedAnswer:
+        answers = [description_answer(self._graph, self._facts.objects[iri].path) for iri in self._found(thing).iris]
+        return InterpretedAnswer(f"all about {thing}", join_answers(answers))
+
+    def _found(self, text: str) -> Things:
+        """Return things that exist.
+
+        Raises:
+            GraphError: there are none.
+        """
+        things = self._nouns.find(text)
+        if not things.iris:
+            raise GraphError(self._absent(things).removesuffix("."))
+        return things
+
+    def _ready_question(self, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
+        """Return the answer to one of the questions that `usd2kg query --list` lists, for each object that is meant."""
+        values = {name: _normalize(name, value) for name, value in given.items()}
+        text = next(q.text for q in list_questions() if q.id == question)
+        parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
+        understood = f"{question}: {text}{f' with {parameters}' if parameters else ''}"
+        if question == "nearest":
+            return self._nearest(understood, values)
+        if "thing" not in values:
+            return InterpretedAnswer(understood, self._graph.answer(question, values))
+        paths = [self._facts.objects[iri].path for iri in self._found(values["thing"]).iris]
+        answers = [self._graph.answer(question, {**values, "thing": path}) for path in paths]
+        found = join_answers(answers)
+        if question == "to-open" and not found.rows:
+            self._check_joints(self._found(values["thing"]))
+        return InterpretedAnswer(understood, found)
+
+    def _check_joints(self, things: Things) -> None:
+        """Raise GraphError if no joint of the things is known, so that nobody knows how they open."""
+        if self._facts.opened_by_joint.isdisjoint(things.iris):
+            raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
+
+    def _nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
+        what, anchors, facts = self._nouns.find(values["class"]), self._found(values["thing"]), self._facts
+        gaps = self._measures.gaps(what.iris, anchors.iris)
+        if not gaps:
+            return InterpretedAnswer(understood, facts.table(()), sentence=begin_sentence(self._absent(what)))
+        nearest = min(gaps, key=lambda iri: (gaps[iri], facts.objects[iri].path))
+        sentence = (
+            f"The nearest {what.text} to {self._the(anchors)} is {facts.label(nearest)}, "
+            f"{number_text(gaps[nearest], 'm')} away."
+        )
+        return InterpretedAnswer(understood, facts.table([nearest], gap_m=gaps), sentence=sentence)
+
+    def _is_blocked(self, thing: str) -> InterpretedAnswer:
+        found = self._ready_question("to-open", {"thing": thing})
+        labels = list(dict.fromkeys(filter(None, _column(found.answer, "object"))))
+        said = f"Yes: {join_words(labels)}." if labels else "No: nothing is in the way."
+        return InterpretedAnswer(f"what blocks {thing}", found.answer, bool(labels), sentence=said)
 
 
-_DISTANCE = """
-SELECT ?object ?path ?other ?other_path ?distance_m WHERE {{
-  VALUES ?a {{ {things} }} VALUES ?b {{ {others} }}
-  ?a rdfs:label ?object ; u2k:primPath ?path . ?b rdfs:label ?other ; u2k:primPath ?other_path .
-  BIND(u2kf:gap(?a, ?b) AS ?distance_m)
-}} ORDER BY ?distance_m ?path"""
-
-
-def _answer(graph: GraphStore, phrase: Phrase) -> InterpretedAnswer:
-    question, given = phrase
-    verb, _, relation = question.partition("-")
-    if verb in {"count", "is", "some"} and relation in _RELATIONS:
-        return _related_objects(graph, verb, _RELATIONS[relation], given)
-    if question in _INTERPRETERS:
-        return _INTERPRETERS[question](graph, **given)
-    if question in _LOOKUPS:
-        look_up, words = _LOOKUPS[question]
-        name = given.get("thing") or given["class"]
-        return InterpretedAnswer(f"{words} {name}", look_up(graph, name))
-    return _ready_question(graph, question, given)
-
-
-def _ready_question(graph: GraphStore, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
-    """Return the answer to one of the questions that `usd2kg query --list` lists."""
-    values = {name: _normalize(name, value) for name, value in given.items()}
-    text = next(q.text for q in list_questions() if q.id == question)
-    parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
-    understood = f"{question}: {text}{f' with {parameters}' if parameters else ''}"
-    return InterpretedAnswer(understood, graph.answer(question, values))
+def _relation(text: str) -> str:
+    """Return the relation that a preposition means."""
+    return next(name for name, words in RELATIONS.items() if text.lower() in words.split("|"))
 
 
 def _normalize(name: str, value: str) -> str:
@@ -100,73 +326,6 @@ def _normalize(name: str, value: str) -> str:
     return value
 
 
-def _related_objects(graph: GraphStore, verb: str, relation: str, given: Mapping[str, str]) -> InterpretedAnswer:
-    """Return the objects with a class or name that are on or in another object, directly or indirectly."""
-    find = graph.on if relation == "on" else graph.inside
-    related = find(given["thing"], is_direct=False)
-    answer = _restrict(related, set(_column(_find_any(graph, given["class"]), "path")))
-    count = len(answer.rows)
-    understood = f"{given['class']} {relation} {given['thing']}"
-    return InterpretedAnswer(
-        understood, answer, bool(count) if verb == "is" else None, count if verb == "count" else None
-    )
-
-
-def _how_many(graph: GraphStore, **given: str) -> InterpretedAnswer:
-    answer = _find_any(graph, given["class"])
-    return InterpretedAnswer(f"all {given['class']}", answer, number=len(set(_column(answer, "path"))))
-
-
-def _how_many_parts(graph: GraphStore, **given: str) -> InterpretedAnswer:
-    name, thing = given["class"], given["thing"]
-    answer = _restrict(graph.parts_of(thing), set(_column(_find_any(graph, name), "path")))
-    return InterpretedAnswer(f"{name} that are parts of {thing}", answer, number=len(answer.rows))
-
-
-def _is_there(graph: GraphStore, **given: str) -> InterpretedAnswer:
-    name = given["class"]
-    answer = _find_any(graph, name)
-    return InterpretedAnswer(f"whether there is {name}", answer, bool(answer.rows))
-
-
-def _find_any(graph: GraphStore, name: str) -> Answer:
-    """Return where the objects of a name are; a name of no object is the answer “no” or 0, not an error."""
-    try:
-        return graph.where_is(name)
-    except GraphError:
-        return Answer(("object", "path"), (), (), "")
-
-
-def _distance(graph: GraphStore, thing: str, other: str) -> InterpretedAnswer:
-    query = _DISTANCE.format(things=term_list(graph.find(thing)), others=term_list(graph.find(other)))
-    return InterpretedAnswer(f"the gap between {thing} and {other}, in metres", graph.sparql(query))
-
-
-def _restrict(answer: Answer, paths: set[str]) -> Answer:
-    """Return the rows of an answer whose `path` is one of the given prim paths."""
-    kept = [index for index, path in enumerate(_column(answer, "path")) if path in paths]
-    return replace(answer, rows=tuple(answer.rows[i] for i in kept), values=tuple(answer.values[i] for i in kept))
-
-
 def _column(answer: Answer, name: str) -> list[str]:
     at = answer.columns.index(name)
     return [row[at] or "" for row in answer.rows]
-
-
-_LOOKUPS: Mapping[str, tuple[Callable[[GraphStore, str], Answer], str]] = {
-    "on": (GraphStore.on, "on"),
-    "inside": (GraphStore.inside, "inside"),
-    "near": (GraphStore.near, "near"),
-    "above-of": (GraphStore.above, "above"),
-    "parts": (GraphStore.parts_of, "parts of"),
-    "where": (GraphStore.where_is, "where:"),
-    "all": (GraphStore.all_of, "all of class"),
-    "about": (description_answer, "all about"),
-}
-"""Phrase id → method that takes a name, and the beginning of `understood`."""
-_INTERPRETERS: Mapping[str, Callable[..., InterpretedAnswer]] = {
-    "how-many": _how_many,
-    "is-there": _is_there,
-    "parts-of": _how_many_parts,
-    "distance": _distance,
-}

@@ -1,4 +1,4 @@
-"""match_phrase: question in English → id of a ready question and its parameters, by the patterns in `phrases.txt`."""
+"""match_phrase: question → frame and its parameters, by the patterns in `phrases.txt`."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -6,42 +6,62 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
-__all__ = ["Phrase", "list_phrases", "match_phrase"]
+__all__ = ["RELATIONS", "Phrase", "list_phrases", "match_phrase", "normalize"]
 
 
 class Phrase(NamedTuple):
     """A question that was understood."""
 
     question: str
-    """Id in `phrases.txt`: that of a ready question, or another such as `on`, `where`, `how-many`, `is-on`."""
+    """Id in `phrases.txt`: that of a ready question, or another such as `where`, `how-many`, `rel-what`."""
     given: Mapping[str, str]
     """Parameter → its text in the question; omitted parameters are missing."""
+    is_english: bool = True
 
 
+RELATIONS = {
+    "on": "on top of|on|upon|atop|auf|sur|sobre|encima de|en|su|sul|sulla|sullo|sui|sopra",
+    "inside": "inside of|inside|in|within|contained in|im|in der|in dem|dans|dentro de|nel|nella|nello",
+    "below": "below|beneath|underneath|under|undr|unter|sous|debajo de|bajo|sotto",
+    "above": "above|over|über|au-dessus de",
+    "near": "near to|near|next to|beside|besides|close to|by|at|around|touching|neben|près de|à côté de|junto a|"
+    "cerca de|accanto a|vicino a",
+    "attached": "attached to|fixed to|fastened to|mounted on|mounted to|hanging from|hanging on",
+}
+"""Relation → how people say it, in five languages."""
 _PARAMETERS = {
     "thing": "[^?]+?",
     "other": "[^?]+?",
     "class": "[^?]+?",
+    "relation": "|".join(RELATIONS.values()),
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "mass": r"<number> ?(kilos?|(kilo)?grams?|kg|g)?",
     "position": r"-?<number>,? +-?<number>,? +-?<number>",
 }
 _POLITE = re.compile(
-    r"(please|can you|could you|would you|tell me(?! about)|i want to know|do you know|hey|ok|so),?\s+", re.IGNORECASE
+    r"(please|can you|could you|would you|tell me(?! about)|i want to know|i would like to know|do you know|hey|ok|so|"
+    r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
+    re.IGNORECASE,
 )
+_TRAILING = re.compile(r",?\s+(please|thanks|thank you|bitte)$", re.IGNORECASE)
+_HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
+"""Heading of frames → whether they are English."""
 _APOSTROPHE = "\u2019"
 
 
 @cache
-def list_phrases() -> Sequence[tuple[str, re.Pattern[str]]]:
-    """Return pairs of an id and the pattern of a whole question, in the order in which they are tried."""
+def list_phrases() -> Sequence[tuple[str, re.Pattern[str], bool]]:
+    """Return the id, the pattern of a whole question, and whether it is English, in the order of trial."""
     words: dict[str, str] = {name: f"(?P<{name}>{pattern})" for name, pattern in _PARAMETERS.items()}
     phrases = []
+    is_english = True
     for line in (files("usd2kg.assistant") / "phrases.txt").read_text("utf-8").splitlines():
         if definition := re.fullmatch(r"<(\w+)> = (.+)", line):
             words[definition[1]] = definition[2]
+        elif line in _HEADINGS:
+            is_english = _HEADINGS[line]
         elif phrase := re.fullmatch(r"([\w-]+): (.+)", line):
-            phrases.append((phrase[1], re.compile(_expand(phrase[2], words), re.IGNORECASE)))
+            phrases.append((phrase[1], re.compile(_expand(phrase[2], words), re.IGNORECASE), is_english))
     return tuple(phrases)
 
 
@@ -56,13 +76,21 @@ def match_phrase(text: str) -> Phrase | None:
     """Return the interpretation of a question; None if no pattern matches.
 
     >>> match_phrase("Please tell me, what's on the table?")
-    Phrase(question='on', given={'thing': 'the table'})
+    Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True)
     """
-    asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,")
+    asked = normalize(text)
+    for question, pattern, is_english in list_phrases():
+        if found := pattern.fullmatch(asked):
+            given = {name: value.strip() for name, value in found.groupdict().items() if value}
+            return Phrase(question, given, is_english)
+    return None
+
+
+def normalize(text: str) -> str:
+    """Return a question on one line, without what is only polite."""
+    asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,¿¡")
     while polite := _POLITE.match(asked):
         asked = asked[polite.end() :]
-    asked = re.sub(r"^(what|where)'s\b", r"\1 is", asked, flags=re.IGNORECASE)
-    for question, pattern in list_phrases():
-        if found := pattern.fullmatch(asked):
-            return Phrase(question, {name: value.strip() for name, value in found.groupdict().items() if value})
-    return None
+    asked = _TRAILING.sub("", asked).strip(" ?!.,")
+    asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
+    return re.sub(r"^(what|where)(?:'s|s)\b", r"\1 is", asked, flags=re.IGNORECASE)

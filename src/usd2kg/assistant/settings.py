@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["PROMPT", "RESULTS", "PromptSettings", "ResultSettings"]
+__all__ = [
+    "PLACING",
+    "PROMPT",
+    "RESULTS",
+    "WORDS",
+    "PlacingSettings",
+    "PromptSettings",
+    "ResultSettings",
+    "WordSettings",
+]
 
 
 @dataclass(frozen=True)
@@ -30,5 +39,27 @@ class PromptSettings:
     examples: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class WordSettings:
+    """How words of a question are matched with those of the graph."""
+
+    min_confidence: float
+    min_similarity: float
+    min_letters: int
+
+
+@dataclass(frozen=True)
+class PlacingSettings:
+    """How free places are searched; lengths are metres."""
+
+    step: float
+    clearance: float
+    height: float
+    max_places: int
+    max_height: float
+
+
 RESULTS = read_settings("assistant", "results", ResultSettings)
 PROMPT = read_settings("assistant", "prompt", PromptSettings)
+WORDS = read_settings("assistant", "words", WordSettings)
+PLACING = read_settings("assistant", "placing", PlacingSettings)

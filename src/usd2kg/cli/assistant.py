@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
@@ -11,7 +11,7 @@ from usd2kg.cli.options.model import CompletionCacheFile, ModelName
 from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.cli.query import answer_rows, answer_text
-from usd2kg.errors import Usd2kgError
+from usd2kg.errors import GraphError, Usd2kgError
 
 if TYPE_CHECKING:
     from usd2kg.assistant import InterpretedAnswer
@@ -31,19 +31,49 @@ def ask_command(
     scene: SceneName = None,
     json: JsonOutput = False,
 ) -> None:
-    """Answer a question in plain English: 'what is on the table?', 'how many cups are there?'."""
-    from usd2kg.assistant import ask_offline  # noqa: PLC0415
+    """Answer a question in people's words: 'what is on the table?', 'how heavy is the fridge?'."""
+    text = " ".join(words)
+    if model is None:
+        _ask_scenes(graph, scene, text, json)
+        return
     from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-    store, text = open_graph(graph, scene), " ".join(words)
-    asked = ask_offline(store, text) if model is None else _ask_model(store, text, model, completions)
+    asked = _ask_model(open_graph(graph, scene), text, model, completions)
     notify(f"understood as: {asked.understood}")
-    if model is not None:
-        notify(asked.answer.sparql.strip())
+    notify(asked.answer.sparql.strip())
     if json:
-        print_json({**asked.as_json(), "sparql": asked.answer.sparql, "rows": answer_rows(asked.answer)})
+        print_json(_as_json(asked))
     else:
         emit(asked.summary() + answer_text(asked.answer))
+
+
+def _ask_scenes(place: str, scene: str | None, text: str, is_json: bool) -> None:
+    """Print the answer about each scene of a store, or about one graph; scenes without an answer are left out."""
+    from usd2kg.assistant import ask_offline  # noqa: PLC0415
+    from usd2kg.stores import view_scenes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+
+    answers: dict[str, InterpretedAnswer] = {}
+    problems: list[GraphError] = []
+    graphs = view_scenes(place, scene)
+    for name, graph in graphs.items():
+        try:
+            answers[name] = ask_offline(graph, text)
+        except GraphError as error:
+            problems.append(error)
+    if not answers:
+        raise problems[0]
+    first = next(iter(answers.values()))
+    notify(f"understood as: {first.understood}")
+    if is_json:
+        print_json(_as_json(first) if len(graphs) == 1 else {name: _as_json(one) for name, one in answers.items()})
+        return
+    for name, asked in answers.items():
+        heading = "" if len(graphs) == 1 else f"{name}: "
+        emit(heading + asked.summary() + (answer_text(asked.answer) if asked.answer.rows or not asked.sentence else ""))
+
+
+def _as_json(asked: "InterpretedAnswer") -> dict[str, Any]:
+    return {**asked.as_json(), "sparql": asked.answer.sparql, "rows": answer_rows(asked.answer)}
 
 
 def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "InterpretedAnswer":

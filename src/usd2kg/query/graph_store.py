@@ -64,6 +64,11 @@ class GraphStore:
         """The file or store that the graph was read from."""
         return self._source
 
+    @property
+    def bodies(self) -> BodyIndex:
+        """Boxes, extents, masses and joints of the objects."""
+        return self._bodies
+
     def sparql(self, query: str) -> Answer:
         """Return the answer to a SPARQL 1.1 query; the package's prefixes and functions are predefined.
 

@@ -1,0 +1,116 @@
+"""Score answers to questions in people's own words about three scenes.
+
+Usage: python -m benchmarks.questions.run [--split train|test] [--show]
+
+README.md describes the questions. An answer is right, wrong, or refused: the product says that it did not understand,
+or does not know. Prints the shares with 95 % intervals (Wilson), by kind of question; `--show` lists what is not right.
+"""
+
+import argparse
+import csv
+import re
+from collections import Counter
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import usd2kg
+from benchmarks.intervals import wilson
+from benchmarks.labelled_scenes import ROOT, SHARED
+from usd2kg.assistant import ask_offline
+from usd2kg.demo import demo_scene
+from usd2kg.errors import GraphError
+from usd2kg.query import GraphStore
+
+TABLE = Path(__file__).parent / "questions.csv"
+RIGHT, WRONG, REFUSED = "right", "wrong", "refused"
+
+
+def main() -> None:
+    """Ask, score and print."""
+    parser = argparse.ArgumentParser(description="Score answers to questions in people's own words.")
+    parser.add_argument("--split", choices=("train", "test"), default="train")
+    parser.add_argument("--show", action="store_true", help="list the questions that are not answered right")
+    options = parser.parse_args()
+    outcomes: dict[str, Counter[str]] = {}
+    for row in csv.DictReader(TABLE.open(encoding="utf-8", newline="")):
+        if row["split"] != options.split:
+            continue
+        graph = open_scene(row["scene"])
+        if graph is None:
+            continue
+        outcome, said = ask(graph, row)
+        for kind in (row["kind"], "all"):
+            outcomes.setdefault(kind, Counter())[outcome] += 1
+        if options.show and outcome != RIGHT:
+            print(f"{row['id']:5}{outcome:9}{row['kind']:13}{row['question']}\n{'':14}{said}\n{'':14}{row['expected']}")
+    print(f"{'kind':14}{'n':>4}  {'right':20}wrong  refused")
+    for kind, counts in sorted(outcomes.items(), key=lambda item: item[0] == "all"):
+        total = sum(counts.values())
+        low, high = wilson(counts[RIGHT], total)
+        share = f"{100 * counts[RIGHT] / total:5.1f} [{100 * low:4.1f}–{100 * high:5.1f}]"
+        print(f"{kind:14}{total:>4}  {share:20}{counts[WRONG]:>5}{counts[REFUSED]:>9}")
+
+
+@cache
+def open_scene(name: str) -> GraphStore | None:
+    """Return the graph of a scene; None if it is absent."""
+    if name == "kitchen":
+        scene: Any = demo_scene()
+    elif name == "office":
+        scene = ROOT / "benchmarks/scenes/office/office.usda"
+    else:
+        scene = SHARED / "scenes" / "aws_robomaker" / "small_house.usdc"
+        if not scene.exists():
+            print(f"not measured: {name}, {scene} is missing")
+            return None
+    path = Path("build") / "questions" / f"{name}.ttl"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    usd2kg.write_graph(usd2kg.build(scene).graph, path)
+    return usd2kg.load_graph(path)
+
+
+def ask(graph: GraphStore, row: dict[str, str]) -> tuple[str, str]:
+    """Return the outcome, and what was said."""
+    kind, expected = row["kind"], split(row["expected"])
+    try:
+        asked = ask_offline(graph, row["question"])
+    except GraphError as error:
+        text = str(error)
+        is_right = kind == "unanswerable" or (kind == "absent" and " no " in f" {text}")
+        return RIGHT if is_right else REFUSED, text
+    paths = [cells for column, cells in columns(asked.answer) if column == "path"]
+    found = {cell for cells in paths for cell in cells if cell}
+    said = f"{asked.sentence} {sorted(found)}"
+    accepted = expected | split(row["also"])
+    is_right = {
+        "objects": lambda: expected <= found <= accepted,
+        "number": lambda: is_number(asked.number, row["expected"]),
+        "yesno": lambda: asked.verdict is (row["expected"] == "yes"),
+        "absent": lambda: asked.verdict is False or not asked.answer.rows,
+        "none": lambda: not asked.answer.rows and asked.verdict is not True,
+        "text": lambda: any(re.search(rf"\b{re.escape(word)}", asked.sentence.lower()) for word in expected),
+        "place": lambda: bool(asked.places) and asked.places[0] in accepted,
+        "unanswerable": lambda: False,
+    }[kind]()
+    return RIGHT if is_right else WRONG, said
+
+
+def columns(answer: Any) -> list[tuple[str, list[str | None]]]:
+    """Return each column of an answer with its cells."""
+    return [(column, [row[at] for row in answer.rows]) for at, column in enumerate(answer.columns)]
+
+
+def split(text: str) -> set[str]:
+    """Return the alternatives in a cell."""
+    return set(filter(None, text.split("|")))
+
+
+def is_number(value: float | None, expected: str) -> bool:
+    """Return whether a value is within the tolerance of `9.4±0.05`."""
+    number, _, tolerance = expected.partition("±")
+    return value is not None and abs(value - float(number)) <= float(tolerance) + 1e-9
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,102 @@
+"""Free places: where a thing can be put on the level tops of objects."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.assistant.facts import SceneFacts
+from usd2kg.assistant.settings import PLACING
+
+__all__ = ["FreePlace", "find_free_places"]
+
+
+class FreePlace(NamedTuple):
+    """A free spot on a surface."""
+
+    surface: str
+    """IRI of the object."""
+    position: tuple[float, float, float]
+    """Metres, world frame: centre of the thing's footprint."""
+    occupied: float
+    """Share of the surface that other things stand on."""
+
+
+def find_free_places(
+    facts: SceneFacts, size: tuple[float, float, float], surfaces: Iterable[str], moved: Iterable[str] = ()
+) -> list[FreePlace]:
+    """Return the surfaces with a free spot for a thing, the emptiest first.
+
+    A surface is level where other things stand on it: the seat of a chair, not its back. A spot is free if the thing's
+    box, with a clearance, meets no other box. The footprint may be turned by a right angle.
+
+    Args:
+        facts: the scene.
+        size: extents of the thing along x, y and z, metres.
+        surfaces: IRIs of the objects to try.
+        moved: IRIs of things that leave their place.
+    """
+    table = facts.graph.bodies.table
+    rows = {iri: row for row, iri in enumerate(table.iris)}
+    gone = [rows[iri] for iri in moved if iri in rows]
+    found = []
+    for iri in surfaces:
+        row = rows.get(iri)
+        bottoms = [table.lower[rows[one], 2] for one in facts.related("on").get(iri, ()) if one in rows]
+        level = float(np.nanmedian(bottoms)) if bottoms else np.nan
+        if row is None or np.isnan(table.lower[row]).any() or not level <= PLACING.max_height:
+            continue
+        bearers = [rows[one] for name in ("on", "part") for one in facts.anchors(name, iri) if one in rows]
+        for footprint in sorted({(size[0], size[1]), (size[1], size[0])}):
+            spot = _free_spot(table.lower, table.upper, [row, *bearers, *gone], level, footprint, size[2])
+            if spot is not None:
+                found.append(FreePlace(iri, spot, _occupied(table.lower, table.upper, row, level)))
+                break
+    return sorted(found, key=lambda place: (round(place.occupied, 2), place.surface))
+
+
+def _free_spot(
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    own: list[int],
+    level: float,
+    footprint: tuple[float, float],
+    height: float,
+) -> tuple[float, float, float] | None:
+    """Return the free centre of a footprint that is nearest to the middle of a surface.
+
+    `own` has the row of the surface, then those of what bears it and of what leaves.
+    """
+    row = own[0]
+    half = np.array(footprint) / 2 + PLACING.clearance
+    low, high = lower[row, :2] + half, upper[row, :2] - half
+    if bool(np.any(low > high)):
+        return None
+    axes = [np.linspace(a, b, max(2, int((b - a) / PLACING.step) + 1)) for a, b in zip(low, high, strict=True)]
+    centers = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+    # What encloses the surface, such as walls of a room in one box, does not stand on it.
+    # A sink or a hob ends where its worktop does.
+    is_above = (upper[:, 2] > level - PLACING.clearance) & (lower[:, 2] < level + height)
+    is_around = (lower[:, :2] < lower[row, :2]).all(axis=1) & (upper[:, :2] > upper[row, :2]).all(axis=1)
+    is_near = ((lower[:, :2] < upper[row, :2]) & (upper[:, :2] > lower[row, :2])).all(axis=1)
+    others = np.flatnonzero(is_above & is_near & ~is_around)
+    others = others[~np.isin(others, own)]
+    meets = ((centers[:, None, :] + half > lower[others, :2]) & (centers[:, None, :] - half < upper[others, :2])).all(
+        axis=2
+    )
+    free = centers[~np.any(meets, axis=1)] if len(others) else centers
+    if not len(free):
+        return None
+    middle = (lower[row, :2] + upper[row, :2]) / 2
+    x, y = free[np.argmin(np.linalg.norm(free - middle, axis=1))]
+    return round(float(x), 3), round(float(y), 3), round(level, 3)
+
+
+def _occupied(lower: NDArray[np.float64], upper: NDArray[np.float64], row: int, level: float) -> float:
+    """Return the share of a surface that boxes which stand on it cover, each for itself."""
+    area = np.prod(upper[row, :2] - lower[row, :2])
+    stands = np.abs(lower[:, 2] - level) < 2 * PLACING.clearance
+    shared = np.minimum(upper[:, :2], upper[row, :2]) - np.maximum(lower[:, :2], lower[row, :2])
+    covered = np.where(stands & (shared > 0).all(axis=1), shared.prod(axis=1), 0).sum()
+    return float(min(covered / area, 1.0)) if area > 0 else 1.0

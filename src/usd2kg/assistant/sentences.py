@@ -1,0 +1,86 @@
+"""Sentences about things and numbers."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+from usd2kg.assistant.facts import SceneFacts
+
+__all__ = ["IRREGULAR_PLURALS", "begin_sentence", "count_phrase", "join_words", "name_things", "number_text", "plural"]
+
+_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+_MOST_NAMED = 6
+"""Kinds of things that a sentence names."""
+_SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
+IRREGULAR_PLURALS = {
+    "mouse": "mice",
+    "knife": "knives",
+    "shelf": "shelves",
+    "person": "people",
+    "leaf": "leaves",
+    "loaf": "loaves",
+}
+
+
+def begin_sentence(text: str) -> str:
+    """Return a text with its first letter as a capital; names keep their case."""
+    return text[:1].upper() + text[1:]
+
+
+def join_words(words: Sequence[str], last: str = "and") -> str:
+    """Return words as a list in English.
+
+    >>> join_words(["a cup", "a plate", "two forks"])
+    'a cup, a plate and two forks'
+    """
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} {last} {words[-1]}" if words else ""
+
+
+def count_phrase(count: int, noun: str) -> str:
+    """Return a number and a noun.
+
+    >>> count_phrase(1, "oven"), count_phrase(2, "box"), count_phrase(20, "computer mouse"), count_phrase(0, "knife")
+    ('an oven', 'two boxes', '20 computer mice', 'no knives')
+    """
+    if count == 1:
+        return f"{'an' if noun[:1].lower() in 'aeiou' else 'a'} {noun}"
+    number = _NUMBERS[count] if count < len(_NUMBERS) else str(count)
+    return f"{number} {plural(noun)}"
+
+
+def plural(noun: str) -> str:
+    """Return the plural of a noun, approximately."""
+    *before, last = noun.split()
+    if last in _SAME_PLURAL or (last.endswith("s") and not last.endswith("ss")):
+        return noun
+    if last in IRREGULAR_PLURALS:
+        many = IRREGULAR_PLURALS[last]
+    elif last.endswith(("s", "x", "z", "ch", "sh")):
+        many = f"{last}es"
+    elif last.endswith("y") and last[-2:-1] not in "aeiou":
+        many = f"{last[:-1]}ies"
+    else:
+        many = f"{last}s"
+    return " ".join([*before, many])
+
+
+def name_things(facts: SceneFacts, iris: Sequence[str]) -> str:
+    """Return what some objects are, by number and kind: two cups and a kettle."""
+    counts = Counter(facts.kind(iri) for iri in iris)
+    kinds = sorted(counts, key=lambda kind: (-counts[kind], kind))
+    named = [count_phrase(counts[kind], kind) for kind in kinds[:_MOST_NAMED]]
+    if rest := sum(counts[kind] for kind in kinds[_MOST_NAMED:]):
+        named.append(count_phrase(rest, "other thing"))
+    return join_words(named)
+
+
+def number_text(value: float, unit: str) -> str:
+    """Return a quantity with a suitable unit: metres below 1 as centimetres, kilograms below 1 as grams.
+
+    >>> number_text(0.31, "m"), number_text(1.85, "m"), number_text(0.4, "kg"), number_text(68, "kg")
+    ('31 cm', '1.85 m', '400 g', '68 kg')
+    """
+    if unit == "m" and abs(value) < 1:
+        return f"{value * 100:.3g} cm"
+    if unit == "kg" and abs(value) < 1:
+        return f"{value * 1000:.3g} g"
+    return f"{value:.3g} {unit}"
