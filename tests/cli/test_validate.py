@@ -7,6 +7,7 @@ import pytest
 
 from tests.cli.conftest import Run
 from tests.graph.records import build_graph, thing
+from tests.grounding.records import make_object
 from tests.validation.broken import ROOM
 from tests.validation.test_elk import ELK, missing_elk
 from usd2kg.graph import write_graph
@@ -41,7 +42,7 @@ def test_prints_findings_as_text(run: Run, odd: Path):
     assert done.out.splitlines() == [
         "warning [unusual-size] Fork\ufffd[31m error [x] /Fork\ufffd",
         "  found:    its longest extent is 3 m (3 × 0.3 × 0.1 m), and it is a fork",
-        "  expected: about 0.19 m, 0.048 to 0.76 m",
+        "  expected: about 0.195 m, 0.039 to 0.98 m",
         "  do:       Check metersPerUnit of the stage and the scale of the prim; "
         "if the size is right, correct the class.",
         "",
@@ -71,13 +72,34 @@ def test_rules_file_overrides_thresholds(run: Run, odd: Path, tmp_path: Path):
 
 def test_limits_findings_of_a_rule_without_all(run: Run, home_tbox: TBox, tmp_path: Path):
     path = tmp_path / "many.ttl"
-    forks = [(thing(f"/Fork{i:02}", (i, 2, 0), (3.0, 0.3, 0.1)), "Fork") for i in range(25)]
+    # 1 g in a box of 0.19 · 0.03 · 0.02 m³ is 8.77 kg/m³, below the least density of the rules file.
+    forks = [(thing(f"/Fork{i:02}", (i, 2, 0), (0.19, 0.03, 0.02), mass_kg=0.001), "Fork") for i in range(25)]
     write_graph(build_graph(home_tbox, forks), path)
-    cut = run("validate", path).out.splitlines()
-    assert sum(line.startswith("warning [unusual-size]") for line in cut) == 20
-    assert "… 5 more of unusual-size (--all shows them)" in cut
+    rules = tmp_path / "rules.toml"
+    rules.write_text("[density]\nlowest = 9.0\n")
+    cut = run("validate", path, "--rules", rules).out.splitlines()
+    assert sum(line.startswith("warning [density]") for line in cut) == 20
+    assert "… 5 more of density (--all shows them)" in cut
     assert cut[-1] == "25 findings (25 warnings) on 25 objects"
-    assert run("validate", path, "--all").out.count("[unusual-size]") == 25
+    assert run("validate", path, "--rules", rules, "--all").out.count("[density]") == 25
+
+
+def test_says_which_rules_the_graph_lacks_the_facts_for(run: Run, home_tbox: TBox, tmp_path: Path):
+    path = tmp_path / "bare.ttl"
+    things = [(make_object(f"/Cup{i}"), "Cup") for i in range(3)]
+    write_graph(build_graph(home_tbox, things), path)
+    done = run("validate", path)
+    assert "not checked: scene-scale, room-size, unusual-size, in-the-air, " in done.err
+    assert ": no object has a box; check usd2kg inspect for missing geometry" in done.err
+    assert "not checked: support-circle: no object is on or inside another; if its relations were left out" in done.err
+    assert "not checked: low-confidence: the confidences of this grounder are not calibrated" in done.err
+    report = json.loads(run("validate", path, "--json").out)
+    assert {"rules": ["orientation-not-unit"], "reason": "no object has an orientation"} in report["skipped"]
+
+
+def test_a_complete_graph_skips_nothing_of_boxes_and_relations(run: Run, good: Path):
+    skipped = json.loads(run("validate", good, "--json").out)["skipped"]
+    assert [entry["rules"] for entry in skipped] == [["concept-classes"], ["low-confidence"]]
 
 
 @pytest.mark.parametrize(

@@ -115,3 +115,7 @@ def open_room(tbox: TBox, profile: str, update: str = "", placed: list[Any] | No
 
 def found_in(graph: GraphStore, **options: Any) -> tuple[Finding, ...]:
     return validate_graph(graph, **options).findings
+
+
+def rules_in(graph: GraphStore, **options: Any) -> list[str]:
+    return [finding.rule for finding in found_in(graph, **options)]

@@ -72,7 +72,8 @@ def test_finds_violations_of_domain_and_range(home_tbox: TBox, stated: str, rule
     )
     graph = open_room(home_tbox, "plain", added("k:Fork u2k:on k:Cup"))
     found = found_in(graph, closure=closure_of(text))
-    assert {(finding.rule, finding.prim_path) for finding in found} == {(rule, path)}
+    # The boxes of fork and cup are 22 cm apart.
+    assert {(f.rule, f.prim_path) for f in found} == {(rule, path), ("relation-apart", "/Fork")}
     assert "“event”" in found[0].expected
 
 
@@ -137,6 +138,7 @@ def test_finds_contradictions_with_soma(home_tbox: TBox, soma: Closure):
         ("disjoint-classes", "/Cup"),
         ("domain-clash", "/Cup"),
         ("range-clash", "/Cup"),
+        ("relation-apart", "/Fork"),
     }
     text = next(finding.found for finding in found if finding.rule == "disjoint-classes")
     assert "(dul:Event)" in text

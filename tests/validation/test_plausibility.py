@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from tests.graph.records import thing
-from tests.validation.broken import CONFIDENCE, ROOM, UPRIGHT, added, found_in, open_room
+from tests.validation.broken import CONFIDENCE, ROOM, UPRIGHT, added, found_in, open_room, rules_in
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
 from usd2kg.validation import read_graph_objects, read_rules
@@ -61,7 +61,7 @@ LINKS = {"soma": ("soma:isOntopOf", "soma:isInsideOf"), "plain": ("u2k:on", "u2k
 def test_finds_a_table_on_a_cup(home_tbox: TBox, profile: str):
     found = found_in(open_room(home_tbox, profile, added(f"k:Table {LINKS[profile][0]} k:Cup")))
     by_rule = {finding.rule: finding for finding in found}
-    assert set(by_rule) == {"support-odd", "support-smaller", "support-lighter"}
+    assert set(by_rule) == {"support-odd", "support-smaller", "support-lighter", "support-circle"}
     assert by_rule["support-odd"].found == "it is a table on “Cup” (/Cup), a cup"
     # 1.2 · 0.8 · 0.75 over 0.08 · 0.08 · 0.1 is 1125; 1.2 over 0.1 is 12; 20 kg over 0.3 kg is 67.
     assert "1125 times the volume and 12.0 times the length" in by_rule["support-smaller"].found
@@ -71,8 +71,9 @@ def test_finds_a_table_on_a_cup(home_tbox: TBox, profile: str):
 @PROFILES
 def test_disables_rules_one_by_one(home_tbox: TBox, profile: str, tmp_path: Path):
     graph = open_room(home_tbox, profile, added(f"k:Table {LINKS[profile][0]} k:Cup"))
-    for rule in ("support-odd", "support-smaller", "support-lighter"):
-        others = {"support-odd", "support-smaller", "support-lighter"} - {rule}
+    rules = {"support-odd", "support-smaller", "support-lighter", "support-circle"}
+    for rule in sorted(rules):
+        others = rules - {rule}
         path = tmp_path / "rules.toml"
         path.write_text("\n".join(f"[{other}]\nenabled = false" for other in others))
         assert {f.rule for f in found_in(graph, rules=read_rules(path))} == {rule}
@@ -80,7 +81,9 @@ def test_disables_rules_one_by_one(home_tbox: TBox, profile: str, tmp_path: Path
 
 @PROFILES
 def test_finds_an_object_larger_than_its_container(home_tbox: TBox, profile: str):
-    (finding,) = found_in(open_room(home_tbox, profile, added(f"k:Table {LINKS[profile][1]} k:Bowl")))
+    finding, apart = found_in(open_room(home_tbox, profile, added(f"k:Table {LINKS[profile][1]} k:Bowl")))
+    # From x = 1.2 m to 2.2 m.
+    assert (apart.rule, apart.found) == ("relation-apart", "it is inside “Bowl” (/Bowl), but their boxes are 1 m apart")
     assert (finding.rule, finding.severity, finding.prim_path) == ("inside-smaller", "error", "/Table")
     assert finding.expected == "a box that fits into 0.16 × 0.16 × 0.07 m"
 
@@ -98,12 +101,15 @@ def test_finds_a_low_confidence_only_if_calibrated_and_with_many_dependants(home
     on = LINKS[profile][0]
     unsure = CONFIDENCE.replace("k:Cup", "k:Table").format("0.2")
     probable = "DELETE { ?r u2k:isCalibrated ?o } INSERT { ?r u2k:isCalibrated true } WHERE { ?r u2k:isCalibrated ?o }"
-    three = added(f"k:Bowl {on} k:Table")
-    assert found_in(open_room(home_tbox, profile, f"{unsure}; {three}")) == ()
+    three = added(f"k:Cupboard {on} k:Table")
+    assert rules_in(open_room(home_tbox, profile, f"{unsure}; {three}")) == ["relation-apart"]
     assert found_in(open_room(home_tbox, profile, f"{unsure}; {probable}")) == ()
-    (finding,) = found_in(open_room(home_tbox, profile, f"{unsure}; {probable}; {three}"))
-    assert (finding.rule, finding.severity) == ("low-confidence", "note")
-    assert finding.found == "its class, table, has confidence 0.20; 3 objects are on or in it"
+    apart, finding = found_in(open_room(home_tbox, profile, f"{unsure}; {probable}; {three}"))
+    assert (apart.rule, finding.rule, finding.severity) == ("relation-apart", "low-confidence", "note")
+    assert finding.found == (
+        "1 object has a class of low confidence, and at least 3 objects on or in it: "
+        "“Table” (/Table) with 3, class table, confidence 0.20"
+    )
 
 
 def test_nested_prims_are_not_duplicates(home_tbox: TBox):
@@ -131,7 +137,7 @@ def test_a_file_overrides_single_values(home_tbox: TBox, tmp_path: Path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[densities]\nlowest = 1", "'densities' is not a rule; expected tables named unusual-size, "),
+        ("[densities]\nlowest = 1", "'densities' is not a rule; expected tables named scene-scale, "),
         ("lowest = 1", "'lowest' is not a rule"),
         ("[density]\nleast = 1", "[density] has no key 'least'; expected enabled, severity, lowest, highest, advice"),
         ('[density]\nlowest = "1"', "[density] lowest is '1'; expected a number of at least 0"),

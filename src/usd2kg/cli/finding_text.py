@@ -35,10 +35,8 @@ def findings_text(findings: "Sequence[Finding]", checked: int, noun: str, *, is_
 
 
 def _lines(finding: "Finding") -> Iterator[str]:
-    subject = f"{to_single_line(finding.label)} {to_single_line(finding.prim_path)}".strip() or to_single_line(
-        finding.iri
-    )
-    yield f"{finding.severity} [{finding.rule}] {subject}".rstrip()
+    named = f"{to_single_line(finding.label)} {to_single_line(finding.prim_path)}".strip()
+    yield f"{finding.severity} [{finding.rule}] {named or to_single_line(finding.iri) or 'the whole graph'}"
     yield f"  found:    {to_single_line(finding.found)}"
     yield f"  expected: {to_single_line(finding.expected)}"
     yield f"  do:       {to_single_line(finding.advice)}"

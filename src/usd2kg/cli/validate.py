@@ -61,6 +61,8 @@ def validate_command(
     closure = _open_closure(store, ontology)
     answer = _ask_elk(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
     report = validate_graph(store, closure, chosen, answer)
+    for skipped in report.skipped:
+        notify(f"not checked: {', '.join(skipped.rules)}: {skipped.reason}")
     if json:
         print_json(
             {
@@ -69,6 +71,7 @@ def validate_command(
                 "objects": report.objects,
                 "counts": report.counts(),
                 "reasoner": None if answer is None else {"name": "elk", **asdict(answer)},
+                "skipped": [skipped._asdict() for skipped in report.skipped],
                 "findings": [asdict(finding) for finding in report.findings],
             }
         )

@@ -32,7 +32,8 @@ class Finding:
     prim_path: str
     """Prim path of the object or joint; empty if there is none."""
     iri: str
-    """The node: IRI of the object, its box, joint…; label of a blank node; text of a literal."""
+    """The node: IRI of the object, its box, joint…; label of a blank node; text of a literal. Empty for a finding
+    about the whole scene."""
     found: str
     """What was found, with units."""
     expected: str

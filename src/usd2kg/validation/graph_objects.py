@@ -9,12 +9,14 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD
 
-__all__ = ["GraphObject", "find_owner", "profile_of", "read_graph_objects", "values_of"]
+__all__ = ["GraphObject", "find_owner", "numbers_in", "profile_of", "read_graph_objects", "values_of"]
 
 Vector = tuple[float, float, float]
 _GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
 _MAX_EXTENT = 100_000.0
 """Metres; the limit of the shapes in `shapes-*.ttl`."""
+_MIN_CONCEPT_CONFIDENCE = 0.5
+"""Concepts with a lower probability are ignored."""
 _MAX_STEPS = 4
 """Number of properties between an object and the farthest nodes that belong to it: joint limits and box regions."""
 
@@ -43,6 +45,10 @@ class GraphObject:
     """IRIs of the objects that it is on, sorted."""
     containers: tuple[str, ...]
     """IRIs of the objects that it is inside, sorted."""
+    holders: tuple[str, ...]
+    """IRIs of the objects that it is attached to, or a part of, or a joint moves or fixes, sorted."""
+    concept: str | None
+    """IRI of the concept that its words name; None if it has none, or one that is more likely wrong than right."""
 
     @property
     def own_size(self) -> Vector | None:
@@ -85,6 +91,7 @@ class _Reader:
         self._store = store
         self._read: dict[ox.NamedNode, dict[Any, list[Any]]] = {}
         self._confidences = dict(_confidences(store))
+        self._holders = _find_holders(store)
 
     def read(self, node: Any, path: Any) -> GraphObject:
         region = self._region_with(U2K.boxCenter, self._steps(node, SOMA.hasShape, DUL.hasRegion)) or node
@@ -107,7 +114,14 @@ class _Reader:
             confidence=self._confidences.get(node),
             supporters=self._iris(node, SOMA.isOntopOf, U2K.on),
             containers=self._iris(node, SOMA.isInsideOf, U2K.inside),
+            holders=tuple(sorted(self._holders.get(node, ()))),
+            concept=self._concept(node),
         )
+
+    def _concept(self, node: Any) -> str | None:
+        confidence = self._number(node, U2K.conceptConfidence)
+        concepts = self._iris(node, U2K.concept)
+        return concepts[0] if concepts and (confidence is None or confidence >= _MIN_CONCEPT_CONFIDENCE) else None
 
     def _values(self, node: Any, name: ox.NamedNode) -> list[Any]:
         if name not in self._read:
@@ -132,17 +146,29 @@ class _Reader:
         return str(values[0].value) if values else ""
 
     def _number(self, node: Any, *names: ox.NamedNode) -> float | None:
-        numbers = _numbers(" ".join(self._text(node, name) for name in names))
+        numbers = numbers_in(" ".join(self._text(node, name) for name in names))
         return numbers[0] if len(numbers) == 1 else None
 
     def _vector(self, node: Any, name: ox.NamedNode) -> tuple[float, ...] | None:
-        return _numbers(self._text(node, name)) or None
+        return numbers_in(self._text(node, name)) or None
 
     def _iris(self, node: Any, *names: ox.NamedNode) -> tuple[str, ...]:
         return tuple(v.value for name in names for v in self._values(node, name) if isinstance(v, ox.NamedNode))
 
 
-def _numbers(text: str) -> tuple[float, ...]:
+def _find_holders(store: ox.Store) -> dict[Any, set[str]]:
+    """Return object → IRIs of what it is attached to or a part of, and of the joints that move or fix it."""
+    found: dict[Any, set[str]] = {}
+    for name in (U2K.attachedTo, U2K.partOf, SOMA.hasPhysicalComponent, SOMA.hasChildLink, U2K.childObject):
+        for quad in store.quads_for_pattern(None, name, None):
+            is_held = name in (U2K.attachedTo, U2K.partOf)
+            held, holder = (quad.subject, quad.object) if is_held else (quad.object, quad.subject)
+            if isinstance(holder, ox.NamedNode):
+                found.setdefault(held, set()).add(holder.value)
+    return found
+
+
+def numbers_in(text: str) -> tuple[float, ...]:
     """Return the numbers in a text; empty if any of them is not finite."""
     try:
         numbers = tuple(float(word) for word in text.split())
@@ -167,7 +193,7 @@ def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
         if isinstance(quad.object, ox.Triple) and quad.object.predicate == RDF.type:
             sources[quad.subject] = quad.object.subject
     for quad in store.quads_for_pattern(None, SSSOM.confidence, None):
-        numbers = _numbers(str(getattr(quad.object, "value", "")))
+        numbers = numbers_in(str(getattr(quad.object, "value", "")))
         if quad.subject in sources and len(numbers) == 1:
             yield sources[quad.subject], numbers[0]
 

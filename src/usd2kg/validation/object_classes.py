@@ -1,6 +1,7 @@
-"""Class membership of objects, by class IRI or by the words of class labels."""
+"""Kinds of objects: by class IRI, or by the labels of classes and concepts."""
 
 from collections.abc import Iterable
+from itertools import chain
 
 import pyoxigraph as ox
 
@@ -9,6 +10,7 @@ from usd2kg.ontology import expand_curie
 from usd2kg.ontology.model import local_name
 from usd2kg.validation.axiom_index import AxiomIndex
 from usd2kg.validation.graph_objects import GraphObject
+from usd2kg.validation.object_concepts import ConceptLabels, everyday_stances
 from usd2kg.validation.plausibility_rules import Rule
 from usd2kg.words import split_identifier
 
@@ -16,7 +18,7 @@ __all__ = ["ObjectClasses"]
 
 
 class ObjectClasses:
-    """Looks up the superclasses and labels of objects' classes, in the graph and in the ontology."""
+    """Looks up the superclasses of objects' classes, in the graph and in the ontology, and their concepts."""
 
     def __init__(self, store: ox.Store, axioms: AxiomIndex | None, objects: Iterable[GraphObject]) -> None:
         used = {ox.NamedNode(cls) for obj in objects for cls in obj.classes}
@@ -32,7 +34,8 @@ class ObjectClasses:
         self._axioms = axioms
         self._closures: dict[str, frozenset[str]] = {}
         self._labels: dict[str, str] = {}
-        self._members: dict[tuple[tuple[str, ...], str, str], bool] = {}
+        self._matches: dict[tuple[tuple[str, ...], str | None, str, str], str | None] = {}
+        self.concepts = ConceptLabels(store)
 
     def closure(self, cls: str) -> frozenset[str]:
         """Return a class and all its superclasses."""
@@ -61,17 +64,45 @@ class ObjectClasses:
         """Return the labels of an object's classes, for messages."""
         return " and ".join(self.label(cls) for cls in obj.classes) or "without a class"
 
-    def is_a(self, obj: GraphObject, rule: Rule, classes: str, words: str) -> bool:
-        """Return whether a class of an object, or a superclass, is in a rule's list of classes or of words."""
-        key = (obj.classes, rule.id, classes)
-        if key not in self._members:
-            iris, labels = rule.classes(classes), rule.words(words)
-            self._members[key] = any(
-                above in iris or not labels.isdisjoint(_label_and_head(self.label(above)))
-                for cls in obj.classes
-                for above in self.closure(cls)
-            )
-        return self._members[key]
+    def kind(self, obj: GraphObject) -> str:
+        """Return what an object is, for messages: the label of its concept, else of its classes."""
+        return self.concepts.label(obj.concept) if obj.concept is not None else self.names(obj)
+
+    def stances(self, obj: GraphObject) -> frozenset[str]:
+        """Return how objects of this kind may stand: floor, surface, wall, ceiling, part; empty if unknown.
+
+        The nearest known hypernym of the concept decides, else the label of a class.
+        """
+        above = self.concepts.above(obj.concept) if obj.concept is not None else map(self.label, obj.classes)
+        return next((known for noun in above if (known := everyday_stances(noun)) is not None), frozenset())
+
+    def is_a(self, obj: GraphObject, rule: Rule, words: str, classes: str | None = None) -> bool:
+        """Return whether an object is of a kind that a rule lists, see `match`."""
+        return self.match(obj, rule, words, classes) is not None
+
+    def match(self, obj: GraphObject, rule: Rule, words: str, classes: str | None = None) -> str | None:
+        """Return the label by which an object is of a kind that a rule lists: its own, a superclass's or a hypernym's.
+
+        Args:
+            obj: the object.
+            rule: the rule.
+            words: key of its list of words, which are compared with the labels of classes and concepts, whole or by
+                their last word.
+            classes: key of its list of classes; None if it has none.
+        """
+        key = (obj.classes, obj.concept, rule.id, words)
+        if key not in self._matches:
+            iris = rule.classes(classes) if classes else frozenset[str]()
+            self._matches[key] = self._find_match(obj, rule.words(words), iris)
+        return self._matches[key]
+
+    def _find_match(self, obj: GraphObject, words: frozenset[str], iris: frozenset[str]) -> str | None:
+        above = sorted({iri for cls in obj.classes for iri in self.closure(cls)})
+        of_concept = self.concepts.above(obj.concept) if obj.concept is not None else ()
+        listed = (self.label(iri) for iri in above if iri in iris)
+        labels = (*map(self.label, above), *of_concept)
+        named = (label for label in labels if not words.isdisjoint(_label_and_head(label)))
+        return next(chain(listed, named), None)
 
 
 def _label_and_head(label: str) -> tuple[str, str]:

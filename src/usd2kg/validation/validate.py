@@ -10,12 +10,20 @@ from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import OWL, RDFS, U2K
 from usd2kg.ontology import Closure, compact_iri
 from usd2kg.query.graph_store import GraphStore
+from usd2kg.validation.checked_scene import CheckedScene
 from usd2kg.validation.clashes import find_clashes, read_axioms
 from usd2kg.validation.elk import ElkAnswer
 from usd2kg.validation.finding import Finding, Severity, sort_findings
-from usd2kg.validation.graph_objects import GraphObject, find_owner, profile_of, read_graph_objects, values_of
+from usd2kg.validation.graph_objects import (
+    GraphObject,
+    find_owner,
+    numbers_in,
+    profile_of,
+    read_graph_objects,
+    values_of,
+)
 from usd2kg.validation.object_classes import ObjectClasses
-from usd2kg.validation.plausibility_checks import CheckedScene, find_implausible
+from usd2kg.validation.plausibility import SkippedCheck, find_implausible, find_skipped
 from usd2kg.validation.plausibility_rules import Rules, read_rules
 from usd2kg.validation.shacl import compile_shapes, find_violations
 
@@ -33,6 +41,8 @@ class ValidationReport:
     objects: int
     findings: tuple[Finding, ...]
     """Sorted by severity and rule, see `sort_findings`."""
+    skipped: tuple[SkippedCheck, ...] = ()
+    """Plausibility rules that the graph lacks the facts for."""
 
     def counts(self) -> dict[str, int]:
         """Return severity → number of findings."""
@@ -73,10 +83,11 @@ def validate_graph(
             f"{graph.source}: contains no usd:Prim and no u2k:Object; expected a graph that usd2kg build wrote"
         )
     run = _Run(graph.store, closure)
-    findings = [*run.shapes(profile), *run.clashes(), *run.implausible(read_rules() if rules is None else rules)]
+    scene = run.scene(read_rules() if rules is None else rules)
+    findings = [*run.shapes(profile), *run.clashes(), *run.implausible(scene)]
     if answer is not None and not answer.is_consistent:
         findings += run.inconsistencies(answer)
-    return ValidationReport(profile, len(run.objects), sort_findings(findings))
+    return ValidationReport(profile, len(run.objects), sort_findings(findings), find_skipped(scene))
 
 
 class _Run:
@@ -118,13 +129,26 @@ class _Run:
                 Severity.ERROR, "elk-inconsistent", "", "", "", found, "a consistent graph", _CORRECT_STATEMENT
             )
 
-    def implausible(self, rules: Rules) -> Iterator[Finding]:
-        """Yield the violations of the plausibility rules."""
+    def scene(self, rules: Rules) -> CheckedScene:
+        """Return the objects with what the plausibility checks need."""
         calibrated = values_of(self._store, U2K.isCalibrated).values()
-        has_probabilities = not any(value.value in {"false", "0"} for values in calibrated for value in values)
-        scene = CheckedScene(self.objects, ObjectClasses(self._store, self._axioms, self.objects), has_probabilities)
-        for rule, obj, found, expected in find_implausible(scene, rules):
-            yield _about(obj, rule.severity, rule.id, obj.iri, found, expected, rule.advice)
+        units = [v.value for values in values_of(self._store, U2K.metresPerUnit).values() for v in values]
+        unit = numbers_in(units[0]) if len(units) == 1 else ()
+        return CheckedScene(
+            self.objects,
+            ObjectClasses(self._store, self._axioms, self.objects),
+            rules,
+            has_probabilities=not any(value.value in {"false", "0"} for values in calibrated for value in values),
+            metres_per_unit=unit[0] if len(unit) == 1 and unit[0] > 0 else None,
+        )
+
+    def implausible(self, scene: CheckedScene) -> Iterator[Finding]:
+        """Yield the violations of the plausibility rules."""
+        for rule, (obj, found, expected) in find_implausible(scene):
+            if obj is None:
+                yield Finding(rule.severity, rule.id, "", "", "", found, expected, rule.advice)
+            else:
+                yield _about(obj, rule.severity, rule.id, obj.iri, found, expected, rule.advice)
 
     def _finding(self, severity: Severity, rule: str, node: Any, found: str, expected: str, advice: str) -> Finding:
         owner = find_owner(self._store, node, self._by_iri)
