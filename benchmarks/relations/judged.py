@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import usd2kg
 from benchmarks.intervals import wilson
-from benchmarks.labelled_scenes import SHARED
+from benchmarks.labelled_scenes import ROOT, SHARED
 from usd2kg.demo import demo_relations, demo_scene
 from usd2kg.relations import Relation
 
@@ -37,6 +37,10 @@ SCENES = {
     "apartment": Sources(SHARED / "scenes/iai_apartment/apartment.usdc", (HERE / "judged/apartment.csv",)),
     "small_house": Sources(SHARED / "scenes/aws_robomaker/small_house.usdc", (HERE / "judged/small_house.csv",)),
     "bookstore": Sources(SHARED / "scenes/aws_robomaker/bookstore.usdc", (HERE / "judged/bookstore.csv",)),
+    "small_warehouse": Sources(
+        SHARED / "scenes/aws_robomaker/small_warehouse.usdc", (HERE / "judged/small_warehouse.csv",)
+    ),
+    "office": Sources(ROOT / "benchmarks/scenes/office/office.usda", (HERE / "judged/office.csv",)),
     "dlr_kitchen": Sources(SHARED / "scenes/dlr_kitchen/source/dlr_kitchen.usda", (HERE / "judged/dlr_kitchen.csv",)),
 }
 

@@ -251,3 +251,24 @@ def test_a_wall_in_one_mesh_separates_what_is_on_its_two_sides():
     room.box("one", "DesignedChair", (1, 1.6, 0), (0.4, 0.35, 0.9))
     room.box("two", "DesignedChair", (1, 2.1, 0), (0.4, 0.4, 0.9))
     assert not [key for key in room.relate() if {key[0], key[2]} == {"one", "two"}]
+
+
+class TestCovers:
+    """Thin things that feet may sink through: a rug of 9 mm whose underside is level with the feet of a table."""
+
+    RUG = boxes(((0, 0, 0.0005), (3, 3, 0.0095)))
+
+    def rug(self) -> Room:
+        return Room().box("floor", "Floor", (-1, -1, -0.1), (6, 6, 0.1)).mesh("rug", "DesignedFurniture", self.RUG)
+
+    def test_a_table_drawn_through_a_rug_is_on_the_rug(self):
+        room = self.rug().mesh("table", "Table", table((1, 1, 0.0005), (1.8, 1.8, 0.7)))
+        assert room.of("table") == {("on", "rug")}
+        assert room.relate()["table", "on", "rug"].numbers["gap"] == pytest.approx(-0.009, abs=1e-6)
+
+    def test_a_thin_thing_of_the_same_size_is_no_cover(self):
+        """The plates of a stack are not on each other in a circle."""
+        plates = [boxes(((1, 1, z), (1.2, 1.2, z + 0.008))) for z in (0.01, 0.016)]
+        room = self.rug().mesh("low", "Plate", plates[0]).mesh("high", "Plate", plates[1])
+        assert room.of("high") == {("on", "low")}
+        assert room.of("low") == {("on", "rug")}

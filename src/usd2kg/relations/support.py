@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
+_ROUNDING = 1e-5
+"""Metres: heights that differ by less are equal."""
 _BLOCK = 1 << 12
 """Pairs of objects and meshes that are measured at a time, which bounds memory."""
 
@@ -139,7 +141,7 @@ def _find_contacts(
     is_good = (
         (found.anchor != found.target)
         # The underside of a supporter is below the target's bottom; that of an object beside it is not.
-        & (found.lower[:, 2] < boxed.lower[found.target, 2])
+        & (found.lower[:, 2] < boxed.lower[found.target, 2] - _ROUNDING)
         & (container[found.anchor] == container[found.target])
         & ~(limits.is_ground[found.anchor] & limits.hangs[found.target])
     )
@@ -233,6 +235,9 @@ def _measure_some(
     is_thick = found.height - boxed.lower[anchor, 2] > rules.geometry.sheet_thickness
     bottom = np.where(is_thick, boxed.lower[anchor, 2], found.height - rules.on.min_gap)
     underside = np.where(found.underside >= found.height, bottom, found.underside)
+    # A chair may stand in a rug as deep as its underside.
+    is_cover = ~is_thick & (boxed.area[anchor] > rules.on.cover_ratio * boxed.area[target])
+    underside = np.where(is_cover, boxed.lower[anchor, 2] - rules.on.min_gap, underside)
     lower, upper = boxed.lower[anchor].copy(), boxed.upper[anchor].copy()
     lower[:, 2], upper[:, 2] = np.where(np.isfinite(underside), underside, boxed.lower[anchor, 2]), found.height
     return _Contacts(target, anchor, found.gap, found.ratio, found.area, found.allowed, lower, upper)

@@ -55,6 +55,7 @@ class OnRule:
     min_gap: float
     max_gap: float
     sink_share: float
+    cover_ratio: float
     max_sink: float
 
 
