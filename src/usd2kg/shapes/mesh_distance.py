@@ -1,14 +1,13 @@
-"""Distances between surfaces up to a limit, by FCL (python-fcl, extra `shapes`)."""
+"""Distances between surfaces up to a limit, by the boxes of their triangles."""
 
-from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.shapes.surface import Surface
 
-__all__ = ["Solid", "is_exact", "mesh_distance"]
+__all__ = ["Solid", "mesh_distance"]
 
 Array = NDArray[np.float64]
 
@@ -27,27 +26,18 @@ class Solid(NamedTuple):
     """Its triangles; None for a box."""
 
 
-@cache
-def is_exact() -> bool:
-    """Return whether FCL is installed, so that distances are those between triangles instead of their boxes."""
-    try:
-        import fcl  # noqa: F401, PLC0415
-    except ImportError:
-        return False
-    return True
-
-
 def mesh_distance(one: Solid, other: Solid, reach: float) -> float:
     """Return the distance between two objects in metres; negative for penetration, inf beyond `reach`.
 
-    Only the triangles within `reach` of the other object's box are compared. Without FCL, the triangles' boxes are.
+    Only the triangles within `reach` of the other object's box are compared, by their boxes, which are never farther
+    apart than the triangles.
     The depth of a penetration is that of the box of either object in the near triangles of the other, along the axis
     where it is least.
     """
     near = [_near_corners(one, other, reach), _near_corners(other, one, reach)]
     if not len(near[0]) or not len(near[1]):
         return np.inf
-    distance = _by_fcl(*near) if is_exact() else _between_boxes(*near)
+    distance = _between_boxes(*near)
     if distance > reach:
         return np.inf
     return distance if distance > 0 else -_depth(one, other, near)
@@ -68,21 +58,6 @@ def _corners_of_box(solid: Solid) -> Array:
     ends = np.stack([solid.lower, solid.upper])
     corners = np.array([[ends[i >> 2 & 1, 0], ends[i >> 1 & 1, 1], ends[i & 1, 2]] for i in range(8)])
     return np.asarray(corners[_BOX])
-
-
-def _by_fcl(one: Array, other: Array) -> float:
-    import fcl  # noqa: PLC0415
-
-    found = fcl.distance(_fcl_object(fcl, one), _fcl_object(fcl, other), fcl.DistanceRequest(), fcl.DistanceResult())
-    return max(float(found), 0.0)
-
-
-def _fcl_object(fcl: Any, corners: Array) -> Any:
-    model = fcl.BVHModel()
-    model.beginModel(3 * len(corners), len(corners))
-    model.addSubModel(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
-    model.endModel()
-    return fcl.CollisionObject(model)
 
 
 def _between_boxes(one: Array, other: Array) -> float:
