@@ -1,0 +1,268 @@
+/**
+ * The JSON of the studio's server (src/usd2kg/studio). Keys are those of the Python records.
+ *
+ * Objects, classes, concepts and rooms are numbers: indices into the lists of `SceneData`; -1 means none.
+ * Lengths are metres in a z-up, right-handed world frame.
+ */
+
+export type ObjectIndex = number;
+export type ClassIndex = number;
+export type ConceptIndex = number;
+
+/** Lower x, y, z, upper x, y, z. */
+export type Box = [number, number, number, number, number, number];
+
+/** `GET /api/scene`: what does not change during a session. */
+export interface SceneData {
+  title: string;
+  /** The stage or graph as the user named it. */
+  source: string;
+  ontology: { iri: string; label: string };
+  grounder: string;
+  /** Whether confidences are fitted probabilities; otherwise they only rank. */
+  is_calibrated: boolean;
+  /** Whether decisions are refused, because a graph is shown without its stage. */
+  is_read_only: boolean;
+  /** Name under which this page decides, as the server suggests it. */
+  reviewer: string;
+  objects: ObjectColumns;
+  classes: ClassRecord[];
+  concepts: ConceptRecord[];
+  relation_kinds: { kind: string; count: number }[];
+  diagnostics: { code: string; message: string; path: string | null }[];
+  figures: { label: string; value: string }[];
+}
+
+/** Parallel arrays, one entry for each object, in scene order: parents before children. */
+export interface ObjectColumns {
+  path: string[];
+  /** Display name, or the name of the prim. */
+  name: string[];
+  parent: ObjectIndex[];
+  /** Box of the object's own geometry; null without geometry. */
+  box: (Box | null)[];
+  /** Room or group prim that holds it, as an index into `rooms`. */
+  room: number[];
+  rooms: string[];
+  /** Index into `assets`. */
+  asset: number[];
+  assets: string[];
+  /** Linear RGB from 0 to 1; null if none is authored. */
+  color: ([number, number, number] | null)[];
+}
+
+export interface ClassRecord {
+  iri: string;
+  /** Short unique name for people. */
+  name: string;
+  label: string;
+  synonyms: string[];
+  definition: string;
+  parents: ClassIndex[];
+}
+
+export interface ConceptRecord {
+  iri: string;
+  label: string;
+  /** Direct hypernyms. */
+  broader: ConceptIndex[];
+}
+
+/** What is known of an object's class; the first four are decisions of a person or their absence. */
+export type ReviewState =
+  | "suggested"
+  | "confirmed"
+  | "corrected"
+  | "unsure"
+  | "no-class"
+  | "refused"
+  | "unreadable"
+  | "failed";
+
+/** One object's current state; `GET /api/states` lists all of them in scene order. */
+export interface ObjectState {
+  object: ObjectIndex;
+  state: ReviewState;
+  /** The valid class: decided or suggested. */
+  class: ClassIndex;
+  /** Probability of the grounder's suggestion; null if it gave none. */
+  confidence: number | null;
+  /** The grounder's suggestion, whatever was decided. */
+  suggested: ClassIndex;
+  concept: ConceptIndex;
+  reviewer: string;
+  /** ISO 8601 in UTC; empty if undecided. */
+  time: string;
+  comment: string;
+  /** Whether two reviewers decided differently and nobody has settled it. */
+  is_conflict: boolean;
+}
+
+export interface States {
+  /** Number of the last event in the journal. */
+  version: number;
+  states: ObjectState[];
+  /** Whether this reviewer can undo or redo. */
+  can_undo: boolean;
+  can_redo: boolean;
+}
+
+/** `GET /api/object/{index}`. */
+export interface ObjectPage {
+  object: ObjectIndex;
+  path: string;
+  name: string;
+  type_name: string;
+  kind: string;
+  selected_by: string;
+  size: [number, number, number] | null;
+  position: [number, number, number] | null;
+  mass_kg: number | null;
+  materials: string[];
+  assets: string[];
+  parts: string[];
+  labels: { encoding: string; taxonomy: string; value: string }[];
+  documentation: string;
+  explanation: string;
+  evidence: string[];
+  /** Best first, at most 9 for the digit keys. */
+  candidates: Candidate[];
+  concept: { iri: string; label: string; confidence: number | null; hypernyms: string[] } | null;
+  relations: RelationRecord[];
+  /** All decisions about the object, oldest first. */
+  history: { event: number; action: string; class: ClassIndex; reviewer: string; time: string; comment: string }[];
+  /** The statements about the object in Turtle. */
+  turtle: string;
+}
+
+export interface Candidate {
+  class: ClassIndex;
+  /** Share of the score among the candidates, from 0 to 1. */
+  share: number;
+  /** Path of the taxonomy from the class to its root, as labels. */
+  taxonomy: string[];
+}
+
+export interface RelationRecord {
+  kind: string;
+  /** The object that is on, inside, near… */
+  target: ObjectIndex;
+  anchor: ObjectIndex;
+  /** Path of the anchor, which may be a group prim and no object. */
+  anchor_path: string;
+  numbers: Record<string, number>;
+  confidence: number | null;
+  rule: string;
+}
+
+/** `GET /api/relations?kind=on`: all relations of one kind. */
+export interface RelationList {
+  relations: RelationRecord[];
+}
+
+/** `GET /api/queue?order=gain`: what to review, in order. */
+export interface Queue {
+  groups: QueueGroup[];
+  /** Objects without a decision. */
+  open: number;
+  decided: number;
+  /** Estimate for all open groups from this session's pace; null before five decisions. */
+  seconds_left: number | null;
+}
+
+/** Objects with the same suggestion, and the same asset or the same words in their names. */
+export interface QueueGroup {
+  /** Stable while its objects are undecided. */
+  id: string;
+  title: string;
+  objects: ObjectIndex[];
+  suggested: ClassIndex;
+  concept: ConceptIndex;
+  confidence: number | null;
+  /** Expected number of wrong classes that a look at the group settles. */
+  gain: number;
+}
+
+export type QueueOrder = "gain" | "confidence" | "class" | "place";
+
+export type DecisionAction = "confirm" | "choose" | "unsure" | "no-class" | "clear";
+
+/** Body of `POST /api/decisions`. */
+export interface DecisionRequest {
+  objects: ObjectIndex[];
+  action: DecisionAction;
+  /** For `choose`. */
+  class?: ClassIndex;
+  comment?: string;
+  reviewer: string;
+  /** `States.version` that the reviewer saw; a later decision of somebody else on the same object is a conflict. */
+  seen: number;
+}
+
+/** Answer to decisions, undo (`POST /api/undo`) and redo (`POST /api/redo`), sent once the journal is on disk. */
+export interface DecisionReply {
+  version: number;
+  /** The objects whose state changed. */
+  states: ObjectState[];
+  can_undo: boolean;
+  can_redo: boolean;
+  /** What happened, for the status line: “Confirmed 4 objects as Cup”. */
+  message: string;
+}
+
+/** Lines of `GET /api/events` (text/event-stream, event `change`): decisions of all reviewers. */
+export interface ChangeEvent {
+  version: number;
+  reviewer: string;
+  states: ObjectState[];
+  message: string;
+}
+
+/** `POST /api/ask` with {question}. */
+export interface AskReply {
+  understood: string;
+  sentence: string;
+  columns: string[];
+  rows: (string | number | null)[][];
+  /** Objects of the rows. */
+  objects: ObjectIndex[];
+}
+
+/** `POST /api/sparql` with {query}: a table; errors are `ApiError`. */
+export interface SparqlReply {
+  columns: string[];
+  rows: (string | null)[][];
+  /** Object of each row, -1 if the row names none. */
+  objects: ObjectIndex[];
+  is_cut: boolean;
+  milliseconds: number;
+}
+
+/** `GET /api/examples`: SPARQL queries about this scene. */
+export interface ExampleQuery {
+  title: string;
+  query: string;
+}
+
+/** `GET /api/geometry`: the parts of the scene's meshes; each is `GET /api/geometry/{index}.glb`. */
+export interface GeometryManifest {
+  chunks: { bytes: number; triangles: number }[];
+  triangles: number;
+  /** Triangles before decimation. */
+  source_triangles: number;
+}
+// In a chunk, each node with `extras.object` (an ObjectIndex, or -1 for geometry outside any object) has a mesh with
+// positions, normals and vertex colours (linear RGBA); nodes of equal objects share one mesh. Coordinates are metres,
+// z-up, without a root rotation.
+
+/** `POST /api/reground`: ground the open objects again with what the decisions teach. */
+export interface RegroundReply {
+  version: number;
+  states: ObjectState[];
+  changes: { object: ObjectIndex; before: ClassIndex; after: ClassIndex; reason: string }[];
+}
+
+/** Every failed request: status 4xx or 5xx. */
+export interface ApiError {
+  error: string;
+}
