@@ -29,6 +29,7 @@ from usd2kg.cli import (
     render,
     serve,
     store,
+    studio,
     validate,
 )
 from usd2kg.cli.output import emit, notify, to_single_line
@@ -58,6 +59,7 @@ app.command("demo")(demo.demo_command)
 app.add_typer(graph.app, name="graph")
 app.add_typer(label.app, name="label")
 app.command("serve")(serve.serve_command)
+app.command("studio")(studio.studio_command)
 app.add_typer(store.app, name="store")
 app.add_typer(ontology.app, name="ontology")
 app.add_typer(evaluate.app, name="eval")

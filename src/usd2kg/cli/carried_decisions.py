@@ -31,18 +31,20 @@ def carry_over_decisions(
         return decisions, {}
     from usd2kg.diff import carry_decisions, objects_of_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.diff.versions import read_objects  # noqa: PLC0415
+    from usd2kg.grounding import NO_CLASS  # noqa: PLC0415
 
     found = carry_decisions(decisions, read_objects(options.previous, reading), objects_of_scene(scene))
     for path, origin in found.carried.items():
         notify(f"decision: {origin.prim_path} → {path} ({origin.reason})")
     for each in found.unplaced:
-        notify(f"decision not placed: {each.prim_path} <{each.class_iri}>: {each.reason}")
+        notify(f"decision not placed: {each.prim_path} <{each.class_iri or NO_CLASS}>: {each.reason}")
     kept = len(found.decisions) - len(found.carried)
     counts = f"{kept} kept, {len(found.carried)} carried over, {len(found.unplaced)} not placed"
     notify(f"{len(decisions)} decisions: {counts}")
     if options.unplaced is not None:
         _write_rows(
-            [(each.prim_path, each.class_iri, "", each.reason, "", "", "") for each in found.unplaced], options.unplaced
+            [(each.prim_path, each.class_iri or NO_CLASS, "", each.reason, "", "", "") for each in found.unplaced],
+            options.unplaced,
         )
     if options.carried is not None:
         _write_rows(_placed_rows(found), options.carried)
@@ -50,14 +52,14 @@ def carry_over_decisions(
 
 
 def _placed_rows(found: "CarriedDecisions") -> list[tuple[str, ...]]:
-    from usd2kg.grounding import as_decision  # noqa: PLC0415
+    from usd2kg.grounding import NO_CLASS, as_decision  # noqa: PLC0415
 
     rows: list[tuple[str, ...]] = []
     for path, made in found.decisions.items():
         decision, origin = as_decision(made), found.carried.get(path)
         rows.append(
             (
-                *(path, decision.class_iri),
+                *(path, decision.class_iri or NO_CLASS),
                 *((origin.prim_path, origin.reason) if origin is not None else ("", "")),
                 *(decision.reviewer, decision.comment, decision.time),
             )

@@ -1,6 +1,5 @@
 """usd2kg serve: a SPARQL endpoint for a graph or a store."""
 
-import ipaddress
 import signal
 from typing import Annotated
 
@@ -47,9 +46,10 @@ def serve_command(
 ) -> None:
     """Serve a graph as a read-only SPARQL 1.1 endpoint with a query page, until Ctrl+C."""
     from usd2kg.endpoint import EndpointLimits, ServeOptions, serve  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.endpoint.listening import is_loopback  # noqa: PLC0415
 
     limits = EndpointLimits(time_limit, max_rows, max_body, memory_limit, workers)
-    if not _is_loopback(host):
+    if not is_loopback(host):
         notify(f"{host}: the endpoint has no authentication; anyone who reaches this machine can query it")
     # Service managers stop it with SIGTERM. As after Ctrl+C, the temporary copy of the graph has to be removed.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -57,10 +57,3 @@ def serve_command(
         serve(graph, ServeOptions(host, port, allow_host or (), cors or (), limits), notify)
     except KeyboardInterrupt:
         notify("stopped")
-
-
-def _is_loopback(host: str) -> bool:
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return host == "localhost"

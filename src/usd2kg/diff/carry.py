@@ -19,7 +19,8 @@ class UnplacedDecision:
 
     prim_path: str
     """The path in the decision."""
-    class_iri: ClassIRI
+    class_iri: ClassIRI | None
+    """None if no class fits."""
     reason: str
     """Why it does not apply."""
 

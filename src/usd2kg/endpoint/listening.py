@@ -1,12 +1,13 @@
-"""open_socket: bind the port before the graph is copied."""
+"""Addresses to listen on: bind a port before the graph is copied."""
 
+import ipaddress
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 from usd2kg.errors import OutputError
 
-__all__ = ["open_socket"]
+__all__ = ["is_loopback", "open_socket"]
 
 
 @contextmanager
@@ -29,3 +30,15 @@ def open_socket(host: str, port: int) -> Iterator[socket.socket]:
         raise OutputError(f"{host}:{port}: cannot be bound ({error}); choose another --port or --host") from error
     with bound:
         yield bound
+
+
+def is_loopback(host: str) -> bool:
+    """Return whether only this machine can connect to a host name or address that a server listens on.
+
+    >>> is_loopback("127.0.0.2"), is_loopback("::1"), is_loopback("0.0.0.0"), is_loopback("my.lab")
+    (True, True, False, False)
+    """
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"

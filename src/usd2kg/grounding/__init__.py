@@ -2,7 +2,7 @@
 
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.cascade import CascadeGrounder
-from usd2kg.grounding.concepts import concepts_named
+from usd2kg.grounding.concepts import apply_decisions, concepts_named
 from usd2kg.grounding.context import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -12,6 +12,7 @@ from usd2kg.grounding.context import (
     view_objects,
 )
 from usd2kg.grounding.decisions import (
+    NO_CLASS,
     PERSON,
     DecisionOrigin,
     as_decision,
@@ -31,6 +32,7 @@ __all__ = [
     "EVIDENCE_GROUPS",
     "GROUNDERS",
     "MAPPING_FORMATS",
+    "NO_CLASS",
     "PERSON",
     "STUDY_GROUPS",
     "Candidate",
@@ -46,6 +48,7 @@ __all__ = [
     "Prediction",
     "Review",
     "Status",
+    "apply_decisions",
     "as_decision",
     "check_format",
     "concepts_named",

@@ -4,12 +4,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from usd2kg.garbage import paused_collection
-from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.model import Concept, Prediction, Status
+from usd2kg.grounding.context.views import ObjectView, view_objects
+from usd2kg.grounding.model import Concept, Decision, Grounding, Prediction, Status
 from usd2kg.grounding.registry import make_grounder
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.scene import Scene
 
-__all__ = ["add_concepts", "concepts_named"]
+__all__ = ["add_concepts", "apply_decisions", "concepts_named"]
 
 
 def add_concepts(
@@ -40,6 +41,26 @@ def add_concepts(
     return completed, describe_concepts(p.concept for p in completed.values() if p.concept is not None)
 
 
+def apply_decisions(grounding: Grounding, decisions: Mapping[str, Decision], scene: Scene, tbox: TBox) -> Grounding:
+    """Return a grounding with the decisions of people over its predictions, which `Prediction.review` keeps.
+
+    Args:
+        grounding: the predictions, without decisions.
+        decisions: prim path → decision.
+        scene: the scene of the grounding.
+        tbox: the candidate classes.
+    """
+    decided = {
+        p.prim_path: p.reviewed(made.class_iri, made.reviewer, confidence=1.0, comment=made.comment, time=made.time)
+        for p in grounding.predictions
+        if (made := decisions.get(p.prim_path)) is not None
+    }
+    views = {obj.prim_path: view for obj, view in view_objects(scene) if obj.prim_path in decided}
+    without = {path: replace(p, concept=None, concept_confidence=None) for path, p in decided.items()}
+    renewed, _ = add_concepts(without, views, tbox)
+    return replace(grounding, predictions=tuple(renewed.get(p.prim_path, p) for p in grounding.predictions))
+
+
 def concepts_named(noun: str) -> tuple[str, ...]:
     """Return the IRIs of the concepts that a noun or compound may mean, the usual one first; empty if it is unknown."""
     from usd2kg.grounding.lexical import recognition  # noqa: PLC0415
@@ -63,10 +84,12 @@ def _agrees(concept: str, by_words: ClassIRI | None, chosen: ClassIRI | None, tb
     Args:
         concept: the concept that the object's words name.
         by_words: the class that they mean.
-        chosen: the class that the person chose.
+        chosen: the class that the person chose; None if no class fits, whatever the object is.
         tbox: the classes.
     """
-    if by_words is None or chosen is None:
+    if chosen is None:
+        return True
+    if by_words is None:
         return False
     if tbox.is_subclass(by_words, chosen):
         return True

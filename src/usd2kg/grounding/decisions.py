@@ -16,6 +16,7 @@ from usd2kg.grounding.sssom_decisions import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = [
+    "NO_CLASS",
     "PERSON",
     "DecisionOrigin",
     "as_decision",
@@ -27,6 +28,8 @@ __all__ = [
 
 PERSON = "person"
 """The grounder id of decisions."""
+NO_CLASS = "none"
+"""The decision that no class fits, in a CSV file."""
 _EXPECTED = "expected CSV with the columns path and decision (or class)"
 _QUEUE_COLUMNS = ("path", "decision", "reviewer", "comment", "answer", "confidence", "alternatives", "explanation")
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
@@ -36,7 +39,7 @@ _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 def read_decisions(path: Path, tbox: TBox) -> dict[str, Decision]:
     """Return prim path → decision from a CSV file, without the rows whose decision is empty.
 
-    The class is in the column `decision`, or else `class`: an IRI, a CURIE, or a unique local name. The columns
+    The class is in the column `decision`, or else `class`: an IRI, a CURIE, a unique local name, or `none`. The columns
     `reviewer`, `comment` and `time` are optional. A file whose name ends in .tsv is read as SSSOM, see
     `read_sssom_decisions`.
 
@@ -64,7 +67,7 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> dict[str,
         if not prim_path or not name:
             continue
         try:
-            iri = tbox.resolve(name)
+            iri = None if name == NO_CLASS else tbox.resolve(name)
         except OntologyError as error:
             raise GroundingError(f"{path}: line {rows.line_num}: {error}") from error
         reviewer, comment, time = ((row.get(key) or "").strip() for key in ("reviewer", "comment", "time"))

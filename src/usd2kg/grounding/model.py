@@ -54,7 +54,8 @@ class Concept:
 class Decision:
     """The class that a person chose for an object, without knowing or keeping what was predicted."""
 
-    class_iri: ClassIRI
+    class_iri: ClassIRI | None
+    """None if no class fits."""
     reviewer: str = ""
     """Who decided: an IRI such as an ORCID iD, or a name; empty if unknown."""
     comment: str = ""

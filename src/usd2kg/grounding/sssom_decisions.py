@@ -1,21 +1,26 @@
 """Decisions of people in an SSSOM/TSV mapping file, https://mapping-commons.github.io/sssom/spec/."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.model import Decision
-from usd2kg.grounding.sssom_file import SssomFile, read_sssom_file
+from usd2kg.grounding.sssom_file import SssomFile, SssomRow, read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["is_sssom", "read_sssom_decisions"]
+__all__ = ["NO_TERM", "VERDICT", "is_sssom", "read_sssom_decisions"]
 
 logger = logging.getLogger(__name__)
 
+NO_TERM = "https://w3id.org/sssom/NoTermFound"
+"""SSSOM's object of a subject that no class fits."""
+VERDICT = "verdict"
+"""Column of a journal: what a person decided."""
+_DECIDED = ("class", "no-class")
+"""The verdicts that settle the class; `unsure` and `open` do not."""
 _CURATED = "ManualMappingCuration"
 _TYPE = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type"
-_NO_TERM = "https://w3id.org/sssom/NoTermFound"
 _REQUIRED = ("prim_path", "predicate_id", "object_id", "mapping_justification")
 _EXPECTED = "expected SSSOM/TSV with the column prim_path, as usd2kg ground --format sssom writes it"
 
@@ -29,38 +34,53 @@ def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, Decisio
     """Return prim path → decision for the rows that a person curated or reviewed; other rows are ignored.
 
     A reviewed row has a reviewer (reviewer_id or reviewer_label); a curated row has the justification
-    semapv:ManualMappingCuration. Negated rows (predicate_modifier) and sssom:NoTermFound give no class.
+    semapv:ManualMappingCuration. Negated rows (predicate_modifier) give no decision; sssom:NoTermFound is the decision
+    that no class fits. In a journal, which has the column `verdict`, the last row of a prim is valid.
 
     Raises:
         GroundingError: a column is missing, a predicate is not rdf:type, a class is not in scope, or a prim has two.
     """
     file = read_sssom_file(path, text, _REQUIRED, _EXPECTED)
     decisions: dict[str, Decision] = {}
-    for line, cells in file.rows:
-        if not _is_decided(cells) or file.expand(cells["object_id"]) == _NO_TERM:
+    for line, cells in _last_rows(file):
+        if not _is_decided(cells):
             continue
-        iri = _read_class(f"{path}: line {line}", cells, file, tbox)
-        reviewer = file.expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|")
-        decision = Decision(iri, reviewer, time=cells.get("review_date", ""))
-        if decisions.setdefault(cells["prim_path"], decision).class_iri != iri:
-            raise GroundingError(f"{path}: line {line}: {cells['prim_path']} has two decisions; leave one")
+        where = f"{path}: line {line}"
+        decision = Decision(
+            _read_class(where, cells, file, tbox),
+            file.expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|"),
+            comment=cells.get("comment", "") if VERDICT in cells else "",
+            time=cells.get("decided_at") or cells.get("review_date", ""),
+        )
+        if decisions.setdefault(cells["prim_path"], decision).class_iri != decision.class_iri:
+            raise GroundingError(f"{where}: {cells['prim_path']} has two decisions; leave one")
     if file.rows and not decisions:
         problem = "none of its %d rows was decided by a person, so none is a decision; fill in reviewer_label"
         logger.warning(f"%s: {problem}", path, len(file.rows))
     return decisions
 
 
+def _last_rows(file: SssomFile) -> Iterable[SssomRow]:
+    """Return the rows; of a journal the last one of each prim."""
+    if not any(VERDICT in row.cells for row in file.rows):
+        return file.rows
+    return {row.cells["prim_path"]: row for row in file.rows}.values()
+
+
 def _is_decided(cells: Mapping[str, str]) -> bool:
     has_reviewer = bool(cells.get("reviewer_id") or cells.get("reviewer_label"))
     is_curated = cells["mapping_justification"].endswith(_CURATED)
-    return (has_reviewer or is_curated) and not cells.get("predicate_modifier")
+    is_open = cells.get(VERDICT, _DECIDED[0]) not in _DECIDED
+    return (has_reviewer or is_curated) and not cells.get("predicate_modifier") and not is_open
 
 
-def _read_class(where: str, cells: Mapping[str, str], file: SssomFile, tbox: TBox) -> ClassIRI:
+def _read_class(where: str, cells: Mapping[str, str], file: SssomFile, tbox: TBox) -> ClassIRI | None:
     if not cells["prim_path"]:
         raise GroundingError(f"{where}: prim_path is empty; {_EXPECTED}")
     if file.expand(cells["predicate_id"]) != _TYPE:
         raise GroundingError(f"{where}: the predicate is {cells['predicate_id']!r}; expected rdf:type, or no reviewer")
+    if file.expand(cells["object_id"]) == NO_TERM:
+        return None
     try:
         return tbox.resolve(file.expand(cells["object_id"]))
     except OntologyError as error:

@@ -3,7 +3,7 @@
 from usd2kg.labels.class_labels import LABEL_STYLES, label_maker
 from usd2kg.labels.layer import write_labels
 from usd2kg.labels.model import LABEL_MODES, OUTCOMES, ClassLabel, LabelMode, LabelOptions, LabelOutcome, LabelReport
-from usd2kg.labels.prim_classes import PrimClass, PrimClasses, read_prim_classes
+from usd2kg.labels.prim_classes import PrimClass, PrimClasses, classes_of_grounding, read_prim_classes
 from usd2kg.labels.stage_labels import label_stage
 from usd2kg.labels.stage_lint import LabelLint, lint_stage
 from usd2kg.labels.survey import LabelledPrim, LabelSurvey, survey_labels
@@ -22,6 +22,7 @@ __all__ = [
     "LabelledPrim",
     "PrimClass",
     "PrimClasses",
+    "classes_of_grounding",
     "label_maker",
     "label_stage",
     "lint_stage",

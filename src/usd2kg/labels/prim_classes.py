@@ -11,11 +11,11 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.graph.vocabulary import OWL, RDF, SKOS, SSSOM, U2K
-from usd2kg.grounding import PERSON, Status, read_grounding
+from usd2kg.grounding import PERSON, Grounding, Status, read_grounding
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.query import GraphStore, load_graph
 
-__all__ = ["PrimClass", "PrimClasses", "read_prim_classes"]
+__all__ = ["PrimClass", "PrimClasses", "classes_of_grounding", "read_prim_classes"]
 
 _OTHER_COLUMNS = ("confidence", "status", "grounder", "concept_label")
 _EXPECTED = "expected CSV with the columns path and class (or decision)"
@@ -100,13 +100,20 @@ def _parse_confidence(where: str, prim_path: str, value: object) -> float | None
     return number
 
 
-def _read_grounding_file(path: Path) -> Iterator[tuple[str, PrimClass]]:
-    grounding = read_grounding(path)
+def classes_of_grounding(grounding: Grounding) -> PrimClasses:
+    """Return the classes of a grounding as those of prims."""
+    entries = []
     for p in grounding.predictions:
-        confidence = _parse_confidence(str(path), p.prim_path, p.confidence)
         concept = grounding.concepts.get(p.concept or "")
         label, is_reviewed = concept.label if concept else "", p.status is Status.REVIEWED
-        yield str(path), PrimClass(p.prim_path, p.class_iri, confidence, p.status.value, is_reviewed, label)
+        entries.append(PrimClass(p.prim_path, p.class_iri, p.confidence, p.status.value, is_reviewed, label))
+    return PrimClasses(grounding.scene, tuple(entries))
+
+
+def _read_grounding_file(path: Path) -> Iterator[tuple[str, PrimClass]]:
+    for entry in classes_of_grounding(read_grounding(path)).entries:
+        _parse_confidence(str(path), entry.prim_path, entry.confidence)
+        yield str(path), entry
 
 
 def _read_csv(path: Path) -> Iterator[tuple[str, PrimClass]]:

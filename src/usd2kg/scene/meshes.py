@@ -1,6 +1,6 @@
 """Visible triangles of a stage with their colours, in metres and z-up."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -15,7 +15,7 @@ from usd2kg.scene.settings import MAX_COORDINATE, MESHES
 from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.stage import OpenedStage
 
-__all__ = ["NEUTRAL_GREY", "ObjectMesh", "iterate_meshes", "points_to_metres", "read_mesh"]
+__all__ = ["NEUTRAL_GREY", "MeshPiece", "MeshReader", "ObjectMesh", "iterate_meshes", "points_to_metres", "read_mesh"]
 
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -56,7 +56,9 @@ class _LocalMesh(NamedTuple):
     """Index of the mesh face of each triangle."""
 
 
-class _Piece(NamedTuple):
+class MeshPiece(NamedTuple):
+    """The triangles of one gprim with one look, in the stage's units and axes."""
+
     path: str
     points: Points
     triangles: Triangles
@@ -85,7 +87,7 @@ def iterate_meshes(
     Raises:
         SceneError: a path is not on the stage.
     """
-    reader = _MeshReader(opened.stage, time or Usd.TimeCode.EarliestTime(), diagnostics)
+    reader = MeshReader(opened.stage, time or Usd.TimeCode.EarliestTime(), diagnostics)
     for root, copy in _roots(opened.stage, root_paths):
         for piece in reader.below(root, copy=copy):
             points = np.ascontiguousarray(points_to_metres(piece.points, opened.frame), dtype=np.float32)
@@ -115,7 +117,7 @@ def points_to_metres(points: Points, frame: StageFrame) -> Points:
     return world if frame.up_axis == "Z" else np.stack([world[:, 0], -world[:, 2], world[:, 1]], axis=1)
 
 
-class _MeshReader:
+class MeshReader:
     """Reads gprims one by one, with caches for transforms, shared meshes and materials."""
 
     def __init__(self, stage: Any, time: Usd.TimeCode, notes: list[Diagnostic] | None) -> None:
@@ -127,8 +129,23 @@ class _MeshReader:
         self.looks: dict[Any, _Look] = {}
         self.copied_triangles_left = MESHES.max_copied_triangles
 
-    def below(self, root: Any, space: Any = None, depth: int = 0, copy: int | None = None) -> Iterator[_Piece]:
-        """Yield the gprims at and below `root`, with points in the frame of the prim `space`, or of the world."""
+    def below(
+        self,
+        root: Any,
+        space: Any = None,
+        depth: int = 0,
+        copy: int | None = None,
+        without: Container[str] = frozenset(),
+    ) -> Iterator[MeshPiece]:
+        """Yield the gprims at and below `root`, with points in the frame of the prim `space`, or of the world.
+
+        Args:
+            root: where to start.
+            space: a prim at or above `root`; None for the world.
+            depth: number of point instancers around it.
+            copy: id of the only copy to draw, if `root` is a point instancer.
+            without: paths of prims that are left out with all that is below them.
+        """
         above = root.GetParent()
         while space is None and above:
             if self._is_invisible(above):
@@ -137,6 +154,9 @@ class _MeshReader:
         predicate = Usd.PrimDefaultPredicate if space is None else Usd.PrimIsActive & Usd.PrimIsLoaded
         prims = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies(predicate)))
         for prim in prims:
+            if without and str(prim.GetPath()) in without:
+                prims.PruneChildren()
+                continue
             is_instancer = prim.IsA(UsdGeom.PointInstancer)
             if is_instancer or self._is_invisible(prim):
                 prims.PruneChildren()
@@ -155,9 +175,9 @@ class _MeshReader:
     def _is_drawn(self, prim: Any) -> bool:
         return not self._is_invisible(prim) and UsdGeom.Imageable(prim).ComputePurpose() in _PURPOSES
 
-    def _pieces(self, prim: Any, space: Any) -> Iterator[_Piece]:
+    def _pieces(self, prim: Any, space: Any) -> Iterator[MeshPiece]:
         mesh = self._local_mesh(prim)
-        matrix = self._matrix(prim, space)
+        matrix = self.matrix(prim, space)
         if mesh is None or not len(mesh.triangles):
             return
         if not np.isfinite(matrix).all():
@@ -167,14 +187,15 @@ class _MeshReader:
         # Mirroring inverts the winding.
         triangles = mesh.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else mesh.triangles
         for look, chosen in self._looks_of(prim, mesh):
-            yield _Piece(str(prim.GetPath()), points, triangles if chosen is None else triangles[chosen], look)
+            yield MeshPiece(str(prim.GetPath()), points, triangles if chosen is None else triangles[chosen], look)
 
-    def _matrix(self, prim: Any, space: Any) -> Points:
+    def matrix(self, prim: Any, space: Any = None) -> Points:
+        """Return the transform of a prim (4, 4), for row vectors, to the frame of a prim above it, or to the world."""
         if space is None:
             return np.array(self.xforms.GetLocalToWorldTransform(prim))
         return np.eye(4) if prim == space else np.array(self.xforms.ComputeRelativeTransform(prim, space)[0])
 
-    def _copies(self, prim: Any, space: Any, depth: int, copy: int | None) -> Iterator[_Piece]:
+    def _copies(self, prim: Any, space: Any, depth: int, copy: int | None) -> Iterator[MeshPiece]:
         if depth >= MESHES.max_instancer_depth:
             self._note(prim, f"point instancers are nested more than {MESHES.max_instancer_depth} deep")
             return
@@ -186,7 +207,7 @@ class _MeshReader:
         if len(placed) != len(prototype_of):
             self._note(prim, f"{len(prototype_of)} copies, but {len(placed)} positions")
             return
-        matrices = np.array(placed).reshape(-1, 4, 4) @ self._matrix(prim, space)
+        matrices = np.array(placed).reshape(-1, 4, 4) @ self.matrix(prim, space)
         is_shown = np.isfinite(matrices).all(axis=(1, 2))
         if mask := instancer.ComputeMaskAtTime(self.time):
             is_shown &= _array(mask, np.bool_)
@@ -298,13 +319,13 @@ class _MeshReader:
             self.notes.append(Diagnostic(code, f"{problem}; not in pictures", str(prim.GetPath())))
 
 
-def _scatter(path: str, piece: _Piece, matrices: Points) -> _Piece:
+def _scatter(path: str, piece: MeshPiece, matrices: Points) -> MeshPiece:
     points = piece.points @ matrices[:, :3, :3] + matrices[:, 3, None, :3]
     offsets = np.arange(len(matrices), dtype=np.int32)[:, None, None] * len(piece.points)
     triangles = np.where(
         (np.linalg.det(matrices[:, :3, :3]) < 0)[:, None, None], piece.triangles[:, ::-1], piece.triangles
     )
-    return _Piece(path, points.reshape(-1, 3), (triangles + offsets).reshape(-1, 3), piece.look)
+    return MeshPiece(path, points.reshape(-1, 3), (triangles + offsets).reshape(-1, 3), piece.look)
 
 
 def _array(values: Any, dtype: Any) -> NDArray[Any]:

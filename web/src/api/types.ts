@@ -105,6 +105,14 @@ export interface States {
   /** Whether this reviewer can undo or redo. */
   can_undo: boolean;
   can_redo: boolean;
+  outputs: Outputs;
+}
+
+/** The files in the project folder that follow the decisions. */
+export interface Outputs {
+  folder: string;
+  /** Why they are not up to date; empty if they are, or will be in a moment. */
+  problem: string;
 }
 
 /** `GET /api/object/{index}`. */
@@ -130,9 +138,19 @@ export interface ObjectPage {
   concept: { iri: string; label: string; confidence: number | null; hypernyms: string[] } | null;
   relations: RelationRecord[];
   /** All decisions about the object, oldest first. */
-  history: { event: number; action: string; class: ClassIndex; reviewer: string; time: string; comment: string }[];
-  /** The statements about the object in Turtle. */
+  history: HistoryEntry[];
+  /** The statements about the object in Turtle, as of the last graph; empty before the first. */
   turtle: string;
+}
+
+export interface HistoryEntry {
+  event: number;
+  action: "decide" | "undo" | "redo";
+  verdict: "open" | "class" | "no-class" | "unsure";
+  class: ClassIndex;
+  reviewer: string;
+  time: string;
+  comment: string;
 }
 
 export interface Candidate {
@@ -206,6 +224,7 @@ export interface DecisionReply {
   states: ObjectState[];
   can_undo: boolean;
   can_redo: boolean;
+  outputs: Outputs;
   /** What happened, for the status line: “Confirmed 4 objects as Cup”. */
   message: string;
 }
@@ -224,8 +243,9 @@ export interface AskReply {
   sentence: string;
   columns: string[];
   rows: (string | number | null)[][];
-  /** Objects of the rows. */
+  /** Object of each row, -1 if the row names none. */
   objects: ObjectIndex[];
+  is_cut: boolean;
 }
 
 /** `POST /api/sparql` with {query}: a table; errors are `ApiError`. */
@@ -236,6 +256,8 @@ export interface SparqlReply {
   objects: ObjectIndex[];
   is_cut: boolean;
   milliseconds: number;
+  /** A line for each name that the graph does not have. */
+  hints: string[];
 }
 
 /** `GET /api/examples`: SPARQL queries about this scene. */
@@ -246,7 +268,7 @@ export interface ExampleQuery {
 
 /** `GET /api/geometry`: the parts of the scene's meshes; each is `GET /api/geometry/{index}.glb`. */
 export interface GeometryManifest {
-  chunks: { bytes: number; triangles: number }[];
+  chunks: { triangles: number }[];
   triangles: number;
   /** Triangles before decimation. */
   source_triangles: number;

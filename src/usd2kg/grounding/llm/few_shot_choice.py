@@ -14,12 +14,14 @@ __all__ = ["choose_examples"]
 
 
 def choose_examples(scene: Scene, decisions: Mapping[str, ClassIRI | Decision], limit: int) -> list[Example]:
-    """Return at most `limit` decided objects: the first of each class, then the second of each, and so on."""
+    """Return at most `limit` objects with a decided class: the first of each class, then the second, and so on."""
     seen: Counter[ClassIRI] = Counter()
     ranked: list[tuple[int, str, Example]] = []
     for obj, view in view_objects(scene):
         if (decision := decisions.get(obj.prim_path)) is not None:
             iri = as_decision(decision).class_iri
+            if iri is None:
+                continue
             seen[iri] += 1
             ranked.append((seen[iri], obj.prim_path, Example(view, iri)))
     return [example for _, _, example in sorted(ranked, key=lambda row: row[:2])[:limit]]

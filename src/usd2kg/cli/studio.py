@@ -1,0 +1,89 @@
+"""usd2kg studio: look at a scene and review its classes in the browser."""
+
+import signal
+import webbrowser
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from usd2kg.cli.options.bundles import expand_bundles
+from usd2kg.cli.options.common import BaseIri, OntologyFile
+from usd2kg.cli.options.stage import StageOptions
+from usd2kg.cli.output import notify
+from usd2kg.errors import OutputError
+
+__all__ = ["studio_command"]
+
+
+@expand_bundles
+def studio_command(
+    target: Annotated[Path, Argument(metavar="SCENE|FOLDER", help="A USD stage, or the folder of a project.")],
+    reading: StageOptions,
+    ontology: OntologyFile = None,
+    run: Annotated[
+        Path | None,
+        Option("--run", help="Grounding to review, from usd2kg ground -o RUN.json; default: ground with --grounder."),
+    ] = None,
+    grounder: Annotated[
+        str, Option("--grounder", help="Grounder: lexical, dictionary, embedding or volume.")
+    ] = "lexical",
+    alignment: Annotated[
+        Path | None,
+        Option("--alignment", help="Edited file of usd2kg ontology align, for the lexical grounder; default: built."),
+    ] = None,
+    base: BaseIri = None,
+    project: Annotated[
+        Path | None,
+        Option("--project", help="Folder of decisions and outputs; default: SCENE.studio in the current folder."),
+    ] = None,
+    reviewer: Annotated[
+        str | None,
+        Option("--reviewer", help="Name or ORCID iD of the reviewer; the page can change it. Default: login name."),
+    ] = None,
+    host: Annotated[
+        str,
+        Option(
+            "--host",
+            help="Address to listen on; 127.0.0.1 accepts local connections only. Others need a password in "
+            "USD2KG_STUDIO_PASSWORD.",
+        ),
+    ] = "127.0.0.1",
+    port: Annotated[int, Option("--port", min=0, max=65535, help="Port; 0 chooses a free one.")] = 7879,
+    allow_host: Annotated[
+        list[str] | None,
+        Option(
+            "--allow-host",
+            metavar="NAME",
+            help="Host name accepted in requests in addition to localhost. Repeatable; default: none.",
+        ),
+    ] = None,
+    no_browser: Annotated[bool, Option("--no-browser", help="Do not open the browser; print the address.")] = False,
+) -> None:
+    """Open a scene in the browser: see it, review classes, ask questions, export. Until Ctrl+C."""
+    from usd2kg.endpoint.listening import is_loopback  # noqa: PLC0415
+    from usd2kg.studio import ProjectSources, StudioOptions, open_project, serve_studio  # noqa: PLC0415 - OpenUSD
+
+    sources = None
+    if target.is_dir():
+        if project is not None:
+            raise OutputError(f"--project {project}: {target} is a project already; name one of them")
+        folder = target
+    else:
+        folder = project or Path(f"{target.stem}.studio")
+        sources = ProjectSources(target, ontology, run, grounder, alignment, base, reading.read_options())
+
+    def report(address: str) -> None:
+        notify(f"studio at {address}")
+        notify(f"decisions and outputs in {folder}")
+        if not no_browser:
+            webbrowser.open(address)
+
+    # Service managers stop it with SIGTERM. As after Ctrl+C, the outputs are written first.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    options = StudioOptions(host, port, allow_host or (), reviewer)
+    try:
+        with open_project(folder, sources) as opened:
+            serve_studio(opened, options, is_local=is_loopback(host), when_ready=report)
+    except KeyboardInterrupt:
+        notify("stopped")

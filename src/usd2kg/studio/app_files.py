@@ -1,0 +1,56 @@
+"""The built page, see `web/`: its files by URL path."""
+
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from typing import NamedTuple
+
+from usd2kg.errors import OutputError
+
+__all__ = ["PAGE_POLICY", "AppFile", "read_app_files"]
+
+PAGE_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' blob:; "
+    "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+"""Content-Security-Policy of the page: only its own files."""
+
+_TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".svg": "image/svg+xml",
+    ".woff2": "font/woff2",
+    ".png": "image/png",
+}
+
+
+class AppFile(NamedTuple):
+    """One file of the page."""
+
+    content: bytes
+    media_type: str
+
+
+def read_app_files() -> dict[str, AppFile]:
+    """Return URL path → file. Only these are served, so that no request reaches another file.
+
+    Raises:
+        OutputError: the page is not built.
+    """
+    folder = files("usd2kg.studio") / "app"
+    if not (folder / "index.html").is_file():
+        raise OutputError(
+            "studio: the page is not built; install usd2kg from a wheel, or run make web (it needs Node.js)"
+        )
+    found = {f"/{path}": file for path, file in _walk(folder, "")}
+    return {"/": found["/index.html"], **found}
+
+
+def _walk(folder: Traversable, prefix: str) -> list[tuple[str, AppFile]]:
+    found: list[tuple[str, AppFile]] = []
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        if entry.is_dir():
+            found += _walk(entry, f"{prefix}{entry.name}/")
+        elif (media_type := _TYPES.get("." + entry.name.rpartition(".")[2])) is not None:
+            found.append((f"{prefix}{entry.name}", AppFile(entry.read_bytes(), media_type)))
+    return found

@@ -1,0 +1,313 @@
+"""make_app: the ASGI application of the studio. Each route has a record in `web/src/api/types.ts`."""
+
+import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
+from concurrent.futures import Future
+from contextlib import asynccontextmanager
+from typing import Any, TypeVar
+
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.routing import Route
+
+from usd2kg.endpoint.guard import Guard
+from usd2kg.errors import Usd2kgError
+from usd2kg.studio.access import KeyGate
+from usd2kg.studio.app_files import PAGE_POLICY, AppFile
+from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.exports import EXPORTS
+from usd2kg.studio.live_events import LiveEvents
+from usd2kg.studio.object_page import object_page, relation_json
+from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.outputs import OutputFiles
+from usd2kg.studio.pictures import Pictures
+from usd2kg.studio.questions import Questions
+from usd2kg.studio.requests import BadRequestError, field, object_indices, read_body
+from usd2kg.studio.review_queue import QUEUE_ORDERS, estimate_seconds, make_queue
+from usd2kg.studio.scene_json import scene_json, state_json
+from usd2kg.studio.session import StudioSession
+from usd2kg.studio.verdicts import Verdict, VerdictKind
+
+__all__ = ["make_app"]
+
+_T = TypeVar("_T")
+Handler = Callable[[Request], Awaitable[Response]]
+
+
+def make_app(
+    session: StudioSession,
+    files: dict[str, AppFile],
+    *,
+    key: str,
+    reviewer: str,
+    hosts: Iterable[str] = (),
+    when_ready: Callable[[], None] = lambda: None,
+) -> Starlette:
+    """Return the application.
+
+    Args:
+        session: the scene under review.
+        files: the page, by URL path.
+        key: the access key that requests for data must carry.
+        reviewer: the name that the page suggests for the reviewer.
+        hosts: host names that are served in addition to localhost and IP addresses.
+        when_ready: called when requests are answered.
+    """
+    api = _Api(session, reviewer)
+
+    @asynccontextmanager
+    async def lifespan(_: Starlette) -> AsyncIterator[None]:
+        when_ready()
+        yield
+        await asyncio.to_thread(api.close)
+
+    def serve_file(file: AppFile) -> Handler:
+        async def serve(_: Request) -> Response:
+            return Response(file.content, media_type=file.media_type, headers={"Content-Security-Policy": PAGE_POLICY})
+
+        return serve
+
+    return Starlette(
+        routes=[
+            *(Route(path, serve_file(file)) for path, file in files.items()),
+            *(Route(f"/api{path}", _checked(handler), methods=[method]) for method, path, handler in api.routes()),
+        ],
+        middleware=[Middleware(Guard, hosts=tuple(hosts), origins=()), Middleware(KeyGate, key=key)],
+        lifespan=lifespan,
+    )
+
+
+def _checked(handler: Handler) -> Handler:
+    """Return a handler whose errors are JSON."""
+
+    async def checked(request: Request) -> Response:
+        try:
+            return await handler(request)
+        except BadRequestError as error:
+            return JSONResponse({"error": str(error)}, error.status)
+        except Usd2kgError as error:
+            return JSONResponse({"error": str(error)}, 422)
+
+    return checked
+
+
+class _Api:
+    """The handlers of requests for data."""
+
+    def __init__(self, session: StudioSession, reviewer: str) -> None:
+        self._session = session
+        self._catalog = Catalog(session.scene, session.tbox, session.suggestions, session.relations)
+        self._reviewer = reviewer
+        self._events = LiveEvents()
+        self._pictures = Pictures(session, self._catalog)
+        self._questions = Questions(session, self._catalog)
+        self._outputs = OutputFiles(session)
+
+    def routes(self) -> list[tuple[str, str, Handler]]:
+        """Return (method, path, handler)."""
+        return [
+            ("GET", "/scene", self._scene),
+            ("GET", "/states", self._states),
+            ("GET", "/object/{index:int}", self._object),
+            ("GET", "/relations", self._relations),
+            ("GET", "/queue", self._queue),
+            ("GET", "/events", self._stream),
+            ("GET", "/geometry", self._geometry),
+            ("GET", "/geometry/{index:int}.glb", self._geometry_file),
+            ("GET", "/thumbnail/{index:int}.png", self._thumbnail),
+            ("GET", "/examples", self._examples),
+            ("GET", "/export/{name}", self._export),
+            ("POST", "/decisions", self._decide),
+            ("POST", "/undo", self._undo),
+            ("POST", "/redo", self._redo),
+            ("POST", "/ask", self._ask),
+            ("POST", "/sparql", self._sparql),
+        ]
+
+    def close(self) -> None:
+        """Write the files, and stop all threads."""
+        self._events.close()
+        self._outputs.close()
+        self._questions.close()
+        self._pictures.close()
+
+    # The scene.
+
+    async def _scene(self, _: Request) -> Response:
+        return JSONResponse(scene_json(self._session, self._catalog, self._reviewer))
+
+    async def _states(self, request: Request) -> Response:
+        reviewer = request.query_params.get("reviewer", self._reviewer)
+        return JSONResponse(self._reply(self._session.states(), reviewer))
+
+    def _reply(self, states: list[ObjectState], reviewer: str) -> dict[str, Any]:
+        return {
+            "version": self._session.version,
+            "states": [state_json(state, self._catalog) for state in states],
+            "can_undo": self._session.review.can_undo(reviewer),
+            "can_redo": self._session.review.can_redo(reviewer),
+            "outputs": {"folder": str(self._outputs.folder), "problem": self._outputs.problem},
+        }
+
+    async def _object(self, request: Request) -> Response:
+        index = self._index(request)
+        return JSONResponse(object_page(self._session, self._catalog, index))
+
+    def _index(self, request: Request) -> int:
+        index = int(request.path_params["index"])
+        if index >= len(self._session.scene.objects):
+            raise BadRequestError(f"there is no object {index}", 404)
+        return index
+
+    async def _relations(self, request: Request) -> Response:
+        kind = request.query_params.get("kind", "")
+        found = [relation_json(r, self._catalog) for r in self._session.relations if r.kind == kind]
+        return JSONResponse({"relations": found})
+
+    # Review.
+
+    async def _queue(self, request: Request) -> Response:
+        order = request.query_params.get("order", QUEUE_ORDERS[0])
+        if order not in QUEUE_ORDERS:
+            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(QUEUE_ORDERS)}")
+        states = self._session.states()
+        groups = make_queue(states, self._session.scene.by_path, self._catalog.room_of, order)
+        still_open = sum(state.status.is_open for state in states)
+        return JSONResponse(
+            {
+                "groups": [
+                    {
+                        "id": group.id,
+                        "title": group.title,
+                        "objects": [self._catalog.object(path) for path in group.objects],
+                        "suggested": self._catalog.class_(group.suggested),
+                        "concept": self._catalog.concept(group.concept),
+                        "confidence": group.confidence,
+                        "gain": group.gain,
+                    }
+                    for group in groups
+                ],
+                "open": still_open,
+                "decided": len(states) - still_open,
+                "seconds_left": estimate_seconds(self._session.journal.events, len(groups)),
+            }
+        )
+
+    async def _decide(self, request: Request) -> Response:
+        body = await read_body(request)
+        objects = self._session.scene.objects
+        paths = [objects[index].prim_path for index in object_indices(body, len(objects))]
+        reviewer = _reviewer(body)
+        comment, seen = field(body, "comment", str, ""), field(body, "seen", int, self._session.version)
+        action = field(body, "action", str)
+        changed: list[ObjectState] = []
+        for verdict, chosen in self._verdicts(action, body, paths, comment):
+            changed += await asyncio.to_thread(self._session.decide, chosen, verdict, reviewer, seen)
+        return self._announce(changed, reviewer, f"{action} {len(changed)} objects")
+
+    def _verdicts(
+        self, action: str, body: dict[str, Any], paths: list[str], comment: str
+    ) -> list[tuple[Verdict, list[str]]]:
+        """Return the verdicts of a request, each with its objects."""
+        kinds = {"unsure": VerdictKind.UNSURE, "no-class": VerdictKind.NO_CLASS, "clear": VerdictKind.OPEN}
+        if action in kinds:
+            return [(Verdict(kinds[action], comment=comment), paths)]
+        if action == "choose":
+            index = field(body, "class", int)
+            if not 0 <= index < len(self._session.tbox.classes):
+                raise BadRequestError(f"field class: {index} is no class")
+            iri = self._session.tbox.classes[index].iri
+            return [(Verdict(VerdictKind.CLASS, iri, comment=comment), paths)]
+        if action != "confirm":
+            raise BadRequestError(
+                f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
+            )
+        suggested: dict[str, list[str]] = {}
+        for path in paths:
+            suggestion = self._session.predictions[path].class_iri
+            if suggestion is None:
+                raise BadRequestError(f"{path}: has no suggestion to confirm; choose a class")
+            suggested.setdefault(suggestion, []).append(path)
+        return [(Verdict(VerdictKind.CLASS, iri, comment=comment), same) for iri, same in suggested.items()]
+
+    async def _undo(self, request: Request) -> Response:
+        reviewer = _reviewer(await read_body(request))
+        return self._announce(await asyncio.to_thread(self._session.undo, reviewer), reviewer, "undo")
+
+    async def _redo(self, request: Request) -> Response:
+        reviewer = _reviewer(await read_body(request))
+        return self._announce(await asyncio.to_thread(self._session.redo, reviewer), reviewer, "redo")
+
+    def _announce(self, changed: list[ObjectState], reviewer: str, message: str) -> Response:
+        reply = {**self._reply(changed, reviewer), "message": message}
+        self._events.publish({key: reply[key] for key in ("version", "states", "message")} | {"reviewer": reviewer})
+        self._outputs.notify()
+        return JSONResponse(reply)
+
+    async def _stream(self, request: Request) -> Response:
+        """Stream the changes; a page that has missed some gets the states of all objects first."""
+        since = request.query_params.get("since", "")
+        first = ""
+        if since.isdecimal() and int(since) < self._session.version:
+            first = LiveEvents.format(
+                {
+                    "version": self._session.version,
+                    "reviewer": "",
+                    "message": "",
+                    "states": [state_json(state, self._catalog) for state in self._session.states()],
+                }
+            )
+        return StreamingResponse(self._events.listen(first), media_type="text/event-stream")
+
+    # Pictures.
+
+    async def _geometry(self, _: Request) -> Response:
+        return JSONResponse((await _wait(self._pictures.geometry())).manifest())
+
+    async def _geometry_file(self, request: Request) -> Response:
+        try:
+            content = await _wait(self._pictures.file(int(request.path_params["index"])))
+        except IndexError as error:
+            raise BadRequestError("there is no such file", 404) from error
+        return Response(content, media_type="model/gltf-binary")
+
+    async def _thumbnail(self, request: Request) -> Response:
+        return Response(await _wait(self._pictures.thumbnail(self._index(request))), media_type="image/png")
+
+    # Questions and files.
+
+    async def _ask(self, request: Request) -> Response:
+        question = field(await read_body(request), "question", str)
+        return JSONResponse(await asyncio.to_thread(self._questions.ask, question))
+
+    async def _sparql(self, request: Request) -> Response:
+        query = field(await read_body(request), "query", str)
+        return JSONResponse(await asyncio.to_thread(self._questions.sparql, query))
+
+    async def _examples(self, _: Request) -> Response:
+        return JSONResponse(await asyncio.to_thread(self._questions.examples))
+
+    async def _export(self, request: Request) -> Response:
+        name = request.path_params["name"]
+        export = EXPORTS.get(name)
+        if export is None:
+            raise BadRequestError(f"there is no export {name[:40]!r}; expected one of {', '.join(EXPORTS)}", 404)
+        content = await asyncio.to_thread(export.write, self._session)
+        return Response(
+            content,
+            media_type=f"{export.media_type}; charset=utf-8",
+            headers={"Content-Disposition": f'attachment; filename="{name}"'},
+        )
+
+
+def _reviewer(body: dict[str, Any]) -> str:
+    reviewer = field(body, "reviewer", str).strip()
+    if not reviewer or not reviewer.isprintable():
+        raise BadRequestError("field reviewer: expected a name or an IRI such as an ORCID iD")
+    return reviewer
+
+
+async def _wait(future: "Future[_T]") -> _T:
+    return await asyncio.wrap_future(future)

@@ -1,0 +1,217 @@
+"""Journal: the decisions of reviewers in an SSSOM/TSV file that only grows.
+
+Each row is one change of one object. The file is a valid input of `--decisions`: of several rows about a prim, the last
+is valid. Rows of one event are written at once and are on disk before `append` returns. A last row without line break,
+which a crash can leave, is dropped.
+"""
+
+import csv
+import io
+import os
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from usd2kg.errors import GroundingError, OutputError, one_line
+from usd2kg.graph.iris import individual_iri
+from usd2kg.graph.vocabulary import PREFIXES, named_node
+from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT
+from usd2kg.grounding.sssom_file import Curies, SssomFile, format_sssom_file, read_sssom_file
+from usd2kg.ontology import TBox
+from usd2kg.studio.verdicts import Action, Change, Event, Verdict, VerdictKind
+
+__all__ = ["Journal"]
+
+_COLUMNS = (
+    *("subject_id", "predicate_id", "object_id", "object_label", "mapping_justification"),
+    *("reviewer_id", "reviewer_label", "review_date", "comment"),
+    *("prim_path", VERDICT, "decided_at", "before"),
+    *("event", "action", "actor", "time", "seen", "reverts"),
+)
+_EXTENSIONS = {
+    "prim_path": "u2k:primPath",
+    VERDICT: "u2k:verdict",
+    "decided_at": "dcterms:created",
+    "before": "u2k:verdictBefore",
+    "event": "u2k:event",
+    "action": "u2k:action",
+    "actor": "dcterms:contributor",
+    "time": "dcterms:modified",
+    "seen": "u2k:seenEvent",
+    "reverts": "u2k:revertedEvent",
+}
+_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-6:])
+_EXPECTED = "expected the decisions of a studio project"
+_ORCID = "https://orcid.org/"
+_CURATED = "semapv:ManualMappingCuration"
+_REVIEWED = "semapv:MappingReview"
+"""Justification of verdicts that give no class."""
+
+
+class Journal:
+    """The file of events of one project. Only one process may have it open, see `Project`."""
+
+    def __init__(self, path: Path, base: str, tbox: TBox) -> None:
+        """Open the journal, or start it.
+
+        Args:
+            path: the file.
+            base: namespace of the individuals.
+            tbox: the classes.
+
+        Raises:
+            GroundingError: the file is not a journal.
+            OutputError: it cannot be written.
+        """
+        self.path = path
+        self._base = base
+        self._tbox = tbox
+        try:
+            if not path.exists() or not path.stat().st_size:
+                path.write_bytes(_header(base, tbox).encode())
+                _sync_folder(path.parent)
+            data = _drop_torn_row(path)
+            # Unbuffered, so that a failed write leaves nothing to be written later.
+            self._file = path.open("ab", buffering=0)
+        except OSError as error:
+            raise OutputError(f"{path}: cannot be opened ({error.strerror}); check its permissions") from error
+        try:
+            file = read_sssom_file(path, data.decode(), _REQUIRED, _EXPECTED)
+        except UnicodeDecodeError as error:
+            raise GroundingError(f"{path}: is not UTF-8 ({error}); {_EXPECTED}") from error
+        self._prefixes = file.prefixes
+        self.events = _read_events(file, path)
+
+    def append(self, event: Event, before: Mapping[str, Verdict]) -> None:
+        """Write an event to disk.
+
+        Args:
+            event: the event; its number follows that of the last one.
+            before: prim path → verdict that was valid before.
+
+        Raises:
+            OutputError: the disk is full or the file is gone; nothing was recorded.
+        """
+        text = io.StringIO(newline="")
+        writer = csv.DictWriter(text, _COLUMNS, delimiter="\t", lineterminator="\n")
+        writer.writerows(self._row(event, change, before[change.prim_path]) for change in event.changes)
+        size = os.fstat(self._file.fileno()).st_size
+        try:
+            _write_all(self._file, text.getvalue().encode())
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            self._file.truncate(size)
+            raise OutputError(f"{self.path}: the decision is not saved ({error.strerror}); free some space") from error
+        self.events.append(event)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def _row(self, event: Event, change: Change, before: Verdict) -> dict[str, str]:
+        verdict = change.verdict
+        known = self._tbox.by_iri.get(verdict.class_iri or "")
+        # An undo restores a verdict of somebody else; who gives none is the actor.
+        reviewer = verdict.reviewer or event.reviewer
+        has_id = named_node(reviewer) is not None
+        is_settled = verdict.kind in {VerdictKind.CLASS, VerdictKind.NO_CLASS}
+        return {
+            "subject_id": self._shorten(individual_iri(self._base, change.prim_path)),
+            "predicate_id": "rdf:type",
+            "object_id": self._shorten(verdict.class_iri or NO_TERM),
+            "object_label": one_line(known.label) if known is not None else "",
+            "mapping_justification": _CURATED if is_settled else _REVIEWED,
+            "reviewer_id": self._shorten(reviewer) if has_id else "",
+            "reviewer_label": "" if has_id else one_line(reviewer).replace("|", r"\|"),
+            "review_date": (verdict.time or event.time)[:10],
+            "comment": one_line(verdict.comment),
+            "prim_path": change.prim_path,
+            VERDICT: verdict.kind.value,
+            "decided_at": verdict.time,
+            "before": before.class_iri or before.kind.value,
+            "event": str(event.number),
+            "action": event.action.value,
+            "actor": one_line(event.reviewer),
+            "time": event.time,
+            "seen": str(event.seen),
+            "reverts": str(event.reverts or ""),
+        }
+
+    def _shorten(self, iri: str) -> str:
+        """Return the CURIE of an IRI; the IRI itself if the header does not declare its prefix."""
+        curie = Curies(self._prefixes).shorten(iri)
+        return curie if curie.partition(":")[0] in self._prefixes else iri
+
+
+def _header(base: str, tbox: TBox) -> str:
+    """Return an empty journal. It declares all prefixes that rows need: rows are appended, the header stays."""
+    curies = Curies({**PREFIXES, "orcid": _ORCID, "scene": base}, used=("dcterms", "orcid", "scene", "u2k", "xsd"))
+    for cls in tbox.classes:
+        curies.shorten(cls.iri)
+    header = {
+        "mapping_set_id": individual_iri(base, "/", "decisions"),
+        "mapping_set_title": "Decisions of reviewers",
+        "mapping_tool": "usd2kg",
+        "license": "https://w3id.org/sssom/license/unspecified",
+        "subject_type": "owl named individual",
+        "object_type": "owl class",
+        "predicate_type": "rdf property",
+    }
+    return format_sssom_file(header, curies, _EXTENSIONS, _COLUMNS, ())
+
+
+def _drop_torn_row(path: Path) -> bytes:
+    """Return the content of a journal; a last row without line break is removed from the file."""
+    data = path.read_bytes()
+    whole = data[: data.rfind(b"\n") + 1]
+    if len(whole) < len(data):
+        os.truncate(path, len(whole))
+    return whole
+
+
+def _read_events(file: SssomFile, path: Path) -> list[Event]:
+    """Return the events; rows with the same number are one event.
+
+    Raises:
+        GroundingError: a row is not an event.
+    """
+    events: dict[int, Event] = {}
+    for line, cells in file.rows:
+        event = _read_event(f"{path}: line {line}", cells, file.expand)
+        earlier = events.get(event.number)
+        changes = (*(earlier.changes if earlier else ()), *event.changes)
+        events[event.number] = replace(event, changes=changes)
+    return list(events.values())
+
+
+def _read_event(where: str, cells: Mapping[str, str], expand: Callable[[str], str]) -> Event:
+    """Return the event of one row, with its one change."""
+    try:
+        number, seen, reverts = int(cells["event"]), int(cells["seen"]), int(cells["reverts"] or 0)
+        action, kind = Action(cells["action"]), VerdictKind(cells[VERDICT])
+    except ValueError as error:
+        raise GroundingError(f"{where}: {error}; {_EXPECTED}") from error
+    reviewer = expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|")
+    iri = expand(cells["object_id"]) if kind is VerdictKind.CLASS else None
+    who = "" if kind is VerdictKind.OPEN else reviewer
+    verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number)
+    return Event(number, action, cells["actor"], cells["time"], (Change(cells["prim_path"], verdict),), seen, reverts)
+
+
+def _write_all(file: io.FileIO, data: bytes) -> None:
+    """Write all bytes to an unbuffered file, whose `write` may write fewer."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[file.write(rest) :]
+
+
+def _sync_folder(folder: Path) -> None:
+    """Put the entry of a new file on disk; not every system can."""
+    try:
+        handle = os.open(folder, os.O_RDONLY)
+    except OSError:
+        return
+    with suppress(OSError):
+        os.fsync(handle)
+    os.close(handle)

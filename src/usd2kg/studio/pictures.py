@@ -1,0 +1,73 @@
+"""Pictures: thumbnails and geometry of the stage. All of OpenUSD is used from one thread."""
+
+from collections import OrderedDict
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import cached_property
+
+from usd2kg.errors import SceneError
+from usd2kg.render import Renderer
+from usd2kg.scene.object_geometry import read_geometry
+from usd2kg.scene.stage import open_stage, time_code
+from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.geometry import GeometryFiles
+from usd2kg.studio.session import StudioSession
+from usd2kg.studio.settings import SERVER
+
+__all__ = ["Pictures"]
+
+_KEPT = 4096
+"""Thumbnails in memory; about 20 kB each."""
+
+
+class Pictures:
+    """The stage of a session, read when the first picture is asked for."""
+
+    def __init__(self, session: StudioSession, catalog: Catalog) -> None:
+        self._session = session
+        self._catalog = catalog
+        self._thread = ThreadPoolExecutor(1, "usd2kg-pictures")
+        self._thumbnails: OrderedDict[int, bytes] = OrderedDict()
+
+    def thumbnail(self, index: int) -> "Future[bytes]":
+        """Return the PNG of one object in its surroundings.
+
+        The future raises SceneError if it has no visible geometry.
+        """
+        return self._thread.submit(self._thumbnail, index)
+
+    def geometry(self) -> "Future[GeometryFiles]":
+        """Return the meshes."""
+        return self._thread.submit(lambda: self._geometry)
+
+    def file(self, index: int) -> "Future[bytes]":
+        """Return one GLB file; the future raises IndexError if there is none."""
+        return self._thread.submit(lambda: self._geometry.file(index))
+
+    def close(self) -> None:
+        """Stop; pictures that are waiting are dropped."""
+        self._thread.shutdown(wait=True, cancel_futures=True)
+
+    @cached_property
+    def _renderer(self) -> Renderer:
+        sources = self._session.project.sources
+        return Renderer(sources.scene, sources.reading)
+
+    @cached_property
+    def _geometry(self) -> GeometryFiles:
+        sources = self._session.project.sources
+        opened = open_stage(sources.scene, sources.reading)
+        if opened.content_hash != self._session.scene.content_hash:
+            raise SceneError(f"{sources.scene}: has changed since it was read; start the studio again")
+        geometry = read_geometry(opened, self._session.scene, time_code(sources.reading.time))
+        return GeometryFiles(geometry, self._catalog)
+
+    def _thumbnail(self, index: int) -> bytes:
+        if index in self._thumbnails:
+            self._thumbnails.move_to_end(index)
+            return self._thumbnails[index]
+        path = self._session.scene.objects[index].prim_path
+        picture = self._renderer.render_object(path, size=SERVER.thumbnail_size)
+        self._thumbnails[index] = picture
+        if len(self._thumbnails) > _KEPT:
+            self._thumbnails.popitem(last=False)
+        return picture

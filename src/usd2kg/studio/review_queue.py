@@ -1,0 +1,107 @@
+"""The review queue: open objects in groups that one decision settles, in an order."""
+
+import statistics
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from itertools import pairwise
+
+from usd2kg.grounding import Prediction
+from usd2kg.ontology import ClassIRI
+from usd2kg.scene import SceneObject
+from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.settings import QUEUE
+from usd2kg.studio.verdicts import Action, Event
+
+__all__ = ["QUEUE_ORDERS", "QueueGroup", "estimate_seconds", "make_queue"]
+
+
+@dataclass(frozen=True, slots=True)
+class QueueGroup:
+    """Open objects with the same suggestion and the same concept; without a concept, with the same words or asset."""
+
+    id: str
+    """Prim path of its first object: stable until that object is decided."""
+    title: str
+    objects: tuple[str, ...]
+    """Prim paths, the least confident first."""
+    suggested: ClassIRI | None
+    concept: str | None
+    confidence: float | None
+    """Mean of the objects; None if the grounder gave none."""
+    gain: float
+    """Expected number of wrong classes in the group: what a look at it settles."""
+
+
+def make_queue(
+    states: Iterable[ObjectState], objects: Mapping[str, SceneObject], rooms: Mapping[str, int], order: str
+) -> list[QueueGroup]:
+    """Return the groups of the open objects.
+
+    Args:
+        states: the states of all objects, in scene order.
+        objects: prim path → object.
+        rooms: prim path → number of its room; absent if it is in none.
+        order: one of `QUEUE_ORDERS`.
+    """
+    found: dict[tuple[object, ...], list[Prediction]] = {}
+    for state in states:
+        if state.status.is_open:
+            key = (state.status, *_key(state.prediction, objects[state.prim_path]))
+            if order == "place":
+                key = (rooms.get(state.prim_path, -1), *key)
+            found.setdefault(key, []).append(state.prediction)
+    groups = [_make_group(predictions, objects) for predictions in found.values()]
+    if order == "place":
+        # Room by room, in each by gain.
+        place = {group.id: rooms.get(group.id, len(objects)) for group in groups}
+        return sorted(groups, key=lambda group: (place[group.id], -group.gain, group.id))
+    return sorted(groups, key=_ORDERS[order])
+
+
+_ORDERS: Mapping[str, Callable[[QueueGroup], tuple[object, ...]]] = {
+    "gain": lambda group: (-group.gain, group.id),
+    "confidence": lambda group: (group.confidence or 0.0, group.id),
+    "class": lambda group: (group.suggested or "", -group.gain, group.id),
+}
+QUEUE_ORDERS = (*_ORDERS, "place")
+
+
+def _key(prediction: Prediction, obj: SceneObject) -> tuple[object, ...]:
+    """Return what the objects of a group share."""
+    if prediction.concept is not None:
+        return prediction.class_iri, prediction.concept
+    words = tuple(sorted({word for word in obj.words if not word.isdigit()}))
+    return prediction.class_iri, words or obj.asset[:1] or obj.prim_path
+
+
+def _make_group(predictions: Sequence[Prediction], objects: Mapping[str, SceneObject]) -> QueueGroup:
+    ranked = sorted(predictions, key=lambda p: p.confidence or 0.0)
+    known = [p.confidence for p in ranked if p.confidence is not None]
+    first = predictions[0]
+    return QueueGroup(
+        id=first.prim_path,
+        title=_title([objects[p.prim_path] for p in predictions]),
+        objects=tuple(p.prim_path for p in ranked),
+        suggested=first.class_iri,
+        concept=first.concept,
+        confidence=statistics.fmean(known) if known else None,
+        gain=sum(1 - (p.confidence or 0.0) for p in predictions),
+    )
+
+
+def _title(objects: Sequence[SceneObject]) -> str:
+    """Return the words that all names share, else the name of the first object."""
+    shared = [word for word in objects[0].words if not word.isdigit() and all(word in obj.words for obj in objects[1:])]
+    return " ".join(shared) or objects[0].display_name or objects[0].name
+
+
+def estimate_seconds(events: Sequence[Event], open_groups: int) -> float | None:
+    """Return how long the open groups will take at the pace of the last decisions; None before five decisions.
+
+    The pace is the median time between two decisions; longer breaks do not count.
+    """
+    times = [datetime.fromisoformat(event.time) for event in events if event.action is Action.DECIDE]
+    gaps = [(later - earlier).total_seconds() for earlier, later in pairwise(times[-QUEUE.pace_decisions :])]
+    worked = [gap for gap in gaps if 0 <= gap <= QUEUE.longest_pause_s]
+    return statistics.median(worked) * open_groups if len(worked) >= QUEUE.min_decisions - 1 else None

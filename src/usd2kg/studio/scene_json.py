@@ -1,0 +1,113 @@
+"""The scene as JSON for the page; the records are documented in `web/src/api/types.ts`."""
+
+from collections import Counter
+from typing import Any
+
+from usd2kg.scene import SceneObject
+from usd2kg.studio.catalog import NONE, Catalog
+from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.session import StudioSession
+
+__all__ = ["scene_json", "state_json"]
+
+
+def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[str, Any]:
+    """Return what does not change during a session."""
+    scene, tbox, grounding = session.scene, session.tbox, session.suggestions
+    kinds = Counter(relation.kind for relation in session.relations)
+    return {
+        "title": scene.source.replace("\\", "/").rpartition("/")[2],
+        "source": scene.source,
+        "ontology": {"iri": tbox.ontology_iri, "label": tbox.source},
+        "grounder": grounding.grounder,
+        "is_calibrated": grounding.is_calibrated,
+        "is_read_only": False,
+        "reviewer": reviewer,
+        "objects": _objects(catalog),
+        "classes": [
+            {
+                "iri": cls.iri,
+                "name": cls.readable_name,
+                "label": cls.label,
+                "synonyms": cls.alt_labels,
+                "definition": cls.comment,
+                "parents": [catalog.class_(parent) for parent in cls.parents],
+            }
+            for cls in tbox.classes
+        ],
+        "concepts": [
+            {
+                "iri": iri,
+                "label": grounding.concepts[iri].label,
+                "broader": [catalog.concept(above) for above in grounding.concepts[iri].broader],
+            }
+            for iri in catalog.concept_iris
+        ],
+        "relation_kinds": [{"kind": kind, "count": count} for kind, count in sorted(kinds.items())],
+        "diagnostics": [
+            {"code": note.code, "message": note.message, "path": note.prim_path} for note in scene.diagnostics
+        ],
+        "figures": _figures(session),
+    }
+
+
+def _objects(catalog: Catalog) -> dict[str, Any]:
+    objects = catalog.scene.objects
+    assets = {name: number for number, name in enumerate(dict.fromkeys(map(_asset, objects)))}
+    return {
+        "path": [obj.prim_path for obj in objects],
+        "name": [obj.display_name or obj.name for obj in objects],
+        "parent": [catalog.object(obj.parent_path) for obj in objects],
+        "box": [_box(obj) for obj in objects],
+        "room": [catalog.room_of.get(obj.prim_path, NONE) for obj in objects],
+        "rooms": [path.rpartition("/")[2] for path in catalog.rooms],
+        "asset": [assets[_asset(obj)] for obj in objects],
+        "assets": list(assets),
+        "color": [obj.display_color for obj in objects],
+    }
+
+
+def _asset(obj: SceneObject) -> str:
+    return obj.asset[0] if obj.asset else ""
+
+
+def _box(obj: SceneObject) -> list[float] | None:
+    box = obj.own_box or obj.box
+    return None if box is None else [round(value, 4) for value in (*box.lower, *box.upper)]
+
+
+def _figures(session: StudioSession) -> list[dict[str, str]]:
+    scene, grounding = session.scene, session.suggestions
+    figures = {
+        "Objects": f"{len(scene.objects):,}",
+        "Prims": f"{scene.prim_count:,}",
+        **{f"Left out: {reason}": f"{count:,}" for reason, count in scene.left_out.items()},
+        "Up axis": scene.frame.up_axis,
+        "Metres per unit": f"{scene.frame.metres_per_unit:g}",
+        "Ontology": session.tbox.source,
+        "Classes in scope": f"{len(session.tbox.classes):,}",
+        "Grounder": grounding.grounder,
+        **{f"Grounder: {name}": value for name, value in grounding.settings.items()},
+        "Relations": f"{len(session.relations):,}",
+        "Stage": scene.content_hash,
+        "usd2kg": grounding.tool_version,
+    }
+    return [{"label": label, "value": value} for label, value in figures.items()]
+
+
+def state_json(state: ObjectState, catalog: Catalog) -> dict[str, Any]:
+    """Return the state of one object."""
+    prediction, verdict = state.prediction, state.verdict
+    before = prediction.review
+    return {
+        "object": catalog.object(state.prim_path),
+        "state": state.status.value,
+        "class": catalog.class_(state.class_iri),
+        "confidence": prediction.confidence,
+        "suggested": catalog.class_(prediction.class_iri),
+        "concept": catalog.concept(prediction.concept),
+        "reviewer": verdict.reviewer or (before.reviewer if before is not None else ""),
+        "time": verdict.time or (before.time if before is not None else ""),
+        "comment": verdict.comment or (before.comment if before is not None else ""),
+        "is_conflict": state.is_conflict,
+    }

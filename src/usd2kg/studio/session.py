@@ -1,0 +1,188 @@
+"""StudioSession: one scene under review, with everything that follows from the decisions."""
+
+import threading
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from functools import cached_property
+
+import pyoxigraph as ox
+
+from usd2kg.errors import GroundingError
+from usd2kg.graph import KnowledgeGraph, instantiate
+from usd2kg.graph.iris import default_base
+from usd2kg.grounding import Grounding, Prediction, apply_decisions, ground, make_grounder, read_grounding
+from usd2kg.ontology import TBox
+from usd2kg.pipeline import open_tbox
+from usd2kg.query import GraphStore
+from usd2kg.query.dataset import Dataset
+from usd2kg.relations import Relation, find_relations
+from usd2kg.scene import Scene, read_scene
+from usd2kg.studio.journal import Journal
+from usd2kg.studio.object_state import ObjectState, state_of
+from usd2kg.studio.project import Project
+from usd2kg.studio.review_state import ReviewState
+from usd2kg.studio.verdicts import Event, Verdict
+
+__all__ = ["StudioSession", "open_session"]
+
+
+class StudioSession:
+    """A scene, its grounding, the decisions, and the graph that they lead to.
+
+    Decisions are made one after another, under a lock; reading is safe from any thread.
+    """
+
+    def __init__(
+        self, project: Project, scene: Scene, tbox: TBox, grounding: Grounding, relations: Sequence[Relation]
+    ) -> None:
+        self.project = project
+        self.scene = scene
+        self.tbox = tbox
+        self.suggestions = grounding
+        """The grounding without the decisions of the project."""
+        self.relations = tuple(relations)
+        self.base = project.sources.base or default_base(scene.source)
+        self.journal = Journal(project.journal, self.base, tbox)
+        self.review = ReviewState(self.journal.events)
+        self._lock = threading.Lock()
+        self._graph_lock = threading.Lock()
+        self._graph: tuple[int, KnowledgeGraph] | None = None
+        self._answers: tuple[int, GraphStore] | None = None
+
+    @property
+    def version(self) -> int:
+        """Number of the last event."""
+        return self.review.version
+
+    @cached_property
+    def predictions(self) -> Mapping[str, Prediction]:
+        """Prim path → suggestion, in scene order."""
+        return self.suggestions.by_path
+
+    @cached_property
+    def relations_of(self) -> Mapping[str, list[Relation]]:
+        """Prim path → relations of which it is the target or an anchor."""
+        found: dict[str, list[Relation]] = {}
+        for relation in self.relations:
+            for path in dict.fromkeys((relation.target, relation.anchor, relation.other_anchor)):
+                if path is not None:
+                    found.setdefault(path, []).append(relation)
+        return found
+
+    def state(self, prim_path: str) -> ObjectState:
+        """Return the state of one object."""
+        return state_of(self.predictions[prim_path], self.review)
+
+    def states(self) -> list[ObjectState]:
+        """Return the states of all objects, in scene order."""
+        return [state_of(prediction, self.review) for prediction in self.suggestions.predictions]
+
+    # Decisions.
+
+    def decide(self, paths: Sequence[str], verdict: Verdict, reviewer: str, seen: int) -> list[ObjectState]:
+        """Record one verdict for several objects; return their states once the journal is on disk.
+
+        Raises:
+            GroundingError: there are no objects, or one is unknown.
+            OutputError: the journal cannot be written; nothing has changed.
+        """
+        unknown = [path for path in paths if path not in self.predictions]
+        if unknown or not paths:
+            raise GroundingError(
+                f"decision about {unknown[0] if unknown else 'nothing'}; expected objects of the scene"
+            )
+        with self._lock:
+            return self._record(self.review.decide(paths, verdict, reviewer, _now(), seen))
+
+    def undo(self, reviewer: str) -> list[ObjectState]:
+        """Take back a reviewer's last decision, as `decide`.
+
+        Raises:
+            GroundingError: there is none.
+            OutputError: the journal cannot be written.
+        """
+        with self._lock:
+            return self._record(self.review.undo(reviewer, _now()))
+
+    def redo(self, reviewer: str) -> list[ObjectState]:
+        """Make a reviewer's last undone decision again, as `decide`.
+
+        Raises:
+            GroundingError: there is none.
+            OutputError: the journal cannot be written.
+        """
+        with self._lock:
+            return self._record(self.review.redo(reviewer, _now()))
+
+    def _record(self, event: Event) -> list[ObjectState]:
+        self.journal.append(event, self.review.before(event))
+        self.review.apply(event)
+        return [self.state(change.prim_path) for change in event.changes if change.prim_path in self.predictions]
+
+    # What follows.
+
+    def grounding(self) -> Grounding:
+        """Return the grounding with all decisions."""
+        return apply_decisions(self.suggestions, self.review.decisions(), self.scene, self.tbox)
+
+    def graph(self) -> KnowledgeGraph:
+        """Return the graph of the current decisions; it is built when it is first needed after a decision."""
+        with self._graph_lock:
+            version = self.version
+            if self._graph is None or self._graph[0] != version:
+                built = instantiate(self.scene, self.tbox, self.grounding(), base=self.base, relations=self.relations)
+                self._graph = version, built
+            return self._graph[1]
+
+    def answers(self) -> GraphStore:
+        """Return the graph of the current decisions, to be queried."""
+        graph = self.graph()
+        with self._graph_lock:
+            assert self._graph is not None, "graph() has built it"
+            version = self._graph[0]
+            if self._answers is None or self._answers[0] != version:
+                store = ox.Store()
+                store.bulk_extend(ox.Quad(t.subject, t.predicate, t.object) for t in graph.triples)
+                self._answers = version, GraphStore(Dataset(store), self.scene.source)
+            return self._answers[1]
+
+    @property
+    def last_answers(self) -> GraphStore | None:
+        """The graph that was last built to be queried, possibly of earlier decisions; None if there is none yet."""
+        return self._answers[1] if self._answers is not None else None
+
+    def close(self) -> None:
+        """Close the journal."""
+        self.journal.close()
+
+
+def open_session(project: Project) -> StudioSession:
+    """Read, ground and relate the scene of a project.
+
+    Raises:
+        Usd2kgError: a source cannot be read.
+    """
+    sources = project.sources
+    tbox = open_tbox(sources.ontology)
+    scene = read_scene(sources.scene, options=sources.reading)
+    grounding = _read_run(project, scene, tbox) if sources.run is not None else None
+    if grounding is None:
+        grounding = ground(scene, tbox, make_grounder(sources.grounder, alignment=sources.alignment))
+    return StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
+
+
+def _read_run(project: Project, scene: Scene, tbox: TBox) -> Grounding:
+    run = project.sources.run
+    assert run is not None, "the caller has checked"
+    found = read_grounding(run)
+    paths, known = [obj.prim_path for obj in scene.objects], found.by_path
+    missing = [path for path in paths if path not in known]
+    unknown = [p.class_iri for p in found.predictions if p.class_iri and p.class_iri not in tbox.by_iri]
+    if missing or unknown:
+        problem = f"has no row for {missing[0]}" if missing else f"names the class {unknown[0]}, which is not in scope"
+        raise GroundingError(f"{run}: {problem}; expected a grounding of this scene with this ontology")
+    return Grounding(**{**vars(found), "predictions": tuple(known[path] for path in paths)})
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds")

@@ -1,0 +1,43 @@
+"""Settings of the studio, read from `knowledge/settings/studio.toml`."""
+
+from dataclasses import dataclass
+
+from usd2kg.knowledge import read_settings
+
+__all__ = ["GEOMETRY", "QUEUE", "SERVER", "GeometrySettings", "QueueSettings", "ServerSettings"]
+
+
+@dataclass(frozen=True)
+class QueueSettings:
+    """How the time for the rest of a queue is estimated."""
+
+    pace_decisions: int
+    longest_pause_s: float
+    min_decisions: int
+
+
+@dataclass(frozen=True)
+class GeometrySettings:
+    """How much geometry is sent to the page."""
+
+    max_triangles: int
+    min_mesh_triangles: int
+    chunk_triangles: int
+
+
+@dataclass(frozen=True)
+class ServerSettings:
+    """Limits of requests, and when files follow the decisions."""
+
+    max_body_bytes: int
+    max_objects_per_decision: int
+    max_text: int
+    outputs_delay_s: float
+    heartbeat_s: float
+    thumbnail_size: tuple[int, int]
+    min_password: int
+
+
+QUEUE = read_settings("studio", "queue", QueueSettings)
+GEOMETRY = read_settings("studio", "geometry", GeometrySettings)
+SERVER = read_settings("studio", "server", ServerSettings)

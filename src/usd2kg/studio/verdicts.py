@@ -1,0 +1,77 @@
+"""Verdicts, changes and events: what reviewers decide, as immutable records."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from usd2kg.ontology import ClassIRI
+
+__all__ = ["OPEN", "Action", "Change", "Event", "Verdict", "VerdictKind"]
+
+
+class VerdictKind(StrEnum):
+    """What a person said about an object."""
+
+    OPEN = "open"
+    """Nothing: not decided yet, or the decision was taken back."""
+    CLASS = "class"
+    """It has this class."""
+    NO_CLASS = "no-class"
+    """No class of the ontology fits."""
+    UNSURE = "unsure"
+    """The person cannot tell; somebody else should look."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The valid judgement on one object."""
+
+    kind: VerdictKind
+    class_iri: ClassIRI | None = None
+    """For the kind `class`; None otherwise."""
+    reviewer: str = ""
+    """Who judged; empty if open."""
+    time: str = ""
+    """When, as ISO 8601 in UTC; empty if open."""
+    comment: str = ""
+    event: int = 0
+    """Number of the event that set it; 0 if none did."""
+
+    def agrees(self, other: "Verdict") -> bool:
+        """Return whether two verdicts say the same, whoever gave them."""
+        return (self.kind, self.class_iri) == (other.kind, other.class_iri)
+
+
+OPEN = Verdict(VerdictKind.OPEN)
+
+
+class Action(StrEnum):
+    """What a reviewer did."""
+
+    DECIDE = "decide"
+    UNDO = "undo"
+    REDO = "redo"
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """The verdict that an event sets for one object."""
+
+    prim_path: str
+    verdict: Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One act of a reviewer, which concerns one or more objects."""
+
+    number: int
+    """1 for the first event of a journal."""
+    action: Action
+    reviewer: str
+    time: str
+    """ISO 8601 in UTC."""
+    changes: tuple[Change, ...]
+    seen: int
+    """Number of the last event that the reviewer had seen."""
+    reverts: int = 0
+    """For `undo` and `redo`, the number of the decision that is taken back or made again; else 0."""
