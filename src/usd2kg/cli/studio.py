@@ -9,6 +9,7 @@ from typer import Argument, Option
 
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import BaseIri, OntologyFile
+from usd2kg.cli.options.grounding import AlignmentFile
 from usd2kg.cli.options.stage import StageOptions
 from usd2kg.cli.output import notify
 from usd2kg.errors import OutputError
@@ -21,17 +22,14 @@ def studio_command(
     target: Annotated[Path, Argument(metavar="SCENE|FOLDER", help="A USD stage, or the folder of a project.")],
     reading: StageOptions,
     ontology: OntologyFile = None,
-    run: Annotated[
+    mapping: Annotated[
         Path | None,
-        Option("--run", help="Grounding to review, from usd2kg ground -o RUN.json; default: ground with --grounder."),
+        Option(
+            "--mapping",
+            help="Mapping to review, by any grounder: usd2kg ground -o MAPPING.json; default: by the lexical grounder.",
+        ),
     ] = None,
-    grounder: Annotated[
-        str, Option("--grounder", help="Grounder: lexical, dictionary, embedding or volume.")
-    ] = "lexical",
-    alignment: Annotated[
-        Path | None,
-        Option("--alignment", help="Edited file of usd2kg ontology align, for the lexical grounder; default: built."),
-    ] = None,
+    alignment: AlignmentFile = None,
     base: BaseIri = None,
     project: Annotated[
         Path | None,
@@ -42,12 +40,7 @@ def studio_command(
         Option("--reviewer", help="Name or ORCID iD of the reviewer; the page can change it. Default: login name."),
     ] = None,
     host: Annotated[
-        str,
-        Option(
-            "--host",
-            help="Address to listen on; 127.0.0.1 accepts local connections only. Others need a password in "
-            "USD2KG_STUDIO_PASSWORD.",
-        ),
+        str, Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")
     ] = "127.0.0.1",
     port: Annotated[int, Option("--port", min=0, max=65535, help="Port; 0 chooses a free one.")] = 7879,
     allow_host: Annotated[
@@ -60,7 +53,10 @@ def studio_command(
     ] = None,
     no_browser: Annotated[bool, Option("--no-browser", help="Do not open the browser; print the address.")] = False,
 ) -> None:
-    """Open a scene in the browser: see it, review classes, ask questions, export. Until Ctrl+C."""
+    """Open a scene in the browser to look at it, review classes, ask and export, until Ctrl+C.
+
+    With a --host other than this machine, a password in USD2KG_STUDIO_PASSWORD is needed.
+    """
     from usd2kg.endpoint.listening import is_loopback  # noqa: PLC0415
     from usd2kg.studio import ProjectSources, StudioOptions, open_project, serve_studio  # noqa: PLC0415 - OpenUSD
 
@@ -71,7 +67,7 @@ def studio_command(
         folder = target
     else:
         folder = project or Path(f"{target.stem}.studio")
-        sources = ProjectSources(target, ontology, run, grounder, alignment, base, reading.read_options())
+        sources = ProjectSources(target, ontology, mapping, alignment, base, reading.read_options())
 
     def report(address: str) -> None:
         notify(f"studio at {address}")

@@ -71,17 +71,15 @@ class Journal:
             if not path.exists() or not path.stat().st_size:
                 path.write_bytes(_header(base, tbox).encode())
                 _sync_folder(path.parent)
-            data = _drop_torn_row(path)
+            file = read_sssom_file(path, _drop_torn_row(path).decode(), _REQUIRED, _EXPECTED)
+            self._prefixes = file.prefixes
+            self.events = _read_events(file, path)
             # Unbuffered, so that a failed write leaves nothing to be written later.
             self._file = path.open("ab", buffering=0)
         except OSError as error:
             raise OutputError(f"{path}: cannot be opened ({error.strerror}); check its permissions") from error
-        try:
-            file = read_sssom_file(path, data.decode(), _REQUIRED, _EXPECTED)
         except UnicodeDecodeError as error:
             raise GroundingError(f"{path}: is not UTF-8 ({error}); {_EXPECTED}") from error
-        self._prefixes = file.prefixes
-        self.events = _read_events(file, path)
 
     def append(self, event: Event, before: Mapping[str, Verdict]) -> None:
         """Write an event to disk.

@@ -27,11 +27,10 @@ class ProjectSources:
     scene: Path
     ontology: Path | None = None
     """None for the built-in home TBox."""
-    run: Path | None = None
-    """Grounding of `usd2kg ground --format json`; None to ground when the project is opened."""
-    grounder: str = "lexical"
-    """Used without a run."""
+    mapping: Path | None = None
+    """Grounding of `usd2kg ground --format json`; None for the lexical grounder's."""
     alignment: Path | None = None
+    """Edited alignment for the lexical grounder."""
     base: str | None = None
     """Namespace of the individuals; None for the default of the scene."""
     reading: ReadOptions = field(default_factory=ReadOptions)
@@ -99,7 +98,7 @@ def _check_same(file: Path, known: ProjectSources, given: ProjectSources) -> Non
 def _format_sources(sources: ProjectSources, folder: Path) -> bytes:
     """Return the sources as JSON; paths are relative to the folder, so that it can move with its scene."""
     values = asdict(sources)
-    for name in ("scene", "ontology", "run", "alignment"):
+    for name in ("scene", "ontology", "mapping", "alignment"):
         if values[name] is not None:
             values[name] = _relative(values[name], folder)
     return (json.dumps({"format": _FORMAT, **values}, indent=1) + "\n").encode()
@@ -118,7 +117,7 @@ def _read_sources(file: Path) -> ProjectSources:
         values: dict[str, Any] = json.loads(file.read_text("utf-8"))
         if values.pop("format") != _FORMAT:
             raise ValueError("another format")
-        for name in ("scene", "ontology", "run", "alignment"):
+        for name in ("scene", "ontology", "mapping", "alignment"):
             if values[name] is not None:
                 values[name] = Path(os.path.normpath(file.parent / values[name]))
         reading = values.pop("reading")

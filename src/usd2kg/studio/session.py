@@ -2,8 +2,10 @@
 
 import threading
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cached_property
+from pathlib import Path
 
 import pyoxigraph as ox
 
@@ -165,23 +167,22 @@ def open_session(project: Project) -> StudioSession:
     sources = project.sources
     tbox = open_tbox(sources.ontology)
     scene = read_scene(sources.scene, options=sources.reading)
-    grounding = _read_run(project, scene, tbox) if sources.run is not None else None
-    if grounding is None:
-        grounding = ground(scene, tbox, make_grounder(sources.grounder, alignment=sources.alignment))
+    if sources.mapping is not None:
+        grounding = _read_mapping(sources.mapping, scene, tbox)
+    else:
+        grounding = ground(scene, tbox, make_grounder("lexical", alignment=sources.alignment))
     return StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
 
 
-def _read_run(project: Project, scene: Scene, tbox: TBox) -> Grounding:
-    run = project.sources.run
-    assert run is not None, "the caller has checked"
-    found = read_grounding(run)
+def _read_mapping(file: Path, scene: Scene, tbox: TBox) -> Grounding:
+    found = read_grounding(file)
     paths, known = [obj.prim_path for obj in scene.objects], found.by_path
     missing = [path for path in paths if path not in known]
     unknown = [p.class_iri for p in found.predictions if p.class_iri and p.class_iri not in tbox.by_iri]
     if missing or unknown:
         problem = f"has no row for {missing[0]}" if missing else f"names the class {unknown[0]}, which is not in scope"
-        raise GroundingError(f"{run}: {problem}; expected a grounding of this scene with this ontology")
-    return Grounding(**{**vars(found), "predictions": tuple(known[path] for path in paths)})
+        raise GroundingError(f"{file}: {problem}; expected a grounding of this scene with this ontology")
+    return replace(found, predictions=tuple(known[path] for path in paths))
 
 
 def _now() -> str:

@@ -13,10 +13,18 @@ from usd2kg.cli.options.review import ReviewOptions
 if TYPE_CHECKING:
     from usd2kg.grounding import NamingRegime
 
-__all__ = ["AbbreviatedLength", "GroundingOptions"]
+__all__ = ["AbbreviatedLength", "AlignmentFile", "GroundingOptions"]
 
 AbbreviatedLength = Annotated[
     int, Option("--abbreviated-length", min=1, help="Letters kept of each word in the abbreviated regime.")
+]
+
+AlignmentFile = Annotated[
+    Path | None,
+    Option(
+        "--alignment",
+        help="Edited file of usd2kg ontology align, for the lexical grounder; default: built from the ontology.",
+    ),
 ]
 
 
@@ -42,13 +50,7 @@ class GroundingOptions(OptionBundle):
     abstain: Annotated[
         bool, Option("--abstain", help="Let the lexical grounder answer a superclass where its candidates are close.")
     ] = False
-    alignment: Annotated[
-        Path | None,
-        Option(
-            "--alignment",
-            help="Edited file of usd2kg ontology align, for the lexical grounder; default: built from the ontology.",
-        ),
-    ] = None
+    alignment: AlignmentFile = None
     class_sizes: Annotated[
         Path | None,
         Option("--class-sizes", help="CSV file of class sizes for the volume grounder; default: the built-in table."),
