@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow data data-check owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow test-browser web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -25,6 +25,19 @@ test: $(READY) ## Run the tests
 
 test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
+
+test-browser: $(READY) web ## Run the tests of the studio in Chromium, from CHROMIUM or the path
+	$(BIN)/python -m pytest -q -m browser tests/studio
+
+web/node_modules: web/package-lock.json
+	cd web && npm ci --no-audit --no-fund
+	@touch $@
+
+web: web/node_modules ## Build the page of the studio; needs Node.js 20
+	cd web && npm run --silent build -- --logLevel warn
+
+web-check: web/node_modules ## Check style and types of the page, and run its unit tests
+	cd web && npm run --silent check && npm test --silent
 
 data: $(READY) ## Build the package data in src/usd2kg/data from knowledge/
 	$(BIN)/python -m tools.build_data
@@ -64,7 +77,7 @@ accuracy: $(READY) ## Measure the offline grounders on all scenes with gold labe
 accuracy-check: $(READY) ## Check the stored figures; list the scenes that cannot be measured
 	$(BIN)/python benchmarks/accuracy/run.py --check
 
-wheel: $(READY) ## Build the wheel into dist/
+wheel: $(READY) web ## Build the wheel into dist/, with the page of the studio
 	@rm -rf dist
 	$(BIN)/uv build --quiet --wheel --no-build-isolation --python $(BIN)/python
 

@@ -205,7 +205,7 @@ class _Api:
         changed: list[ObjectState] = []
         for verdict, chosen in self._verdicts(action, body, paths, comment):
             changed += await asyncio.to_thread(self._session.decide, chosen, verdict, reviewer, seen)
-        return self._announce(changed, reviewer, f"{action} {len(changed)} objects")
+        return self._announce(changed, body, f"{action} {len(changed)} objects")
 
     def _verdicts(
         self, action: str, body: dict[str, Any], paths: list[str], comment: str
@@ -233,16 +233,19 @@ class _Api:
         return [(Verdict(VerdictKind.CLASS, iri, comment=comment), same) for iri, same in suggested.items()]
 
     async def _undo(self, request: Request) -> Response:
-        reviewer = _reviewer(await read_body(request))
-        return self._announce(await asyncio.to_thread(self._session.undo, reviewer), reviewer, "undo")
+        body = await read_body(request)
+        return self._announce(await asyncio.to_thread(self._session.undo, _reviewer(body)), body, "undo")
 
     async def _redo(self, request: Request) -> Response:
-        reviewer = _reviewer(await read_body(request))
-        return self._announce(await asyncio.to_thread(self._session.redo, reviewer), reviewer, "redo")
+        body = await read_body(request)
+        return self._announce(await asyncio.to_thread(self._session.redo, _reviewer(body)), body, "redo")
 
-    def _announce(self, changed: list[ObjectState], reviewer: str, message: str) -> Response:
+    def _announce(self, changed: list[ObjectState], body: dict[str, Any], message: str) -> Response:
+        """Tell all pages of a change, and return the answer to the page that made it."""
+        reviewer = _reviewer(body)
         reply = {**self._reply(changed, reviewer), "message": message}
-        self._events.publish({key: reply[key] for key in ("version", "states", "message")} | {"reviewer": reviewer})
+        change = {key: reply[key] for key in ("version", "states", "message")}
+        self._events.publish({**change, "reviewer": reviewer, "page": field(body, "page", str, "")})
         self._outputs.notify()
         return JSONResponse(reply)
 
@@ -255,6 +258,7 @@ class _Api:
                 {
                     "version": self._session.version,
                     "reviewer": "",
+                    "page": "",
                     "message": "",
                     "states": [state_json(state, self._catalog) for state in self._session.states()],
                 }

@@ -3,6 +3,8 @@
 from collections import Counter
 from typing import Any
 
+from usd2kg.graph.vocabulary import SOMA
+from usd2kg.relations.object_kinds import ObjectKind, find_kinds
 from usd2kg.scene import SceneObject
 from usd2kg.studio.catalog import NONE, Catalog
 from usd2kg.studio.object_state import ObjectState
@@ -23,7 +25,7 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
         "is_calibrated": grounding.is_calibrated,
         "is_read_only": False,
         "reviewer": reviewer,
-        "objects": _objects(catalog),
+        "objects": _objects(session, catalog),
         "classes": [
             {
                 "iri": cls.iri,
@@ -51,8 +53,9 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
     }
 
 
-def _objects(catalog: Catalog) -> dict[str, Any]:
+def _objects(session: StudioSession, catalog: Catalog) -> dict[str, Any]:
     objects = catalog.scene.objects
+    mounts = {relation.target: relation.anchor for relation in session.relations if relation.kind == "attached-to"}
     assets = {name: number for number, name in enumerate(dict.fromkeys(map(_asset, objects)))}
     return {
         "path": [obj.prim_path for obj in objects],
@@ -64,7 +67,15 @@ def _objects(catalog: Catalog) -> dict[str, Any]:
         "asset": [assets[_asset(obj)] for obj in objects],
         "assets": list(assets),
         "color": [obj.display_color for obj in objects],
+        "shell": [_shell(kind) for kind in find_kinds(session.scene, session.tbox, session.suggestions)],
+        "mount": [catalog.object(mounts.get(obj.prim_path)) for obj in objects],
     }
+
+
+def _shell(kind: ObjectKind) -> str:
+    """Return whether an object hides the interior of a room from outside."""
+    names = {iri.rpartition("#")[2] for iri in kind.above if iri.startswith(SOMA.iri)}
+    return "ceiling" if "Ceiling" in names else "wall" if "Wall" in names else ""
 
 
 def _asset(obj: SceneObject) -> str:

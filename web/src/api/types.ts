@@ -49,6 +49,10 @@ export interface ObjectColumns {
   assets: string[];
   /** Linear RGB from 0 to 1; null if none is authored. */
   color: ([number, number, number] | null)[];
+  /** What hides the interior of a room. */
+  shell: ("" | "ceiling" | "wall")[];
+  /** The object that it is attached to. */
+  mount: ObjectIndex[];
 }
 
 export interface ClassRecord {
@@ -213,11 +217,13 @@ export interface DecisionRequest {
   class?: ClassIndex;
   comment?: string;
   reviewer: string;
+  /** Number that tells this page from others, which hear of the decision by an event. */
+  page: string;
   /** `States.version` that the reviewer saw; a later decision of somebody else on the same object is a conflict. */
   seen: number;
 }
 
-/** Answer to decisions, undo (`POST /api/undo`) and redo (`POST /api/redo`), sent once the journal is on disk. */
+/** Answer to decisions, undo and redo (`POST /api/undo`, `/api/redo` with {reviewer, page}), sent once the journal is on disk. */
 export interface DecisionReply {
   version: number;
   /** The objects whose state changed. */
@@ -233,6 +239,8 @@ export interface DecisionReply {
 export interface ChangeEvent {
   version: number;
   reviewer: string;
+  /** The page that caused it. */
+  page: string;
   states: ObjectState[];
   message: string;
 }

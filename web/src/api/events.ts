@@ -1,0 +1,67 @@
+/** Server-sent events over fetch, since EventSource cannot send the access key. */
+
+import type { Client } from "./client";
+import type { ChangeEvent } from "./types";
+
+/** One event of a stream. */
+export interface StreamEvent {
+  name: string;
+  data: string;
+}
+
+/** Parses a stream of events piece by piece; see the HTML standard, section 9.2.6. */
+export class EventParser {
+  private rest = "";
+
+  /** Returns the events that are complete with this piece. */
+  push(piece: string): StreamEvent[] {
+    this.rest += piece;
+    const blocks = this.rest.split(/\r?\n\r?\n/);
+    this.rest = blocks.pop() ?? "";
+    return blocks.map(parseBlock).filter((event) => event.data !== "");
+  }
+}
+
+function parseBlock(block: string): StreamEvent {
+  const event: StreamEvent = { name: "message", data: "" };
+  const data: string[] = [];
+  for (const line of block.split(/\r?\n/)) {
+    const [field = "", value = ""] = line.split(/: ?(.*)/s);
+    if (field === "event") event.name = value;
+    if (field === "data") data.push(value);
+  }
+  event.data = data.join("\n");
+  return event;
+}
+
+const RETRY_MS = [500, 1000, 2000, 5000];
+
+/** Calls `onChange` for each change of other pages, and `onLink` when the connection is made or lost, until aborted. */
+export async function listen(
+  client: Client,
+  version: () => number,
+  onChange: (change: ChangeEvent) => void,
+  onLink: (isConnected: boolean) => void,
+  signal: AbortSignal,
+): Promise<void> {
+  for (let failures = 0; !signal.aborted; failures++) {
+    try {
+      const reader = (await client.stream(`events?since=${version()}`, signal)).getReader();
+      const parser = new EventParser();
+      const decoder = new TextDecoder();
+      onLink(true);
+      failures = 0;
+      for (;;) {
+        const { done, value } = await reader.read();
+        if (done) break;
+        for (const event of parser.push(decoder.decode(value, { stream: true }))) {
+          if (event.name === "change") onChange(JSON.parse(event.data) as ChangeEvent);
+        }
+      }
+    } catch {
+      if (signal.aborted) return;
+    }
+    onLink(false);
+    await new Promise((resolve) => setTimeout(resolve, RETRY_MS[Math.min(failures, RETRY_MS.length - 1)]));
+  }
+}

@@ -1,0 +1,232 @@
+/** All keys, in one table: the handler and the help are made from it. */
+
+import { candidatesOf } from "../state/candidates";
+import { superclass } from "../state/review";
+import type { Store } from "../state/store";
+
+export interface ViewCommands {
+  frame(): void;
+  frameAll(): void;
+  look(view: "perspective" | "top" | "front" | "left"): void;
+}
+
+export interface Binding {
+  /** As `keyName` writes them. */
+  keys: string[];
+  help: string;
+  section: "Review" | "Queue" | "View" | "Page";
+  run(store: Store, view: ViewCommands, key: string): void;
+}
+
+/** Returns the name of a key event, such as `Ctrl+Shift+Z`, `ArrowDown` or `?`. */
+export function keyName(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">): string {
+  const isLetter = /^[a-z]$/i.test(event.key);
+  const parts = [];
+  if (event.ctrlKey || event.metaKey) parts.push("Ctrl");
+  if (event.altKey) parts.push("Alt");
+  // Shift is part of the character of other keys: ? and not Shift+/.
+  if (event.shiftKey && (isLetter || event.key.length > 1)) parts.push("Shift");
+  parts.push(isLetter ? event.key.toUpperCase() : event.key === " " ? "Space" : event.key);
+  return parts.join("+");
+}
+
+function review(store: Store): void {
+  store.drawer.value = "review";
+  store.isDrawerOpen.value = true;
+}
+
+export const BINDINGS: Binding[] = [
+  {
+    keys: ["Enter", "C"],
+    help: "Confirm the suggestion for the ticked objects",
+    section: "Review",
+    run: (store) => void store.decide(store.targets.value, "confirm"),
+  },
+  {
+    keys: ["1", "2", "3", "4", "5", "6", "7", "8", "9"],
+    help: "Choose the candidate with this number",
+    section: "Review",
+    run: (store, _, key) => chooseCandidate(store, Number(key) - 1),
+  },
+  {
+    keys: ["U"],
+    help: "Choose the superclass of the suggestion",
+    section: "Review",
+    run: (store) => chooseSuperclass(store),
+  },
+  {
+    keys: ["/"],
+    help: "Search a class to choose",
+    section: "Review",
+    run: (store) => {
+      store.isClassSearchOpen.value = true;
+    },
+  },
+  {
+    keys: ["N"],
+    help: "No class fits",
+    section: "Review",
+    run: (store) => void store.decide(store.targets.value, "no-class"),
+  },
+  {
+    keys: ["Q"],
+    help: "Unsure: leave it to somebody else",
+    section: "Review",
+    run: (store) => void store.decide(store.targets.value, "unsure"),
+  },
+  {
+    keys: ["Backspace"],
+    help: "Clear the decision",
+    section: "Review",
+    run: (store) => void store.decide(store.selection.value, "clear"),
+  },
+  {
+    keys: ["B"],
+    help: "Confirm many groups at once",
+    section: "Review",
+    run: (store) => {
+      store.isBulkOpen.value = true;
+    },
+  },
+  { keys: ["Ctrl+Z", "Z"], help: "Undo", section: "Review", run: (store) => void store.undo() },
+  { keys: ["Ctrl+Shift+Z", "Ctrl+Y", "Shift+Z"], help: "Redo", section: "Review", run: (store) => void store.redo() },
+  {
+    keys: ["ArrowDown", "J", "S"],
+    help: "Skip to the next group",
+    section: "Queue",
+    run: (store) => {
+      review(store);
+      store.step(1);
+    },
+  },
+  {
+    keys: ["ArrowUp", "K"],
+    help: "Back to the group before",
+    section: "Queue",
+    run: (store) => {
+      review(store);
+      store.step(-1);
+    },
+  },
+  {
+    keys: ["ArrowRight"],
+    help: "Next member of the group",
+    section: "Queue",
+    run: (store) => moveMember(store, 1),
+  },
+  {
+    keys: ["ArrowLeft"],
+    help: "Member before",
+    section: "Queue",
+    run: (store) => moveMember(store, -1),
+  },
+  {
+    keys: ["Space"],
+    help: "Tick or untick the member: exceptions of the next decision",
+    section: "Queue",
+    run: (store) => {
+      const object = store.group.value?.objects[store.member.value];
+      if (object !== undefined) store.toggleMember(object);
+    },
+  },
+  { keys: ["F"], help: "Look at the selection", section: "View", run: (_, view) => view.frame() },
+  { keys: ["A"], help: "Look at everything", section: "View", run: (_, view) => view.frameAll() },
+  {
+    keys: ["I"],
+    help: "Isolate the selection, or show all again",
+    section: "View",
+    run: (store) => {
+      const selected = store.selection.value;
+      store.isolated.value = store.isolated.value === null && selected.length > 0 ? new Set(selected) : null;
+    },
+  },
+  {
+    keys: ["X"],
+    help: "See through everything but the selection",
+    section: "View",
+    run: (store) => {
+      store.isSeeThrough.value = !store.isSeeThrough.value;
+    },
+  },
+  {
+    keys: ["W"],
+    help: "Hide ceilings and near walls, or show them",
+    section: "View",
+    run: (store) => {
+      store.isCutAway.value = !store.isCutAway.value;
+    },
+  },
+  {
+    keys: ["L"],
+    help: "Labels on or off",
+    section: "View",
+    run: (store) => {
+      store.hasLabels.value = !store.hasLabels.value;
+    },
+  },
+  { keys: ["P"], help: "Perspective", section: "View", run: (_, view) => view.look("perspective") },
+  { keys: ["T"], help: "View from the top", section: "View", run: (_, view) => view.look("top") },
+  { keys: ["Shift+F"], help: "View from the front", section: "View", run: (_, view) => view.look("front") },
+  { keys: ["Shift+L"], help: "View from the left", section: "View", run: (_, view) => view.look("left") },
+  {
+    keys: ["D"],
+    help: "Open or close the drawer",
+    section: "Page",
+    run: (store) => {
+      store.isDrawerOpen.value = !store.isDrawerOpen.value;
+    },
+  },
+  {
+    keys: ["Ctrl+K", "G"],
+    help: "Search objects",
+    section: "Page",
+    run: () => document.getElementById("search")?.focus(),
+  },
+  {
+    keys: ["?"],
+    help: "This help",
+    section: "Page",
+    run: (store) => {
+      store.isHelpOpen.value = !store.isHelpOpen.value;
+    },
+  },
+  {
+    keys: ["Escape"],
+    help: "Close what is open, or clear the selection",
+    section: "Page",
+    run: (store) => close(store),
+  },
+];
+
+function chooseCandidate(store: Store, number: number): void {
+  const chosen = candidatesOf(store).value?.[number]?.class;
+  if (chosen !== undefined) void store.decide(store.targets.value, "choose", chosen);
+}
+
+function chooseSuperclass(store: Store): void {
+  const state = store.states.value[store.targets.value[0] ?? -1];
+  const above = state === undefined ? -1 : superclass(store.model, state.class >= 0 ? state.class : state.suggested);
+  if (above >= 0) void store.decide(store.targets.value, "choose", above);
+}
+
+function moveMember(store: Store, by: number): void {
+  const count = store.group.value?.objects.length ?? 0;
+  if (count > 0) store.member.value = (store.member.value + by + count) % count;
+}
+
+function close(store: Store): void {
+  for (const dialog of [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen]) {
+    if (dialog.value) {
+      dialog.value = false;
+      return;
+    }
+  }
+  if (store.isolated.value !== null) store.isolated.value = null;
+  else store.select([]);
+}
+
+const BY_KEY = new Map(BINDINGS.flatMap((binding) => binding.keys.map((key) => [key, binding] as const)));
+
+export function findBinding(key: string): Binding | undefined {
+  return BY_KEY.get(key);
+}

@@ -1,0 +1,34 @@
+/** Handles keys wherever they are pressed, except in text fields. */
+
+import type { Store } from "../state/store";
+import { findBinding, keyName, type ViewCommands } from "./bindings";
+
+const TEXT_INPUTS = new Set(["text", "search", "password", "email", "number"]);
+
+function isTextField(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) return TEXT_INPUTS.has(target.type);
+  return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
+}
+
+/** Returns whether a key belongs to the focused control: Enter and Space on a button, arrows on a slider. */
+function isOfControl(target: EventTarget | null, key: string): boolean {
+  if (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement)
+    return key === "Enter" || key === "Space";
+  if (target instanceof HTMLInputElement && target.type === "range") return key.startsWith("Arrow");
+  if (target instanceof HTMLInputElement) return key === "Space";
+  return (
+    target instanceof HTMLElement && target.closest("[data-own-keys]") !== null && /^(Arrow|Enter|Space)/.test(key)
+  );
+}
+
+export function handleKey(event: KeyboardEvent, store: Store, view: ViewCommands): void {
+  const key = keyName(event);
+  if (event.defaultPrevented || event.isComposing) return;
+  const isModal = store.isHelpOpen.value || store.isClassSearchOpen.value || store.isBulkOpen.value;
+  if (key !== "Escape" && (isModal || isTextField(event.target) || isOfControl(event.target, key))) return;
+  if (key === "Escape" && isTextField(event.target)) (event.target as HTMLElement).blur();
+  const binding = findBinding(key);
+  if (binding === undefined) return;
+  event.preventDefault();
+  binding.run(store, view, key);
+}

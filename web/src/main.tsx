@@ -1,0 +1,53 @@
+/** Starts the page: reads the access key, loads the scene, listens to changes. */
+
+import { render } from "preact";
+import { ApiFailure, createClient, readKey, storeKey } from "./api/client";
+import { listen } from "./api/events";
+import type { SceneData, States } from "./api/types";
+import { App } from "./panels/App";
+import { KeyForm } from "./panels/KeyForm";
+import { Store } from "./state/store";
+
+const host = document.getElementById("app") as HTMLElement;
+
+async function start(): Promise<void> {
+  const key = readKey(location, sessionStorage, (url) => history.replaceState(null, "", url));
+  if (key === null) {
+    askForKey("");
+    return;
+  }
+  const client = createClient(key);
+  host.replaceChildren();
+  try {
+    const [data, states] = await Promise.all([client.get<SceneData>("scene"), client.get<States>("states")]);
+    const store = new Store(client, data, states, localStorage);
+    document.title = `${data.title} · usd2kg studio`;
+    render(<App store={store} />, host);
+    void store.reload();
+    void listen(
+      client,
+      () => store.version.value,
+      (change) => store.receive(change),
+      (isConnected) => {
+        if (!isConnected) store.saving.value = "offline";
+        else if (store.saving.value === "offline") store.saving.value = "saved";
+      },
+      new AbortController().signal,
+    );
+  } catch (error) {
+    if (error instanceof ApiFailure && error.status === 401) askForKey("This key is wrong.");
+    else render(<p class="fatal">{error instanceof Error ? error.message : String(error)}</p>, host);
+  }
+}
+
+function askForKey(problem: string): void {
+  storeKey("", sessionStorage);
+  const submit = (key: string) => {
+    storeKey(key, sessionStorage);
+    render(null, host);
+    void start();
+  };
+  render(<KeyForm problem={problem} onSubmit={submit} />, host);
+}
+
+void start();

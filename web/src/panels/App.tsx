@@ -1,0 +1,51 @@
+/** The layout of the page: bar, trees, picture, object page, drawer. */
+
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import type { ViewCommands } from "../keys/bindings";
+import { handleKey } from "../keys/keyboard";
+import type { Store } from "../state/store";
+import { BulkDialog } from "./BulkDialog";
+import { ClassSearch } from "./ClassSearch";
+import { DrawerPanel } from "./DrawerPanel";
+import { Help } from "./Help";
+import { Notices } from "./Notices";
+import { ObjectPanel } from "./ObjectPanel";
+import { Sidebar } from "./Sidebar";
+import { StatusBar } from "./StatusBar";
+import { ThumbnailCache, Thumbnails } from "./Thumbnail";
+import { TopBar } from "./TopBar";
+import { ViewerPanel } from "./ViewerPanel";
+
+export function App({ store }: { store: Store }) {
+  const view = useRef<ViewCommands | null>(null);
+  const commands = useMemo<ViewCommands>(
+    () => ({
+      frame: () => view.current?.frame(),
+      frameAll: () => view.current?.frameAll(),
+      look: (name) => view.current?.look(name),
+    }),
+    [],
+  );
+  const thumbnails = useMemo(() => new ThumbnailCache(store.client), [store]);
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => handleKey(event, store, commands);
+    addEventListener("keydown", onKey);
+    return () => removeEventListener("keydown", onKey);
+  }, [store, commands]);
+  return (
+    <Thumbnails.Provider value={thumbnails}>
+      <div class={store.isDrawerOpen.value ? "app" : "app drawer-closed"}>
+        <TopBar store={store} view={commands} />
+        <Sidebar store={store} />
+        <ViewerPanel store={store} view={view} />
+        <ObjectPanel store={store} />
+        <DrawerPanel store={store} />
+        <StatusBar store={store} />
+      </div>
+      {store.isHelpOpen.value && <Help store={store} />}
+      {store.isClassSearchOpen.value && <ClassSearch store={store} />}
+      {store.isBulkOpen.value && <BulkDialog store={store} />}
+      <Notices store={store} />
+    </Thumbnails.Provider>
+  );
+}

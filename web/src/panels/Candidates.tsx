@@ -1,0 +1,35 @@
+/** The candidate classes of the object in focus, with their keys. */
+
+import type { ObjectIndex } from "../api/types";
+import { candidatesOf } from "../state/candidates";
+import type { Store } from "../state/store";
+
+export function Candidates({ store, targets }: { store: Store; targets: readonly ObjectIndex[] }) {
+  const candidates = candidatesOf(store).value;
+  if (candidates === undefined) return <p class="empty">…</p>;
+  if (candidates.length === 0) return <p class="empty">The grounder named no class. Search one with /</p>;
+  return (
+    <ol class="candidates">
+      {candidates.map(({ class: index, share, taxonomy }, number) => {
+        const cls = store.model.data.classes[index];
+        return (
+          <li key={index}>
+            <button
+              type="button"
+              disabled={targets.length === 0}
+              title={cls?.definition ?? ""}
+              onClick={() => void store.decide(targets, "choose", index)}
+            >
+              <kbd>{number + 1}</kbd>
+              <span class="name">{cls?.label}</span>
+              <span class="share" style={{ "--share": `${Math.round(100 * share)}%` }}>
+                {Math.round(100 * share)} %
+              </span>
+              <span class="path">{taxonomy.slice(1).join(" ‹ ")}</span>
+            </button>
+          </li>
+        );
+      })}
+    </ol>
+  );
+}

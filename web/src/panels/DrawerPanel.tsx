@@ -1,0 +1,52 @@
+/** The drawer: review, questions, SPARQL, diagnostics, figures of the run. */
+
+import type { Drawer, Store } from "../state/store";
+import { Ask } from "./Ask";
+import { Diagnostics } from "./Diagnostics";
+import { Review } from "./Review";
+import { RunFigures } from "./RunFigures";
+import { Sparql } from "./Sparql";
+import { Tabs } from "./Tabs";
+
+export function DrawerPanel({ store }: { store: Store }) {
+  const tabs: { id: Drawer; label: string; count?: number }[] = [
+    { id: "review", label: "Review", count: store.groups.value.length },
+    { id: "ask", label: "Ask" },
+    { id: "sparql", label: "SPARQL" },
+    { id: "diagnostics", label: "Diagnostics", count: store.model.data.diagnostics.length },
+    { id: "run", label: "Run" },
+  ];
+  const { drawer, isDrawerOpen } = store;
+  return (
+    <section class="drawer" aria-label="Tools">
+      <div class="drawer-bar">
+        <Tabs
+          tabs={tabs}
+          current={drawer.value}
+          onChange={(id) => {
+            drawer.value = id;
+            isDrawerOpen.value = true;
+          }}
+        />
+        <button
+          type="button"
+          class="quiet"
+          aria-expanded={isDrawerOpen.value}
+          title="Open or close (D)"
+          onClick={() => (isDrawerOpen.value = !isDrawerOpen.value)}
+        >
+          {isDrawerOpen.value ? "Close" : "Open"}
+        </button>
+      </div>
+      {isDrawerOpen.value && (
+        <div class="drawer-body" role="tabpanel" aria-labelledby={`tab-${drawer.value}`}>
+          {drawer.value === "review" && <Review store={store} />}
+          {drawer.value === "ask" && <Ask store={store} />}
+          {drawer.value === "sparql" && <Sparql store={store} />}
+          {drawer.value === "diagnostics" && <Diagnostics store={store} />}
+          {drawer.value === "run" && <RunFigures store={store} />}
+        </div>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,51 @@
+/** Downloads of what follows from the decisions. */
+
+import { useState } from "preact/hooks";
+import type { Store } from "../state/store";
+
+const EXPORTS: { name: string; label: string }[] = [
+  { name: "graph.ttl", label: "Knowledge graph (Turtle)" },
+  { name: "labels.usda", label: "Labels (USD layer)" },
+  { name: "mapping.sssom.tsv", label: "Mapping (SSSOM)" },
+  { name: "decisions.sssom.tsv", label: "Decisions (SSSOM journal)" },
+  { name: "objects.csv", label: "Objects (CSV)" },
+  { name: "grounding.json", label: "Grounding (JSON)" },
+];
+
+export function ExportMenu({ store }: { store: Store }) {
+  const [isBusy, setBusy] = useState(false);
+  const download = async (name: string) => {
+    setBusy(true);
+    try {
+      const url = URL.createObjectURL(await store.client.blob(`export/${name}`));
+      const link = document.createElement("a");
+      link.href = url;
+      link.download = `${store.model.data.title.replace(/\.[^.]*$/, "")}.${name}`;
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(url), 10000);
+    } catch (error) {
+      store.report(error);
+    }
+    setBusy(false);
+  };
+  return (
+    <select
+      aria-label="Export"
+      class="menu"
+      disabled={isBusy}
+      value=""
+      onChange={(event) => {
+        const name = event.currentTarget.value;
+        event.currentTarget.value = "";
+        if (name !== "") void download(name);
+      }}
+    >
+      <option value="">{isBusy ? "Exporting…" : "Export"}</option>
+      {EXPORTS.map(({ name, label }) => (
+        <option key={name} value={name}>
+          {label}
+        </option>
+      ))}
+    </select>
+  );
+}

@@ -1,0 +1,159 @@
+/** Review: the queue, the current group with its members, and the candidates. */
+
+import type { QueueGroup, QueueOrder } from "../api/types";
+import { classLabel } from "../state/model";
+import type { Store } from "../state/store";
+import { Thumbnail } from "./Thumbnail";
+import { VirtualList } from "./VirtualList";
+
+const ORDERS: { id: QueueOrder; label: string }[] = [
+  { id: "gain", label: "expected gain" },
+  { id: "confidence", label: "least confident" },
+  { id: "class", label: "class" },
+  { id: "place", label: "place" },
+];
+
+export function Review({ store }: { store: Store }) {
+  const group = store.group.value;
+  if (store.model.data.is_read_only) return <p class="empty">A graph is shown without its stage: nothing to decide.</p>;
+  return (
+    <div class="review">
+      <QueueList store={store} />
+      {group === null ? (
+        <p class="empty">{store.queue.value === null ? "Loading the queue…" : "Nothing is open here. Well done."}</p>
+      ) : (
+        <GroupCard store={store} group={group} />
+      )}
+    </div>
+  );
+}
+
+const ROW_HEIGHT = 44;
+
+function QueueList({ store }: { store: Store }) {
+  const groups = store.groups.value;
+  const current = groups.findIndex((group) => group.id === store.group.value?.id);
+  return (
+    <div class="queue">
+      <label class="field">
+        Order
+        <select
+          value={store.order.value}
+          onChange={(event) => {
+            store.order.value = event.currentTarget.value as QueueOrder;
+            void store.loadQueue();
+          }}
+        >
+          {ORDERS.map(({ id, label }) => (
+            <option key={id} value={id}>
+              {label}
+            </option>
+          ))}
+        </select>
+      </label>
+      <VirtualList rows={groups} rowHeight={ROW_HEIGHT} role="listbox" label="Groups to review" current={current}>
+        {(group: QueueGroup, index) => (
+          // biome-ignore lint/a11y/useKeyWithClickEvents: arrows move in the queue from anywhere
+          <div
+            key={group.id}
+            class="queue-row"
+            role="option"
+            tabIndex={-1}
+            aria-selected={index === current}
+            onClick={() => store.goTo(group.id)}
+          >
+            <span class="name">
+              {group.title}
+              {group.objects.length > 1 && <span class="count">{group.objects.length}</span>}
+            </span>
+            <span class="class-name">
+              {group.suggested < 0 ? "no class" : classLabel(store.model, group.suggested)}
+            </span>
+            <span class="confidence">{group.confidence === null ? "" : group.confidence.toFixed(2)}</span>
+          </div>
+        )}
+      </VirtualList>
+    </div>
+  );
+}
+
+function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
+  const { excluded, member, model } = store;
+  const count = store.targets.value.length;
+  const label = group.suggested < 0 ? "no class" : classLabel(model, group.suggested);
+  return (
+    <div class="group-card">
+      <header>
+        <h2>
+          {group.title} <span class="arrow">→</span> {label}
+        </h2>
+        <p>
+          {count} of {group.objects.length} ticked
+          {group.confidence !== null && ` · confidence ${group.confidence.toFixed(2)}`}
+        </p>
+      </header>
+      <div class="members" role="listbox" aria-multiselectable="true" aria-label="Members of the group">
+        {group.objects.map((object, index) => (
+          // biome-ignore lint/a11y/useKeyWithClickEvents: arrows and Space work from anywhere
+          <div
+            key={object}
+            role="option"
+            tabIndex={-1}
+            class={index === member.value ? "member focused" : "member"}
+            aria-selected={!excluded.value.has(object)}
+            title={model.data.objects.path[object] ?? ""}
+            onClick={() => {
+              member.value = index;
+              store.select([object]);
+            }}
+            onDblClick={() => store.toggleMember(object)}
+          >
+            <Thumbnail object={object} label={model.data.objects.name[object] ?? ""} />
+            <label>
+              <input
+                type="checkbox"
+                tabIndex={-1}
+                checked={!excluded.value.has(object)}
+                onChange={() => store.toggleMember(object)}
+              />
+              <span class="name">{model.data.objects.name[object]}</span>
+            </label>
+          </div>
+        ))}
+      </div>
+      <Actions store={store} group={group} />
+    </div>
+  );
+}
+
+function Actions({ store, group }: { store: Store; group: QueueGroup }) {
+  const targets = store.targets.value;
+  const isNone = targets.length === 0;
+  return (
+    <div class="actions">
+      <button
+        type="button"
+        class="primary"
+        disabled={isNone || group.suggested < 0}
+        onClick={() => void store.decide(targets, "confirm")}
+      >
+        Confirm <kbd>Enter</kbd>
+      </button>
+      <button type="button" disabled={isNone} onClick={() => (store.isClassSearchOpen.value = true)}>
+        Another class <kbd>/</kbd>
+      </button>
+      <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "no-class")}>
+        No class fits <kbd>N</kbd>
+      </button>
+      <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "unsure")}>
+        Unsure <kbd>Q</kbd>
+      </button>
+      <button type="button" onClick={() => store.step(1)}>
+        Skip <kbd>S</kbd>
+      </button>
+      <button type="button" onClick={() => (store.isBulkOpen.value = true)}>
+        Many at once <kbd>B</kbd>
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,71 @@
+/** The bar at the top: search and facets, colours, views, undo, export. */
+
+import type { ViewCommands } from "../keys/bindings";
+import { COLOR_MODES, type ColorMode } from "../state/colors";
+import { isFiltering, NO_FILTERS } from "../state/filters";
+import type { Store } from "../state/store";
+import { ExportMenu } from "./ExportMenu";
+
+export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
+  const { model, filters } = store;
+  const shown = store.shown.value;
+  return (
+    <header class="top-bar">
+      <h1 title={model.data.source}>{model.data.title}</h1>
+      <div class="search">
+        <input
+          id="search"
+          type="search"
+          placeholder="Filter objects by path, name, class, concept   G"
+          aria-label="Filter objects"
+          value={filters.value.text}
+          onInput={(event) => (filters.value = { ...filters.value, text: event.currentTarget.value })}
+        />
+        {isFiltering(filters.value) && (
+          <button type="button" class="chip" onClick={() => (filters.value = NO_FILTERS)}>
+            {shown?.size ?? 0} of {model.count} shown · clear
+          </button>
+        )}
+      </div>
+      <label class="field">
+        Color by
+        <select
+          value={store.colorMode.value}
+          onChange={(event) => (store.colorMode.value = event.currentTarget.value as ColorMode)}
+        >
+          {COLOR_MODES.map(({ id, label }) => (
+            <option key={id} value={id}>
+              {label}
+            </option>
+          ))}
+        </select>
+      </label>
+      <fieldset class="group" aria-label="View">
+        <button type="button" title="Look at everything (A)" onClick={view.frameAll}>
+          All
+        </button>
+        <button type="button" title="Perspective (P)" onClick={() => view.look("perspective")}>
+          3D
+        </button>
+        <button type="button" title="From the top (T)" onClick={() => view.look("top")}>
+          Top
+        </button>
+        <button type="button" title="From the front (Shift+F)" onClick={() => view.look("front")}>
+          Front
+        </button>
+      </fieldset>
+      <fieldset class="group" aria-label="Undo">
+        <button type="button" title="Undo (Ctrl+Z)" disabled={!store.canUndo.value} onClick={() => store.undo()}>
+          Undo
+        </button>
+        <button type="button" title="Redo (Ctrl+Shift+Z)" disabled={!store.canRedo.value} onClick={() => store.redo()}>
+          Redo
+        </button>
+      </fieldset>
+      <ExportMenu store={store} />
+      <button type="button" title="Keys (?)" onClick={() => (store.isHelpOpen.value = true)}>
+        Keys
+      </button>
+    </header>
+  );
+}

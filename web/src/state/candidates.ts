@@ -1,0 +1,50 @@
+/** The pages of objects, loaded when they are needed, and the candidates of the object under review. */
+
+import { effect, type Signal, signal } from "@preact/signals";
+import type { Candidate, ObjectIndex, ObjectPage } from "../api/types";
+import type { Store } from "./store";
+
+const pages = new WeakMap<Store, Signal<ObjectPage | null>>();
+
+/** Returns the object whose page is shown: the last selected one, else the focused member of the group. */
+export function focusOf(store: Store): ObjectIndex {
+  const { selection, group, member, drawer, isDrawerOpen } = store;
+  const current = group.value;
+  const focused = current?.objects[member.value];
+  const isReviewed = drawer.value === "review" && isDrawerOpen.value && focused !== undefined;
+  const selected = selection.value.at(-1);
+  if (isReviewed && (selected === undefined || current?.objects.includes(selected))) return focused;
+  return selected ?? -1;
+}
+
+/** Returns the page of the focused object; it follows the focus and the decisions. */
+export function pageOf(store: Store): Signal<ObjectPage | null> {
+  const known = pages.get(store);
+  if (known !== undefined) return known;
+  const page = signal<ObjectPage | null>(null);
+  pages.set(store, page);
+  effect(() => {
+    const object = focusOf(store);
+    // A decision changes the history on the page.
+    void store.version.value;
+    if (object < 0) {
+      page.value = null;
+      return;
+    }
+    store.client.get<ObjectPage>(`object/${object}`).then(
+      (found) => {
+        if (focusOf(store) === object) page.value = found;
+      },
+      (error: unknown) => store.report(error),
+    );
+  });
+  return page;
+}
+
+/** Returns the candidates of the focused object, those with a class only. */
+export function candidatesOf(store: Store): { value: Candidate[] | undefined } {
+  const page = pageOf(store).value;
+  return {
+    value: page?.object === focusOf(store) ? page.candidates.filter(({ class: index }) => index >= 0) : undefined,
+  };
+}

@@ -1,0 +1,60 @@
+/** States of review: which are open, and what a decision makes of them. */
+
+import type { ClassIndex, DecisionAction, ObjectIndex, ObjectState, ReviewState } from "../api/types";
+import type { SceneModel } from "./model";
+
+const SETTLED: ReadonlySet<ReviewState> = new Set(["confirmed", "corrected", "no-class"]);
+
+/** Returns whether a person still has to decide. */
+export function isOpen(state: ReviewState): boolean {
+  return !SETTLED.has(state);
+}
+
+/** Returns all states with some replaced. */
+export function applyStates(states: readonly ObjectState[], changed: readonly ObjectState[]): readonly ObjectState[] {
+  if (changed.length === 0) return states;
+  const found = [...states];
+  for (const state of changed) found[state.object] = state;
+  return found;
+}
+
+/** Returns the states that the server will answer to a decision, so that the page need not wait. */
+export function predictStates(
+  states: readonly ObjectState[],
+  objects: readonly ObjectIndex[],
+  action: DecisionAction,
+  chosen?: ClassIndex,
+): ObjectState[] {
+  return objects.flatMap((object) => {
+    const state = states[object];
+    return state === undefined ? [] : [{ ...state, ...judge(state, action, chosen) }];
+  });
+}
+
+function judge(state: ObjectState, action: DecisionAction, chosen = -1): Pick<ObjectState, "state" | "class"> {
+  switch (action) {
+    case "confirm":
+      return { state: "confirmed", class: state.suggested };
+    case "choose":
+      return { state: chosen === state.suggested ? "confirmed" : "corrected", class: chosen };
+    case "no-class":
+      return { state: "no-class", class: -1 };
+    case "unsure":
+      return { state: "unsure", class: state.suggested };
+    case "clear":
+      return { state: "suggested", class: state.suggested };
+  }
+}
+
+/** Returns the direct superclass that the key for "one level up" chooses, or -1 at a root. */
+export function superclass(model: SceneModel, index: ClassIndex): ClassIndex {
+  return model.data.classes[index]?.parents[0] ?? -1;
+}
+
+/** Returns a time like "2 h 10 min". */
+export function durationText(seconds: number): string {
+  const minutes = Math.round(seconds / 60);
+  if (minutes < 1) return "under a minute";
+  if (minutes < 60) return `${minutes} min`;
+  return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}

@@ -1,0 +1,100 @@
+/** How each object is drawn: its colour, whether it is hidden, and whether it is a ghost. */
+
+import { Box3, Ray, Vector3 } from "three";
+import type { Box, ObjectIndex, SceneData } from "../api/types";
+import type { Rgb } from "../state/colors";
+import type { Store } from "../state/store";
+import type { Appearance } from "./meshes";
+
+/** The viewer: position, and unit vector from the scene to there. */
+export interface Eye {
+  position: Vector3;
+  direction: Vector3;
+}
+
+const GHOST = 0.12;
+/** Objects whose view is kept free. */
+const MAX_WATCHED = 12;
+
+/**
+ * Returns the appearance of each object. It reads signals, so that an effect that calls it runs again when they change.
+ *
+ * @param eye where the viewer is.
+ */
+export function appearanceOf(
+  store: Store,
+  colors: readonly (Rgb | null)[],
+  eye: { value: Eye },
+): (object: ObjectIndex) => Appearance {
+  const { isolated, isSeeThrough, isCutAway, shown, selection } = store;
+  const [alone, filtered, selected] = [isolated.value, shown.value, new Set(selection.value)];
+  const isGhostly = isSeeThrough.value && selected.size > 0;
+  const before = selected.size > 0 ? occluders(store.model.data, [...selected].slice(0, MAX_WATCHED), eye.value) : null;
+  const hidden = isCutAway.value ? cutAway(store.model.data, eye.value.direction) : new Set<ObjectIndex>();
+  return (object) => {
+    if (object < 0) return { isVisible: alone === null, color: null, opacity: isGhostly ? GHOST : 1 };
+    const isWanted = alone === null ? !hidden.has(object) || selected.has(object) : alone.has(object);
+    const isBefore = before?.has(object) === true && !selected.has(object);
+    const isGhost = isBefore || (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
+    return { isVisible: isWanted, color: colors[object] ?? null, opacity: isGhost ? GHOST : 1 };
+  };
+}
+
+/** A wall is near if its outside faces the viewer by more than this cosine. */
+const MIN_COSINE = 0.15;
+
+/** Returns the ceilings, the walls between the viewer and the scene, and what is attached to those walls. */
+export function cutAway(data: SceneData, direction: Pick<Vector3, "x" | "y">): Set<ObjectIndex> {
+  const { shell, box, mount } = data.objects;
+  const hidden = new Set<ObjectIndex>();
+  const center = middle(box);
+  const length = Math.hypot(direction.x, direction.y) || 1;
+  shell.forEach((kind, object) => {
+    const own = box[object];
+    if (kind === "ceiling") hidden.add(object);
+    if (kind !== "wall" || own == null) return;
+    const [x, y] = [(own[0] + own[3]) / 2 - center[0], (own[1] + own[4]) / 2 - center[1]];
+    const isThinX = own[3] - own[0] < own[4] - own[1];
+    // The outside of a wall is along its thin side, away from the middle.
+    const cosine = (isThinX ? Math.sign(x) * direction.x : Math.sign(y) * direction.y) / length;
+    if (cosine > MIN_COSINE) hidden.add(object);
+  });
+  mount.forEach((wall, object) => {
+    if (wall >= 0 && shell[wall] === "wall" && hidden.has(wall)) hidden.add(object);
+  });
+  return hidden;
+}
+
+function middle(boxes: readonly (Box | null)[]): [number, number] {
+  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const box of boxes) {
+    if (box === null) continue;
+    [x0, y0] = [Math.min(x0, box[0]), Math.min(y0, box[1])];
+    [x1, y1] = [Math.max(x1, box[3]), Math.max(y1, box[4])];
+  }
+  return [(x0 + x1) / 2, (y0 + y1) / 2];
+}
+
+/** Returns the objects whose boxes hide the middle of one of the watched objects, or hold it: cabinets, doors, lids. */
+export function occluders(data: SceneData, watched: readonly ObjectIndex[], eye: Eye): Set<ObjectIndex> {
+  const found = new Set<ObjectIndex>();
+  const boxes = data.objects.box;
+  const box = new Box3();
+  const hit = new Vector3();
+  for (const object of watched) {
+    const own = boxes[object];
+    if (own == null) continue;
+    const middle = new Vector3((own[0] + own[3]) / 2, (own[1] + own[4]) / 2, (own[2] + own[5]) / 2);
+    const ray = new Ray(eye.position, middle.clone().sub(eye.position).normalize());
+    const distance = eye.position.distanceTo(middle);
+    boxes.forEach((other, index) => {
+      if (other === null || index === object) return;
+      box.min.set(other[0], other[1], other[2]);
+      box.max.set(other[3], other[4], other[5]);
+      // What holds the viewer, such as a room, hides nothing.
+      if (box.containsPoint(eye.position)) return;
+      if (ray.intersectBox(box, hit) !== null && hit.distanceTo(eye.position) < distance) found.add(index);
+    });
+  }
+  return found;
+}

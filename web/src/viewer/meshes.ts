@@ -1,0 +1,163 @@
+/** Meshes of the scene in a few draw calls: one opaque and one transparent batch for each GLB file. */
+
+import {
+  BatchedMesh,
+  type BufferGeometry,
+  DoubleSide,
+  type Intersection,
+  type Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  type Object3D,
+  type Raycaster,
+  Vector4,
+} from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import type { ObjectIndex } from "../api/types";
+import type { Rgb } from "../state/colors";
+
+/** How one object is drawn. */
+export interface Appearance {
+  isVisible: boolean;
+  /** Replaces the colours of the materials; null keeps them. */
+  color: Rgb | null;
+  /** 1 for solid; less draws it as a ghost. */
+  opacity: number;
+}
+
+interface Instance {
+  batch: BatchedMesh;
+  id: number;
+  object: ObjectIndex;
+}
+
+interface Part {
+  geometry: BufferGeometry;
+  matrix: Matrix4;
+  object: ObjectIndex;
+}
+
+const loader = new GLTFLoader();
+
+/** Reads one GLB file of the server. */
+export async function readParts(data: ArrayBuffer): Promise<Part[]> {
+  const { scene } = await loader.parseAsync(data, "");
+  scene.updateMatrixWorld(true);
+  const parts: Part[] = [];
+  scene.traverse((node: Object3D) => {
+    if (!(node instanceof Mesh)) return;
+    // A node with one primitive is the mesh itself; the number of its object is on it or on the group above.
+    const object = (node.userData["object"] ?? node.parent?.userData["object"] ?? -1) as number;
+    parts.push({ geometry: node.geometry as BufferGeometry, matrix: node.matrixWorld.clone(), object });
+  });
+  return parts;
+}
+
+/** All meshes that have arrived, and how to colour, hide and hit them. */
+export class MeshBatches {
+  readonly batches: BatchedMesh[] = [];
+  private readonly instances: Instance[] = [];
+  private readonly ofObject = new Map<ObjectIndex, Instance[]>();
+  private readonly hit = new Map<BatchedMesh, Instance[]>();
+
+  /** Adds the parts of one file; returns its batches, to be put into the scene. */
+  add(parts: Part[]): BatchedMesh[] {
+    const clear = parts.filter((part) => isTransparent(part.geometry));
+    const solid = parts.filter((part) => !isTransparent(part.geometry));
+    return [this.addBatch(solid, false), this.addBatch(clear, true)].filter((batch) => batch !== null);
+  }
+
+  private addBatch(parts: Part[], isClear: boolean): BatchedMesh | null {
+    if (parts.length === 0) return null;
+    const geometries = [...new Set(parts.map((part) => part.geometry))];
+    const vertices = sum(geometries.map((geometry) => geometry.attributes["position"]?.count ?? 0));
+    const indices = sum(geometries.map((geometry) => geometry.index?.count ?? 0));
+    const material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, transparent: isClear });
+    const batch = new BatchedMesh(parts.length, vertices, indices, material);
+    batch.sortObjects = isClear;
+    const ids = new Map(geometries.map((geometry) => [geometry, batch.addGeometry(geometry)]));
+    const own: Instance[] = [];
+    for (const part of parts) {
+      const id = batch.addInstance(ids.get(part.geometry) as number);
+      batch.setMatrixAt(id, part.matrix);
+      const instance = { batch, id, object: part.object };
+      own[id] = instance;
+      this.instances.push(instance);
+      const known = this.ofObject.get(part.object);
+      if (known === undefined) this.ofObject.set(part.object, [instance]);
+      else known.push(instance);
+    }
+    batch.userData["isClear"] = isClear;
+    this.hit.set(batch, own);
+    this.batches.push(batch);
+    return batch;
+  }
+
+  has(object: ObjectIndex): boolean {
+    return this.ofObject.has(object);
+  }
+
+  /** Applies an appearance to all instances; `isPlain` keeps the colours of the materials. */
+  paint(appearance: (object: ObjectIndex) => Appearance, isPlain: boolean): void {
+    const color = new Vector4();
+    let hasGhosts = false;
+    for (const { batch, id, object } of this.instances) {
+      const { isVisible, color: given, opacity } = appearance(object);
+      batch.setVisibleAt(id, isVisible);
+      const [red, green, blue] = given === null ? [1, 1, 1] : linear(given);
+      batch.setColorAt(id, color.set(red, green, blue, opacity));
+      hasGhosts ||= isVisible && opacity < 1;
+    }
+    for (const batch of this.batches) {
+      const material = batch.material as MeshLambertMaterial;
+      const isClear = batch.userData["isClear"] === true;
+      // Ghosts by hashed transparency need no sorting.
+      material.alphaHash = hasGhosts && !isClear;
+      if (material.vertexColors !== isPlain) material.vertexColors = isPlain;
+      material.needsUpdate = true;
+    }
+  }
+
+  /** Returns the nearest visible object that a ray hits, with the distance. */
+  pick(raycaster: Raycaster): { object: ObjectIndex; distance: number } | null {
+    const hits: Intersection[] = [];
+    for (const batch of this.batches) raycaster.intersectObject(batch, false, hits);
+    hits.sort((a, b) => a.distance - b.distance);
+    for (const { object: batch, batchId, distance } of hits) {
+      const instance = this.hit.get(batch as BatchedMesh)?.[batchId ?? -1];
+      if (instance !== undefined && instance.object >= 0) return { object: instance.object, distance };
+    }
+    return null;
+  }
+
+  dispose(): void {
+    for (const batch of this.batches) {
+      batch.dispose();
+      (batch.material as MeshLambertMaterial).dispose();
+    }
+  }
+}
+
+const transparency = new WeakMap<BufferGeometry, boolean>();
+
+function isTransparent(geometry: BufferGeometry): boolean {
+  const known = transparency.get(geometry);
+  if (known !== undefined) return known;
+  const colors = geometry.attributes["color"];
+  let found = false;
+  if (colors !== undefined && colors.itemSize === 4) {
+    for (let i = 0; i < colors.count && !found; i++) found = colors.getW(i) < 0.99;
+  }
+  transparency.set(geometry, found);
+  return found;
+}
+
+function sum(values: number[]): number {
+  return values.reduce((total, value) => total + value, 0);
+}
+
+/** Returns linear RGB of sRGB. */
+export function linear(color: Rgb): [number, number, number] {
+  const decode = (value: number) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+  return [decode(color[0]), decode(color[1]), decode(color[2])];
+}

@@ -1,0 +1,245 @@
+/** The 3D view of a scene. It draws when something has changed, and is idle otherwise. */
+
+import { type Signal, signal } from "@preact/signals";
+import {
+  AmbientLight,
+  Box3,
+  DirectionalLight,
+  HemisphereLight,
+  Plane,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import type { Box, ObjectIndex, SceneData } from "../api/types";
+import type { Eye } from "./appearance";
+import { BoxBatch } from "./boxes";
+import { Cameras, type ViewName } from "./cameras";
+import { boxCenter, boxEdges, LineSet } from "./lines";
+import { type Appearance, MeshBatches, readParts } from "./meshes";
+import { LabelOverlay, type OverlayLabel } from "./overlay";
+
+/** One relation to draw from the selection to another object. */
+export interface RelationLine {
+  from: ObjectIndex;
+  to: ObjectIndex;
+  text: string;
+}
+
+export interface ViewerEvents {
+  onPick(object: ObjectIndex | null, isAdding: boolean): void;
+  onHover(object: ObjectIndex | null, x: number, y: number): void;
+}
+
+const HOVER_MS = 60;
+const CLICK_PIXELS = 4;
+const OUTSIDE = 1e6;
+/** More boxes than these hide what they mark. */
+const MAX_BOXES = 60;
+/** Share of the distance to the target by which the viewer moves until what hides the selection is found anew. */
+const MOVE_SHARE = 0.15;
+/** Cosine of the angle by which the view turns until that and near walls are found anew. */
+const TURN_STEP = Math.cos(Math.PI / 18);
+
+export class Viewer {
+  readonly cameras: Cameras;
+  /** Changes in steps, see `TURN_STEP`. */
+  readonly eye: Signal<Eye> = signal({ position: new Vector3(), direction: new Vector3(0, 0, 1) });
+  /** Milliseconds of the last frame on the CPU. */
+  frameMs = 0;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly boxes: BoxBatch;
+  private readonly meshes = new MeshBatches();
+  private readonly selection = new LineSet("#ff9d00");
+  private readonly relations = new LineSet("#ff9d00");
+  private readonly overlay: LabelOverlay;
+  private readonly cut = new Plane(new Vector3(0, 0, -1), OUTSIDE);
+  private readonly light = new DirectionalLight(0xffffff, 1.6);
+  private readonly resizer: ResizeObserver;
+  private appearance: (object: ObjectIndex) => Appearance = () => ({ isVisible: true, color: null, opacity: 1 });
+  private isPlain = true;
+  private request = 0;
+  private hoverTimer = 0;
+  private pressed = new Vector2();
+
+  /** Throws if the browser has no WebGL 2. */
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly data: SceneData,
+    private readonly events: ViewerEvents,
+  ) {
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("aria-label", "3D view of the scene");
+    canvas.setAttribute("role", "img");
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.clippingPlanes = [this.cut];
+    host.append(canvas);
+    const labels = document.createElement("div");
+    labels.className = "overlay";
+    host.append(labels);
+    this.overlay = new LabelOverlay(labels);
+    this.cameras = new Cameras(canvas, () => this.invalidate());
+    this.boxes = new BoxBatch(data.objects.box, data.objects.color);
+    this.scene.add(this.boxes.mesh, this.selection.segments, this.relations.segments);
+    this.scene.add(new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8d8578, 1.1), this.light);
+    this.resizer = new ResizeObserver(() => this.resize());
+    this.resizer.observe(host);
+    this.listen(canvas);
+    this.resize();
+    this.cameras.frame(this.boundsOf(null), "perspective", true);
+    this.paint();
+  }
+
+  /** Adds one GLB file; its objects replace their boxes. */
+  async addFile(data: ArrayBuffer): Promise<void> {
+    for (const batch of this.meshes.add(await readParts(data))) this.scene.add(batch);
+    this.paint();
+  }
+
+  /** Sets how objects look. */
+  setAppearance(appearance: (object: ObjectIndex) => Appearance, isPlain: boolean): void {
+    this.appearance = appearance;
+    this.isPlain = isPlain;
+    this.paint();
+  }
+
+  private paint(): void {
+    this.meshes.paint(this.appearance, this.isPlain);
+    this.boxes.paint(this.appearance, (object) => this.meshes.has(object));
+    this.invalidate();
+  }
+
+  setSelection(objects: readonly ObjectIndex[]): void {
+    const boxes = objects.map((object) => this.data.objects.box[object]).filter((box) => box != null);
+    this.selection.set(boxes.length > MAX_BOXES ? [] : boxes.flatMap(boxEdges));
+    this.invalidate();
+  }
+
+  /** Shows relation lines and labels. */
+  setAnnotations(lines: readonly RelationLine[], labels: readonly OverlayLabel[]): void {
+    const shown: OverlayLabel[] = [...labels];
+    const points: Vector3[] = [];
+    for (const { from, to, text } of lines) {
+      const [start, end] = [this.centerOf(from), this.centerOf(to)];
+      if (start === null || end === null) continue;
+      points.push(start, end);
+      shown.push({ at: start.clone().lerp(end, 0.5), text, kind: "relation" });
+    }
+    this.relations.set(points);
+    this.overlay.show(shown);
+    this.invalidate();
+  }
+
+  centerOf(object: ObjectIndex): Vector3 | null {
+    const box = this.data.objects.box[object];
+    return box == null ? null : boxCenter(box);
+  }
+
+  /** Looks at objects, or at everything for null. */
+  frame(objects: readonly ObjectIndex[] | null, view: ViewName | null = null): void {
+    const bounds = this.boundsOf(objects);
+    if (objects !== null && !bounds.isEmpty()) {
+      // Surroundings tell what a thing is.
+      bounds.expandByScalar(0.25 * bounds.getSize(new Vector3()).length() + 0.15);
+    }
+    this.cameras.frame(bounds, view);
+  }
+
+  /** Hides everything above a height; `share` is between 0 (floor) and 1 (nothing hidden). */
+  setCut(share: number): void {
+    const bounds = this.boundsOf(null);
+    this.cut.constant = share >= 1 ? OUTSIDE : bounds.min.z + share * (bounds.max.z - bounds.min.z);
+    this.invalidate();
+  }
+
+  private boundsOf(objects: readonly ObjectIndex[] | null): Box3 {
+    const bounds = new Box3();
+    const add = (box: Box | null | undefined) => {
+      if (box == null) return;
+      bounds.expandByPoint(new Vector3(box[0], box[1], box[2]));
+      bounds.expandByPoint(new Vector3(box[3], box[4], box[5]));
+    };
+    if (objects === null) this.data.objects.box.forEach(add);
+    else for (const object of objects) add(this.data.objects.box[object]);
+    return bounds;
+  }
+
+  private listen(canvas: HTMLCanvasElement): void {
+    canvas.addEventListener("pointerdown", (event) => {
+      this.pressed.set(event.clientX, event.clientY);
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      const moved = this.pressed.distanceTo(new Vector2(event.clientX, event.clientY));
+      if (event.button !== 0 || moved > CLICK_PIXELS) return;
+      this.events.onPick(this.pick(event), event.shiftKey || event.ctrlKey || event.metaKey);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      clearTimeout(this.hoverTimer);
+      if (event.buttons !== 0) return;
+      this.hoverTimer = window.setTimeout(() => {
+        this.events.onHover(this.pick(event), event.offsetX, event.offsetY);
+      }, HOVER_MS);
+    });
+    canvas.addEventListener("pointerleave", () => {
+      clearTimeout(this.hoverTimer);
+      this.events.onHover(null, 0, 0);
+    });
+  }
+
+  private pick(event: PointerEvent): ObjectIndex | null {
+    const { width, height } = this.renderer.domElement.getBoundingClientRect();
+    const point = new Vector2((2 * event.offsetX) / width - 1, 1 - (2 * event.offsetY) / height);
+    const raycaster = new Raycaster();
+    raycaster.setFromCamera(point, this.cameras.active);
+    const found = [this.meshes.pick(raycaster), this.boxes.pick(raycaster)].filter((hit) => hit !== null);
+    found.sort((a, b) => a.distance - b.distance);
+    return found[0]?.object ?? null;
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.host;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setSize(clientWidth, clientHeight);
+    this.cameras.resize(clientWidth, clientHeight);
+  }
+
+  invalidate(): void {
+    if (this.request === 0) this.request = requestAnimationFrame(() => this.draw());
+  }
+
+  /** Draws now; returns the milliseconds it took. */
+  draw(): number {
+    this.request = 0;
+    const start = performance.now();
+    const camera = this.cameras.active;
+    const direction = camera.position.clone().sub(this.cameras.controls.target).normalize();
+    const { position, direction: before } = this.eye.value;
+    const hasMoved =
+      camera.position.distanceTo(position) > MOVE_SHARE * camera.position.distanceTo(this.cameras.controls.target);
+    if (hasMoved || direction.dot(before) < TURN_STEP)
+      this.eye.value = { position: camera.position.clone(), direction };
+    // The light comes from over the viewer's shoulder.
+    this.light.position.copy(camera.position).add(new Vector3(0, 0, 3));
+    this.renderer.render(this.scene, camera);
+    this.overlay.place(camera, this.host.clientWidth, this.host.clientHeight);
+    this.frameMs = performance.now() - start;
+    return this.frameMs;
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.request);
+    clearTimeout(this.hoverTimer);
+    this.resizer.disconnect();
+    this.cameras.dispose();
+    this.meshes.dispose();
+    this.boxes.dispose();
+    this.selection.dispose();
+    this.relations.dispose();
+    this.renderer.dispose();
+    this.host.replaceChildren();
+  }
+}

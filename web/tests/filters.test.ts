@@ -1,0 +1,90 @@
+import { describe, expect, it } from "vitest";
+import { categoryColor, colorObjects, oklch } from "../src/state/colors";
+import { countBy, type Filters, filterObjects, isFiltering, NO_FILTERS } from "../src/state/filters";
+import { buildModel } from "../src/state/model";
+import { makeScene, makeStates } from "./scene";
+
+const model = buildModel(makeScene());
+const { states } = makeStates();
+const filtered = (change: Partial<Filters>) => filterObjects(model, states, { ...NO_FILTERS, ...change });
+
+describe("filters", () => {
+  it("lets all pass", () => {
+    expect(filtered({})).toEqual([0, 1, 2, 3]);
+    expect(isFiltering(NO_FILTERS)).toBe(false);
+  });
+
+  it("counts subclasses to a class", () => {
+    expect(filtered({ class: 0 })).toEqual([0, 1, 2, 3]);
+    expect(filtered({ class: 3 })).toEqual([1, 2]);
+  });
+
+  it("finds all words in path, class or concept, in any order", () => {
+    expect(filtered({ text: "cup_2" })).toEqual([2]);
+    expect(filtered({ text: "TABLE cup" })).toEqual([1, 2]);
+    expect(filtered({ text: "artifact" })).toEqual([3]);
+    expect(filtered({ text: "cup zebra" })).toEqual([]);
+  });
+
+  it("takes an unknown confidence for zero", () => {
+    expect(filtered({ confidence: [0.5, 1] })).toEqual([0, 1]);
+    expect(filtered({ confidence: [0, 0.5] })).toEqual([2, 3]);
+  });
+
+  it("combines facets", () => {
+    expect(filtered({ concept: 0, room: 0, states: new Set(["suggested"]), confidence: [0.5, 1] })).toEqual([1]);
+    expect(filtered({ states: new Set(["confirmed"]) })).toEqual([]);
+  });
+
+  it("counts values, the most frequent first", () => {
+    expect(countBy(states, (state) => state.class)).toEqual([
+      [1, 2],
+      [2, 1],
+      [0, 1],
+    ]);
+  });
+});
+
+describe("colours", () => {
+  it("keeps the materials", () => {
+    expect(colorObjects("material", model, states, new Set())).toEqual({
+      colors: [null, null, null, null],
+      legend: [],
+    });
+  });
+
+  it("explains each colour", () => {
+    for (const mode of ["class", "concept", "confidence", "state", "room", "answer"] as const) {
+      const { colors, legend } = colorObjects(mode, model, states, new Set([1]));
+      expect(legend.reduce((total, entry) => total + entry.objects.length, 0)).toBe(4);
+      for (const { color, objects } of legend) for (const object of objects) expect(colors[object]).toEqual(color);
+    }
+  });
+
+  it("separates a confidence that is not given from a low one", () => {
+    const { legend } = colorObjects("confidence", model, states, new Set());
+    expect(legend.map((entry) => [entry.label, entry.objects])).toEqual([
+      ["0.95 to 1", [0]],
+      ["0.80 to 0.95", [1]],
+      ["0.20 to 0.50", [2]],
+      ["not given", [3]],
+    ]);
+  });
+
+  it("converts OKLCH as its author does", () => {
+    expect(oklch(1, 0, 0).map((value) => value.toFixed(3))).toEqual(["1.000", "1.000", "1.000"]);
+    // sRGB red is about L 0.628, C 0.2577, h 29.23.
+    expect(oklch(0.628, 0.2577, 29.23).map((value) => value.toFixed(2))).toEqual(["1.00", "0.00", "0.00"]);
+  });
+
+  it("gives neighbours different colours", () => {
+    const seen = new Set(
+      [...Array(60).keys()].map((index) =>
+        categoryColor(index)
+          .map((v) => v.toFixed(2))
+          .join(),
+      ),
+    );
+    expect(seen.size).toBe(60);
+  });
+});

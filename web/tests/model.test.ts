@@ -1,0 +1,92 @@
+import { describe, expect, it } from "vitest";
+import { buildModel, closures, searchClasses } from "../src/state/model";
+import { buildPrimTree, objectsBelow } from "../src/state/primTree";
+import { treeRows } from "../src/state/tree";
+import { makeScene } from "./scene";
+
+const model = buildModel(makeScene());
+const labels = (found: number[]) => found.map((index) => model.data.classes[index]?.label);
+
+describe("class hierarchy", () => {
+  it("counts a class with two parents below both", () => {
+    expect([...(model.classClosure[3] as Set<number>)].sort()).toEqual([1, 3]);
+    expect(model.classRoots).toEqual([0]);
+  });
+
+  it("ends in a cycle", () => {
+    expect(closures([[1], [0]]).map((found) => [...found].sort())).toEqual([
+      [0, 1],
+      [0, 1],
+    ]);
+  });
+});
+
+describe("class search", () => {
+  it("ranks labels before synonyms before definitions", () => {
+    expect(labels(searchClasses(model, "cup", 9))).toEqual(["cup", "vessel"]);
+    expect(labels(searchClasses(model, "mug", 9))).toEqual(["cup"]);
+    expect(labels(searchClasses(model, "VESSEL", 9))).toEqual(["vessel", "cup"]);
+  });
+
+  it("finds nothing for nothing", () => {
+    expect(searchClasses(model, "  ", 9)).toEqual([]);
+    expect(searchClasses(model, "zebra", 9)).toEqual([]);
+  });
+
+  it("keeps to its limit", () => {
+    expect(searchClasses(model, "a", 2)).toHaveLength(2);
+  });
+});
+
+describe("prim tree", () => {
+  const tree = buildPrimTree(
+    ["/K/shell/Wall", "/K/Table", "/K/Table/Cup", "/K/Books[3]"],
+    ["Wall", "Desk", "Cup", "3"],
+  );
+
+  it("adds the groups between objects, once, in the order of the stage", () => {
+    expect(tree.names).toEqual(["K", "shell", "Wall", "Desk", "Cup", "Books", "3"]);
+    expect(tree.objects).toEqual([-1, -1, 0, 1, 2, -1, 3]);
+    expect(tree.parents).toEqual([-1, 0, 1, 0, 3, 0, 5]);
+    expect(tree.roots).toEqual([0]);
+  });
+
+  it("lists the objects below a group", () => {
+    expect(objectsBelow(tree, 0)).toEqual([0, 1, 2, 3]);
+    expect(objectsBelow(tree, tree.nodeOf.get(1) as number)).toEqual([1, 2]);
+  });
+});
+
+describe("tree rows", () => {
+  const children = [[1, 2], [], [3], []];
+  const nodes = (open: number[], shown: number[] | null) =>
+    treeRows([0], children, new Set(open), shown === null ? null : new Set(shown)).map((row) => [row.node, row.depth]);
+
+  it("shows the children of open nodes", () => {
+    expect(nodes([], null)).toEqual([[0, 0]]);
+    expect(nodes([0], null)).toEqual([
+      [0, 0],
+      [1, 1],
+      [2, 1],
+    ]);
+  });
+
+  it("opens the way to what a filter shows", () => {
+    expect(nodes([], [3])).toEqual([
+      [0, 0],
+      [2, 1],
+      [3, 2],
+    ]);
+    expect(nodes([], [])).toEqual([]);
+  });
+
+  it("shows a node with two parents below both", () => {
+    const rows = treeRows([0, 1], [[2], [2], []], new Set([0, 1]), null);
+    expect(rows.map((row) => row.node)).toEqual([0, 2, 1, 2]);
+  });
+
+  it("ends in a cycle", () => {
+    expect(treeRows([0], [[1], [0]], new Set([0, 1]), null).map((row) => row.node)).toEqual([0, 1]);
+    expect(treeRows([0], [[1], [0]], new Set(), new Set([1])).map((row) => row.node)).toEqual([0, 1]);
+  });
+});

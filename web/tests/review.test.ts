@@ -1,0 +1,211 @@
+import { Vector3 } from "three";
+import { describe, expect, it, vi } from "vitest";
+import { ApiFailure, type Client } from "../src/api/client";
+import type { DecisionReply, ObjectPage, Queue } from "../src/api/types";
+import { BINDINGS, findBinding, keyName } from "../src/keys/bindings";
+import { focusOf, pageOf } from "../src/state/candidates";
+import { applyStates, durationText, isOpen, predictStates, superclass } from "../src/state/review";
+import { Store } from "../src/state/store";
+import { cutAway, occluders } from "../src/viewer/appearance";
+import { makeScene, makeState, makeStates } from "./scene";
+
+const QUEUE: Queue = {
+  groups: [
+    { id: "/K/Table/Cup_1", title: "cup", objects: [2, 1], suggested: 1, concept: 0, confidence: 0.65, gain: 0.7 },
+    { id: "/K/wall", title: "wall", objects: [3], suggested: 0, concept: -1, confidence: null, gain: 1 },
+  ],
+  open: 4,
+  decided: 0,
+  seconds_left: null,
+};
+const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };
+
+function makeStore(post: Client["post"]): Store {
+  const page = {
+    object: 2,
+    candidates: [
+      { class: 1, share: 0.6, taxonomy: [] },
+      { class: 3, share: 0.4, taxonomy: [] },
+    ],
+  };
+  const client: Client = {
+    get: async <T>(path: string) => (path.startsWith("queue") ? QUEUE : { ...(page as Partial<ObjectPage>) }) as T,
+    post,
+    blob: async () => new Blob(),
+    stream: async () => new ReadableStream(),
+  };
+  const kept = new Map<string, string>();
+  const storage = {
+    getItem: (name: string) => kept.get(name) ?? null,
+    setItem: (n: string, v: string) => void kept.set(n, v),
+  };
+  return new Store(client, makeScene(), makeStates(), storage);
+}
+
+function reply(objects: number[], state: Partial<ReturnType<typeof makeState>>): DecisionReply {
+  return {
+    version: 1,
+    states: objects.map((object) => makeState(object, state)),
+    can_undo: true,
+    can_redo: false,
+    outputs: { folder: "", problem: "" },
+    message: "",
+  };
+}
+
+describe("states", () => {
+  it("predicts what the server answers", () => {
+    const { states } = makeStates();
+    const judged = (action: Parameters<typeof predictStates>[2], chosen?: number) => {
+      const [state] = predictStates(states, [1], action, chosen);
+      return [state?.state, state?.class];
+    };
+    expect(judged("confirm")).toEqual(["confirmed", 1]);
+    expect(judged("choose", 2)).toEqual(["corrected", 2]);
+    expect(judged("choose", 1)).toEqual(["confirmed", 1]);
+    expect(judged("no-class")).toEqual(["no-class", -1]);
+    expect(judged("unsure")).toEqual(["unsure", 1]);
+    expect(judged("clear")).toEqual(["suggested", 1]);
+  });
+
+  it("leaves unsure and failed objects open", () => {
+    expect((["suggested", "unsure", "refused", "unreadable", "failed"] as const).every(isOpen)).toBe(true);
+    expect((["confirmed", "corrected", "no-class"] as const).some(isOpen)).toBe(false);
+  });
+
+  it("replaces states without touching the old list", () => {
+    const { states } = makeStates();
+    const changed = applyStates(states, [makeState(1, { state: "confirmed" })]);
+    expect([states[1]?.state, changed[1]?.state, changed[0]]).toEqual(["suggested", "confirmed", states[0]]);
+  });
+
+  it("writes durations for people", () => {
+    expect([20, 60, 3540, 7800].map(durationText)).toEqual(["under a minute", "1 min", "59 min", "2 h 10 min"]);
+  });
+});
+
+describe("store", () => {
+  it("shows a decision at once and moves to the next group", async () => {
+    const store = makeStore(async <T>() => reply([2, 1], { state: "confirmed", class: 1 }) as T);
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    const done = store.decide(store.targets.value, "confirm");
+    expect([store.states.value[1]?.state, store.saving.value]).toEqual(["confirmed", "saving"]);
+    await done;
+    expect([store.saving.value, store.canUndo.value, store.groupId.value]).toEqual(["saved", true, "/K/wall"]);
+  });
+
+  it("takes a decision back that the server refuses", async () => {
+    const store = makeStore(() => Promise.reject(new ApiFailure("no space left", 422)));
+    await store.loadQueue();
+    await store.decide([1], "confirm");
+    expect([store.states.value[1]?.state, store.saving.value]).toEqual(["suggested", "failed"]);
+    expect(store.notices.value.at(-1)?.text).toBe("no space left");
+  });
+
+  it("leaves unticked members out", async () => {
+    const store = makeStore(async <T>() => reply([2], { state: "confirmed" }) as T);
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    store.toggleMember(1);
+    expect(store.targets.value).toEqual([2]);
+    store.toggleMember(1);
+    expect(store.targets.value).toEqual([2, 1]);
+  });
+
+  it("decides about the selection outside the review", () => {
+    const store = makeStore(async <T>() => reply([], {}) as T);
+    store.select([0]);
+    store.select([1], true);
+    store.select([0], true);
+    store.drawer.value = "ask";
+    expect(store.targets.value).toEqual([1]);
+  });
+
+  it("takes in the decisions of others, once", () => {
+    const store = makeStore(async <T>() => reply([], {}) as T);
+    const change = {
+      version: 4,
+      reviewer: "Bob",
+      page: "p",
+      message: "confirm",
+      states: [makeState(0, { state: "confirmed" })],
+    };
+    store.receive(change);
+    store.receive({ ...change, states: [makeState(0)] });
+    expect([store.states.value[0]?.state, store.version.value]).toEqual(["confirmed", 4]);
+  });
+
+  it("filters the queue with the objects", async () => {
+    const store = makeStore(async <T>() => reply([], {}) as T);
+    await store.loadQueue();
+    store.filters.value = { ...store.filters.value, text: "wall" };
+    expect(store.groups.value.map((group) => group.title)).toEqual(["wall"]);
+    expect(store.group.value?.title).toBe("wall");
+  });
+});
+
+describe("keys", () => {
+  it("has each key once, and all of them in the help", () => {
+    const keys = BINDINGS.flatMap((binding) => binding.keys);
+    expect(new Set(keys).size).toBe(keys.length);
+    expect(BINDINGS.every((binding) => binding.help.length > 3)).toBe(true);
+  });
+
+  it("names keys as the table does", () => {
+    const event = { key: "z", ctrlKey: false, metaKey: false, altKey: false, shiftKey: false };
+    expect(keyName(event)).toBe("Z");
+    expect(keyName({ ...event, metaKey: true, shiftKey: true, key: "Z" })).toBe("Ctrl+Shift+Z");
+    expect(keyName({ ...event, key: "?", shiftKey: true })).toBe("?");
+    expect(keyName({ ...event, key: " " })).toBe("Space");
+    expect(keyName({ ...event, key: "ArrowDown" })).toBe("ArrowDown");
+  });
+
+  it("chooses a candidate by its digit for all ticked members", async () => {
+    const sent: unknown[] = [];
+    const store = makeStore(async <T>(_: string, body: unknown) => {
+      sent.push(body);
+      return reply([2, 1], { state: "corrected", class: 3 }) as T;
+    });
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    expect(focusOf(store)).toBe(2);
+    await vi.waitFor(() => expect(pageOf(store).value).not.toBeNull());
+    findBinding("2")?.run(store, view, "2");
+    expect(sent).toMatchObject([{ objects: [2, 1], action: "choose", class: 3, reviewer: "Ann" }]);
+  });
+
+  it("chooses the superclass", () => {
+    const store = makeStore(async <T>() => reply([], {}) as T);
+    expect([superclass(store.model, 2), superclass(store.model, 0)]).toEqual([0, -1]);
+  });
+
+  it("closes one thing at a time with Escape", () => {
+    const store = makeStore(async <T>() => reply([], {}) as T);
+    store.select([1]);
+    store.isHelpOpen.value = true;
+    const pressEscape = () => findBinding("Escape")?.run(store, view, "Escape");
+    pressEscape();
+    expect([store.isHelpOpen.value, store.selection.value]).toEqual([false, [1]]);
+    pressEscape();
+    expect(store.selection.value).toEqual([]);
+  });
+});
+
+describe("view", () => {
+  const scene = makeScene();
+
+  it("hides the wall between the viewer and the scene", () => {
+    expect([...cutAway(scene, { x: 0, y: -1 })]).toEqual([3]);
+    expect([...cutAway(scene, { x: 0, y: 1 })]).toEqual([]);
+  });
+
+  it("finds what hides an object: what is before it, not what is behind", () => {
+    const eye = { position: new Vector3(0.45, -5, 0.75), direction: new Vector3(0, -1, 0) };
+    expect([...occluders(scene, [1], eye)]).toEqual([3]);
+    const above = { position: new Vector3(0.45, 0.45, 5), direction: new Vector3(0, 0, 1) };
+    expect([...occluders(scene, [1], above)]).toEqual([]);
+    const below = { position: new Vector3(0.45, 0.45, -5), direction: new Vector3(0, 0, -1) };
+    expect([...occluders(scene, [1], below)]).toEqual([0]);
+  });
+});
