@@ -58,6 +58,8 @@ def serve_studio(
     files = read_app_files()
     with open_socket(options.host, options.port) as socket:
         session = open_session(project)
+        # Whoever reads the address below may connect before the server accepts.
+        socket.listen()
         host, port = socket.getsockname()[:2]
         address = f"http://{f'[{host}]' if ':' in host else host}:{port}/"
         if not has_password():

@@ -1,0 +1,173 @@
+"""A running studio on a small stage."""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+import uvicorn
+
+from usd2kg.endpoint.listening import open_socket
+from usd2kg.studio import ProjectSources, open_project
+from usd2kg.studio.app_files import read_app_files
+from usd2kg.studio.application import make_app
+from usd2kg.studio.session import open_session
+
+KEY = "correct-horse-battery"
+HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
+
+STAGE = f"""#usda 1.0
+(
+    defaultPrim = "Kitchen"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "Kitchen" (kind = "group")
+{{
+    def Cube "Floor" (kind = "component")
+    {{
+        double size = 1
+        double3 xformOp:translate = (0, 0, -0.05)
+        float3 xformOp:scale = (5, 5, 0.1)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+    }}
+    def Cube "Table" (kind = "component")
+    {{
+        double size = 1
+        double3 xformOp:translate = (0, 0, 0.35)
+        float3 xformOp:scale = (1.2, 0.8, 0.7)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+    }}
+    def Cylinder "Cup_1" (
+        kind = "component"
+        displayName = {json.dumps(HOSTILE)}
+    )
+    {{
+        double height = 0.1
+        double radius = 0.04
+        double3 xformOp:translate = (0.2, 0, 0.75)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+    def Cylinder "Cup_2" (kind = "component")
+    {{
+        double height = 0.1
+        double radius = 0.04
+        double3 xformOp:translate = (-0.2, 0, 0.75)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+    def Cube "Zxqv" (kind = "component")
+    {{
+        double size = 0.3
+        double3 xformOp:translate = (1.5, 1.5, 0.15)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+}}
+"""
+
+
+class Reply(NamedTuple):
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+    def json(self) -> Any:
+        return json.loads(self.body)
+
+
+class Client:
+    """Requests to a studio."""
+
+    def __init__(self, address: str) -> None:
+        self.address = address
+
+    def ask(
+        self, path: str, body: Any = None, *, key: str | None = KEY, headers: dict[str, str] | None = None
+    ) -> Reply:
+        request = urllib.request.Request(self.address + path)
+        if key is not None:
+            request.add_header("Authorization", f"Bearer {key}")
+        if body is not None:
+            request.data = body if isinstance(body, bytes) else json.dumps(body).encode()
+            request.add_header("Content-Type", "application/json")
+        for name, value in (headers or {}).items():
+            request.add_header(name, value)
+        try:
+            with urllib.request.urlopen(request, timeout=60) as response:
+                return Reply(response.status, dict(response.headers), response.read())
+        except urllib.error.HTTPError as error:
+            with error:
+                return Reply(error.code, dict(error.headers), error.read())
+
+
+class Studio(Client):
+    """A process `usd2kg studio`."""
+
+    def __init__(self, *arguments: str, key: str = KEY) -> None:
+        command = [sys.executable, "-m", "usd2kg", "studio", *arguments, "--port", "0", "--no-browser"]
+        environment = {**os.environ, "USD2KG_STUDIO_PASSWORD": key}
+        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment)
+        assert self.process.stderr is not None
+        line = self.process.stderr.readline()
+        assert "studio at http://127.0.0.1:" in line, line + self.process.stderr.read()
+        super().__init__(line.partition("studio at ")[2].strip())
+
+    def stop(self) -> None:
+        self.process.terminate()
+        self._wait()
+
+    def kill(self) -> None:
+        self.process.kill()
+        self._wait()
+
+    def _wait(self) -> None:
+        self.process.wait(30)
+        assert self.process.stderr is not None
+        self.process.stderr.close()
+
+
+@contextmanager
+def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
+    """A studio in this process, which starts at once since the grounder is loaded."""
+    with open_project(folder, ProjectSources(stage)) as project, open_socket("127.0.0.1", 0) as socket:
+        socket.listen()
+        session = open_session(project)
+        app = make_app(session, read_app_files(), key=KEY, reviewer="Ann")
+        server = uvicorn.Server(uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=1))
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]})
+        thread.start()
+        yield Client(f"http://127.0.0.1:{socket.getsockname()[1]}/")
+        server.should_exit = True
+        thread.join()
+        session.close()
+
+
+@pytest.fixture(scope="session")
+def page(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """The built page; a stand-in where it is not built, for tests of the server alone."""
+    from importlib.resources import files  # noqa: PLC0415
+
+    app = Path(str(files("usd2kg.studio"))) / "app"
+    if not (app / "index.html").is_file():
+        app.mkdir(exist_ok=True)
+        (app / "index.html").write_text("<!doctype html><title>not built</title>")
+
+
+@pytest.fixture(scope="session")
+def stage(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("stage") / "kitchen.usda"
+    path.write_text(STAGE)
+    return path
+
+
+@pytest.fixture
+def studio(stage: Path, tmp_path: Path, page: None) -> Iterator[Client]:
+    with running_studio(stage, tmp_path / "project") as client:
+        yield client
