@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
-import uvicorn
 
 from usd2kg.endpoint.listening import open_socket
 from usd2kg.studio import ProjectSources, open_project
 from usd2kg.studio.app_files import read_app_files
 from usd2kg.studio.application import make_app
+from usd2kg.studio.http_server import StudioServer
 from usd2kg.studio.session import open_session
 
 KEY = "correct-horse-battery"
@@ -140,13 +140,15 @@ def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
         socket.listen()
         session = open_session(project)
         app = make_app(session, read_app_files(), key=KEY, reviewer="Ann")
-        server = uvicorn.Server(uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=1))
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]})
+        server = StudioServer(app)
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
         thread.start()
-        yield Client(f"http://127.0.0.1:{socket.getsockname()[1]}/")
-        server.should_exit = True
-        thread.join()
-        session.close()
+        try:
+            yield Client(f"http://127.0.0.1:{socket.getsockname()[1]}/")
+        finally:
+            server.should_exit = True
+            thread.join(20)
+            session.close()
 
 
 @pytest.fixture(scope="session")

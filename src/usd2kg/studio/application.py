@@ -69,7 +69,7 @@ def make_app(
 
         return serve
 
-    return Starlette(
+    app = Starlette(
         routes=[
             *(Route(path, serve_file(file)) for path, file in files.items()),
             *(Route(f"/api{path}", _checked(handler), methods=[method]) for method, path, handler in api.routes()),
@@ -77,6 +77,8 @@ def make_app(
         middleware=[Middleware(Guard, hosts=tuple(hosts), origins=()), Middleware(KeyGate, key=key)],
         lifespan=lifespan,
     )
+    app.state.end_streams = api.end_streams
+    return app
 
 
 def _checked(handler: Handler) -> Handler:
@@ -126,9 +128,12 @@ class _Api:
             ("POST", "/sparql", self._sparql),
         ]
 
+    def end_streams(self) -> None:
+        """End the streams of changes."""
+        self._events.close()
+
     def close(self) -> None:
         """Write the files, and stop all threads."""
-        self._events.close()
         self._outputs.close()
         self._questions.close()
         self._pictures.close()

@@ -11,9 +11,6 @@ from usd2kg.studio.project import Project
 
 __all__ = ["StudioOptions", "serve_studio"]
 
-_SHUTDOWN_S = 3
-"""Seconds that requests have to finish when the server stops."""
-
 
 @dataclass(frozen=True)
 class StudioOptions:
@@ -45,10 +42,10 @@ def serve_studio(
     try:
         import fast_simplification  # noqa: F401, PLC0415
         import trimesh  # noqa: F401, PLC0415
-        import uvicorn  # noqa: PLC0415
 
         from usd2kg.studio.access import choose_key, has_password  # noqa: PLC0415
         from usd2kg.studio.application import make_app  # noqa: PLC0415
+        from usd2kg.studio.http_server import StudioServer  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise Usd2kgError(f"studio: {error.name} is not installed; run: pip install 'usd2kg[studio]'") from error
     from usd2kg.studio.app_files import read_app_files  # noqa: PLC0415
@@ -73,9 +70,8 @@ def serve_studio(
             hosts=[*options.hosts, options.host],
             when_ready=lambda: when_ready(address),
         )
-        config = uvicorn.Config(app, log_level="warning", server_header=False, timeout_graceful_shutdown=_SHUTDOWN_S)
         try:
-            uvicorn.Server(config).run(sockets=[socket])
+            StudioServer(app).run(sockets=[socket])
         finally:
             session.close()
 

@@ -1,0 +1,203 @@
+"""The studio in a real browser, by keyboard alone."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from tests.studio.conftest import HOSTILE, KEY, Client, running_studio
+from usd2kg.demo import demo_scene
+from usd2kg.grounding import read_decisions
+from usd2kg.ontology import load_home_tbox
+from usd2kg.pipeline import build
+from usd2kg.query import load_graph
+from usd2kg.studio.app_files import read_app_files
+
+CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
+IS_BUILT = len(read_app_files()) > 2
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
+    pytest.mark.skipif(not IS_BUILT, reason="needs the built page: make web"),
+]
+SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--no-sandbox"]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        found = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE_GL)
+        yield found
+        found.close()
+
+
+def open_page(browser: Browser, client: Client, reviewer: str = "") -> Page:
+    context = browser.new_context(viewport={"width": 1440, "height": 900})
+    page = context.new_page()
+    problems: list[str] = []
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
+    page.goto(f"{client.address}#token={KEY}")
+    expect(page.locator(".queue-row").first).to_be_visible()
+    page.wait_for_selector("html[data-geometry=loaded]")
+    if reviewer:
+        page.get_by_label("Reviewer").fill(reviewer)
+        page.keyboard.press("Enter")
+    page.problems = problems  # type: ignore[attr-defined]
+    return page
+
+
+def close_page(page: Page) -> None:
+    assert page.problems == []  # type: ignore[attr-defined]
+    page.context.close()
+
+
+def group_title(page: Page) -> str:
+    return page.locator(".group-card h2").inner_text()
+
+
+def wait_for_group(page: Page, before: str) -> None:
+    expect(page.locator(".group-card h2")).not_to_have_text(before)
+
+
+def press_and_wait(page: Page, key: str) -> None:
+    before = group_title(page)
+    page.keyboard.press(key)
+    wait_for_group(page, before)
+
+
+def test_a_scene_is_reviewed_with_the_keyboard_alone(browser: Browser, tmp_path: Path):
+    folder = tmp_path / "project"
+    with running_studio(demo_scene(), folder) as client:
+        page = open_page(browser, client)
+        first = group_title(page)
+        press_and_wait(page, "Enter")
+        press_and_wait(page, "2")
+        press_and_wait(page, "u")
+        before = group_title(page)
+        page.keyboard.press("/")
+        page.keyboard.type("wine bottle")
+        expect(page.locator("[role=option] strong").first).to_have_text("wine bottle")
+        page.keyboard.press("Enter")
+        wait_for_group(page, before)
+        press_and_wait(page, "n")
+        press_and_wait(page, "q")
+        # An exception: the second member stays open.
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("Space")
+        ticked = page.locator(".group-card header p").inner_text().partition(" ticked")[0]
+        page.keyboard.press("Enter")
+        expect(page.locator(".group-card header p")).not_to_contain_text(ticked)
+        expect(page.locator(".status-bar .saving")).to_have_text("Saved")
+        states = client.ask("api/states").json()
+        counts = {state["state"] for state in states["states"]}
+        assert {"suggested", "confirmed", "corrected", "no-class", "unsure"} <= counts
+        assert states["version"] == 7
+        for _ in range(7):
+            page.keyboard.press("Control+z")
+            page.wait_for_timeout(150)
+        expect(page.get_by_role("button", name="Undo")).to_be_disabled()
+        assert {state["state"] for state in client.ask("api/states").json()["states"]} == {"suggested"}
+        for _ in range(7):
+            page.keyboard.press("Control+Shift+z")
+            page.wait_for_timeout(150)
+        expect(page.get_by_role("button", name="Redo")).to_be_disabled()
+        assert group_title(page) != first
+        again = client.ask("api/states").json()["states"]
+        assert [state["class"] for state in again] == [state["class"] for state in states["states"]]
+        close_page(page)
+    check_follow_up(browser, folder)
+
+
+def check_follow_up(browser: Browser, folder: Path) -> None:
+    """After a restart, a second reviewer goes on; the graph is that of a build with the decisions."""
+    tbox = load_home_tbox()
+    with running_studio(demo_scene(), folder) as client:
+        page = open_page(browser, client, "https://orcid.org/0000-0002-1825-0097")
+        expect(page.get_by_role("button", name="Undo")).to_be_disabled()
+        decided = int(page.locator(".status-bar").inner_text().partition(" of ")[0].split()[-1])
+        press_and_wait(page, "Enter")
+        expect(page.get_by_role("button", name="Undo")).to_be_enabled()
+        now = client.ask("api/states?reviewer=x").json()["states"]
+        assert sum(state["state"] in {"confirmed", "corrected", "no-class"} for state in now) > decided
+        page.keyboard.press("Control+k")
+        page.keyboard.type("cup")
+        expect(page.locator(".search .chip")).to_contain_text("shown")
+        page.keyboard.press("Escape")
+        page.keyboard.press("?")
+        expect(page.get_by_role("dialog", name="Keys")).to_be_visible()
+        page.keyboard.press("Escape")
+        expect(page.get_by_role("dialog", name="Keys")).to_be_hidden()
+        close_page(page)
+    decisions = read_decisions(folder / "decisions.sssom.tsv", tbox)
+    built = build(demo_scene(), decisions=decisions)
+    graph = load_graph(folder / "graph.ttl")
+    query = "SELECT ?p ?c { ?o u2k:primPath ?p ; a ?c . ?c a owl:Class } ORDER BY ?p ?c"
+    expected = {(p.prim_path, p.class_iri) for p in built.grounding.predictions if p.class_iri}
+    assert expected <= set(graph.sparql(query).rows)
+    assert "0000-0002-1825-0097" in (folder / "graph.ttl").read_text()
+
+
+def test_reviewers_see_each_other(browser: Browser, stage: Path, tmp_path: Path):
+    with running_studio(stage, tmp_path / "project") as client:
+        ann, bob = open_page(browser, client, "Ann"), open_page(browser, client, "Bob")
+        press_and_wait(ann, "Enter")
+        expect(bob.locator(".notice")).to_contain_text("Ann: confirm")
+        expect(bob.locator(".status-bar")).to_contain_text("1 of 5 decided")
+        close_page(ann)
+        close_page(bob)
+
+
+def test_names_stay_text(browser: Browser, stage: Path, tmp_path: Path):
+    with running_studio(stage, tmp_path / "project") as client:
+        page = open_page(browser, client)
+        page.get_by_label("Filter objects").fill("cup")
+        for button in ("Labels",):
+            page.get_by_role("button", name=button).click()
+        page.locator(".tree-row", has_text="<img").click()
+        expect(page.locator(".object-panel h2")).to_have_text(HOSTILE)
+        page.locator("#tab-ask").click()
+        page.get_by_label("Question").fill("what is on the table?")
+        page.keyboard.press("Enter")
+        expect(page.locator(".answer-table")).to_contain_text("<img src=x")
+        assert page.title() == "kitchen.usda · usd2kg studio"
+        assert page.locator("img[src=x]").count() == 0
+        close_page(page)
+
+
+def test_a_click_selects_in_all_panels_and_questions_select_in_the_picture(
+    browser: Browser, stage: Path, tmp_path: Path
+):
+    with running_studio(stage, tmp_path / "project") as client:
+        page = open_page(browser, client)
+        page.keyboard.press("t")
+        page.wait_for_timeout(600)
+        box = page.locator("canvas").bounding_box()
+        assert box is not None
+        page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        expect(page.locator(".object-panel h2")).to_have_text("Table")
+        expect(page.locator(".tree-row[aria-selected=true]")).to_contain_text("Table")
+        page.locator("#tab-sparql").click()
+        page.get_by_label("SPARQL query").fill('SELECT ?p { ?o u2k:primPath ?p FILTER(STRENDS(?p, "Zxqv")) }')
+        page.get_by_role("button", name="Run").click()
+        expect(page.locator(".object-panel h2")).to_have_text("Zxqv")
+        page.get_by_label("SPARQL query").fill("SELECT nonsense")
+        page.get_by_role("button", name="Run").click()
+        expect(page.get_by_role("alert")).to_contain_text("query")
+        page.problems.clear()  # type: ignore[attr-defined]
+        close_page(page)
+
+
+def test_a_wrong_key_is_asked_for_again(browser: Browser, stage: Path, tmp_path: Path):
+    with running_studio(stage, tmp_path / "project") as client:
+        page = browser.new_page()
+        page.goto(f"{client.address}#token=wrong")
+        expect(page.get_by_role("alert")).to_have_text("This key is wrong.")
+        page.get_by_label("Password").fill(KEY)
+        page.keyboard.press("Enter")
+        expect(page.locator(".queue-row").first).to_be_visible()
+        assert KEY not in page.url
+        page.close()
