@@ -158,6 +158,8 @@ export class Store {
     try {
       const query = encodeURIComponent(this.reviewer.value);
       const states = await this.client.get<States>(`states?reviewer=${query}`);
+      // A change that arrived in the meantime is newer.
+      if (states.version < this.version.value) return this.reload();
       batch(() => {
         this.states.value = states.states;
         this.take(states);
@@ -195,10 +197,11 @@ export class Store {
   /** Decides about objects; the page shows the result at once, and takes it back if the server refuses. */
   async decide(objects: readonly ObjectIndex[], action: DecisionAction, chosen?: ClassIndex): Promise<void> {
     if (objects.length === 0 || this.model.data.is_read_only) return;
-    const { group, groups } = this;
-    const following = groups.value[groups.value.findIndex((each) => each.id === group.value?.id) + 1];
+    const { groups } = this;
+    const current = this.group.value;
+    const following = groups.value[groups.value.findIndex((group) => group.id === current?.id) + 1];
+    const exception = current?.objects.find((object) => !objects.includes(object));
     const before = this.states.value;
-    const inGroup = group.value?.objects.every((object) => objects.includes(object)) ?? false;
     this.states.value = applyStates(before, predictStates(before, objects, action, chosen));
     const body = {
       objects,
@@ -212,14 +215,12 @@ export class Store {
     if (reply === null) return;
     this.notify(describe(this.model, reply, objects.length, action, chosen));
     await this.loadQueue();
-    if (this.groups.value.some((each) => each.id === this.groupId.value) && !inGroup) {
-      this.excluded.value = new Set();
-      this.member.value = 0;
-    } else if (following !== undefined) {
-      this.goTo(following.id);
-    } else if (this.groups.value[0] !== undefined) {
-      this.goTo(this.groups.value[0].id);
-    }
+    // The exceptions of a group come next, since the reviewer has just looked at them.
+    const next =
+      groups.value.find((group) => exception !== undefined && group.objects.includes(exception)) ??
+      groups.value.find((group) => group.id === following?.id) ??
+      groups.value[0];
+    if (next !== undefined) this.goTo(next.id);
   }
 
   async undo(): Promise<void> {
