@@ -1,6 +1,6 @@
 /** All keys, in one table: the handler and the help are made from it. */
 
-import { candidatesOf } from "../state/candidates";
+import { loadCandidates } from "../state/candidates";
 import { superclass } from "../state/review";
 import type { Store } from "../state/store";
 
@@ -46,7 +46,7 @@ export const BINDINGS: Binding[] = [
     keys: ["1", "2", "3", "4", "5", "6", "7", "8", "9"],
     help: "Choose the candidate with this number",
     section: "Review",
-    run: (store, _, key) => chooseCandidate(store, Number(key) - 1),
+    run: (store, _, key) => void chooseCandidate(store, Number(key) - 1),
   },
   {
     keys: ["U"],
@@ -198,9 +198,15 @@ export const BINDINGS: Binding[] = [
   },
 ];
 
-function chooseCandidate(store: Store, number: number): void {
-  const chosen = candidatesOf(store).value?.[number]?.class;
-  if (chosen !== undefined) void store.decide(store.targets.value, "choose", chosen);
+async function chooseCandidate(store: Store, number: number): Promise<void> {
+  const targets = store.targets.value;
+  try {
+    const chosen = (await loadCandidates(store))[number]?.class;
+    if (chosen === undefined) store.notify(`There is no candidate ${number + 1}`);
+    else await store.decide(targets, "choose", chosen);
+  } catch (error) {
+    store.report(error);
+  }
 }
 
 function chooseSuperclass(store: Store): void {

@@ -5,7 +5,7 @@ import { candidatesOf } from "../state/candidates";
 import type { Store } from "../state/store";
 
 export function Candidates({ store, targets }: { store: Store; targets: readonly ObjectIndex[] }) {
-  const candidates = candidatesOf(store).value;
+  const candidates = candidatesOf(store);
   if (candidates === undefined) return <p class="empty">…</p>;
   if (candidates.length === 0) return <p class="empty">The grounder named no class. Search one with /</p>;
   return (

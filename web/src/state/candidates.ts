@@ -41,10 +41,18 @@ export function pageOf(store: Store): Signal<ObjectPage | null> {
   return page;
 }
 
-/** Returns the candidates of the focused object, those with a class only. */
-export function candidatesOf(store: Store): { value: Candidate[] | undefined } {
+/** Returns the candidates of the focused object, those with a class only; undefined until they are loaded. */
+export function candidatesOf(store: Store): Candidate[] | undefined {
   const page = pageOf(store).value;
-  return {
-    value: page?.object === focusOf(store) ? page.candidates.filter(({ class: index }) => index >= 0) : undefined,
-  };
+  return page?.object === focusOf(store) ? withClass(page) : undefined;
+}
+
+/** Returns the candidates of the focused object; loads them if the reviewer is faster than the page. */
+export async function loadCandidates(store: Store): Promise<Candidate[]> {
+  const known = candidatesOf(store);
+  return known ?? withClass(await store.client.get<ObjectPage>(`object/${focusOf(store)}`));
+}
+
+function withClass(page: ObjectPage): Candidate[] {
+  return page.candidates.filter(({ class: index }) => index >= 0);
 }
