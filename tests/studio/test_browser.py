@@ -96,13 +96,13 @@ def test_a_scene_is_reviewed_with_the_keyboard_alone(browser: Browser, tmp_path:
         states = client.ask("api/states").json()
         counts = {state["state"] for state in states["states"]}
         assert {"suggested", "confirmed", "corrected", "no-class", "unsure"} <= counts
-        assert states["version"] == 7
-        for _ in range(7):
+        assert states["version"] == 6
+        for _ in range(6):
             page.keyboard.press("Control+z")
             page.wait_for_timeout(150)
         expect(page.get_by_role("button", name="Undo")).to_be_disabled()
         assert {state["state"] for state in client.ask("api/states").json()["states"]} == {"suggested"}
-        for _ in range(7):
+        for _ in range(6):
             page.keyboard.press("Control+Shift+z")
             page.wait_for_timeout(150)
         expect(page.get_by_role("button", name="Redo")).to_be_disabled()
