@@ -9,6 +9,7 @@ export default defineConfig({
     // The content policy of the server forbids inline scripts and data: scripts.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 900,
     target: "es2022",
     // The licences of the libraries in the bundle ship beside it.
     license: { fileName: "licenses.md" },

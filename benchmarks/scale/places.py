@@ -4,7 +4,7 @@ import random
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from catalogue import Asset, Catalogue
+from benchmarks.scale.catalogue import Asset, Catalogue
 
 Point = tuple[float, float, float]
 ROOM = 6.0

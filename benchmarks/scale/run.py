@@ -1,6 +1,6 @@
 """Time the whole pipeline from file to graph on furnished flats and a warehouse, and its growth with scene size.
 
-Usage: python benchmarks/scale/run.py [--places flats warehouse] [--profiles soma plain] [OBJECTS...]
+Usage: python -m benchmarks.scale.run [--places flats warehouse] [--profiles soma plain] [OBJECTS...]
 
 The default is 1000, 10000 and 100000 objects of five prims each. Each run has its own process, for its peak memory.
 Seconds are processor time, which other load affects little; wall time is in brackets. "Ours / its own" compares writing
@@ -20,7 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from places import PLACES
+from benchmarks.scale.places import PLACES
 
 STEPS = ("read", "ground", "relations", "instantiate", "write", "total")
 TURNS = 3
@@ -106,7 +106,7 @@ def exponent(sizes: list[int], seconds: list[float]) -> float:
 
 def run_child(stage: Path, profile: str) -> dict[str, Any]:
     """Return the result of `measure` in a separate process."""
-    command = [sys.executable, __file__, "--measure", str(stage), "--profiles", profile]
+    command = [sys.executable, "-m", "benchmarks.scale.run", "--measure", str(stage), "--profiles", profile]
     found = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     measured: dict[str, Any] = json.loads(found.stdout)
     return measured
@@ -132,7 +132,7 @@ def compare(places: list[str], profiles: list[str], sizes: list[int]) -> None:
         "| place | profile | objects | prims | triples | " + ", s | ".join(STEPS) + ", s | peak GB | ours / its own |"
     )
     print("|" + " --- |" * (7 + len(STEPS)))
-    from stage import write_place  # noqa: PLC0415 - opens OpenUSD, which the child processes measure
+    from benchmarks.scale.stage import write_place  # noqa: PLC0415 - opens OpenUSD, which the child processes measure
 
     with tempfile.TemporaryDirectory() as folder:
         for place in places:

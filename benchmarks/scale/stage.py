@@ -4,9 +4,10 @@ import itertools
 import random
 from pathlib import Path
 
-from catalogue import Asset, Catalogue
-from places import PLACES, Point, Thing, board_tops
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, Vt
+
+from benchmarks.scale.catalogue import Asset, Catalogue
+from benchmarks.scale.places import PLACES, Point, Thing, board_tops
 
 MATERIALS = ("Oak", "Steel", "Plastic", "Ceramic", "Cardboard", "Glass")
 THICKNESS = 0.02

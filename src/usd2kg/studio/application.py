@@ -124,6 +124,7 @@ class _Api:
             ("POST", "/decisions", self._decide),
             ("POST", "/undo", self._undo),
             ("POST", "/redo", self._redo),
+            ("POST", "/reground", self._ground_again),
             ("POST", "/ask", self._ask),
             ("POST", "/sparql", self._sparql),
         ]
@@ -245,6 +246,23 @@ class _Api:
         body = await read_body(request)
         return self._announce(await asyncio.to_thread(self._session.redo, _reviewer(body)), body, "redo")
 
+    async def _ground_again(self, request: Request) -> Response:
+        body = await read_body(request)
+        changes = await asyncio.to_thread(self._session.ground_again)
+        states = [self._session.state(new.prim_path) for _, new in changes]
+        self._announce(states, body, f"ground again: {len(changes)} suggestions changed")
+        found = [
+            {
+                "object": self._catalog.object(new.prim_path),
+                "before": self._catalog.class_(old.class_iri),
+                "after": self._catalog.class_(new.class_iri),
+                "reason": new.explanation,
+            }
+            for old, new in changes
+        ]
+        all_states = [state_json(state, self._catalog) for state in self._session.states()]
+        return JSONResponse({"version": self._session.version, "states": all_states, "changes": found})
+
     def _announce(self, changed: list[ObjectState], body: dict[str, Any], message: str) -> Response:
         """Tell all pages of a change, and return the answer to the page that made it."""
         reviewer = _reviewer(body)
@@ -273,7 +291,10 @@ class _Api:
     # Pictures.
 
     async def _geometry(self, _: Request) -> Response:
-        return JSONResponse((await _wait(self._pictures.geometry())).manifest())
+        manifest = (await _wait(self._pictures.geometry())).manifest()
+        # The first graph is built when the page has what it shows first.
+        self._outputs.notify()
+        return JSONResponse(manifest)
 
     async def _geometry_file(self, request: Request) -> Response:
         try:

@@ -24,12 +24,11 @@ class OutputFiles:
         self._session = session
         self._changed = threading.Event()
         self._is_closing = False
-        self._written = -1
+        self._written: object = None
         self.problem = ""
         """Why the files are not up to date; empty if they are, or will be in a moment."""
         self._thread = threading.Thread(target=self._run, name="usd2kg-outputs", daemon=True)
         self._thread.start()
-        self.notify()
 
     @property
     def folder(self) -> Path:
@@ -55,11 +54,15 @@ class OutputFiles:
                 # Reviewers decide once a second; the files follow when they pause.
                 self._changed.clear()
                 is_last = self._is_closing or (self._changed.wait(SERVER.outputs_delay_s) and self._is_closing)
-            if self._written != self._session.version:
+            if self._written != self._current():
                 self._write()
 
+    def _current(self) -> tuple[int, int]:
+        """Return what tells whether the files are up to date."""
+        return self._session.version, id(self._session.suggestions)
+
     def _write(self) -> None:
-        version = self._session.version
+        current = self._current()
         steps: list[Callable[[], object]] = [
             self._session.answers,
             lambda: write_graph(self._session.graph(), self.folder / "graph.ttl"),
@@ -75,7 +78,7 @@ class OutputFiles:
                 # The decisions are in the journal; one file that cannot be written stops no other.
                 self.problem = str(error)
                 logger.warning("%s", error)
-        self._written = version
+        self._written = current
 
     def _export(self, name: str) -> None:
         write_whole(self.folder / name, EXPORTS[name].write(self._session))

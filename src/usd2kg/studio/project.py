@@ -48,6 +48,11 @@ class Project:
         """The decisions, an input of `--decisions`."""
         return self.folder / "decisions.sssom.tsv"
 
+    @property
+    def lessons(self) -> Path:
+        """What the decisions teach about concepts, an input of `--alignment`; it exists once they were applied."""
+        return self.folder / "lessons.sssom.tsv"
+
 
 @contextmanager
 def open_project(folder: Path, sources: ProjectSources | None = None) -> Iterator[Project]:

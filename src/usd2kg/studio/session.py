@@ -10,6 +10,7 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.errors import GroundingError
+from usd2kg.files import write_whole
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.graph.iris import default_base
 from usd2kg.grounding import Grounding, Prediction, apply_decisions, ground, make_grounder, read_grounding
@@ -20,6 +21,7 @@ from usd2kg.query.dataset import Dataset
 from usd2kg.relations import Relation, find_relations
 from usd2kg.scene import Scene, read_scene
 from usd2kg.studio.journal import Journal
+from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
 from usd2kg.studio.object_state import ObjectState, state_of
 from usd2kg.studio.project import Project
 from usd2kg.studio.review_state import ReviewState
@@ -41,22 +43,22 @@ class StudioSession:
         self.scene = scene
         self.tbox = tbox
         self.suggestions = grounding
-        """The grounding without the decisions of the project."""
+        """The grounding without the decisions of the project; open objects may have been grounded again."""
         self.relations = tuple(relations)
         self.base = project.sources.base or default_base(scene.source)
         self.journal = Journal(project.journal, self.base, tbox)
         self.review = ReviewState(self.journal.events)
         self._lock = threading.Lock()
         self._graph_lock = threading.Lock()
-        self._graph: tuple[int, KnowledgeGraph] | None = None
-        self._answers: tuple[int, GraphStore] | None = None
+        self._graph: tuple[Grounding, int, KnowledgeGraph] | None = None
+        self._answers: tuple[KnowledgeGraph, GraphStore] | None = None
 
     @property
     def version(self) -> int:
         """Number of the last event."""
         return self.review.version
 
-    @cached_property
+    @property
     def predictions(self) -> Mapping[str, Prediction]:
         """Prim path → suggestion, in scene order."""
         return self.suggestions.by_path
@@ -121,6 +123,33 @@ class StudioSession:
         self.review.apply(event)
         return [self.state(change.prim_path) for change in event.changes if change.prim_path in self.predictions]
 
+    # Learning.
+
+    def lessons(self) -> list[Lesson]:
+        """Return what the decisions teach about concepts and words."""
+        return find_lessons(self.suggestions, self.review.decisions(), self.scene)
+
+    def ground_again(self) -> list[tuple[Prediction, Prediction]]:
+        """Ground the open objects again with what the decisions teach; return the predictions that changed.
+
+        The lessons are kept in the project, so that they are applied again when it is opened.
+
+        Raises:
+            GroundingError: the suggestions come from another grounder, or from an edited alignment.
+            OutputError: the lessons cannot be written.
+        """
+        sources = self.project.sources
+        if sources.mapping is not None or sources.alignment is not None:
+            given = sources.mapping or sources.alignment
+            raise GroundingError(f"the suggestions come from {given}; only those of the built alignment can be learned")
+        with self._lock:
+            text = format_lessons(self.lessons(), self.tbox)
+            write_whole(self.project.lessons, text.encode())
+            before = self.suggestions
+            self.suggestions = _apply_lessons(self.project, self.scene, self.tbox, before, self.review)
+        pairs = zip(before.predictions, self.suggestions.predictions, strict=True)
+        return [(old, new) for old, new in pairs if old.class_iri != new.class_iri]
+
     # What follows.
 
     def grounding(self) -> Grounding:
@@ -130,22 +159,20 @@ class StudioSession:
     def graph(self) -> KnowledgeGraph:
         """Return the graph of the current decisions; it is built when it is first needed after a decision."""
         with self._graph_lock:
-            version = self.version
-            if self._graph is None or self._graph[0] != version:
+            suggestions, version = self.suggestions, self.version
+            if self._graph is None or self._graph[0] is not suggestions or self._graph[1] != version:
                 built = instantiate(self.scene, self.tbox, self.grounding(), base=self.base, relations=self.relations)
-                self._graph = version, built
-            return self._graph[1]
+                self._graph = suggestions, version, built
+            return self._graph[2]
 
     def answers(self) -> GraphStore:
         """Return the graph of the current decisions, to be queried."""
         graph = self.graph()
         with self._graph_lock:
-            assert self._graph is not None, "graph() has built it"
-            version = self._graph[0]
-            if self._answers is None or self._answers[0] != version:
+            if self._answers is None or self._answers[0] is not graph:
                 store = ox.Store()
                 store.bulk_extend(ox.Quad(t.subject, t.predicate, t.object) for t in graph.triples)
-                self._answers = version, GraphStore(Dataset(store), self.scene.source)
+                self._answers = graph, GraphStore(Dataset(store), self.scene.source)
             return self._answers[1]
 
     @property
@@ -171,7 +198,20 @@ def open_session(project: Project) -> StudioSession:
         grounding = _read_mapping(sources.mapping, scene, tbox)
     else:
         grounding = ground(scene, tbox, make_grounder("lexical", alignment=sources.alignment))
-    return StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
+    session = StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
+    if project.lessons.exists() and sources.mapping is None and sources.alignment is None:
+        session.suggestions = _apply_lessons(project, scene, tbox, grounding, session.review)
+    return session
+
+
+def _apply_lessons(project: Project, scene: Scene, tbox: TBox, before: Grounding, review: ReviewState) -> Grounding:
+    """Return the grounding with the open objects grounded by the alignment and the lessons of the project."""
+    decisions = review.decisions()
+    grounder = make_grounder("lexical", alignment=project.lessons)
+    still_open = [p.prim_path for p in before.predictions if p.prim_path not in decisions]
+    renewed = ground(scene, tbox, grounder, paths=still_open)
+    predictions = tuple(renewed.by_path.get(p.prim_path, p) for p in before.predictions)
+    return replace(before, predictions=predictions, concepts={**renewed.concepts, **before.concepts})
 
 
 def _read_mapping(file: Path, scene: Scene, tbox: TBox) -> Grounding:

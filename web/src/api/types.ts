@@ -285,7 +285,7 @@ export interface GeometryManifest {
 // positions, normals and vertex colours (linear RGBA); nodes of equal objects share one mesh. Coordinates are metres,
 // z-up, without a root rotation.
 
-/** `POST /api/reground`: ground the open objects again with what the decisions teach. */
+/** `POST /api/reground` with {reviewer, page}: ground the open objects again with what the decisions teach. */
 export interface RegroundReply {
   version: number;
   states: ObjectState[];

@@ -88,6 +88,12 @@ export const BINDINGS: Binding[] = [
       store.isBulkOpen.value = true;
     },
   },
+  {
+    keys: ["R"],
+    help: "Ground again with what the decisions teach",
+    section: "Review",
+    run: (store) => void store.groundAgain(),
+  },
   { keys: ["Ctrl+Z", "Z"], help: "Undo", section: "Review", run: (store) => void store.undo() },
   { keys: ["Ctrl+Shift+Z", "Ctrl+Y", "Shift+Z"], help: "Redo", section: "Review", run: (store) => void store.redo() },
   {
@@ -221,6 +227,10 @@ function moveMember(store: Store, by: number): void {
 }
 
 function close(store: Store): void {
+  if (store.changes.value !== null) {
+    store.changes.value = null;
+    return;
+  }
   for (const dialog of [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen]) {
     if (dialog.value) {
       dialog.value = false;

@@ -24,7 +24,8 @@ function isOfControl(target: EventTarget | null, key: string): boolean {
 export function handleKey(event: KeyboardEvent, store: Store, view: ViewCommands): void {
   const key = keyName(event);
   if (event.defaultPrevented || event.isComposing) return;
-  const isModal = store.isHelpOpen.value || store.isClassSearchOpen.value || store.isBulkOpen.value;
+  const isModal =
+    store.isHelpOpen.value || store.isClassSearchOpen.value || store.isBulkOpen.value || store.changes.value !== null;
   if (key !== "Escape" && (isModal || isTextField(event.target) || isOfControl(event.target, key))) return;
   if (key === "Escape" && isTextField(event.target)) (event.target as HTMLElement).blur();
   const binding = findBinding(key);

@@ -5,6 +5,7 @@ import type { ViewCommands } from "../keys/bindings";
 import { handleKey } from "../keys/keyboard";
 import type { Store } from "../state/store";
 import { BulkDialog } from "./BulkDialog";
+import { ChangesDialog } from "./ChangesDialog";
 import { ClassSearch } from "./ClassSearch";
 import { DrawerPanel } from "./DrawerPanel";
 import { Help } from "./Help";
@@ -45,6 +46,7 @@ export function App({ store }: { store: Store }) {
       {store.isHelpOpen.value && <Help store={store} />}
       {store.isClassSearchOpen.value && <ClassSearch store={store} />}
       {store.isBulkOpen.value && <BulkDialog store={store} />}
+      {store.changes.value !== null && <ChangesDialog store={store} changes={store.changes.value} />}
       <Notices store={store} />
     </Thumbnails.Provider>
   );

@@ -8,6 +8,7 @@ const EXPORTS: { name: string; label: string }[] = [
   { name: "labels.usda", label: "Labels (USD layer)" },
   { name: "mapping.sssom.tsv", label: "Mapping (SSSOM)" },
   { name: "decisions.sssom.tsv", label: "Decisions (SSSOM journal)" },
+  { name: "lessons.sssom.tsv", label: "What decisions teach (alignment)" },
   { name: "objects.csv", label: "Objects (CSV)" },
   { name: "grounding.json", label: "Grounding (JSON)" },
 ];

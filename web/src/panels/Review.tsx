@@ -154,6 +154,13 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       <button type="button" onClick={() => (store.isBulkOpen.value = true)}>
         Many at once <kbd>B</kbd>
       </button>
+      <button
+        type="button"
+        title="Ground the open objects with what the decisions teach"
+        onClick={() => store.groundAgain()}
+      >
+        Ground again <kbd>R</kbd>
+      </button>
     </div>
   );
 }

@@ -13,6 +13,7 @@ import type {
   Queue,
   QueueGroup,
   QueueOrder,
+  RegroundReply,
   SceneData,
   States,
 } from "../api/types";
@@ -61,6 +62,9 @@ export class Store {
   readonly isHelpOpen = signal(false);
   readonly isClassSearchOpen = signal(false);
   readonly isBulkOpen = signal(false);
+
+  /** What grounding again has changed, while its list is open. */
+  readonly changes = signal<RegroundReply["changes"] | null>(null);
 
   readonly queue = signal<Queue | null>(null);
   readonly order = signal<QueueOrder>("gain");
@@ -221,6 +225,24 @@ export class Store {
       groups.value.find((group) => group.id === following?.id) ??
       groups.value[0];
     if (next !== undefined) this.goTo(next.id);
+  }
+
+  /** Grounds the open objects again with what the decisions teach, and lists what changed. */
+  async groundAgain(): Promise<void> {
+    this.saving.value = "saving";
+    try {
+      const body = { reviewer: this.reviewer.value, page: this.page };
+      const reply = await this.client.post<RegroundReply>("reground", body);
+      batch(() => {
+        this.states.value = reply.states;
+        this.changes.value = reply.changes;
+        this.saving.value = "saved";
+      });
+      await this.loadQueue();
+    } catch (error) {
+      this.saving.value = "saved";
+      this.report(error);
+    }
   }
 
   async undo(): Promise<void> {

@@ -211,8 +211,24 @@ export class Viewer {
     if (this.request === 0) this.request = requestAnimationFrame(() => this.draw());
   }
 
-  /** Draws now; returns the milliseconds it took. */
-  draw(): number {
+  /** Draws now and waits until the picture is there; returns the milliseconds it took. For measurements. */
+  drawAndWait(): number {
+    const start = performance.now();
+    this.draw();
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    return performance.now() - start;
+  }
+
+  get drawCalls(): number {
+    return this.renderer.info.render.calls;
+  }
+
+  get triangles(): number {
+    return this.renderer.info.render.triangles;
+  }
+
+  private draw(): void {
     this.request = 0;
     const start = performance.now();
     const camera = this.cameras.active;
@@ -227,7 +243,6 @@ export class Viewer {
     this.renderer.render(this.scene, camera);
     this.overlay.place(camera, this.host.clientWidth, this.host.clientHeight);
     this.frameMs = performance.now() - start;
-    return this.frameMs;
   }
 
   dispose(): void {

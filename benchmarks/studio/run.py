@@ -1,0 +1,224 @@
+"""Measure the studio in a real browser: first picture, frames, decisions, memory, and keystrokes to review a scene.
+
+Usage: python -m benchmarks.studio.run [--objects 1000 10000] [--gold SCENE GOLD]...
+"""
+
+import argparse
+import csv
+import json
+import os
+import shutil
+import statistics
+import tempfile
+import threading
+import time
+import urllib.request
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from benchmarks.scale.stage import write_place
+from usd2kg.demo import demo_scene
+from usd2kg.endpoint.listening import open_socket
+from usd2kg.studio import ProjectSources, open_project
+from usd2kg.studio.app_files import read_app_files
+from usd2kg.studio.application import make_app
+from usd2kg.studio.http_server import StudioServer
+from usd2kg.studio.session import open_session
+
+KEY = "benchmark-of-the-studio"
+SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--no-sandbox"]
+FRAMES = 30
+DECISIONS = 100
+CONFIRM_FROM = 0.9
+"""Confidence from which the reviewer confirms all groups on one page."""
+ORBIT = """frames => {
+  const viewer = window.studioViewer, controls = viewer.cameras.controls, times = [];
+  for (let i = 0; i < frames; i++) {
+    const camera = viewer.cameras.active, offset = camera.position.clone().sub(controls.target);
+    offset.applyAxisAngle(camera.up, 0.05);
+    camera.position.copy(controls.target).add(offset);
+    controls.update();
+    times.push(viewer.drawAndWait());
+  }
+  return times;
+}"""
+
+
+@contextmanager
+def studio(scene: Path) -> Iterator[str]:
+    """Serve a scene from this process; yields the address of the page."""
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        open_project(Path(folder) / "project", ProjectSources(scene)) as project,
+        open_socket("127.0.0.1", 0) as socket,
+    ):
+        socket.listen()
+        session = open_session(project)
+        server = StudioServer(make_app(session, read_app_files(), key=KEY, reviewer="benchmark"))
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{socket.getsockname()[1]}/"
+        finally:
+            server.should_exit = True
+            thread.join()
+            session.close()
+
+
+def open_page(browser: Browser, address: str) -> Page:
+    """Open the page and wait for the first picture."""
+    page = browser.new_page(viewport={"width": 1440, "height": 900}, bypass_csp=True)
+    page.goto(f"{address}#token={KEY}")
+    page.wait_for_function("window.studioViewer?.frameMs > 0", timeout=60_000)
+    return page
+
+
+def measure_view(browser: Browser, scene: Path, name: str) -> None:
+    """Print seconds to the first picture and to all meshes, and milliseconds of a frame while orbiting."""
+    with studio(scene) as address:
+        start = time.perf_counter()
+        page = open_page(browser, address)
+        first = time.perf_counter() - start
+        page.wait_for_selector("html[data-geometry=loaded]", timeout=300_000)
+        meshes = time.perf_counter() - start
+        times = page.evaluate(ORBIT, FRAMES)
+        calls = page.evaluate("window.studioViewer.drawCalls")
+        triangles = page.evaluate("window.studioViewer.triangles")
+        heap = page.evaluate("performance.memory.usedJSHeapSize") / 2**20
+        page.close()
+    median, slowest = statistics.median(times), max(times)
+    print(
+        f"| {name} | {first:.2f} | {meshes:.2f} | {median:.0f} | {slowest:.0f} | {calls} | {triangles:,} | {heap:.0f} |"
+    )
+
+
+def measure_decisions(scene: Path) -> None:
+    """Print milliseconds from a decision's request to its answer, after it is on disk."""
+    with studio(scene) as address:
+        count = len(ask(address, "states")["states"])
+        times = []
+        for number in range(DECISIONS):
+            start = time.perf_counter()
+            ask(address, "decisions", {"objects": [number % count], "action": "confirm", "reviewer": "benchmark"})
+            times.append(1000 * (time.perf_counter() - start))
+    times.sort()
+    print(f"Decision on disk: median {statistics.median(times):.1f} ms, 99 % {times[int(0.99 * len(times))]:.1f} ms")
+
+
+def ask(address: str, path: str, body: Any = None) -> Any:
+    """Return the JSON answer to a request."""
+    request = urllib.request.Request(f"{address}api/{path}", data=None if body is None else json.dumps(body).encode())
+    request.add_header("Authorization", f"Bearer {KEY}")
+    request.add_header("Content-Type", "application/json")
+    with urllib.request.urlopen(request, timeout=60) as response:
+        return json.load(response)
+
+
+def count_keystrokes(scene: Path, gold: Path) -> None:
+    """Review a scene with keys as somebody who knows the gold labels, and print how many it took.
+
+    The reviewer first confirms what is confident on one page (B), unticking wrong groups with Tab and Space, then goes
+    through the groups that are left: Enter, a digit, or / with the name of the class, counted letter by letter.
+    """
+    with gold.open(encoding="utf-8") as file:
+        right = {
+            row["path"]: {row["class"], *filter(None, row.get("also", "").split("|"))} for row in csv.DictReader(file)
+        }
+    with studio(scene) as address:
+        data = ask(address, "scene")
+        paths, classes = data["objects"]["path"], data["classes"]
+        states = ask(address, "states")["states"]
+        named = [{cls["iri"], cls["name"], cls["iri"].rpartition("#")[2]} for cls in classes]
+
+        def is_right(index: int, chosen: int) -> bool:
+            known = right.get(paths[index])
+            return known is None or (
+                chosen >= 0
+                and bool(named[chosen] & {name.rpartition(":")[2] for name in known} | named[chosen] & known)
+            )
+
+        labelled = [i for i, path in enumerate(paths) if path in right]
+        correct = sum(is_right(i, states[i]["suggested"]) for i in labelled)
+        keys = 1  # B
+        queue = ask(address, "queue")["groups"]
+        sure = [g for g in queue if g["suggested"] >= 0 and (g["confidence"] or 0) >= CONFIRM_FROM]
+        wrong = [g for g in sure if not all(is_right(i, g["suggested"]) for i in g["objects"])]
+        keys += 2 * len(wrong) + 1
+        left = [g for g in queue if g not in sure] + wrong
+        for group in left:
+            keys += keys_for(group, is_right, address, classes, named, right, paths)
+        decided = len(paths)
+    share = correct / len(labelled)
+    print(
+        f"| {scene.stem} | {decided} | {share:.0%} | {len(queue)} | {len(sure) - len(wrong)} | {len(left)} | {keys} "
+        f"| {125 * keys / decided:.0f} |"
+    )
+
+
+def keys_for(
+    group: dict[str, Any],
+    is_right: Callable[[int, int], bool],
+    address: str,
+    classes: list[dict[str, Any]],
+    named: list[set[str]],
+    right: dict[str, set[str]],
+    paths: list[str],
+) -> int:
+    """Return the keystrokes that settle one group, its exceptions one by one."""
+    keys, first = 0, True
+    waiting = list(group["objects"])
+    while waiting:
+        lead = waiting[0]
+        if is_right(lead, group["suggested"]):
+            same = [i for i in waiting if is_right(i, group["suggested"])]
+            cost = 1
+        else:
+            candidates = [c["class"] for c in ask(address, f"object/{lead}")["candidates"]]
+            digit = next((n for n, chosen in enumerate(candidates) if is_right(lead, chosen)), None)
+            chosen = candidates[digit] if digit is not None else None
+            wanted = right.get(paths[lead], set())
+            same = [i for i in waiting if right.get(paths[i], wanted) == wanted]
+            label = next((c["label"] for c, names in zip(classes, named, strict=True) if names & wanted), "artifact")
+            # A digit, or the search box: /, about four letters, Enter.
+            cost = 1 if chosen is not None else 2 + min(4, len(label))
+        # Exceptions are unticked: an arrow and a space each.
+        keys += cost + 2 * (len(waiting) - len(same)) * first
+        waiting = [i for i in waiting if i not in same]
+        first = False
+    return keys
+
+
+def main() -> None:
+    """Run all measurements."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--objects", type=int, nargs="*", default=[1000, 10_000])
+    parser.add_argument("--gold", nargs=2, action="append", type=Path, metavar=("SCENE", "GOLD"), default=[])
+    options = parser.parse_args()
+    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
+        browser = playwright.chromium.launch(
+            executable_path=chromium, args=[*SOFTWARE_GL, "--enable-precise-memory-info"]
+        )
+        print(
+            "| scene | first picture, s | all meshes, s | frame, ms | slowest, ms | draw calls | triangles | page, MiB |"
+        )
+        print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+        measure_view(browser, demo_scene(), "demo kitchen")
+        for objects in options.objects:
+            stage = Path(folder) / f"flats{objects}.usdc"
+            write_place(stage, "flats", objects)
+            measure_view(browser, stage, f"flats, {objects:,} objects")
+        measure_decisions(demo_scene())
+        if options.gold:
+            print("| scene | objects | right | groups | confirmed at once | one by one | keys | keys per 125 objects |")
+            print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+        for scene, gold in options.gold:
+            count_keystrokes(scene, gold)
+
+
+if __name__ == "__main__":
+    main()
