@@ -79,10 +79,10 @@ function QueueList({ store }: { store: Store }) {
 
 function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
   const { excluded, member, model } = store;
-  const count = store.targets.value.length;
+  const count = store.ticked.value.length;
   const label = group.suggested < 0 ? "no class" : classLabel(model, group.suggested);
   return (
-    <div class="group-card">
+    <div class={store.isGroupInFocus.value ? "group-card" : "group-card out-of-focus"}>
       <header>
         <h2>
           {group.title} <span class="arrow">→</span> {label}
@@ -90,6 +90,9 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
         <p>
           {count} of {group.objects.length} ticked
           {group.confidence !== null && ` · confidence ${group.confidence.toFixed(2)}`}
+          {!store.isGroupInFocus.value && (
+            <span class="focus-note"> · keys decide about the selection; Esc returns</span>
+          )}
         </p>
       </header>
       <div class="members" role="listbox" aria-multiselectable="true" aria-label="Members of the group">
@@ -127,7 +130,7 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
 }
 
 function Actions({ store, group }: { store: Store; group: QueueGroup }) {
-  const targets = store.targets.value;
+  const targets = store.ticked.value;
   const isNone = targets.length === 0;
   return (
     <div class="actions">
@@ -139,7 +142,14 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       >
         Confirm <kbd>Enter</kbd>
       </button>
-      <button type="button" disabled={isNone} onClick={() => (store.isClassSearchOpen.value = true)}>
+      <button
+        type="button"
+        disabled={isNone}
+        onClick={() => {
+          store.select([]);
+          store.isClassSearchOpen.value = true;
+        }}
+      >
         Another class <kbd>/</kbd>
       </button>
       <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "no-class")}>
