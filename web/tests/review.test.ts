@@ -183,6 +183,9 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(sent).toHaveLength(1));
     gates[0]?.pass(1);
     await vi.waitFor(() => expect(sent).toHaveLength(2));
+    expect(store.saving.value).toBe("saving");
+    gates[1]?.pass(2);
+    await vi.waitFor(() => expect(store.saving.value).toBe("saved"));
     expect(sent.map(({ objects }) => objects)).toEqual([[2, 1], [3]]);
   });
 
@@ -199,7 +202,7 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(gates).toHaveLength(2));
     gates[1]?.pass(1);
     await second;
-    expect([store.states.value[3]?.state, store.saving.value]).toEqual(["confirmed", "saved"]);
+    expect([store.states.value[3]?.state, store.saving.value]).toEqual(["confirmed", "failed"]);
   });
 
   it("takes in an older change of others after its own reply", async () => {

@@ -118,6 +118,7 @@ export class Store {
   private movedAt = Number.NEGATIVE_INFINITY;
   /** Decisions, undo and redo reach the server in the order of the keys. */
   private lastSent: Promise<unknown> = Promise.resolve();
+  private unanswered = 0;
 
   constructor(
     readonly client: Client,
@@ -325,6 +326,7 @@ export class Store {
 
   private async send(path: string, body: unknown): Promise<DecisionReply | null> {
     this.saving.value = "saving";
+    this.unanswered++;
     const sent = this.lastSent.then(() => this.client.post<DecisionReply>(path, body));
     this.lastSent = sent.catch(() => undefined);
     try {
@@ -332,7 +334,7 @@ export class Store {
       batch(() => {
         this.table.apply(reply.states, reply.version);
         this.take(reply);
-        this.saving.value = "saved";
+        if (this.unanswered === 1 && this.saving.value === "saving") this.saving.value = "saved";
       });
       return reply;
     } catch (error) {
@@ -340,6 +342,8 @@ export class Store {
       this.saving.value = isOffline ? "offline" : "failed";
       this.report(error);
       return null;
+    } finally {
+      this.unanswered--;
     }
   }
 
