@@ -3,7 +3,7 @@
 import { render } from "preact";
 import { ApiFailure, createClient, readKey, storeKey } from "./api/client";
 import { listen } from "./api/events";
-import type { SceneData, States } from "./api/types";
+import type { ChangeEvent, SceneData, States } from "./api/types";
 import { App } from "./panels/App";
 import { KeyForm } from "./panels/KeyForm";
 import { Store } from "./state/store";
@@ -24,16 +24,15 @@ async function start(): Promise<void> {
     document.title = `${data.title} · usd2kg studio`;
     render(<App store={store} />, host);
     void store.reload();
-    void listen(
-      client,
-      () => store.version.value,
-      (change) => store.receive(change),
-      (isConnected) => {
+    const handlers = {
+      onChange: (change: ChangeEvent) => store.receive(change),
+      onLink: (isConnected: boolean) => {
         if (!isConnected) store.saving.value = "offline";
-        else if (store.saving.value === "offline") store.saving.value = "saved";
+        else if (store.saving.value === "offline") void store.reload();
       },
-      new AbortController().signal,
-    );
+      onDenied: () => askForKey("The studio has been started again, with another key."),
+    };
+    void listen(client, () => store.version.value, handlers, new AbortController().signal);
   } catch (error) {
     if (error instanceof ApiFailure && error.status === 401) askForKey("This key is wrong.");
     else render(<p class="fatal">{error instanceof Error ? error.message : String(error)}</p>, host);

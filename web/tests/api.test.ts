@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { ApiFailure, createClient, readKey } from "../src/api/client";
 import { EventParser, listen } from "../src/api/events";
 import type { ChangeEvent } from "../src/api/types";
@@ -80,16 +80,24 @@ describe("event stream", () => {
       return new Response(`event: change\ndata: {"version": ${asked.length}}\n\n`);
     };
     let version = 0;
-    const take = (change: ChangeEvent) => {
-      version = change.version;
+    const handlers = {
+      onChange: (change: ChangeEvent) => {
+        version = change.version;
+      },
+      onLink: () => undefined,
+      onDenied: () => undefined,
     };
-    await listen(
-      createClient("k", send),
-      () => version,
-      take,
-      () => undefined,
-      control.signal,
-    );
+    await listen(createClient("k", send), () => version, handlers, control.signal);
     expect(asked).toEqual(["api/events?since=0", "api/events?since=1"]);
+  });
+
+  it("stops when the key is no longer taken", async () => {
+    const links: boolean[] = [];
+    const denied = vi.fn();
+    const send: typeof fetch = async () => new Response('{"error": "wrong key"}', { status: 401 });
+    const handlers = { onChange: () => undefined, onLink: (is: boolean) => void links.push(is), onDenied: denied };
+    await listen(createClient("k", send), () => 0, handlers, new AbortController().signal);
+    expect(denied).toHaveBeenCalledOnce();
+    expect(links).toEqual([]);
   });
 });

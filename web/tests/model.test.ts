@@ -81,9 +81,22 @@ describe("tree rows", () => {
     expect(nodes([], [])).toEqual([]);
   });
 
+  it("closes nodes under a filter, too", () => {
+    const rows = treeRows([0], children, new Set(), new Set([3]), new Set([2]));
+    expect(rows.map((row) => [row.node, row.isOpen])).toEqual([
+      [0, true],
+      [2, false],
+    ]);
+  });
+
   it("shows a node with two parents below both", () => {
     const rows = treeRows([0, 1], [[2], [2], []], new Set([0, 1]), null);
-    expect(rows.map((row) => row.node)).toEqual([0, 2, 1, 2]);
+    expect(rows.map((row) => [row.node, row.key])).toEqual([
+      [0, "0"],
+      [2, "0/2"],
+      [1, "1"],
+      [2, "1/2"],
+    ]);
   });
 
   it("ends in a cycle", () => {

@@ -4,6 +4,7 @@ import { ApiFailure, type Client } from "../src/api/client";
 import type { DecisionReply, ObjectPage, Queue } from "../src/api/types";
 import { BINDINGS, findBinding, keyName } from "../src/keys/bindings";
 import { focusOf } from "../src/state/candidates";
+import { findAgain, groupAfter, withoutObjects } from "../src/state/queue";
 import { applyStates, durationText, isOpen, predictStates, superclass } from "../src/state/review";
 import { Store } from "../src/state/store";
 import { cutAway, occluders } from "../src/viewer/appearance";
@@ -142,6 +143,139 @@ describe("store", () => {
     store.filters.value = { ...store.filters.value, text: "wall" };
     expect(store.groups.value.map((group) => group.title)).toEqual(["wall"]);
     expect(store.group.value?.title).toBe("wall");
+  });
+});
+
+describe("fast and concurrent reviewers", () => {
+  /** Answers each decision when it is let through, with the state that it asks for. */
+  function gated() {
+    const sent: { objects: number[]; action: string }[] = [];
+    const gates: { pass(version: number): void; fail(status: number): void }[] = [];
+    const post = <T>(_: string, body: unknown) => {
+      const { objects, action } = body as { objects: number[]; action: string };
+      sent.push({ objects, action });
+      return new Promise<T>((resolve, reject) => {
+        const states = objects.map((object) => makeState(object, { state: "confirmed" }));
+        gates.push({
+          pass: (version) => resolve({ ...reply(objects, {}), version, states } as T),
+          fail: (status) => reject(new ApiFailure("no", status)),
+        });
+      });
+    };
+    return { sent, gates, post };
+  }
+  const change = (object: number, version: number, given: Partial<ReturnType<typeof makeState>>, page = "other") => ({
+    version,
+    page,
+    reviewer: "Bob",
+    message: "decides",
+    states: [makeState(object, given)],
+  });
+
+  it("decides about the next group when a key comes before the reply", async () => {
+    const { sent, gates, post } = gated();
+    const store = makeStore(post);
+    await store.loadQueue();
+    const confirm = () => findBinding("Enter")?.run(store, view, "Enter");
+    confirm();
+    confirm();
+    expect(store.group.value).toBeNull();
+    await vi.waitFor(() => expect(sent).toHaveLength(1));
+    gates[0]?.pass(1);
+    await vi.waitFor(() => expect(sent).toHaveLength(2));
+    expect(store.saving.value).toBe("saving");
+    gates[1]?.pass(2);
+    await vi.waitFor(() => expect(store.saving.value).toBe("saved"));
+    expect(sent.map(({ objects }) => objects)).toEqual([[2, 1], [3]]);
+  });
+
+  it("takes back the decision that failed, not one made in the meantime", async () => {
+    const { gates, post } = gated();
+    const store = makeStore(post);
+    await store.loadQueue();
+    const first = store.decide([2, 1], "confirm");
+    const second = store.decide([3], "confirm");
+    await vi.waitFor(() => expect(gates).toHaveLength(1));
+    gates[0]?.fail(500);
+    await first;
+    expect(store.states.value.map(({ state }) => state)).toEqual(["suggested", "suggested", "suggested", "confirmed"]);
+    await vi.waitFor(() => expect(gates).toHaveLength(2));
+    gates[1]?.pass(1);
+    await second;
+    expect([store.states.value[3]?.state, store.saving.value]).toEqual(["confirmed", "failed"]);
+  });
+
+  it("takes in an older change of others after its own reply", async () => {
+    const { gates, post } = gated();
+    const store = makeStore(post);
+    const done = store.decide([1], "confirm");
+    await vi.waitFor(() => expect(gates).toHaveLength(1));
+    gates[0]?.pass(6);
+    await done;
+    store.receive(change(0, 5, { state: "no-class" }));
+    store.receive(change(1, 5.5, { state: "unsure" }));
+    expect(store.states.value.slice(0, 2).map(({ state }) => state)).toEqual(["no-class", "confirmed"]);
+  });
+
+  it("keeps a decision whose reply is lost but which the stream announces", async () => {
+    const { gates, post } = gated();
+    const store = makeStore(post);
+    const done = store.decide([1], "confirm");
+    await vi.waitFor(() => expect(gates).toHaveLength(1));
+    store.receive(change(1, 1, { state: "confirmed" }));
+    gates[0]?.fail(500);
+    await done;
+    expect(store.states.value[1]?.state).toBe("confirmed");
+  });
+
+  it("holds a key back that was meant for a group that somebody else has just decided", async () => {
+    const { sent, post } = gated();
+    let queue = QUEUE;
+    const client = { ...makeStore(post).client, get: async <T>() => queue as T, post };
+    const store = new Store(client, makeScene(), makeStates(), { getItem: () => null, setItem: () => undefined });
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    queue = { ...QUEUE, groups: QUEUE.groups.slice(1) };
+    store.receive(change(1, 1, { state: "confirmed" }));
+    await vi.waitFor(() => expect(store.groupId.value).toBe("/K/wall"));
+    await store.decide(store.targets.value, "confirm");
+    expect(sent).toEqual([]);
+    void store.decide(store.targets.value, "confirm");
+    await vi.waitFor(() => expect(sent).toEqual([{ objects: [3], action: "confirm" }]));
+  });
+
+  it("decides about what is selected outside the group, and stays in the queue", async () => {
+    const { sent, gates, post } = gated();
+    const store = makeStore(post);
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    store.select([0]);
+    expect([store.targets.value, store.ticked.value, focusOf(store)]).toEqual([[0], [2, 1], 0]);
+    void store.decide(store.targets.value, "confirm");
+    await vi.waitFor(() => expect(gates).toHaveLength(1));
+    expect([sent[0]?.objects, store.groupId.value]).toEqual([[0], "/K/Table/Cup_1"]);
+  });
+});
+
+describe("queue", () => {
+  const [cups, wall] = QUEUE.groups as [(typeof QUEUE.groups)[0], (typeof QUEUE.groups)[0]];
+
+  it("goes to exceptions first, then on, then round", () => {
+    expect(groupAfter(QUEUE.groups, cups, new Set([2]))).toBe(cups);
+    expect(groupAfter(QUEUE.groups, cups, new Set([1, 2]))).toBe(wall);
+    expect(groupAfter(QUEUE.groups, wall, new Set([3]))).toBe(cups);
+    expect(groupAfter(QUEUE.groups, wall, new Set([1, 2, 3]))).toBeNull();
+  });
+
+  it("finds a group again whose first object is decided", () => {
+    const rest = { ...cups, id: "/K/Table/Cup_2", objects: [2] };
+    expect(findAgain([wall, rest], cups)).toBe(rest);
+    expect(findAgain([wall], cups)).toBeNull();
+  });
+
+  it("loses decided objects, and groups without any left", () => {
+    expect(withoutObjects(QUEUE, new Set([1, 3])).groups).toEqual([{ ...cups, objects: [2] }]);
+    expect(withoutObjects(QUEUE, new Set())).toBe(QUEUE);
   });
 });
 

@@ -1,6 +1,6 @@
 /** Server-sent events over fetch, since EventSource cannot send the access key. */
 
-import type { Client } from "./client";
+import { ApiFailure, type Client } from "./client";
 import type { ChangeEvent } from "./types";
 
 /** One event of a stream. */
@@ -36,12 +36,19 @@ function parseBlock(block: string): StreamEvent {
 
 const RETRY_MS = [500, 1000, 2000, 5000];
 
-/** Calls `onChange` for each change of other pages, and `onLink` when the connection is made or lost, until aborted. */
+export interface StreamHandlers {
+  onChange(change: ChangeEvent): void;
+  /** Called when the connection is made or lost. */
+  onLink(isConnected: boolean): void;
+  /** Called when the server no longer takes the access key, as after a restart; no more is tried. */
+  onDenied(): void;
+}
+
+/** Listens to changes, from the version after `version()`, until aborted or denied; a lost connection is made again. */
 export async function listen(
   client: Client,
   version: () => number,
-  onChange: (change: ChangeEvent) => void,
-  onLink: (isConnected: boolean) => void,
+  handlers: StreamHandlers,
   signal: AbortSignal,
 ): Promise<void> {
   for (let failures = 0; !signal.aborted; failures++) {
@@ -49,19 +56,23 @@ export async function listen(
       const reader = (await client.stream(`events?since=${version()}`, signal)).getReader();
       const parser = new EventParser();
       const decoder = new TextDecoder();
-      onLink(true);
+      handlers.onLink(true);
       failures = 0;
       for (;;) {
         const { done, value } = await reader.read();
         if (done) break;
         for (const event of parser.push(decoder.decode(value, { stream: true }))) {
-          if (event.name === "change") onChange(JSON.parse(event.data) as ChangeEvent);
+          if (event.name === "change") handlers.onChange(JSON.parse(event.data) as ChangeEvent);
         }
       }
-    } catch {
+    } catch (error) {
       if (signal.aborted) return;
+      if (error instanceof ApiFailure && error.status === 401) {
+        handlers.onDenied();
+        return;
+      }
     }
-    onLink(false);
+    handlers.onLink(false);
     await new Promise((resolve) => setTimeout(resolve, RETRY_MS[Math.min(failures, RETRY_MS.length - 1)]));
   }
 }

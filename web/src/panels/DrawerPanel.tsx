@@ -1,5 +1,7 @@
 /** The drawer: review, questions, SPARQL, diagnostics, figures of the run. */
 
+import type { ComponentChildren } from "preact";
+import { useRef } from "preact/hooks";
 import type { Drawer, Store } from "../state/store";
 import { Ask } from "./Ask";
 import { Diagnostics } from "./Diagnostics";
@@ -7,6 +9,17 @@ import { Review } from "./Review";
 import { RunFigures } from "./RunFigures";
 import { Sparql } from "./Sparql";
 import { Tabs } from "./Tabs";
+
+/** Keeps what is typed and answered while another tab is shown; made when it is shown first. */
+function Kept({ isShown, children }: { isShown: boolean; children: ComponentChildren }) {
+  const wasShown = useRef(false);
+  wasShown.current ||= isShown;
+  return wasShown.current ? (
+    <div class="kept" hidden={!isShown}>
+      {children}
+    </div>
+  ) : null;
+}
 
 export function DrawerPanel({ store }: { store: Store }) {
   const tabs: { id: Drawer; label: string; count?: number }[] = [
@@ -38,15 +51,17 @@ export function DrawerPanel({ store }: { store: Store }) {
           {isDrawerOpen.value ? "Close" : "Open"}
         </button>
       </div>
-      {isDrawerOpen.value && (
-        <div class="drawer-body" role="tabpanel" aria-labelledby={`tab-${drawer.value}`}>
-          {drawer.value === "review" && <Review store={store} />}
-          {drawer.value === "ask" && <Ask store={store} />}
-          {drawer.value === "sparql" && <Sparql store={store} />}
-          {drawer.value === "diagnostics" && <Diagnostics store={store} />}
-          {drawer.value === "run" && <RunFigures store={store} />}
-        </div>
-      )}
+      <div class="drawer-body" hidden={!isDrawerOpen.value} role="tabpanel" aria-labelledby={`tab-${drawer.value}`}>
+        {drawer.value === "review" && <Review store={store} />}
+        <Kept isShown={drawer.value === "ask"}>
+          <Ask store={store} />
+        </Kept>
+        <Kept isShown={drawer.value === "sparql"}>
+          <Sparql store={store} />
+        </Kept>
+        {drawer.value === "diagnostics" && <Diagnostics store={store} />}
+        {drawer.value === "run" && <RunFigures store={store} />}
+      </div>
     </section>
   );
 }

@@ -1,5 +1,6 @@
 /** Review: the queue, the current group with its members, and the candidates. */
 
+import type { Signal } from "@preact/signals";
 import type { QueueGroup, QueueOrder } from "../api/types";
 import { classLabel } from "../state/model";
 import type { Store } from "../state/store";
@@ -77,12 +78,17 @@ function QueueList({ store }: { store: Store }) {
   );
 }
 
+/** More pictures at once make each step slow. */
+const MEMBERS_SHOWN = 48;
+
 function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
   const { excluded, member, model } = store;
-  const count = store.targets.value.length;
+  const count = store.ticked.value.length;
+  const first = MEMBERS_SHOWN * Math.floor(member.value / MEMBERS_SHOWN);
+  const last = Math.min(first + MEMBERS_SHOWN, group.objects.length);
   const label = group.suggested < 0 ? "no class" : classLabel(model, group.suggested);
   return (
-    <div class="group-card">
+    <div class={store.isGroupInFocus.value ? "group-card" : "group-card out-of-focus"}>
       <header>
         <h2>
           {group.title} <span class="arrow">→</span> {label}
@@ -90,20 +96,28 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
         <p>
           {count} of {group.objects.length} ticked
           {group.confidence !== null && ` · confidence ${group.confidence.toFixed(2)}`}
+          {group.objects.length > MEMBERS_SHOWN && (
+            <MemberPages member={member} first={first} last={last} count={group.objects.length} />
+          )}
+          {!store.isGroupInFocus.value && (
+            <span class="focus-note"> · keys decide about the selection; Esc returns</span>
+          )}
         </p>
       </header>
       <div class="members" role="listbox" aria-multiselectable="true" aria-label="Members of the group">
-        {group.objects.map((object, index) => (
+        {group.objects.slice(first, last).map((object, offset) => (
           // biome-ignore lint/a11y/useKeyWithClickEvents: arrows and Space work from anywhere
           <div
             key={object}
             role="option"
             tabIndex={-1}
-            class={index === member.value ? "member focused" : "member"}
+            aria-setsize={group.objects.length}
+            aria-posinset={first + offset + 1}
+            class={first + offset === member.value ? "member focused" : "member"}
             aria-selected={!excluded.value.has(object)}
             title={model.data.objects.path[object] ?? ""}
             onClick={() => {
-              member.value = index;
+              member.value = first + offset;
               store.select([object]);
             }}
             onDblClick={() => store.toggleMember(object)}
@@ -126,8 +140,31 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
   );
 }
 
+interface MemberPagesProps {
+  member: Signal<number>;
+  first: number;
+  last: number;
+  count: number;
+}
+
+function MemberPages({ member, first, last, count }: MemberPagesProps) {
+  const isFirst = first === 0;
+  const isLast = last === count;
+  return (
+    <span class="member-pages">
+      <button type="button" aria-label="Members before" disabled={isFirst} onClick={() => (member.value = first - 1)}>
+        ‹
+      </button>
+      {first + 1} to {last}
+      <button type="button" aria-label="Members after" disabled={isLast} onClick={() => (member.value = last)}>
+        ›
+      </button>
+    </span>
+  );
+}
+
 function Actions({ store, group }: { store: Store; group: QueueGroup }) {
-  const targets = store.targets.value;
+  const targets = store.ticked.value;
   const isNone = targets.length === 0;
   return (
     <div class="actions">
@@ -139,7 +176,14 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       >
         Confirm <kbd>Enter</kbd>
       </button>
-      <button type="button" disabled={isNone} onClick={() => (store.isClassSearchOpen.value = true)}>
+      <button
+        type="button"
+        disabled={isNone}
+        onClick={() => {
+          store.select([]);
+          store.isClassSearchOpen.value = true;
+        }}
+      >
         Another class <kbd>/</kbd>
       </button>
       <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "no-class")}>

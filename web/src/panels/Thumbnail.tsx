@@ -2,34 +2,44 @@
 
 import { createContext } from "preact";
 import { useContext, useEffect, useRef, useState } from "preact/hooks";
-import type { Client } from "../api/client";
+import { ApiFailure, type Client } from "../api/client";
 import type { ObjectIndex } from "../api/types";
 
 const MAX_REQUESTS = 4;
 
+export type Picture = { url: string } | { problem: string };
+
 /** Loads at most a few pictures at a time; the last asked comes first, since it is in view. */
 export class ThumbnailCache {
-  private readonly urls = new Map<ObjectIndex, Promise<string | null>>();
+  private readonly urls = new Map<ObjectIndex, Promise<Picture>>();
   private readonly waiting: (() => void)[] = [];
   private running = 0;
 
   constructor(private readonly client: Client) {}
 
-  /** Returns the address of a picture, or null for an object without visible geometry. */
-  get(object: ObjectIndex): Promise<string | null> {
+  /** Returns the address of a picture, or why there is none. */
+  get(object: ObjectIndex): Promise<Picture> {
     const known = this.urls.get(object);
     if (known !== undefined) return known;
-    const url = new Promise<string | null>((resolve) => {
+    const url = new Promise<Picture>((resolve) => {
       this.waiting.push(() => {
         this.client.blob(`thumbnail/${object}.png`).then(
-          (blob) => this.finish(() => resolve(URL.createObjectURL(blob))),
-          () => this.finish(() => resolve(null)),
+          (blob) => this.finish(() => resolve({ url: URL.createObjectURL(blob) })),
+          (error: unknown) => this.finish(() => resolve(this.missing(object, error))),
         );
       });
     });
     this.urls.set(object, url);
     this.next();
     return url;
+  }
+
+  /** The server refuses a picture of what has no geometry; anything else is worth another try. */
+  private missing(object: ObjectIndex, error: unknown): Picture {
+    const isRefused = error instanceof ApiFailure && error.status >= 400 && error.status < 500;
+    if (isRefused) return { problem: "no geometry" };
+    this.urls.delete(object);
+    return { problem: "not loaded" };
   }
 
   private finish(resolve: () => void): void {
@@ -51,15 +61,15 @@ export const Thumbnails = createContext<ThumbnailCache | null>(null);
 export function Thumbnail({ object, label }: { object: ObjectIndex; label: string }) {
   const cache = useContext(Thumbnails);
   const host = useRef<HTMLDivElement>(null);
-  const [url, setUrl] = useState<string | null | undefined>(undefined);
+  const [picture, setPicture] = useState<Picture | null>(null);
   useEffect(() => {
-    setUrl(undefined);
+    setPicture(null);
     let isCurrent = true;
     const observer = new IntersectionObserver((entries) => {
       if (!entries.some((entry) => entry.isIntersecting)) return;
       observer.disconnect();
       void cache?.get(object).then((found) => {
-        if (isCurrent) setUrl(found);
+        if (isCurrent) setPicture(found);
       });
     });
     if (host.current !== null) observer.observe(host.current);
@@ -70,8 +80,8 @@ export function Thumbnail({ object, label }: { object: ObjectIndex; label: strin
   }, [cache, object]);
   return (
     <div class="thumbnail" ref={host}>
-      {typeof url === "string" && <img src={url} alt={label} />}
-      {url === null && <span>no geometry</span>}
+      {picture !== null && "url" in picture && <img src={picture.url} alt={label} />}
+      {picture !== null && "problem" in picture && <span>{picture.problem}</span>}
     </div>
   );
 }

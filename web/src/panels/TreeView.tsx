@@ -27,45 +27,53 @@ export function TreeView(props: Props) {
   const [open, setOpen] = useState<ReadonlySet<number>>(() =>
     roots.length < FIRST_OPEN_ROWS ? new Set(roots) : new Set(),
   );
-  const [focused, setFocused] = useState(-1);
+  const [folded, setFolded] = useState<ReadonlySet<number>>(new Set());
+  const [focused, setFocused] = useState("");
   const opened = useMemo(() => withAncestors(open, revealed, props.parentOf), [open, revealed, props.parentOf]);
-  const rows = useMemo(() => treeRows(roots, children, opened, shown), [roots, children, opened, shown]);
-  const target = focused >= 0 ? focused : revealed;
-  const current = rows.findIndex((row) => row.node === target);
+  const rows = useMemo(
+    () => treeRows(roots, children, opened, shown, folded),
+    [roots, children, opened, shown, folded],
+  );
+  const current = rows.findIndex((row) => (focused === "" ? row.node === revealed : row.key === focused));
   const toggle = (node: number) => {
-    const next = new Set(opened);
-    if (!next.delete(node)) next.add(node);
-    setOpen(next);
+    // Under a filter all is open at first, and closing something must not change the tree without the filter.
+    if (shown === null) setOpen(toggled(opened, node));
+    else setFolded(toggled(folded, node));
   };
-  const onKey = (event: KeyboardEvent) => {
+  const go = (index: number) => setFocused(rows[Math.min(Math.max(index, 0), rows.length - 1)]?.key ?? "");
+  const onKeyDown = (event: KeyboardEvent) => {
     const row = rows[current] ?? rows[0];
     if (row === undefined) return;
-    const go = (index: number) => {
-      const next = rows[Math.min(Math.max(index, 0), rows.length - 1)];
-      if (next !== undefined) setFocused(next.node);
-    };
     if (event.key === "ArrowDown") go(current + 1);
     else if (event.key === "ArrowUp") go(current - 1);
     else if (event.key === "Home") go(0);
     else if (event.key === "End") go(rows.length - 1);
     else if (event.key === "ArrowRight" && row.hasChildren && !row.isOpen) toggle(row.node);
+    else if (event.key === "ArrowRight" && row.hasChildren) go(current + 1);
     else if (event.key === "ArrowLeft" && row.isOpen) toggle(row.node);
-    else if (event.key === "ArrowLeft") setFocused(props.parentOf(row.node));
+    else if (event.key === "ArrowLeft") setFocused(row.key.slice(0, row.key.lastIndexOf("/")) || row.key);
     else if (event.key === "Enter" || event.key === " ") props.onSelect(row.node, event.shiftKey);
     else return;
     event.preventDefault();
   };
   if (rows.length === 0) return <p class="empty">Nothing matches the filter.</p>;
+  const rowId = (row: TreeRow | undefined) => (row === undefined ? "" : `${props.label}-${row.key}`);
   return (
-    // biome-ignore lint/a11y/noStaticElementInteractions: the list inside has the role; keys bubble to here
-    // biome-ignore lint/a11y/noNoninteractiveTabindex: it takes the focus for the rows, of which few exist at a time
-    <div class="tree" tabIndex={0} data-own-keys onKeyDown={onKey} onBlur={() => setFocused(-1)}>
-      <VirtualList rows={rows} rowHeight={ROW_HEIGHT} role="tree" label={props.label} current={current}>
+    <div class="tree">
+      <VirtualList
+        rows={rows}
+        rowHeight={ROW_HEIGHT}
+        role="tree"
+        label={props.label}
+        current={current}
+        focus={{ active: rowId(rows[current]), onKeyDown, onBlur: () => setFocused("") }}
+      >
         {(row: TreeRow) => (
           // biome-ignore lint/a11y/useKeyWithClickEvents: the tree handles keys
           <div
-            key={row.node}
-            class={`tree-row${row.node === focused ? " focused" : ""}`}
+            key={row.key}
+            id={rowId(row)}
+            class={row.key === focused ? "tree-row focused" : "tree-row"}
             role="treeitem"
             tabIndex={-1}
             aria-level={row.depth + 1}
@@ -98,6 +106,12 @@ export function TreeView(props: Props) {
       </VirtualList>
     </div>
   );
+}
+
+function toggled(nodes: ReadonlySet<number>, node: number): ReadonlySet<number> {
+  const next = new Set(nodes);
+  if (!next.delete(node)) next.add(node);
+  return next;
 }
 
 function withAncestors(

@@ -10,12 +10,14 @@ interface Props<T> {
   role: "tree" | "listbox" | "list";
   /** Row to keep in view, or -1. */
   current: number;
+  /** Makes the list take the focus for its rows, of which only the visible ones exist. */
+  focus?: { active: string; onKeyDown(event: KeyboardEvent): void; onBlur(): void };
   children(row: T, index: number): ComponentChildren;
 }
 
 const SPARE = 6;
 
-export function VirtualList<T>({ rows, rowHeight, label, role, current, children }: Props<T>) {
+export function VirtualList<T>({ rows, rowHeight, label, role, current, focus, children }: Props<T>) {
   const host = useRef<HTMLDivElement>(null);
   const [top, setTop] = useState(0);
   const [height, setHeight] = useState(400);
@@ -42,6 +44,15 @@ export function VirtualList<T>({ rows, rowHeight, label, role, current, children
       ref={host}
       role={role}
       aria-label={label}
+      {...(focus === undefined
+        ? {}
+        : {
+            tabIndex: 0,
+            "data-own-keys": true,
+            "aria-activedescendant": focus.active,
+            onKeyDown: focus.onKeyDown,
+            onBlur: focus.onBlur,
+          })}
       onScroll={(event) => setTop(event.currentTarget.scrollTop)}
     >
       <div class="virtual-space" style={{ height: `${rows.length * rowHeight}px` }}>

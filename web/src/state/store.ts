@@ -1,6 +1,6 @@
 /** The state of the page, as signals, and the actions that change it. */
 
-import { batch, computed, type Signal, signal } from "@preact/signals";
+import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { ApiFailure, type Client } from "../api/client";
 import type {
   ChangeEvent,
@@ -20,7 +20,9 @@ import type {
 import type { ColorMode } from "./colors";
 import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters";
 import { buildModel, classLabel, type SceneModel } from "./model";
-import { applyStates, isOpen, predictStates } from "./review";
+import { findAgain, groupAfter, withoutObjects } from "./queue";
+import { isOpen, predictStates } from "./review";
+import { StateTable } from "./stateTable";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
 export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run";
@@ -33,10 +35,13 @@ export interface Notice {
 
 const MAX_FRAMED = 200;
 const REVIEWER = "usd2kg-reviewer";
+/** A key pressed so soon after the queue moved by itself was meant for the group before. */
+const MOVED_MS = 800;
 
 export class Store {
   readonly model: SceneModel;
-  readonly states: Signal<readonly ObjectState[]>;
+  readonly states: ReadonlySignal<readonly ObjectState[]>;
+  /** Version of the last change that this page has seen, its own or of others. */
   readonly version = signal(0);
   readonly canUndo = signal(false);
   readonly canRedo = signal(false);
@@ -85,21 +90,35 @@ export class Store {
   readonly group = computed<QueueGroup | null>(
     () => this.groups.value.find((group) => group.id === this.groupId.value) ?? this.groups.value[0] ?? null,
   );
-  /** What a decision applies to: the ticked members of the group, or else the selection. */
-  readonly targets = computed<readonly ObjectIndex[]>(() => {
+  /** The ticked members of the current group. */
+  readonly ticked = computed<readonly ObjectIndex[]>(
+    () => this.group.value?.objects.filter((object) => !this.excluded.value.has(object)) ?? [],
+  );
+  /** Whether the keys decide about the group, not about something selected outside it. */
+  readonly isGroupInFocus = computed(() => {
     const group = this.group.value;
-    if (this.drawer.value === "review" && this.isDrawerOpen.value && group !== null) {
-      return group.objects.filter((object) => !this.excluded.value.has(object));
-    }
-    return this.selection.value;
+    const selected = this.selection.value.at(-1);
+    if (this.drawer.value !== "review" || !this.isDrawerOpen.value || group === null) return false;
+    return selected === undefined || group.objects.includes(selected);
   });
+  /** What a key decides about: the ticked members of the group, or else the selection. */
+  readonly targets = computed<readonly ObjectIndex[]>(() =>
+    this.isGroupInFocus.value ? this.ticked.value : this.selection.value,
+  );
   readonly decided = computed(() => this.states.value.filter((state) => !isOpen(state.state)).length);
 
   /** Objects that the picture shows next; null for all. */
   readonly lookAt = signal<readonly ObjectIndex[] | null>(null);
 
-  private readonly page = crypto.randomUUID();
+  private readonly page = randomId();
+  private readonly table: StateTable;
   private nextNotice = 1;
+  private queueRequests = 0;
+  /** When the queue last moved by itself, as `performance.now()`. */
+  private movedAt = Number.NEGATIVE_INFINITY;
+  /** Decisions, undo and redo reach the server in the order of the keys. */
+  private lastSent: Promise<unknown> = Promise.resolve();
+  private unanswered = 0;
 
   constructor(
     readonly client: Client,
@@ -108,7 +127,8 @@ export class Store {
     private readonly storage: Pick<Storage, "getItem" | "setItem">,
   ) {
     this.model = buildModel(data);
-    this.states = signal(states.states);
+    this.table = new StateTable(states.states, states.version);
+    this.states = this.table.shown;
     this.version.value = states.version;
     this.canUndo.value = states.can_undo;
     this.canRedo.value = states.can_redo;
@@ -149,12 +169,33 @@ export class Store {
 
   // Review.
 
-  async loadQueue(): Promise<void> {
+  async loadQueue(isFromOthers = false): Promise<void> {
+    const request = ++this.queueRequests;
     try {
-      this.queue.value = await this.client.get<Queue>(`queue?order=${this.order.value}`);
+      const queue = await this.client.get<Queue>(`queue?order=${this.order.value}`);
+      // A later request knows more.
+      if (request === this.queueRequests) this.showQueue(withoutObjects(queue, this.table.waiting()), isFromOthers);
     } catch (error) {
       this.report(error);
     }
+  }
+
+  /** Shows a new queue, and stays in the current group if it is still there. */
+  private showQueue(queue: Queue, isFromOthers: boolean): void {
+    const before = this.group.value;
+    const following = before === null ? null : groupAfter(this.groups.value, before, new Set(before.objects));
+    batch(() => {
+      this.queue.value = queue;
+      if (before === null || this.groupId.value === "") return;
+      const again = findAgain(this.groups.value, before);
+      if (again !== null) {
+        this.groupId.value = again.id;
+        return;
+      }
+      if (isFromOthers) this.movedAt = performance.now();
+      const next = following === null ? null : findAgain(this.groups.value, following);
+      this.goTo((next ?? this.groups.value[0])?.id ?? "");
+    });
   }
 
   /** Loads all states again, for another reviewer's undo or after a lost connection. */
@@ -165,8 +206,10 @@ export class Store {
       // A change that arrived in the meantime is newer.
       if (states.version < this.version.value) return this.reload();
       batch(() => {
-        this.states.value = states.states;
+        this.table.reset(states.states, states.version);
+        this.version.value = states.version;
         this.take(states);
+        if (this.saving.value === "offline") this.saving.value = "saved";
       });
       await this.loadQueue();
     } catch (error) {
@@ -198,33 +241,50 @@ export class Store {
     this.excluded.value = excluded;
   }
 
-  /** Decides about objects; the page shows the result at once, and takes it back if the server refuses. */
+  /**
+   * Decides about objects. The page shows the result and the next group at once; if the server refuses, it takes both
+   * back.
+   */
   async decide(objects: readonly ObjectIndex[], action: DecisionAction, chosen?: ClassIndex): Promise<void> {
-    if (objects.length === 0 || this.model.data.is_read_only) return;
-    const { groups } = this;
-    const current = this.group.value;
-    const following = groups.value[groups.value.findIndex((group) => group.id === current?.id) + 1];
-    const exception = current?.objects.find((object) => !objects.includes(object));
-    const before = this.states.value;
-    this.states.value = applyStates(before, predictStates(before, objects, action, chosen));
-    const body = {
+    if (objects.length === 0 || this.model.data.is_read_only || this.hasJustMoved()) return;
+    const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
+    const { seen, group } = { seen: this.version.value, group: this.group.value };
+    if (action !== "clear") this.moveOn(objects);
+    const reply = await this.send("decisions", {
       objects,
       action,
       reviewer: this.reviewer.value,
       page: this.page,
-      seen: this.version.value,
+      seen,
       ...(chosen === undefined ? {} : { class: chosen }),
-    };
-    const reply = await this.send("decisions", body, before);
-    if (reply === null) return;
-    this.notify(describe(this.model, reply, objects.length, action, chosen));
+    });
+    forget();
+    if (reply !== null) this.notify(describe(this.model, reply, objects.length, action, chosen));
     await this.loadQueue();
-    // The exceptions of a group come next, since the reviewer has just looked at them.
-    const next =
-      groups.value.find((group) => exception !== undefined && group.objects.includes(exception)) ??
-      groups.value.find((group) => group.id === following?.id) ??
-      groups.value[0];
-    if (next !== undefined) this.goTo(next.id);
+    const again = reply === null && group !== null ? findAgain(this.groups.value, group) : null;
+    if (again !== null) this.goTo(again.id);
+  }
+
+  /** Tells the reviewer, once, that the keys now decide about another group. */
+  private hasJustMoved(): boolean {
+    if (performance.now() - this.movedAt > MOVED_MS) return false;
+    this.movedAt = Number.NEGATIVE_INFINITY;
+    this.notify(
+      "Another reviewer has decided the group before this one. Press the key again to decide about this one.",
+    );
+    return true;
+  }
+
+  /** Takes decided objects out of the queue, and goes to the exceptions of their group or the next one. */
+  private moveOn(objects: readonly ObjectIndex[]): void {
+    const current = this.group.value;
+    const decided = new Set(objects);
+    const isInGroup = current?.objects.some((object) => decided.has(object)) === true;
+    const next = isInGroup ? groupAfter(this.groups.value, current, decided) : current;
+    batch(() => {
+      if (this.queue.value !== null) this.queue.value = withoutObjects(this.queue.value, decided);
+      if (isInGroup) this.goTo(next?.id ?? "");
+    });
   }
 
   /** Grounds the open objects again with what the decisions teach, and lists what changed. */
@@ -234,7 +294,7 @@ export class Store {
       const body = { reviewer: this.reviewer.value, page: this.page };
       const reply = await this.client.post<RegroundReply>("reground", body);
       batch(() => {
-        this.states.value = reply.states;
+        this.table.reset(reply.states, reply.version);
         this.changes.value = reply.changes;
         this.saving.value = "saved";
       });
@@ -254,7 +314,7 @@ export class Store {
   }
 
   private async revert(path: "undo" | "redo", text: string): Promise<void> {
-    const reply = await this.send(path, { reviewer: this.reviewer.value, page: this.page }, this.states.value);
+    const reply = await this.send(path, { reviewer: this.reviewer.value, page: this.page });
     if (reply === null) return;
     const objects = reply.states.map((state) => state.object);
     this.notify(`${text}: ${objects.length} ${objects.length === 1 ? "object" : "objects"}`);
@@ -264,45 +324,55 @@ export class Store {
     else this.select(objects);
   }
 
-  private async send(path: string, body: unknown, before: readonly ObjectState[]): Promise<DecisionReply | null> {
+  private async send(path: string, body: unknown): Promise<DecisionReply | null> {
     this.saving.value = "saving";
+    this.unanswered++;
+    const sent = this.lastSent.then(() => this.client.post<DecisionReply>(path, body));
+    this.lastSent = sent.catch(() => undefined);
     try {
-      const reply = await this.client.post<DecisionReply>(path, body);
+      const reply = await sent;
       batch(() => {
-        this.states.value = applyStates(this.states.value, reply.states);
+        this.table.apply(reply.states, reply.version);
         this.take(reply);
-        this.saving.value = "saved";
+        if (this.unanswered === 1 && this.saving.value === "saving") this.saving.value = "saved";
       });
       return reply;
     } catch (error) {
-      this.states.value = before;
-      this.saving.value = error instanceof ApiFailure && error.status === 0 ? "offline" : "failed";
+      const isOffline = error instanceof ApiFailure && error.status === 0;
+      this.saving.value = isOffline ? "offline" : "failed";
       this.report(error);
       return null;
+    } finally {
+      this.unanswered--;
     }
   }
 
-  private take(reply: Pick<States, "version" | "can_undo" | "can_redo" | "outputs">): void {
-    this.version.value = Math.max(this.version.value, reply.version);
+  private take(reply: Pick<States, "can_undo" | "can_redo" | "outputs">): void {
     this.canUndo.value = reply.can_undo;
     this.canRedo.value = reply.can_redo;
     this.outputs.value = reply.outputs;
   }
 
-  /** Takes in a change that the server announces: of another reviewer, or of this page. */
+  /** Takes in a change that the server announces: of another page, or of this one, whose reply may be lost. */
   receive(change: ChangeEvent): void {
-    if (change.version <= this.version.value || change.page === this.page) return;
+    if (change.version <= this.version.value) return;
     batch(() => {
-      this.states.value = applyStates(this.states.value, change.states);
+      this.table.apply(change.states, change.version);
       this.version.value = change.version;
     });
+    if (change.page === this.page) return;
     if (change.reviewer !== "") this.notify(`${change.reviewer}: ${change.message}`);
-    void this.loadQueue();
+    void this.loadQueue(true);
   }
 
   report(error: unknown): void {
     this.notify(error instanceof Error ? error.message : String(error), "error");
   }
+}
+
+/** Returns a random name; `crypto.randomUUID` is missing where the page comes over plain HTTP from another machine. */
+function randomId(): string {
+  return Array.from(crypto.getRandomValues(new Uint32Array(4)), (part) => part.toString(16).padStart(8, "0")).join("");
 }
 
 function describe(

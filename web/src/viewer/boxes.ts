@@ -1,23 +1,18 @@
 /** The boxes of objects, shown until their meshes arrive, and for scenes without meshes. */
 
-import {
-  BoxGeometry,
-  Color,
-  InstancedMesh,
-  type Intersection,
-  Matrix4,
-  MeshLambertMaterial,
-  type Raycaster,
-} from "three";
+import { BoxGeometry, Color, Group, InstancedMesh, Matrix4, MeshLambertMaterial, type Raycaster } from "three";
 import type { Box, ObjectIndex } from "../api/types";
-import type { Appearance } from "./meshes";
-import { linear } from "./meshes";
+import { type Appearance, bestHit, type Hit, linear } from "./meshes";
 
 const MIN_SIDE = 0.002;
 const HIDDEN = new Matrix4().makeScale(0, 0, 0);
+const GHOST = 0.12;
 
 export class BoxBatch {
-  readonly mesh: InstancedMesh;
+  /** Two meshes: solid boxes and ghosts. */
+  readonly group = new Group();
+  private readonly solid: InstancedMesh;
+  private readonly ghosts: InstancedMesh;
   private readonly objects: ObjectIndex[];
   private readonly matrices: Matrix4[];
   private readonly natural: Color[];
@@ -26,41 +21,63 @@ export class BoxBatch {
     this.objects = boxes.flatMap((box, index) => (box === null ? [] : [index]));
     this.matrices = this.objects.map((object) => boxMatrix(boxes[object] as Box));
     this.natural = this.objects.map((object) => new Color(...(colors[object] ?? [0.5, 0.5, 0.5])));
-    this.mesh = new InstancedMesh(new BoxGeometry(), new MeshLambertMaterial(), Math.max(1, this.objects.length));
-    this.mesh.count = this.objects.length;
-    this.mesh.frustumCulled = false;
-    this.matrices.forEach((matrix, id) => {
-      this.mesh.setMatrixAt(id, matrix);
-    });
+    const geometry = new BoxGeometry();
+    this.solid = this.makeMesh(geometry, new MeshLambertMaterial());
+    this.ghosts = this.makeMesh(
+      geometry,
+      new MeshLambertMaterial({ transparent: true, opacity: GHOST, depthWrite: false }),
+    );
+    this.group.add(this.solid, this.ghosts);
+  }
+
+  private makeMesh(geometry: BoxGeometry, material: MeshLambertMaterial): InstancedMesh {
+    const mesh = new InstancedMesh(geometry, material, Math.max(1, this.objects.length));
+    mesh.count = this.objects.length;
+    mesh.frustumCulled = false;
+    return mesh;
   }
 
   /** Applies an appearance to all boxes; those of objects for which `isReplaced` holds are hidden. */
   paint(appearance: (object: ObjectIndex) => Appearance, isReplaced: (object: ObjectIndex) => boolean): void {
     const color = new Color();
+    let hasGhosts = false;
     this.objects.forEach((object, id) => {
       const { isVisible, color: given, opacity } = appearance(object);
-      const isShown = isVisible && opacity >= 1 && !isReplaced(object);
-      this.mesh.setMatrixAt(id, isShown ? (this.matrices[id] as Matrix4) : HIDDEN);
+      const matrix = isVisible && !isReplaced(object) ? (this.matrices[id] as Matrix4) : HIDDEN;
+      const isGhost = opacity < 1;
+      hasGhosts ||= isGhost && matrix !== HIDDEN;
       if (given === null) color.copy(this.natural[id] as Color);
       else color.setRGB(...linear(given));
-      this.mesh.setColorAt(id, color);
+      for (const [mesh, isShown] of [[this.solid, !isGhost] as const, [this.ghosts, isGhost] as const]) {
+        mesh.setMatrixAt(id, isShown ? matrix : HIDDEN);
+        mesh.setColorAt(id, color);
+      }
     });
-    this.mesh.instanceMatrix.needsUpdate = true;
-    if (this.mesh.instanceColor !== null) this.mesh.instanceColor.needsUpdate = true;
-    this.mesh.boundingSphere = null;
+    this.ghosts.visible = hasGhosts;
+    for (const mesh of [this.solid, this.ghosts]) {
+      mesh.instanceMatrix.needsUpdate = true;
+      if (mesh.instanceColor !== null) mesh.instanceColor.needsUpdate = true;
+      mesh.boundingSphere = null;
+    }
   }
 
-  pick(raycaster: Raycaster): { object: ObjectIndex; distance: number } | null {
-    const hits: Intersection[] = raycaster.intersectObject(this.mesh, false);
-    const first = hits[0];
-    const object = this.objects[first?.instanceId ?? -1];
-    return first === undefined || object === undefined ? null : { object, distance: first.distance };
+  /** Returns what a ray means among the visible boxes below a height. */
+  pick(raycaster: Raycaster, top: number): Hit | null {
+    return bestHit(
+      raycaster.intersectObject(this.group, true).map(({ object: mesh, instanceId, distance, point }) => {
+        const object = this.objects[instanceId ?? -1];
+        if (object === undefined || point.z > top) return null;
+        return { object, distance, isGhost: mesh === this.ghosts };
+      }),
+    );
   }
 
   dispose(): void {
-    this.mesh.geometry.dispose();
-    (this.mesh.material as MeshLambertMaterial).dispose();
-    this.mesh.dispose();
+    for (const mesh of [this.solid, this.ghosts]) {
+      mesh.geometry.dispose();
+      (mesh.material as MeshLambertMaterial).dispose();
+      mesh.dispose();
+    }
   }
 }
 

@@ -29,6 +29,22 @@ interface Instance {
   batch: BatchedMesh;
   id: number;
   object: ObjectIndex;
+  isGhost: boolean;
+}
+
+/** What a ray meets first. */
+export interface Hit {
+  object: ObjectIndex;
+  distance: number;
+  /** Ghosts are hit only if there is nothing solid on the ray. */
+  isGhost: boolean;
+}
+
+/** Returns the hit that a click means. */
+export function bestHit(hits: readonly (Hit | null)[]): Hit | null {
+  const found = hits.filter((hit) => hit !== null);
+  found.sort((a, b) => Number(a.isGhost) - Number(b.isGhost) || a.distance - b.distance);
+  return found[0] ?? null;
 }
 
 interface Part {
@@ -80,7 +96,7 @@ export class MeshBatches {
     for (const part of parts) {
       const id = batch.addInstance(ids.get(part.geometry) as number);
       batch.setMatrixAt(id, part.matrix);
-      const instance = { batch, id, object: part.object };
+      const instance = { batch, id, object: part.object, isGhost: false };
       own[id] = instance;
       this.instances.push(instance);
       const known = this.ofObject.get(part.object);
@@ -101,33 +117,36 @@ export class MeshBatches {
   paint(appearance: (object: ObjectIndex) => Appearance, isPlain: boolean): void {
     const color = new Vector4();
     let hasGhosts = false;
-    for (const { batch, id, object } of this.instances) {
+    for (const instance of this.instances) {
+      const { batch, id, object } = instance;
       const { isVisible, color: given, opacity } = appearance(object);
       batch.setVisibleAt(id, isVisible);
       const [red, green, blue] = given === null ? [1, 1, 1] : linear(given);
       batch.setColorAt(id, color.set(red, green, blue, opacity));
+      instance.isGhost = opacity < 1;
       hasGhosts ||= isVisible && opacity < 1;
     }
     for (const batch of this.batches) {
       const material = batch.material as MeshLambertMaterial;
       const isClear = batch.userData["isClear"] === true;
       // Ghosts by hashed transparency need no sorting.
-      material.alphaHash = hasGhosts && !isClear;
-      if (material.vertexColors !== isPlain) material.vertexColors = isPlain;
-      material.needsUpdate = true;
+      const alphaHash = hasGhosts && !isClear;
+      if (material.alphaHash === alphaHash && material.vertexColors === isPlain) continue;
+      Object.assign(material, { alphaHash, vertexColors: isPlain, needsUpdate: true });
     }
   }
 
-  /** Returns the nearest visible object that a ray hits, with the distance. */
-  pick(raycaster: Raycaster): { object: ObjectIndex; distance: number } | null {
+  /** Returns what a ray means among the visible objects below a height. */
+  pick(raycaster: Raycaster, top: number): Hit | null {
     const hits: Intersection[] = [];
     for (const batch of this.batches) raycaster.intersectObject(batch, false, hits);
-    hits.sort((a, b) => a.distance - b.distance);
-    for (const { object: batch, batchId, distance } of hits) {
-      const instance = this.hit.get(batch as BatchedMesh)?.[batchId ?? -1];
-      if (instance !== undefined && instance.object >= 0) return { object: instance.object, distance };
-    }
-    return null;
+    return bestHit(
+      hits.map(({ object: batch, batchId, distance, point }) => {
+        const instance = this.hit.get(batch as BatchedMesh)?.[batchId ?? -1];
+        if (instance === undefined || instance.object < 0 || point.z > top) return null;
+        return { object: instance.object, distance, isGhost: instance.isGhost };
+      }),
+    );
   }
 
   dispose(): void {

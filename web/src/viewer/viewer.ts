@@ -18,7 +18,7 @@ import type { Eye } from "./appearance";
 import { BoxBatch } from "./boxes";
 import { Cameras, type ViewName } from "./cameras";
 import { boxCenter, boxEdges, LineSet } from "./lines";
-import { type Appearance, MeshBatches, readParts } from "./meshes";
+import { type Appearance, bestHit, MeshBatches, readParts } from "./meshes";
 import { LabelOverlay, type OverlayLabel } from "./overlay";
 
 /** One relation to draw from the selection to another object. */
@@ -85,7 +85,7 @@ export class Viewer {
     this.overlay = new LabelOverlay(labels);
     this.cameras = new Cameras(canvas, () => this.invalidate());
     this.boxes = new BoxBatch(data.objects.box, data.objects.color);
-    this.scene.add(this.boxes.mesh, this.selection.segments, this.relations.segments, this.hidden.segments);
+    this.scene.add(this.boxes.group, this.selection.segments, this.relations.segments, this.hidden.segments);
     this.scene.add(new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8d8578, 1.1), this.light);
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(host);
@@ -205,9 +205,9 @@ export class Viewer {
     const point = new Vector2((2 * event.offsetX) / width - 1, 1 - (2 * event.offsetY) / height);
     const raycaster = new Raycaster();
     raycaster.setFromCamera(point, this.cameras.active);
-    const found = [this.meshes.pick(raycaster), this.boxes.pick(raycaster)].filter((hit) => hit !== null);
-    found.sort((a, b) => a.distance - b.distance);
-    return found[0]?.object ?? null;
+    // What is cut away cannot be clicked.
+    const top = this.cut.constant;
+    return bestHit([this.meshes.pick(raycaster, top), this.boxes.pick(raycaster, top)])?.object ?? null;
   }
 
   private resize(): void {

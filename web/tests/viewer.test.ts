@@ -1,0 +1,72 @@
+import { Raycaster, Vector3 } from "three";
+import { describe, expect, it } from "vitest";
+import { ApiFailure, type Client } from "../src/api/client";
+import { ThumbnailCache } from "../src/panels/Thumbnail";
+import { BoxBatch } from "../src/viewer/boxes";
+import type { Appearance } from "../src/viewer/meshes";
+
+const PLAIN: Appearance = { isVisible: true, color: null, opacity: 1 };
+
+describe("clicks on boxes", () => {
+  // Two boxes one behind the other along y; the first is 2 m high, the second 1 m.
+  const boxes = new BoxBatch(
+    [
+      [-1, 1, 0, 1, 2, 2],
+      [-1, 3, 0, 1, 4, 1],
+    ],
+    [null, null],
+  );
+  const pick = (appearances: Appearance[], z: number, top = 1000) => {
+    boxes.paint(
+      (object) => appearances[object] ?? PLAIN,
+      () => false,
+    );
+    boxes.group.updateMatrixWorld(true);
+    return boxes.pick(new Raycaster(new Vector3(0, 0, z), new Vector3(0, 1, 0)), top)?.object ?? null;
+  };
+
+  it("mean the nearest", () => {
+    expect(pick([PLAIN, PLAIN], 0.5)).toBe(0);
+  });
+
+  it("go through ghosts and what is hidden to what is solid", () => {
+    expect(pick([{ ...PLAIN, opacity: 0.1 }, PLAIN], 0.5)).toBe(1);
+    expect(pick([{ ...PLAIN, isVisible: false }, PLAIN], 0.5)).toBe(1);
+  });
+
+  it("mean a ghost if there is nothing else", () => {
+    expect(pick([{ ...PLAIN, opacity: 0.1 }, PLAIN], 1.5)).toBe(0);
+  });
+
+  it("miss what is cut away", () => {
+    expect(pick([PLAIN, PLAIN], 1.5, 1.2)).toBeNull();
+  });
+});
+
+describe("thumbnails", () => {
+  const cacheOf = (failures: ApiFailure[]) => {
+    let requests = 0;
+    const blob = async () => {
+      requests++;
+      const failure = failures.shift();
+      if (failure !== undefined) throw failure;
+      return new Blob(["png"]);
+    };
+    return { cache: new ThumbnailCache({ blob } as unknown as Client), count: () => requests };
+  };
+
+  it("are asked for once", async () => {
+    const { cache, count } = cacheOf([]);
+    const [one, two] = await Promise.all([cache.get(1), cache.get(1)]);
+    expect([one, count()]).toEqual([two, 1]);
+  });
+
+  it("tell an object without geometry from a failed request, which is tried again", async () => {
+    const { cache, count } = cacheOf([new ApiFailure("no visible geometry", 422), new ApiFailure("gone", 0)]);
+    expect(await cache.get(1)).toEqual({ problem: "no geometry" });
+    expect(await cache.get(1)).toEqual({ problem: "no geometry" });
+    expect(await cache.get(2)).toEqual({ problem: "not loaded" });
+    expect(await cache.get(2)).toHaveProperty("url");
+    expect(count()).toBe(3);
+  });
+});
