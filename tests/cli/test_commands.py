@@ -140,6 +140,21 @@ class TestBuild:
             "<https://ease-crc.org/ont/USD.owl>",
         ]
 
+    def test_reviewer_signs_decisions_that_state_none(self, run: Run, room: Path):
+        Path("decisions.csv").write_text("path,decision,reviewer\n/Room/coffee_mug,Bowl,\n/Room/Apple,none,Bob\n")
+        options = ("--decisions", "decisions.csv", "--reviewer", "https://orcid.org/0000-0002-1825-0097")
+        assert run("build", room, "-o", "room.ttl", *options).code == 0
+        graph = load_graph("room.ttl")
+        found = graph.sparql(
+            "SELECT DISTINCT ?who { { ?x sssom:reviewer_id ?who } UNION { ?x sssom:reviewer_label ?who } }"
+        )
+        assert {row[0] for row in found.rows} == {"https://orcid.org/0000-0002-1825-0097", "Bob"}
+        done = run("build", room, "-o", "room.ttl", "--reviewer", "Ann")
+        assert (done.code, done.err) == (
+            2,
+            "usd2kg: --reviewer Ann: there are no decisions; name them with --decisions\n",
+        )
+
     def test_leaves_the_source_unchanged(self, run: Run, room: Path):
         before = room.read_bytes()
         run("build", room)

@@ -2,9 +2,12 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tests.shapes.solids import boxes, table, turned
 from usd2kg.shapes.mesh_distance import Solid, mesh_distance
+from usd2kg.shapes.surface import Surface, SurfacePiece
 
 
 def solid(surface) -> Solid:
@@ -43,3 +46,21 @@ def test_round_things_are_farther_apart_than_their_boxes():
     found = mesh_distance(one, other, 2.0)
     assert 0.5 * math.sqrt(2) < found <= 2.5 * math.sqrt(2) - 2
     assert found == pytest.approx(2.5 * math.sqrt(2) - 2, abs=0.2)
+
+
+@given(st.integers(1, 300), st.integers(1, 300), st.integers(0, 2**32 - 1), st.floats(0, 2))
+@settings(max_examples=40, deadline=None)
+def test_blocks_give_the_least_distance_of_all_pairs(count: int, other_count: int, seed: int, offset: float):
+    chance = np.random.default_rng(seed)
+    one, other = (chance.random((n, 1, 3)) + 0.02 * chance.random((n, 3, 3)) for n in (count, other_count))
+    other[..., 0] += offset
+    lower, upper = other.min(axis=1), other.max(axis=1)
+    gaps = [np.maximum(np.maximum(t.min(axis=0) - upper, lower - t.max(axis=0)), 0) for t in one]
+    expected = min(np.sqrt((gap**2).sum(axis=1)).min() for gap in gaps)
+    assert mesh_distance(_solid(one), _solid(other), 10.0) == pytest.approx(expected, abs=1e-6) or expected == 0
+
+
+def _solid(corners: np.ndarray) -> Solid:
+    points = corners.reshape(-1, 3).astype(np.float32)
+    piece = SurfacePiece(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3), np.eye(4))
+    return solid(Surface((piece,)))

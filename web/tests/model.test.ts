@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { buildModel, closures, searchClasses } from "../src/state/model";
+import { shortNames } from "../src/state/names";
 import { buildPrimTree, objectsBelow } from "../src/state/primTree";
 import { treeRows } from "../src/state/tree";
 import { makeScene } from "./scene";
@@ -101,5 +102,22 @@ describe("tree rows", () => {
   it("ends in a cycle", () => {
     expect(treeRows([0], [[1], [0]], new Set([0, 1]), null).map((row) => row.node)).toEqual([0, 1]);
     expect(treeRows([0], [[1], [0]], new Set(), new Set([1])).map((row) => row.node)).toEqual([0, 1]);
+  });
+});
+
+describe("short names", () => {
+  it("leaves out what most names begin with", () => {
+    const names = ["acme_house_Chair_01", "acme_house_Table", "acme_house_Chair_02", "Lamp"];
+    expect(shortNames(names)).toEqual(["…Chair_01", "…Table", "…Chair_02", "Lamp"]);
+  });
+
+  it("keeps names that begin with what they are", () => {
+    expect(shortNames(["Chair_01", "Chair_02", "Table_01", "Table_02"])).toEqual([
+      "Chair_01",
+      "Chair_02",
+      "Table_01",
+      "Table_02",
+    ]);
+    expect(shortNames(["cup_1", "cup_2"])).toEqual(["cup_1", "cup_2"]);
   });
 });

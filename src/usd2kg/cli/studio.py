@@ -10,6 +10,7 @@ from typer import Argument, Option
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import BaseIri, OntologyFile
 from usd2kg.cli.options.grounding import AlignmentFile
+from usd2kg.cli.options.review import Reviewer
 from usd2kg.cli.options.stage import StageOptions
 from usd2kg.cli.output import notify
 from usd2kg.errors import OutputError
@@ -35,10 +36,7 @@ def studio_command(
         Path | None,
         Option("--project", help="Folder of decisions and outputs; default: SCENE.studio in the current folder."),
     ] = None,
-    reviewer: Annotated[
-        str | None,
-        Option("--reviewer", help="Name or ORCID iD of the reviewer; the page can change it. Default: login name."),
-    ] = None,
+    reviewer: Reviewer = None,
     host: Annotated[
         str, Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")
     ] = "127.0.0.1",
@@ -55,6 +53,7 @@ def studio_command(
 ) -> None:
     """Open a scene in the browser to look at it, review classes, ask and export, until Ctrl+C.
 
+    The page suggests --reviewer, or else the login name, and can change it.
     With a --host other than this machine, a password in USD2KG_STUDIO_PASSWORD is needed.
     """
     from usd2kg.endpoint.listening import is_loopback  # noqa: PLC0415

@@ -12,6 +12,7 @@ from usd2kg.garbage import paused_collection
 from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
 from usd2kg.graph.concept_hierarchy import describe_concepts, state_concept
 from usd2kg.graph.declarations import declare_terms
+from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.joint_patterns import resolve_joints
 from usd2kg.graph.justification import justify_class, justify_refusal
@@ -21,7 +22,7 @@ from usd2kg.graph.profiles import Profile, plain_profile, soma_profile, uses_som
 from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
 from usd2kg.graph.relation_patterns import describe_between, describe_room, relation_annotations
 from usd2kg.graph.stage_metadata import describe_labels_and_texts, describe_metadata
-from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, Triple, text
+from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
 from usd2kg.relations import Relation, find_relations
@@ -96,7 +97,7 @@ def instantiate(
         profile=chosen.name,
         imports=imports,
         triples=triples,
-        prefixes={**PREFIXES, "": base},
+        prefixes={**document_prefixes(tbox), "": base},
         relations=found,
         individuals=len(scene.objects),
         classes=dict(sorted(counts.items())),

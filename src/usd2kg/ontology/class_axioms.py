@@ -86,6 +86,8 @@ class ClassAxioms:
     """All named classes, declared or used."""
     declared: set[str] = field(default_factory=set)
     """The declared ones among them."""
+    prefixes: dict[str, str] = field(default_factory=dict)
+    """Prefix → namespace, as the document declares them; not merged."""
     ontology_iri: str | None = None
     version_iri: str | None = None
     imports: set[str] = field(default_factory=set)

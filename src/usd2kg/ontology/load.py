@@ -1,6 +1,7 @@
 """load_tbox: ontology file → TBox."""
 
 import hashlib
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -22,6 +23,7 @@ __all__ = ["HOME", "load_home_tbox", "load_tbox"]
 
 HOME = "built-in home TBox"
 """`TBox.source` of the built-in TBox."""
+_PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
 _SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
 
 
@@ -77,8 +79,20 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
         ),
         imports=tuple(doc.iri for doc in documents[1:]),
         notes=(*notes, *_cycle_notes(scope, components, closure)),
+        prefixes=_prefixes(own, scope),
         isolated=tuple(sorted(isolated_classes(own, closure))) if roots is None and classes is None else (),
     )
+
+
+def _prefixes(own: ClassAxioms, scope: Iterable[str]) -> dict[str, str]:
+    """Return the prefixes of a document whose namespace is that of a class in scope; of several for one, the first."""
+    namespaces = {iri.removesuffix(local_name(iri)) for iri in scope}
+    named = {
+        namespace: name
+        for name, namespace in sorted(own.prefixes.items(), reverse=True)
+        if namespace in namespaces and _PREFIX_NAME.fullmatch(name)
+    }
+    return {name: namespace for namespace, name in sorted(named.items(), key=lambda item: item[1])}
 
 
 def _scope(

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from usd2kg.errors import OntologyError
@@ -81,6 +81,8 @@ class TBox:
     imports: tuple[str, ...] = ()
     """IRIs of the other documents of the imports closure, sorted."""
     notes: tuple[OntologyNote, ...] = ()
+    prefixes: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """Prefix → namespace, as the file declares them, for the namespaces of the classes; sorted by prefix."""
     isolated: tuple[ClassIRI, ...] = ()
     """Classes of the file without any subclass axiom, which the default scope excludes; empty for other scopes."""
 

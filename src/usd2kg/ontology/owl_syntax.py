@@ -19,7 +19,9 @@ def read_owl_axioms(text: str, syntax: Literal["ofn", "omn", "owx"]) -> ClassAxi
         ValueError, SyntaxError: the text does not parse.
     """
     axioms = ClassAxioms()
-    for item in _open(text, syntax).get_components():
+    ontology = _open(text, syntax)
+    axioms.prefixes = dict(ontology.prefix_mapping)
+    for item in ontology.get_components():
         handler = _HANDLERS.get(type(item.component).__name__)
         if handler is not None:
             handler(item.component, axioms)

@@ -4,6 +4,7 @@ The triples are read directly, without an OWL parser: much published RDF is not 
 undeclared annotation properties, SHACL shapes as classes), but has a usable hierarchy.
 """
 
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
@@ -23,11 +24,13 @@ _FORMATS = {
     "jsonld": ox.RdfFormat.JSON_LD,
 }
 
+_XMLNS = re.compile(r"xmlns:([\w.-]+)\s*=\s*[\"']([^\"'&<>]+)[\"']")
+"""A prefix of an XML document, without those that need entities."""
 _Triples = dict[Any, dict[str, list[Any]]]
 """Subject → predicate IRI → objects."""
 
 
-def parse_rdf(text: str, syntax: str) -> Iterator[ox.Quad]:
+def parse_rdf(text: str, syntax: str) -> ox.QuadParser:
     """Return the statements of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
 
     Raises:
@@ -46,9 +49,12 @@ def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
         SyntaxError: the text does not parse.
     """
     triples: _Triples = defaultdict(lambda: defaultdict(list))
-    for quad in parse_rdf(text, syntax):
+    quads = parse_rdf(text, syntax)
+    for quad in quads:
         triples[quad.subject][quad.predicate.value].append(quad.object)
-    axioms = ClassAxioms()
+    # The parser of RDF/XML does not tell them.
+    declared = _XMLNS.findall(text) if syntax == "rdf" else quads.prefixes.items()
+    axioms = ClassAxioms(prefixes=dict(declared))
     for subject, statements in triples.items():
         if isinstance(subject, ox.NamedNode):
             _read_subject(subject.value, statements, triples, axioms)

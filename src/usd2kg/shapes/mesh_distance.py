@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 _QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
 _BOX = np.concatenate([_QUADS[:, [0, 1, 2]], _QUADS[:, [0, 2, 3]]])
 """Corners of the triangles of a box; bit 2 of a corner is x, bit 1 is y, bit 0 is z."""
+_BLOCK = 64
+"""Triangles that are compared at once."""
 
 
 class Solid(NamedTuple):
@@ -60,13 +62,58 @@ def _corners_of_box(solid: Solid) -> Array:
     return np.asarray(corners[_BOX])
 
 
+class _Blocks(NamedTuple):
+    """Boxes in blocks of `_BLOCK` neighbours, each with the box around it."""
+
+    lower: Array
+    """(blocks, `_BLOCK`, 3)"""
+    upper: Array
+    outer_lower: Array
+    """(blocks, 3)"""
+    outer_upper: Array
+
+
 def _between_boxes(one: Array, other: Array) -> float:
-    lower, upper = other.min(axis=1), other.max(axis=1)
+    """Return the least distance between the boxes of triangles (n, 3, 3) and (m, 3, 3); 0 if two overlap.
+
+    Pairs of blocks are compared in the order of the distance of their boxes, which bounds that of what is in them.
+    """
+    first, second = _make_blocks(one), _make_blocks(other)
+    bounds = _box_distances(first.outer_lower, first.outer_upper, second.outer_lower, second.outer_upper)
     nearest = np.inf
-    for triangle in one:
-        gaps = np.maximum(np.maximum(triangle.min(axis=0) - upper, lower - triangle.max(axis=0)), 0)
-        nearest = min(nearest, float(np.sqrt((gaps**2).sum(axis=1)).min()))
+    for pair in np.argsort(bounds, axis=None, kind="stable"):
+        i, j = divmod(int(pair), bounds.shape[1])
+        if bounds[i, j] >= nearest:
+            break
+        found = _box_distances(first.lower[i], first.upper[i], second.lower[j], second.upper[j])
+        nearest = min(nearest, float(found.min()))
     return nearest
+
+
+def _box_distances(lower: Array, upper: Array, other_lower: Array, other_upper: Array) -> Array:
+    """Return the distances (n, m) between n and m boxes."""
+    gaps = np.maximum(np.maximum(lower[:, None] - other_upper, other_lower - upper[:, None]), 0)
+    return np.asarray(np.sqrt((gaps**2).sum(axis=2)))
+
+
+def _make_blocks(corners: Array) -> _Blocks:
+    lower, upper = corners.min(axis=1), corners.max(axis=1)
+    order = np.argsort(_morton_codes((lower + upper) / 2), kind="stable")
+    # The last block is filled up with its last box.
+    order = np.pad(order, (0, -len(order) % _BLOCK), mode="edge").reshape(-1, _BLOCK)
+    return _Blocks(lower[order], upper[order], lower[order].min(axis=1), upper[order].max(axis=1))
+
+
+def _morton_codes(points: Array) -> NDArray[np.int64]:
+    """Return the positions of points (n, 3) on a Z-order curve through their box, 10 bits an axis (Morton 1966)."""
+    lowest = points.min(axis=0)
+    scale = np.maximum(points.max(axis=0) - lowest, 1e-12)
+    cells = np.minimum((points - lowest) / scale * 1024, 1023).astype(np.int64)
+    codes = np.zeros(len(points), np.int64)
+    for bit in range(10):
+        for axis in range(3):
+            codes |= (cells[:, axis] >> bit & 1) << (3 * bit + axis)
+    return codes
 
 
 def _depth(one: Solid, other: Solid, near: list[Array]) -> float:

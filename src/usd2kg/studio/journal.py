@@ -14,8 +14,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OutputError, one_line
+from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import individual_iri
-from usd2kg.graph.vocabulary import PREFIXES, named_node
+from usd2kg.graph.vocabulary import named_node
 from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT
 from usd2kg.grounding.sssom_file import Curies, SssomFile, format_sssom_file, read_sssom_file
 from usd2kg.ontology import TBox
@@ -144,7 +145,9 @@ class Journal:
 
 def _header(base: str, tbox: TBox) -> str:
     """Return an empty journal. It declares all prefixes that rows need: rows are appended, the header stays."""
-    curies = Curies({**PREFIXES, "orcid": _ORCID, "scene": base}, used=("dcterms", "orcid", "scene", "u2k", "xsd"))
+    curies = Curies(
+        {**document_prefixes(tbox), "orcid": _ORCID, "scene": base}, used=("dcterms", "orcid", "scene", "u2k", "xsd")
+    )
     for cls in tbox.classes:
         curies.shorten(cls.iri)
     header = {

@@ -1,7 +1,8 @@
 """The review queue: open objects in groups that one decision settles, in an order."""
 
 import statistics
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from itertools import pairwise
@@ -51,7 +52,8 @@ def make_queue(
             if order == "place":
                 key = (rooms.get(state.prim_path, -1), *key)
             found.setdefault(key, []).append(state.prediction)
-    groups = [_make_group(predictions, objects) for predictions in found.values()]
+    common = _common_words(objects.values())
+    groups = [_make_group(predictions, objects, common) for predictions in found.values()]
     if order == "place":
         # Room by room, in each by gain.
         place = {group.id: rooms.get(group.id, len(objects)) for group in groups}
@@ -75,13 +77,15 @@ def _key(prediction: Prediction, obj: SceneObject) -> tuple[object, ...]:
     return prediction.class_iri, words or obj.asset[:1] or obj.prim_path
 
 
-def _make_group(predictions: Sequence[Prediction], objects: Mapping[str, SceneObject]) -> QueueGroup:
+def _make_group(
+    predictions: Sequence[Prediction], objects: Mapping[str, SceneObject], common: Container[str]
+) -> QueueGroup:
     ranked = sorted(predictions, key=lambda p: p.confidence or 0.0)
     known = [p.confidence for p in ranked if p.confidence is not None]
     first = predictions[0]
     return QueueGroup(
         id=first.prim_path,
-        title=_title([objects[p.prim_path] for p in predictions]),
+        title=_title([objects[p.prim_path] for p in predictions], common),
         objects=tuple(p.prim_path for p in ranked),
         suggested=first.class_iri,
         concept=first.concept,
@@ -90,9 +94,20 @@ def _make_group(predictions: Sequence[Prediction], objects: Mapping[str, SceneOb
     )
 
 
-def _title(objects: Sequence[SceneObject]) -> str:
-    """Return the words that all names share, else the name of the first object."""
-    shared = [word for word in objects[0].words if not word.isdigit() and all(word in obj.words for obj in objects[1:])]
+def _common_words(objects: Iterable[SceneObject]) -> frozenset[str]:
+    """Return the words of most names of a scene, such as those of a vendor, which tell no objects apart."""
+    names = [set(obj.words) for obj in objects]
+    counts = Counter(word for words in names for word in words)
+    return frozenset(word for word, count in counts.items() if count >= QUEUE.common_share * len(names) > 2)
+
+
+def _title(objects: Sequence[SceneObject], common: Container[str]) -> str:
+    """Return the words that all names of a group share, without those of the scene, else the first name."""
+    shared = [
+        word
+        for word in objects[0].words
+        if not word.isdigit() and word not in common and all(word in obj.words for obj in objects[1:])
+    ]
     return " ".join(shared) or objects[0].display_name or objects[0].name
 
 

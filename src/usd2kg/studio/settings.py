@@ -9,8 +9,9 @@ __all__ = ["GEOMETRY", "QUEUE", "SERVER", "GeometrySettings", "QueueSettings", "
 
 @dataclass(frozen=True)
 class QueueSettings:
-    """How the time for the rest of a queue is estimated."""
+    """How groups are named, and how the time for the rest of a queue is estimated."""
 
+    common_share: float
     pace_decisions: int
     longest_pause_s: float
     min_decisions: int

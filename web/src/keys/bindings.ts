@@ -156,7 +156,7 @@ export const BINDINGS: Binding[] = [
   },
   {
     keys: ["W"],
-    help: "Hide ceilings and near walls, or show them",
+    help: "Hide ceilings, near walls and what is before the selection",
     section: "View",
     run: (store) => {
       store.isCutAway.value = !store.isCutAway.value;

@@ -24,7 +24,7 @@ export function ChangesDialog({ store, changes }: { store: Store; changes: Regro
                 store.select([object]);
               }}
             >
-              {model.data.objects.name[object]}
+              {model.shortNames[object]}
             </button>
             <span>
               {before < 0 ? "no class" : classLabel(model, before)} <span class="arrow">→</span>{" "}

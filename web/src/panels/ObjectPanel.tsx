@@ -81,7 +81,7 @@ function Section({ title, children }: { title: string; children: ComponentChildr
 const MAX_RELATIONS = 60;
 
 function RelationList({ store, page }: { store: Store; page: ObjectPage }) {
-  const { name } = store.model.data.objects;
+  const { shortNames: name } = store.model;
   if (page.relations.length === 0) return <p class="empty">none</p>;
   const text = (relation: RelationRecord): [string, number, string] => {
     const isTarget = relation.target === page.object;

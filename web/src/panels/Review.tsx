@@ -130,7 +130,7 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
                 checked={!excluded.value.has(object)}
                 onChange={() => store.toggleMember(object)}
               />
-              <span class="name">{model.data.objects.name[object]}</span>
+              <span class="name">{model.shortNames[object]}</span>
             </label>
           </div>
         ))}

@@ -1,6 +1,6 @@
 /** The 3D view with its legend and switches; it shows what the state of the page says. */
 
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { GeometryManifest, ObjectIndex } from "../api/types";
 import type { ViewCommands } from "../keys/bindings";
@@ -9,7 +9,7 @@ import { colorObjects, cssColor, type LegendEntry } from "../state/colors";
 import { classLabel } from "../state/model";
 import type { Store } from "../state/store";
 import { annotate } from "../viewer/annotations";
-import { appearanceOf } from "../viewer/appearance";
+import { appearanceOf, MAX_WATCHED, occluders } from "../viewer/appearance";
 import { Viewer } from "../viewer/viewer";
 
 export function ViewerPanel({ store, view }: { store: Store; view: { current: ViewCommands | null } }) {
@@ -70,6 +70,10 @@ function pick(store: Store, object: ObjectIndex | null, isAdding: boolean): void
 
 /** Keeps the picture in step with the state; returns what stops it. */
 function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[]) => void): (() => void)[] {
+  const before = computed<ReadonlySet<ObjectIndex>>(() => {
+    const watched = store.selection.value.slice(0, MAX_WATCHED);
+    return store.isCutAway.value ? occluders(store.model.data, watched, viewer.eye.value) : new Set();
+  });
   return [
     effect(() => {
       const { colors, legend } = colorObjects(
@@ -79,9 +83,10 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
         store.answer.value,
       );
       setLegend(legend);
-      viewer.setAppearance(appearanceOf(store, colors, viewer.eye), store.colorMode.value === "material");
+      viewer.setAppearance(appearanceOf(store, colors, viewer.eye, before.value), store.colorMode.value === "material");
     }),
     effect(() => viewer.setSelection(store.selection.value)),
+    effect(() => viewer.setHidden([...before.value])),
     effect(() => viewer.setCut(store.cutShare.value)),
     effect(() => {
       const { lines, labels } = annotate(store, pageOf(store).value, (object) => viewer.centerOf(object));
@@ -111,7 +116,11 @@ async function load(store: Store, viewer: Viewer, setLoading: (loading: [number,
 
 function ViewTools({ store }: { store: Store }) {
   const switches = [
-    { label: "Cutaway", title: "Hide ceilings and near walls (W)", state: store.isCutAway },
+    {
+      label: "Cutaway",
+      title: "Hide ceilings, near walls, and what is before the selection (W)",
+      state: store.isCutAway,
+    },
     { label: "See-through", title: "Show everything but the selection as ghosts (X)", state: store.isSeeThrough },
     { label: "Labels", title: "Labels on objects (L)", state: store.hasLabels },
   ];

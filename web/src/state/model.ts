@@ -1,12 +1,15 @@
 /** What is derived once from the scene: children, hierarchies, words to search. */
 
 import type { ClassIndex, ConceptIndex, ObjectIndex, SceneData } from "../api/types";
+import { shortNames } from "./names";
 import { buildPrimTree, type PrimTree } from "./primTree";
 
 export interface SceneModel {
   data: SceneData;
   count: number;
   prims: PrimTree;
+  /** Name of each object without the beginning that most share. */
+  shortNames: string[];
   classChildren: ClassIndex[][];
   classRoots: ClassIndex[];
   /** All classes below each class, itself included. */
@@ -23,7 +26,8 @@ export function buildModel(data: SceneData): SceneModel {
   return {
     data,
     count: path.length,
-    prims: buildPrimTree(path, name),
+    prims: buildPrimTree(path, shortNames(name)),
+    shortNames: shortNames(name),
     classChildren,
     classRoots: indices(data.classes.length).filter((index) => data.classes[index]?.parents.length === 0),
     classClosure: closures(classChildren),

@@ -13,29 +13,30 @@ export interface Eye {
 }
 
 const GHOST = 0.12;
-/** Objects whose view is kept free. */
-const MAX_WATCHED = 12;
+/** Selected objects whose view is kept free. */
+export const MAX_WATCHED = 12;
 
 /**
  * Returns the appearance of each object. It reads signals, so that an effect that calls it runs again when they change.
  *
  * @param eye where the viewer is.
+ * @param before what hides the selection from there.
  */
 export function appearanceOf(
   store: Store,
   colors: readonly (Rgb | null)[],
   eye: { value: Eye },
+  before: ReadonlySet<ObjectIndex>,
 ): (object: ObjectIndex) => Appearance {
   const { isolated, isSeeThrough, isCutAway, shown, selection } = store;
   const [alone, filtered, selected] = [isolated.value, shown.value, new Set(selection.value)];
   const isGhostly = isSeeThrough.value && selected.size > 0;
-  const before = selected.size > 0 ? occluders(store.model.data, [...selected].slice(0, MAX_WATCHED), eye.value) : null;
   const hidden = isCutAway.value ? cutAway(store.model.data, eye.value.direction) : new Set<ObjectIndex>();
   return (object) => {
     if (object < 0) return { isVisible: alone === null, color: null, opacity: isGhostly ? GHOST : 1 };
-    const isWanted = alone === null ? !hidden.has(object) || selected.has(object) : alone.has(object);
-    const isBefore = before?.has(object) === true && !selected.has(object);
-    const isGhost = isBefore || (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
+    const isHidden = (hidden.has(object) || before.has(object)) && !selected.has(object);
+    const isWanted = alone === null ? !isHidden : alone.has(object);
+    const isGhost = (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
     return { isVisible: isWanted, color: colors[object] ?? null, opacity: isGhost ? GHOST : 1 };
   };
 }

@@ -55,6 +55,7 @@ export class Viewer {
   private readonly meshes = new MeshBatches();
   private readonly selection = new LineSet("#ff9d00");
   private readonly relations = new LineSet("#ff9d00");
+  private readonly hidden = new LineSet("#8a93a0");
   private readonly overlay: LabelOverlay;
   private readonly cut = new Plane(new Vector3(0, 0, -1), OUTSIDE);
   private readonly light = new DirectionalLight(0xffffff, 1.6);
@@ -84,7 +85,7 @@ export class Viewer {
     this.overlay = new LabelOverlay(labels);
     this.cameras = new Cameras(canvas, () => this.invalidate());
     this.boxes = new BoxBatch(data.objects.box, data.objects.color);
-    this.scene.add(this.boxes.group, this.selection.segments, this.relations.segments);
+    this.scene.add(this.boxes.group, this.selection.segments, this.relations.segments, this.hidden.segments);
     this.scene.add(new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8d8578, 1.1), this.light);
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(host);
@@ -116,6 +117,15 @@ export class Viewer {
   setSelection(objects: readonly ObjectIndex[]): void {
     const boxes = objects.map((object) => this.data.objects.box[object]).filter((box) => box != null);
     this.selection.set(boxes.length > MAX_BOXES ? [] : boxes.flatMap(boxEdges));
+    this.invalidate();
+  }
+
+  /** Shows the edges of what is hidden because it is before the selection. */
+  setHidden(objects: readonly ObjectIndex[]): void {
+    const boxes = objects
+      .filter((object) => this.data.objects.shell[object] === "")
+      .map((object) => this.data.objects.box[object]);
+    this.hidden.set(boxes.slice(0, MAX_BOXES).flatMap((box) => (box == null ? [] : boxEdges(box))));
     this.invalidate();
   }
 
@@ -254,6 +264,7 @@ export class Viewer {
     this.boxes.dispose();
     this.selection.dispose();
     this.relations.dispose();
+    this.hidden.dispose();
     this.renderer.dispose();
     this.host.replaceChildren();
   }

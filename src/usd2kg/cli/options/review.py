@@ -1,6 +1,6 @@
 """The options of a person's decisions."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,7 +14,12 @@ if TYPE_CHECKING:
     from usd2kg.grounding import Decision
     from usd2kg.ontology import TBox
 
-__all__ = ["CarryOverOptions", "ReviewOptions"]
+__all__ = ["CarryOverOptions", "ReviewOptions", "Reviewer"]
+
+Reviewer = Annotated[
+    str | None,
+    Option("--reviewer", metavar="NAME", help="Name or ORCID iD of the reviewer of decisions that state none."),
+]
 
 
 @dataclass(frozen=True)
@@ -39,15 +44,22 @@ class ReviewOptions(OptionBundle):
         Option("--queue", help="CSV file to write: the objects that a person should decide, for --decisions."),
     ] = None
 
+    reviewer: Reviewer = None
+
     def read(self, tbox: "TBox") -> "dict[str, Decision]":
         """Return prim path → decision.
 
         Raises:
-            GroundingError: the file cannot be read.
+            GroundingError: the file cannot be read, or there is a reviewer without a file.
         """
         from usd2kg.grounding import read_decisions  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-        return read_decisions(self.decisions, tbox) if self.decisions is not None else {}
+        if self.decisions is None:
+            if self.reviewer is not None:
+                raise GroundingError(f"--reviewer {self.reviewer}: there are no decisions; name them with --decisions")
+            return {}
+        found = read_decisions(self.decisions, tbox)
+        return {path: replace(made, reviewer=made.reviewer or self.reviewer or "") for path, made in found.items()}
 
 
 @dataclass(frozen=True)

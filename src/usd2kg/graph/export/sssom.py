@@ -10,6 +10,7 @@ from datetime import date
 from pathlib import Path
 
 from usd2kg.errors import GraphError
+from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.justification import matching_process
 from usd2kg.graph.vocabulary import PREFIXES, SSSOM, named_node
@@ -85,7 +86,7 @@ def format_sssom(
     base = check_base(base or default_base(grounding.scene))
     if named_node(license_iri) is None:
         raise GraphError(f"license {license_iri!r}: expected an IRI, like https://creativecommons.org/licenses/by/4.0/")
-    prefixes = {**PREFIXES, "orcid": "https://orcid.org/", _PREFIX: base}
+    prefixes = {**document_prefixes(tbox), "orcid": "https://orcid.org/", _PREFIX: base}
     curies = Curies(prefixes, used=(_PREFIX, "skos", "u2k", "xsd"))
     rows = [
         {**_row(p, tbox, names, base, curies), **_concept_cells(p, grounding, curies)}

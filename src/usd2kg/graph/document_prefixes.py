@@ -1,0 +1,18 @@
+"""document_prefixes: the prefixes of files about one scene and ontology."""
+
+from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.ontology import TBox
+
+__all__ = ["document_prefixes"]
+
+
+def document_prefixes(tbox: TBox) -> dict[str, str]:
+    """Return prefix → namespace: those of this project, and those that the ontology declares for its classes.
+
+    A name or namespace that this project uses keeps its meaning.
+    """
+    taken = set(PREFIXES.values())
+    own = {
+        name: namespace for name, namespace in tbox.prefixes.items() if name not in PREFIXES and namespace not in taken
+    }
+    return {**own, **PREFIXES}
