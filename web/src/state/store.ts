@@ -213,7 +213,8 @@ export class Store {
       });
       await this.loadQueue();
     } catch (error) {
-      this.report(error);
+      // While the page is offline, the status line says so, and the stream of changes tries again.
+      if (this.saving.value !== "offline") this.report(error);
     }
   }
 
@@ -341,6 +342,8 @@ export class Store {
       const isOffline = error instanceof ApiFailure && error.status === 0;
       this.saving.value = isOffline ? "offline" : "failed";
       this.report(error);
+      // The decision may be on disk all the same; only the server knows.
+      if (isOffline) void this.reload();
       return null;
     } finally {
       this.unanswered--;
