@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow test-browser web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -26,8 +26,8 @@ test: $(READY) ## Run the tests
 test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
 
-test-browser: $(READY) web ## Run the tests of the studio in Chromium, from CHROMIUM or the path
-	$(BIN)/python -m pytest -q -m browser tests/studio
+test-studio: $(READY) web ## Run the tests of the server of the studio, and those in Chromium (CHROMIUM, or on the path)
+	$(BIN)/python -m pytest -q -n auto --dist loadfile -m studio tests/studio
 
 web/node_modules: web/package-lock.json
 	cd web && npm ci --no-audit --no-fund

@@ -18,6 +18,7 @@ from usd2kg.ontology import load_home_tbox
 from usd2kg.query import load_graph
 from usd2kg.studio.app_files import read_app_files
 
+pytestmark = pytest.mark.studio
 FLOOR, TABLE, CUP_1, CUP_2, THING = range(5)
 
 

@@ -17,7 +17,7 @@ from usd2kg.query import load_graph
 
 CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
 pytestmark = [
-    pytest.mark.browser,
+    pytest.mark.studio,
     pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
     needs_page,
 ]
@@ -161,7 +161,7 @@ def test_names_stay_text(browser: Browser, stage: Path, tmp_path: Path):
         page.locator("#tab-ask").click()
         page.get_by_label("Question").fill("what is on the table?")
         page.keyboard.press("Enter")
-        expect(page.locator(".answer-table")).to_contain_text("<img src=x")
+        expect(page.locator(".answer-table")).to_contain_text("<img src=x", timeout=30_000)
         assert page.title() == "kitchen.usda · usd2kg studio"
         assert page.locator("img[src=x]").count() == 0
         close_page(page)
@@ -182,10 +182,11 @@ def test_a_click_selects_in_all_panels_and_questions_select_in_the_picture(
         page.locator("#tab-sparql").click()
         page.get_by_label("SPARQL query").fill('SELECT ?p { ?o u2k:primPath ?p FILTER(STRENDS(?p, "Zxqv")) }')
         page.get_by_role("button", name="Run").click()
-        expect(page.locator(".object-panel h2")).to_have_text("Zxqv")
+        # The first query starts a process.
+        expect(page.locator(".object-panel h2")).to_have_text("Zxqv", timeout=30_000)
         page.get_by_label("SPARQL query").fill("SELECT nonsense")
         page.get_by_role("button", name="Run").click()
-        expect(page.get_by_role("alert")).to_contain_text("query")
+        expect(page.get_by_role("alert")).to_contain_text("query", timeout=30_000)
         page.problems.clear()  # type: ignore[attr-defined]
         close_page(page)
 

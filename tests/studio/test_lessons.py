@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from tests.studio.conftest import STAGE, running_studio
 from usd2kg.grounding import Decision, ground, make_grounder
 from usd2kg.ontology import load_home_tbox
@@ -47,6 +49,7 @@ def test_lessons_are_an_alignment(tmp_path: Path):
     assert again["/Kitchen/Table"].class_iri == tbox.resolve("Table")
 
 
+@pytest.mark.studio
 def test_the_studio_grounds_again_what_is_open(tmp_path: Path):
     (tmp_path / "scene.usda").write_text(MORE)
     folder = tmp_path / "project"
