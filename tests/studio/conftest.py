@@ -9,6 +9,7 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,11 +17,15 @@ import pytest
 
 from usd2kg.endpoint.listening import open_socket
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.app_files import read_app_files
+from usd2kg.studio.app_files import AppFile, read_app_files
 from usd2kg.studio.application import make_app
 from usd2kg.studio.http_server import StudioServer
 from usd2kg.studio.session import open_session
 
+IS_BUILT = (files("usd2kg.studio") / "app" / "index.html").is_file()
+"""Whether `make web` has built the page; the server is tested without it, too."""
+APP_FILES = read_app_files() if IS_BUILT else {"/": AppFile(b"<!doctype html><title>not built</title>", "text/html")}
+needs_page = pytest.mark.skipif(not IS_BUILT, reason="needs the built page: make web")
 KEY = "correct-horse-battery"
 HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
 
@@ -139,7 +144,7 @@ def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
     with open_project(folder, ProjectSources(stage)) as project, open_socket("127.0.0.1", 0) as socket:
         socket.listen()
         session = open_session(project)
-        app = make_app(session, read_app_files(), key=KEY, reviewer="Ann")
+        app = make_app(session, APP_FILES, key=KEY, reviewer="Ann")
         server = StudioServer(app)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
         thread.start()
@@ -152,17 +157,6 @@ def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
 
 
 @pytest.fixture(scope="session")
-def page(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """The built page; a stand-in where it is not built, for tests of the server alone."""
-    from importlib.resources import files  # noqa: PLC0415
-
-    app = Path(str(files("usd2kg.studio"))) / "app"
-    if not (app / "index.html").is_file():
-        app.mkdir(exist_ok=True)
-        (app / "index.html").write_text("<!doctype html><title>not built</title>")
-
-
-@pytest.fixture(scope="session")
 def stage(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("stage") / "kitchen.usda"
     path.write_text(STAGE)
@@ -170,6 +164,6 @@ def stage(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def studio(stage: Path, tmp_path: Path, page: None) -> Iterator[Client]:
+def studio(stage: Path, tmp_path: Path) -> Iterator[Client]:
     with running_studio(stage, tmp_path / "project") as client:
         yield client

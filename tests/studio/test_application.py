@@ -11,10 +11,12 @@ import pytest
 import trimesh
 from pxr import Usd
 
-from tests.studio.conftest import HOSTILE, KEY, Client, Studio, running_studio
+from tests.studio.conftest import HOSTILE, KEY, Client, Studio, needs_page, running_studio
+from usd2kg.errors import OutputError
 from usd2kg.grounding import read_decisions
 from usd2kg.ontology import load_home_tbox
 from usd2kg.query import load_graph
+from usd2kg.studio.app_files import read_app_files
 
 FLOOR, TABLE, CUP_1, CUP_2, THING = range(5)
 
@@ -73,7 +75,8 @@ def test_decisions_undo_and_redo(studio: Client):
     assert studio.ask("api/undo", {"reviewer": "Bob"}).json() == {"error": "Bob has no decision to undo"}
 
 
-def test_a_killed_studio_goes_on_where_it_was(stage: Path, tmp_path: Path, page: None):
+@needs_page
+def test_a_killed_studio_goes_on_where_it_was(stage: Path, tmp_path: Path):
     folder = tmp_path / "project"
     first = Studio(str(stage), "--project", str(folder))
     decide(first, [CUP_1], "confirm", "Ann")
@@ -87,7 +90,8 @@ def test_a_killed_studio_goes_on_where_it_was(stage: Path, tmp_path: Path, page:
         second.stop()
 
 
-def test_files_follow_the_decisions(stage: Path, tmp_path: Path, page: None):
+@needs_page
+def test_files_follow_the_decisions(stage: Path, tmp_path: Path):
     folder = tmp_path / "project"
     studio = Studio(str(stage), "--project", str(folder))
     decide(studio, [THING], "choose", "Ann", **{"class": class_index(studio, "Cupboard")})
@@ -260,6 +264,12 @@ def test_the_page_runs_only_its_own_code(shared: Client):
 
 
 @pytest.fixture(scope="module")
-def shared(stage: Path, tmp_path_factory: pytest.TempPathFactory, page: None) -> Any:
+def shared(stage: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
     with running_studio(stage, tmp_path_factory.mktemp("shared") / "project") as client:
         yield client
+
+
+def test_a_page_that_is_not_built_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("usd2kg.studio.app_files.files", lambda _: tmp_path)
+    with pytest.raises(OutputError, match=r"the page is not built; install usd2kg from a wheel, or run make web"):
+        read_app_files()

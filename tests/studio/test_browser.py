@@ -8,20 +8,18 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-from tests.studio.conftest import HOSTILE, KEY, Client, running_studio
+from tests.studio.conftest import HOSTILE, KEY, Client, needs_page, running_studio
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import read_decisions
 from usd2kg.ontology import load_home_tbox
 from usd2kg.pipeline import build
 from usd2kg.query import load_graph
-from usd2kg.studio.app_files import read_app_files
 
 CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
-IS_BUILT = len(read_app_files()) > 2
 pytestmark = [
     pytest.mark.browser,
     pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    pytest.mark.skipif(not IS_BUILT, reason="needs the built page: make web"),
+    needs_page,
 ]
 SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--no-sandbox"]
 

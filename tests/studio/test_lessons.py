@@ -47,7 +47,7 @@ def test_lessons_are_an_alignment(tmp_path: Path):
     assert again["/Kitchen/Table"].class_iri == tbox.resolve("Table")
 
 
-def test_the_studio_grounds_again_what_is_open(tmp_path: Path, page: None):
+def test_the_studio_grounds_again_what_is_open(tmp_path: Path):
     (tmp_path / "scene.usda").write_text(MORE)
     folder = tmp_path / "project"
     with running_studio(tmp_path / "scene.usda", folder) as client:

@@ -17,6 +17,7 @@ const QUEUE: Queue = {
   ],
   open: 4,
   decided: 0,
+  agreement: [],
   seconds_left: null,
 };
 const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };

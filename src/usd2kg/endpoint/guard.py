@@ -65,12 +65,12 @@ class Guard:
         """Return why a request is refused; None if it is allowed."""
         host = host_of(headers.get("host", ""))
         if not (host in self._hosts or _is_address(host)):
-            return "this host name is not served; add it with usd2kg serve --allow-host"
+            return "this host name is not served; add it with --allow-host"
         origin = headers.get("origin")
         is_own = origin is not None and urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
         if origin is None or is_own or origin in self._origins or "*" in self._origins:
             return None
-        return "cross-site requests are not allowed; add the origin with usd2kg serve --cors"
+        return "cross-site requests are not allowed; usd2kg serve --cors allows an origin to query"
 
 
 def host_of(netloc: str) -> str:

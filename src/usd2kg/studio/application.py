@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
 from concurrent.futures import Future
 from contextlib import asynccontextmanager
+from dataclasses import asdict
 from typing import Any, TypeVar
 
 from starlette.applications import Starlette
@@ -15,6 +16,7 @@ from starlette.routing import Route
 from usd2kg.endpoint.guard import Guard
 from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
+from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.exports import EXPORTS
@@ -24,7 +26,7 @@ from usd2kg.studio.object_state import ObjectState
 from usd2kg.studio.outputs import OutputFiles
 from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
-from usd2kg.studio.requests import BadRequestError, field, object_indices, read_body
+from usd2kg.studio.request_body import BadRequestError, field, object_indices, read_body
 from usd2kg.studio.review_queue import QUEUE_ORDERS, estimate_seconds, make_queue
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
@@ -197,6 +199,7 @@ class _Api:
                 ],
                 "open": still_open,
                 "decided": len(states) - still_open,
+                "agreement": [asdict(found) for found in find_agreement(self._session.review.by_reviewer())],
                 "seconds_left": estimate_seconds(self._session.journal.events, len(groups)),
             }
         )

@@ -3,7 +3,7 @@
 import json
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -81,12 +81,13 @@ def open_project(folder: Path, sources: ProjectSources | None = None) -> Iterato
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{folder}: cannot be made ({error.strerror}); choose another --project") from error
-    try:
-        with lock_exclusive(folder, _LOCK_WAIT_S):
-            write_whole(file, _format_sources(chosen, folder))
-            yield Project(folder, chosen)
-    except StoreError as error:
-        raise StoreError(f"{error} (a studio may be open on it)") from error
+    with ExitStack() as locks:
+        try:
+            locks.enter_context(lock_exclusive(folder, _LOCK_WAIT_S))
+        except StoreError as error:
+            raise StoreError(f"{error} (a studio may be open on it)") from error
+        write_whole(file, _format_sources(chosen, folder))
+        yield Project(folder, chosen)
 
 
 def _check_same(file: Path, known: ProjectSources, given: ProjectSources) -> None:
@@ -96,7 +97,7 @@ def _check_same(file: Path, known: ProjectSources, given: ProjectSources) -> Non
         if not is_same:
             raise GroundingError(
                 f"{file}: is about the {name} {before or 'built in'}, not {now or 'the built-in one'}; "
-                "choose another --project"
+                "open the folder itself to go on with it, or choose another --project"
             )
 
 

@@ -188,8 +188,19 @@ export interface Queue {
   /** Objects without a decision. */
   open: number;
   decided: number;
+  /** Pairs of reviewers with objects in common. */
+  agreement: Agreement[];
   /** Estimate for all open groups from this session's pace; null before five decisions. */
   seconds_left: number | null;
+}
+
+/** How far two reviewers agree about the objects that both decided. */
+export interface Agreement {
+  reviewers: [string, string];
+  objects: number;
+  same: number;
+  /** Cohen's kappa; null if both gave all objects one verdict. */
+  kappa: number | null;
 }
 
 /** Objects with the same suggestion, and the same asset or the same words in their names. */
