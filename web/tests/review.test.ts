@@ -245,6 +245,23 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(sent).toEqual([{ objects: [3], action: "confirm" }]));
   });
 
+  it("shows the group of the last of several undos, whatever the order of the answers", async () => {
+    const answers: (() => void)[] = [];
+    let version = 0;
+    const client = {
+      ...makeStore(async <T>() => ({}) as T).client,
+      get: <T>() => new Promise<T>((resolve) => answers.push(() => resolve(QUEUE as T))),
+      post: async <T>() => ({ ...reply([version === 0 ? 1 : 3], {}), version: ++version }) as T,
+    };
+    const store = new Store(client, makeScene(), makeStates(), { getItem: () => null, setItem: () => undefined });
+    const undone = Promise.all([store.undo(), store.undo()]);
+    await vi.waitFor(() => expect(answers).toHaveLength(2));
+    answers[1]?.();
+    answers[0]?.();
+    await undone;
+    expect(store.groupId.value).toBe("/K/wall");
+  });
+
   it("decides about what is selected outside the group, and stays in the queue", async () => {
     const { sent, gates, post } = gated();
     const store = makeStore(post);

@@ -93,16 +93,17 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
         <h2>
           {group.title} <span class="arrow">→</span> {label}
         </h2>
-        <p>
-          {count} of {group.objects.length} ticked
-          {group.confidence !== null && ` · confidence ${group.confidence.toFixed(2)}`}
-          {group.objects.length > MEMBERS_SHOWN && (
-            <MemberPages member={member} first={first} last={last} count={group.objects.length} />
-          )}
-          {!store.isGroupInFocus.value && (
-            <span class="focus-note"> · keys decide about the selection; Esc returns</span>
-          )}
-        </p>
+        {store.isGroupInFocus.value ? (
+          <p>
+            {count} of {group.objects.length} ticked
+            {group.confidence !== null && ` · confidence ${group.confidence.toFixed(2)}`}
+            {group.objects.length > MEMBERS_SHOWN && (
+              <MemberPages member={member} first={first} last={last} count={group.objects.length} />
+            )}
+          </p>
+        ) : (
+          <p class="focus-note">Keys decide about the selection; Esc returns</p>
+        )}
       </header>
       <div class="members" role="listbox" aria-multiselectable="true" aria-label="Members of the group">
         {group.objects.slice(first, last).map((object, offset) => (

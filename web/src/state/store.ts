@@ -169,15 +169,17 @@ export class Store {
 
   // Review.
 
-  async loadQueue(isFromOthers = false): Promise<void> {
+  /** Loads the queue; returns false if a later request has taken over. */
+  async loadQueue(isFromOthers = false): Promise<boolean> {
     const request = ++this.queueRequests;
     try {
       const queue = await this.client.get<Queue>(`queue?order=${this.order.value}`);
-      // A later request knows more.
-      if (request === this.queueRequests) this.showQueue(withoutObjects(queue, this.table.waiting()), isFromOthers);
+      if (request !== this.queueRequests) return false;
+      this.showQueue(withoutObjects(queue, this.table.waiting()), isFromOthers);
     } catch (error) {
       this.report(error);
     }
+    return true;
   }
 
   /** Shows a new queue, and stays in the current group if it is still there. */
@@ -319,7 +321,8 @@ export class Store {
     if (reply === null) return;
     const objects = reply.states.map((state) => state.object);
     this.notify(`${text}: ${objects.length} ${objects.length === 1 ? "object" : "objects"}`);
-    await this.loadQueue();
+    // The last of several undos decides which group is shown.
+    if (!(await this.loadQueue())) return;
     const back = this.groups.value.find((group) => group.objects.some((object) => objects.includes(object)));
     if (back !== undefined) this.goTo(back.id);
     else this.select(objects);
