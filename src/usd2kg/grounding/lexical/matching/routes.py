@@ -30,7 +30,7 @@ class RouteFeatures(NamedTuple):
     term: float = 0.0
     """Whether the noun is a label of the class."""
     label: float = 0.0
-    """Whether the route ends at the label of the class, in its best sense; 0 for categories."""
+    """Whether the route ends at the label of the class, in its best sense, or at a noun of its list; else 0."""
     partial: float = 0.0
     """Whether the route begins at the end of the noun: a side plate is a plate."""
     usual: float = 0.0
@@ -104,20 +104,25 @@ class Routes:
 
     def _by_sense(self, synset: int, *, is_partial: bool, is_usual: bool) -> Iterator[Route]:
         links: list[tuple[int, int, AlignedClass, int | None]] = []
+        excluded: frozenset[ClassIRI] = frozenset()
         for up, steps in self._taxonomy.walk_up(synset):
+            excluded |= self._lexicon.excluded_classes.get(up, frozenset())
+            found: list[tuple[int, int, AlignedClass, int | None]] = []
             if up in self._lexicon.sense_classes:
-                links.append((up, steps, self._lexicon.sense_classes[up], None))
+                found.append((up, steps, self._lexicon.sense_classes[up], None))
             members = self._lexicon.category_members.get(up, ())
-            links.extend((up, steps, member.aligned, member.synset_count) for member in members)
+            found.extend((up, steps, member.aligned, member.synset_count) for member in members)
+            links.extend(link for link in found if link[2].class_iri not in excluded)
         classes = {aligned.class_iri for _, _, aligned, _ in links}
         passed = {iri for iri in classes if any(one != iri and self._tbox.is_subclass(one, iri) for one in classes)}
         for up, steps, aligned, synset_count in links:
             iri = aligned.class_iri
             is_category, is_general = synset_count is not None, iri in self._lexicon.general_classes
+            is_sure = aligned.weight == 1.0 or up in self._lexicon.listed_synsets
             counted_steps = 0.0 if is_category else float(min(steps, ROUTES.max_steps))
             features = self._features(
                 iri,
-                label=float(aligned.weight == 1.0 and not is_category),
+                label=float(is_sure and not is_category),
                 partial=float(is_partial),
                 usual=float(is_usual),
                 steps=0.0 if is_general else counted_steps,
