@@ -30,7 +30,7 @@ class RouteFeatures(NamedTuple):
     term: float = 0.0
     """Whether the noun is a label of the class."""
     label: float = 0.0
-    """Whether the route ends at the label of the class, in its best sense, or at a noun of its list; else 0."""
+    """Whether the route ends at the label of the class, in its best sense; 0 for categories."""
     partial: float = 0.0
     """Whether the route begins at the end of the noun: a side plate is a plate."""
     usual: float = 0.0
@@ -118,11 +118,10 @@ class Routes:
         for up, steps, aligned, synset_count in links:
             iri = aligned.class_iri
             is_category, is_general = synset_count is not None, iri in self._lexicon.general_classes
-            is_sure = aligned.weight == 1.0 or up in self._lexicon.listed_synsets
             counted_steps = 0.0 if is_category else float(min(steps, ROUTES.max_steps))
             features = self._features(
                 iri,
-                label=float(is_sure and not is_category),
+                label=float(aligned.weight == 1.0 and not is_category),
                 partial=float(is_partial),
                 usual=float(is_usual),
                 steps=0.0 if is_general else counted_steps,
