@@ -2,27 +2,35 @@
 
 Usage: python -m tools.fit_calibration
 
-Writes `src/usd2kg/data/calibration.json`: the weights of a logistic model, and its calibration error on each scene when
-fitted on the other scenes and the lists. An answer is right if it is the gold class. Each distinct name of a scene and
-naming regime counts once, so that copies of an asset do not dominate.
+Writes `src/usd2kg/data/calibration.json`: the weights of a logistic model, and its calibration error on each scene and
+on each public ontology when fitted without it. Names with a public ontology are answered with the lists of what belongs
+to its classes that usd2kg ships, and again without them, as for an ontology that has none.
+
+An answer is right if it is the gold class. Each distinct name of a scene and naming regime counts once, so that copies
+of an asset do not dominate.
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from benchmarks.bare import bare_scene
 from benchmarks.labelled_scenes import LabelledScene, iter_training_scenes
-from benchmarks.names.lists import LabelledName, iter_ontology_lists, resolve_home_lists, resolve_list
+from benchmarks.names.lists import (
+    PUBLIC_ONTOLOGIES,
+    LabelledName,
+    iter_ontology_lists,
+    resolve_home_lists,
+    resolve_list,
+)
 from tools import build_written_names
 from tools.fitting import Array, write_weights
 from usd2kg.grounding import NamingRegime, view_objects
-from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.confidence import FEATURES, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.grounding.model import Prediction
+from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.scene import Scene
@@ -31,11 +39,17 @@ TRAINING_LIST_WEIGHT = 0.5
 """Weight of a list that the grounder was improved on, relative to a scene."""
 CALIBRATION_LIST_WEIGHT = 1.0
 """Weight of a list used for calibration only, relative to a scene: it shows the accuracy on unseen names."""
+FULL_WEIGHT_NAMES = 40
+"""Distinct names from which a scene has full weight: a few names are no more evidence than as many of a large scene."""
 RIDGE = 1.0
 """Strength of the L2 penalty on all weights but the intercept."""
 NEWTON_ROUNDS = 50
 TOTAL_WEIGHT = 100
 """Sum of the weights of the answers of one scene and regime in the likelihood, relative to the penalty."""
+
+
+DEFAULT, WITHOUT = LexicalGrounder(), LexicalGrounder(use_member_lists=False)
+WITHOUT_LISTS = ", without shipped lists"
 
 
 class Sample(NamedTuple):
@@ -46,21 +60,31 @@ class Sample(NamedTuple):
     is_right: Array
     """(n,), 0 or 1."""
     weights: Array
-    """(n,), with sum 1 for each regime of a scene."""
+    """(n,), with sum 1 for each regime of a scene with enough names."""
 
 
 def main() -> None:
     """Fit, cross-validate and write."""
     scenes = {case.name: sample_scene(case) for case in iter_training_scenes()}
     home = open_tbox(None)
-    lists = [sample_list(names, home) for names in resolve_home_lists("train", home)]
-    for names, tbox in iter_ontology_lists(("train",), public=True):
-        lists.append(sample_list(resolve_list(names, tbox), tbox))
+    lists = {f"home {at}": sample_list(names, home) for at, names in enumerate(resolve_home_lists("train", home))}
     for names, tbox in iter_ontology_lists(("calibration",)):
-        lists.append(sample_list(resolve_list(names, tbox), tbox, CALIBRATION_LIST_WEIGHT))
-    report = {name: cross_validate(name, scenes, lists) for name in scenes}
-    figures = {"error_on_each_scene_when_left_out": report}
-    write_weights("calibration.json", FEATURES, fit([*scenes.values(), *lists]), figures, digits=4)
+        lists[names.name] = sample_list(resolve_list(names, tbox), tbox, CALIBRATION_LIST_WEIGHT)
+    public = {}
+    for names, tbox in iter_ontology_lists(("train",), public=True):
+        resolved = resolve_list(names, tbox)
+        public[names.ontology] = sample_list(resolved, tbox)
+        public[names.ontology + WITHOUT_LISTS] = sample_list(resolved, tbox, grounder=WITHOUT)
+    samples = {**scenes, **lists, **public}
+    figures = {
+        "error_on_each_scene_when_left_out": {name: cross_validate([name], samples)[name] for name in scenes},
+        "error_on_each_ontology_when_left_out": {
+            name: figure
+            for ontology in PUBLIC_ONTOLOGIES
+            for name, figure in cross_validate([ontology, ontology + WITHOUT_LISTS], samples).items()
+        },
+    }
+    write_weights("calibration.json", FEATURES, fit(list(samples.values())), figures, digits=4)
 
 
 def sample_scene(case: LabelledScene) -> Sample:
@@ -69,12 +93,17 @@ def sample_scene(case: LabelledScene) -> Sample:
     samples = []
     for regime in NamingRegime:
         answers = decide(case.scene, case.paths, regime, case.tbox)
-        is_right = [answers[label.prim_path][0].class_iri == label.target for label in case.gold]
+        is_right = [answers[label.prim_path].prediction.class_iri == label.target for label in case.gold]
         samples.append(sample_answers([answers[path] for path in case.paths], is_right, names, case.tbox))
     return join_samples(samples)
 
 
-def sample_list(names: Sequence[LabelledName], tbox: TBox, weight: float = TRAINING_LIST_WEIGHT) -> Sample:
+def sample_list(
+    names: Sequence[LabelledName],
+    tbox: TBox,
+    weight: float = TRAINING_LIST_WEIGHT,
+    grounder: LexicalGrounder = DEFAULT,
+) -> Sample:
     """Return the answers for a list of names, authored and abbreviated.
 
     Abbreviated names that the abbreviation model was trained on are left out, since it reads them too well.
@@ -84,8 +113,8 @@ def sample_list(names: Sequence[LabelledName], tbox: TBox, weight: float = TRAIN
     paths = [name.obj.prim_path for name in names]
     samples = []
     for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED):
-        answers = decide(scene, paths, regime, tbox)
-        is_right = [answers[name.obj.prim_path][0].class_iri == name.target for name in names]
+        answers = decide(scene, paths, regime, tbox, grounder)
+        is_right = [answers[name.obj.prim_path].prediction.class_iri == name.target for name in names]
         sample = sample_answers([answers[path] for path in paths], is_right, paths, tbox)
         is_new = [regime is NamingRegime.SEMANTIC or name.obj.name not in trained for name in names]
         samples.append(Sample(*(column[is_new] for column in sample)))
@@ -94,26 +123,24 @@ def sample_list(names: Sequence[LabelledName], tbox: TBox, weight: float = TRAIN
 
 
 def decide(
-    scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox
-) -> dict[str, tuple[Prediction, ClassPosterior]]:
-    """Return prim path → (uncalibrated prediction, class posterior by appearance)."""
+    scene: Scene, paths: list[str], regime: NamingRegime, tbox: TBox, grounder: LexicalGrounder = DEFAULT
+) -> dict[str, ScoredView]:
+    """Return prim path → answer."""
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime)}
-    answers = LexicalGrounder().score_views([(path, views[path]) for path in paths], tbox)
+    answers = grounder.score_views([(path, views[path]) for path in paths], tbox)
     return dict(zip(paths, answers, strict=True))
 
 
-def sample_answers(
-    answers: list[tuple[Prediction, ClassPosterior]], is_right: list[bool], names: list[str], tbox: TBox
-) -> Sample:
-    """Return the answers of one regime; distinct names have equal weights with sum 1."""
+def sample_answers(answers: list[ScoredView], is_right: list[bool], names: list[str], tbox: TBox) -> Sample:
+    """Return the answers of one regime; distinct names have equal weights with sum 1, less if they are few."""
     counts = Counter(names)
-    general = LexicalGrounder().general_classes(tbox)
-    odds = general_class_log_odds((answer for answer, _ in answers), general)
-    features = [features_of(answer, beliefs, tbox, general, odds) for answer, beliefs in answers]
+    general = DEFAULT.general_classes(tbox)
+    odds = general_class_log_odds((answer.prediction for answer in answers), general)
+    features = [features_of(answer, tbox, general, odds) for answer in answers]
     return Sample(
         features=np.array([[found[name] for name in FEATURES] for found in features]),
         is_right=np.array(is_right, dtype=float),
-        weights=np.array([1 / counts[name] / len(counts) for name in names]),
+        weights=np.array([1 / counts[name] / max(len(counts), FULL_WEIGHT_NAMES) for name in names]),
     )
 
 
@@ -137,17 +164,19 @@ def fit(samples: list[Sample]) -> Array:
     return beta
 
 
-def cross_validate(name: str, scenes: dict[str, Sample], lists: list[Sample]) -> dict[str, float]:
-    """Return the expected calibration error (10 bins) and the accuracy on a scene that the model was not fitted on."""
-    beta = fit([*(one for other, one in scenes.items() if other != name), *lists])
-    left_out = scenes[name]
-    p = 1 / (1 + np.exp(-left_out.features @ beta))
+def cross_validate(names: Sequence[str], samples: Mapping[str, Sample]) -> dict[str, dict[str, float]]:
+    """Return the calibration error and accuracy on some samples of a model that was fitted on all others."""
+    beta = fit([one for other, one in samples.items() if other not in names])
+    return {name: _measure(samples[name], beta) for name in names if name in samples}
+
+
+def _measure(sample: Sample, beta: Array) -> dict[str, float]:
+    """Return the expected calibration error (10 bins) and the accuracy."""
+    p = 1 / (1 + np.exp(-sample.features @ beta))
     bins = np.minimum((p * 10).astype(int), 9)
-    total = left_out.weights.sum()
-    error = sum(
-        abs(np.sum(left_out.weights[bins == b] * (left_out.is_right - p)[bins == b])) / total for b in range(10)
-    )
-    mean = float(np.sum(left_out.weights * left_out.is_right) / total)
+    total = sample.weights.sum()
+    error = sum(abs(np.sum(sample.weights[bins == b] * (sample.is_right - p)[bins == b])) / total for b in range(10))
+    mean = float(np.sum(sample.weights * sample.is_right) / total)
     return {"calibration_error": round(float(error), 4), "accuracy": round(mean, 4)}
 
 

@@ -49,6 +49,7 @@ def switched_off(rules: Sequence[Rule]) -> Iterator[None]:
             setattr(owner, name, value)
 
 
+LISTS, EDITOR = "alignment.member_lists", "alignment.lexicon_editor"
 LEXICON, TERMS, PHRASES = "alignment.lexicon", "matching.term_matching", "matching.phrase_matching"
 RESIDUAL, TEXTS, READER = "alignment.residual_class", "reading.evidence_texts", "reading.noun_phrase"
 SPELLING, KINDS, ABBREVIATIONS = "reading.spelling", "reading.word_kinds", "reading.abbreviations"
@@ -65,6 +66,9 @@ RULES = (
     Rule("home vocabulary: lend names to classes with equal labels", f"{LEXICON}:lend_terms", constant(())),
     Rule("terms: head nouns of two-word labels", f"{LEXICON}:_add_head_nouns", constant(None)),
     Rule("terms: nouns equivalent to a label", f"{LEXICON}:equivalent_nouns", lambda text, taxonomy, is_noun: []),
+    Rule("lists: use those that are shipped", "alignment.built_alignment:shipped_rows", constant([])),
+    Rule("lists: no class of a hypernym that excludes the noun", f"{EDITOR}:LexiconEditor._exclude", constant(None)),
+    Rule("lists: more specific classes without one", f"{LISTS}:_OwnClasses.names_more_specific", constant(False)),
     Rule("matching: a more specific foreign class wins", f"{TERMS}:TermMatcher._is_more_specific", constant(False)),
     Rule("matching: subclasses named after a place", f"{TERMS}:TermMatcher._match_in_place", constant(())),
     Rule("matching: compounds with the parent's words", f"{TERMS}:TermMatcher.whole_words", constant(())),

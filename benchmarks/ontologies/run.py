@@ -4,7 +4,8 @@ Usage: python -m benchmarks.ontologies.run
 
 Prints exact match and accepted answers in % with 95 % intervals (Wilson), by list and by split. `conf.` is the mean
 stated probability of an exact answer in %: above the exact share the grounder is overconfident. The columns from `below
-a root` exclude objects whose target is a root class. README.md describes the lists.
+a root` exclude objects whose target is a root class. Public ontologies are measured with the lists of what belongs to
+their classes that usd2kg ships (`knowledge/class_members.csv`), and without. README.md describes the lists of names.
 """
 
 from benchmarks.names.lists import (
@@ -18,6 +19,7 @@ from benchmarks.names.lists import (
     resolve_list,
 )
 from benchmarks.names.scores import Tally, second_annotator_lines, tally_answers
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import TBox
 
 SPLITS = ("train", "test", "calibration")
@@ -27,27 +29,35 @@ def main() -> None:
     """Measure and print."""
     shares = f"{'exact':<17}  {'accepted':<17}"
     print(f"{'list':<24}{'split':<12}{'n':>5}  {shares}  conf.  below a root  {shares}".rstrip())
-    for public in (False, True):
+    for title, is_public, grounder in (
+        ("own ontologies", False, LexicalGrounder()),
+        ("public ontologies", True, LexicalGrounder()),
+        ("without shipped lists", True, LexicalGrounder(use_member_lists=False)),
+    ):
+        print(title)
         totals: dict[str, Tally] = {}
-        for names, tbox in iter_ontology_lists(SPLITS, public=public):
-            tally = print_list(names, resolve_list(names, tbox), tbox)
+        for names, tbox in iter_ontology_lists(SPLITS, public=is_public):
+            tally = print_list(names, resolve_list(names, tbox), tbox, grounder)
             totals[names.split] = totals.get(names.split, Tally()).plus(tally)
         for split, total in totals.items():
-            print(f"{'public ontologies' if public else 'own ontologies':<24}{split:<12}{total.count:>5}  {total}")
+            print(f"{'all':<24}{split:<12}{total.count:>5}  {total}  {_mean_confidence(total)}")
     for ontology in PUBLIC_ONTOLOGIES:
         if not ontology_path(ontology).exists():
             print(f"not measured: {ontology}, {ontology_path(ontology)} is missing")
     print_second_annotators()
 
 
-def print_list(names: NameList, resolved: list[LabelledName], tbox: TBox) -> Tally:
+def print_list(names: NameList, resolved: list[LabelledName], tbox: TBox, grounder: LexicalGrounder) -> Tally:
     """Print the scores of one list and return those of all its names."""
     below = [name for name in resolved if name.target not in tbox.roots]
-    tally, tally_below = tally_answers(resolved, tbox), tally_answers(below, tbox)
-    confidence = f"{100 * tally.confidence / tally.count:5.0f}"
-    row = f"{names.name:<24}{names.split:<12}{tally.count:>5}  {tally}  {confidence}  {tally_below.count:>12}"
-    print(f"{row}  {tally_below}", flush=True)
+    tally, tally_below = (tally_answers(some, tbox, grounder=grounder) for some in (resolved, below))
+    row = f"{names.name:<24}{names.split:<12}{tally.count:>5}  {tally}  {_mean_confidence(tally)}"
+    print(f"{row}  {tally_below.count:>12}  {tally_below}", flush=True)
     return tally
+
+
+def _mean_confidence(tally: Tally) -> str:
+    return f"{100 * tally.confidence / tally.count:5.0f}"
 
 
 def print_second_annotators() -> None:

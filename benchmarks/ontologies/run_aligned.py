@@ -13,11 +13,11 @@ from pathlib import Path
 from benchmarks.names.lists import NameList, iter_ontology_lists, resolve_list
 from benchmarks.names.scores import Tally, tally_answers
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
+from usd2kg.grounding.lexical.alignment.member_rows import rows_of_members
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.llm.class_members import ask_members, plan_questions
 from usd2kg.grounding.llm.completion import Completion, Request
-from usd2kg.grounding.llm.member_rows import rows_of_members
 from usd2kg.grounding.llm.metered_client import MeteredClient
 from usd2kg.ontology import TBox
 

@@ -438,6 +438,13 @@ class TestOntology:
         assert run("ontology", "known").out.splitlines()[1].startswith("soma-home")
         assert json.loads(run("ontology", "known", "--json").out)[0]["documents"][0]["file"] == "SOMA-HOME.owl"
 
+    def test_known_ontologies_have_the_number_of_classes_with_a_shipped_alignment(self, run: Run):
+        entries = {entry["name"]: entry for entry in json.loads(run("ontology", "known", "--json").out)}
+        assert entries["soma-home"]["aligned_classes"] == 0
+        assert entries["cco-artifacts"]["aligned_classes"] > 250
+        (line,) = [line for line in run("ontology", "known").out.splitlines() if line.startswith("brick ")]
+        assert line.split()[1:4] == ["1.4", "–", str(entries["brick"]["aligned_classes"])]
+
     def test_rejects_an_unknown_ontology(self, run: Run):
         done = run("ontology", "fetch", "nope")
         assert (done.code, done.out) == (2, "")

@@ -11,6 +11,7 @@ from usd2kg.grounding import ObjectView
 from usd2kg.grounding.lexical.class_posterior import NO_POSTERIOR
 from usd2kg.grounding.lexical.confidence import features_of, general_class_log_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import TBox, load_home_tbox
 
@@ -63,6 +64,6 @@ def test_other_predictions_do_not_change_the_confidence_of_a_home_root():
 def test_margin_has_a_feature_of_its_own_for_other_ontologies(tbox: TBox, name: str, foreign_margin: float):
     iri, other = tbox.resolve(name), tbox.classes[0].iri
     prediction = replace(predict(None, "name"), class_iri=iri, candidates=(Candidate(iri, 0.8), Candidate(other, 0.3)))
-    features = features_of(prediction, NO_POSTERIOR, tbox, tbox.roots, log_odds=0.0)
+    features = features_of(ScoredView(prediction, NO_POSTERIOR), tbox, tbox.roots, log_odds=0.0)
     assert features["margin"] == pytest.approx(0.5)
     assert features["foreign_margin"] == pytest.approx(foreign_margin)

@@ -179,7 +179,7 @@ def test_rejects_file_names_with_a_path(tmp_path: Path, file: str):
 
 def test_built_in_registry_has_all_hashes():
     for ontology in read_registry().values():
-        assert ontology.documents
+        assert bool(ontology.documents) != bool(ontology.website)
         assert all(len(document.sha256) == 64 for document in ontology.documents)
         assert all(document.address.startswith(("https://", "http://")) for document in ontology.documents)
 
@@ -243,5 +243,12 @@ def test_rejects_a_document_named_like_the_catalog(tmp_path: Path, file: str):
 def test_rejects_an_ontology_without_documents(tmp_path: Path):
     path = tmp_path / "r.toml"
     path.write_text('[[ontology]]\nname="n"\ntitle="t"\nversion="1"\nlicence="l"\ndocument=[]\n')
-    with pytest.raises(OntologyError, match=r"the ontology 'n' has no \[\[ontology\.document\]\]; add one"):
+    with pytest.raises(OntologyError, match=r"'n' has no \[\[ontology\.document\]\] and no website; add one"):
         read_registry(path)
+
+
+def test_an_ontology_with_a_website_only_is_not_fetched(tmp_path: Path):
+    ontology = read_registry()["brick"]
+    with pytest.raises(OntologyError, match=r"'brick' cannot be fetched by name; download it from https://brick"):
+        fetch_ontology(ontology, tmp_path / "brick")
+    assert not (tmp_path / "brick").exists()

@@ -157,10 +157,10 @@ def _print_questions(tbox: "TBox", output: Path | None) -> None:
 def _ask_model(model: str, requests: RequestOptions, tbox: "TBox") -> "list[AlignmentRow]":
     """Return the rows of what a model says belongs to each class, and print their cost to stderr."""
     from usd2kg.cli.model_report import report_prompts  # noqa: PLC0415
+    from usd2kg.grounding.lexical.alignment.member_rows import rows_of_members  # noqa: PLC0415
     from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy  # noqa: PLC0415
     from usd2kg.grounding.llm.class_members import ask_members, plan_questions  # noqa: PLC0415
     from usd2kg.grounding.llm.factory import open_metered_client  # noqa: PLC0415
-    from usd2kg.grounding.llm.member_rows import rows_of_members  # noqa: PLC0415
 
     with open_metered_client(requests.settings(model)) as client, Progress() as progress:
         progress.follow(client.report)
@@ -190,19 +190,24 @@ def _suggest_classes(tbox: "TBox", grounder: "Grounder", scenes: list[Path], tar
 
 @app.command("known")
 def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
-    """List the ontologies that `ontology fetch` can download."""
+    """List the ontologies that `ontology fetch` can download, or whose classes usd2kg ships an alignment of."""
+    from usd2kg.grounding.lexical.alignment.member_lists import count_listed_classes  # noqa: PLC0415
     from usd2kg.ontology import read_registry  # noqa: PLC0415
     from usd2kg.ontology.fetch import shown_address  # noqa: PLC0415
 
     ontologies = read_registry(registry).values()
+    listed = count_listed_classes()
     if json:
-        entries = [asdict(ontology) for ontology in ontologies]
+        entries = [{**asdict(ontology), "aligned_classes": listed.get(ontology.name, 0)} for ontology in ontologies]
         for document in (document for entry in entries for document in entry["documents"]):
             document["address"] = shown_address(document["address"])
         print_json(entries)
         return
-    rows = [(o.name, o.version, str(len(o.documents)), o.licence, o.title) for o in ontologies]
-    emit(format_table(("name", "version", "documents", "licence", "title"), rows))
+    rows = [
+        (o.name, o.version, str(len(o.documents) or "–"), str(listed.get(o.name, "–")), o.licence, o.title)
+        for o in ontologies
+    ]
+    emit(format_table(("name", "version", "documents", "aligned classes", "licence", "title"), rows))
 
 
 @app.command("fetch")

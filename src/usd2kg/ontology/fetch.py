@@ -45,9 +45,14 @@ def fetch_ontology(
         report: called with one line per document.
 
     Raises:
-        OntologyError: a document cannot be downloaded, is not an ontology, or differs from the registry.
+        OntologyError: the registry has no documents of it, or a document cannot be downloaded, is not an ontology, or
+            differs from the registry.
         OutputError: the folder cannot be written to.
     """
+    if not ontology.documents:
+        raise OntologyError(
+            f"ontology {ontology.name!r} cannot be fetched by name; download it from {ontology.website}"
+        )
     fetched = {}
     for document in ontology.documents:
         path = folder / document.file

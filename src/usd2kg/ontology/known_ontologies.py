@@ -40,7 +40,9 @@ class KnownOntology:
     version: str
     licence: str
     documents: tuple[KnownDocument, ...]
-    """The ontology itself first, then what it imports."""
+    """The ontology itself first, then what it imports; empty if it cannot be fetched by name."""
+    website: str = ""
+    """Where to get an ontology without documents."""
 
 
 def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
@@ -67,11 +69,12 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
 
 
 def _ontology(source: str, entry: Mapping[str, Any]) -> KnownOntology:
-    documents = tuple(_document(source, document) for document in entry["document"])
-    if not documents:
-        raise OntologyError(f"{source}: the ontology {str(entry['name'])!r} has no [[ontology.document]]; add one")
     name, title, version, licence = (str(entry[key]) for key in ("name", "title", "version", "licence"))
-    return KnownOntology(name, title, version, licence, documents)
+    documents = tuple(_document(source, document) for document in entry.get("document", ()))
+    website = str(entry.get("website", ""))
+    if not documents and not website:
+        raise OntologyError(f"{source}: the ontology {name!r} has no [[ontology.document]] and no website; add one")
+    return KnownOntology(name, title, version, licence, documents, website)
 
 
 def _document(source: str, entry: Mapping[str, Any]) -> KnownDocument:

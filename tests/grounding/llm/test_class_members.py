@@ -9,11 +9,11 @@ from tests.grounding.records import LAB, make_class, make_object, make_scene, ma
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import ground
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
+from usd2kg.grounding.lexical.alignment.member_rows import ClassMembers, rows_of_members
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.grounding.llm.class_members import ClassMembers, ask_members, plan_questions
+from usd2kg.grounding.llm.class_members import ask_members, plan_questions
 from usd2kg.grounding.llm.completion import Completion, Request
-from usd2kg.grounding.llm.member_rows import rows_of_members
 from usd2kg.grounding.llm.metered_client import MeteredClient
 from usd2kg.grounding.llm.settings import MEMBERS
 from usd2kg.ontology import TBox
@@ -121,7 +121,7 @@ class TestRows:
         rows = list(rows_of_members(members, "test:oracle", SHOP, load_taxonomy()))
         (guitar,) = [row for row in rows if row.label == "guitar"]
         assert guitar.class_iri == LAB + "Sound"
-        assert {row.model for row in rows} == {"test:oracle"}
+        assert {row.tool for row in rows} == {"test:oracle"}
 
     def test_the_file_decides_classes(self):
         names = "electric_guitar rucksack flux_capacitor_02 vase umbrella trumpet"

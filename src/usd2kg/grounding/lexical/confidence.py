@@ -11,6 +11,7 @@ from functools import lru_cache
 from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS
+from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import CONFIDENCE
 from usd2kg.grounding.model import Prediction
 from usd2kg.knowledge import read_text
@@ -33,6 +34,8 @@ FEATURES = (
     "foreign_general_log_odds",
     "context_score",
     "posterior",
+    "is_listed",
+    "listed_general",
 )
 """Names of the features."""
 
@@ -56,9 +59,7 @@ def _is_by_words(prediction: Prediction) -> bool:
     return bool(prediction.evidence) and CONTEXT_GROUPS.isdisjoint(prediction.evidence)
 
 
-def features_of(
-    prediction: Prediction, posterior: ClassPosterior, tbox: TBox, general: Container[ClassIRI], log_odds: float
-) -> dict[str, float]:
+def features_of(scored: ScoredView, tbox: TBox, general: Container[ClassIRI], log_odds: float) -> dict[str, float]:
     """Return the features of a prediction.
 
     - `score`: score of the best class, 0 to 1;
@@ -72,15 +73,18 @@ def features_of(
     - `foreign_general_log_odds`: `general_class_log_odds`, for foreign general classes that were chosen by words;
     - `context_score`: the score, where the context decided;
     - `posterior`: log of the probability given size and place, relative to 0.1; 0 where the size is unknown,
-      where the context decided, and for foreign classes.
+      where the context decided, and for foreign classes;
+    - `is_listed`: whether a list of what belongs to the class decided;
+    - `listed_general`: the same, for general classes.
 
     Args:
-        prediction: the prediction with the scores of its candidates.
-        posterior: class probabilities given size, stance and the places that names above mention.
+        scored: the prediction with the scores of its candidates, and class probabilities given size, stance and the
+            places that names above mention.
         tbox: the classes.
         general: the general ones among them.
         log_odds: see `general_class_log_odds`, for the predictions of the stage.
     """
+    prediction, posterior, is_listed = scored
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
     iri = prediction.class_iri
@@ -103,6 +107,8 @@ def features_of(
         "foreign_general_log_odds": log_odds if is_foreign and is_general and _is_by_words(prediction) else 0.0,
         "context_score": first if is_by_context else 0.0,
         "posterior": 0.0 if is_foreign or is_by_context else _log_posterior(iri, posterior),
+        "is_listed": float(is_listed),
+        "listed_general": float(is_listed and is_general),
     }
 
 

@@ -25,6 +25,8 @@ class ScoredClass(NamedTuple):
     """Returns one sentence for a person; a function because most explanations are never shown."""
     words: tuple[str, ...] = ()
     """The words that an abbreviated name was read as; else empty."""
+    is_listed: bool = False
+    """See `Match.is_listed`."""
 
 
 def combine_evidence(

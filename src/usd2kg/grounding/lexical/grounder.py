@@ -13,10 +13,10 @@ from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
-from usd2kg.grounding.lexical.class_posterior import ClassPosterior
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.confidence import calibrate, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.object_grounder import ObjectGrounder
+from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 
@@ -33,6 +33,7 @@ class LexicalGrounder:
         self,
         *,
         use_home_synonyms: bool = True,
+        use_member_lists: bool = True,
         abstains: bool = False,
         alignment: AlignmentFile | None = None,
     ) -> None:
@@ -40,11 +41,13 @@ class LexicalGrounder:
 
         Args:
             use_home_synonyms: whether classes with the IRI of a class of the built-in home TBox get its synonyms too.
+            use_member_lists: whether the lists of what belongs to the classes of public ontologies count.
             abstains: whether to answer with the superclass that maximises the expected hierarchical F1; this is less
                 often exact.
             alignment: an edited alignment of the ontology; by default it is built from the labels of the classes.
         """
         self._use_home_synonyms = use_home_synonyms
+        self._use_member_lists = use_member_lists
         self._abstains = abstains
         self._alignment = alignment
 
@@ -53,6 +56,7 @@ class LexicalGrounder:
         """The settings that the predictions depend on."""
         return {
             "home_synonyms": str(self._use_home_synonyms).lower(),
+            **({} if self._use_member_lists else {"member_lists": "false"}),
             **({"decision": "hierarchical"} if self._abstains else {}),
             **({"alignment": self._alignment.digest} if self._alignment is not None else {}),
         }
@@ -62,12 +66,12 @@ class LexicalGrounder:
         with paused_collection():
             scored = self.score_views(views, tbox)
             general = self.general_classes(tbox)
-            log_odds = general_class_log_odds((prediction for prediction, _ in scored), general)
+            log_odds = general_class_log_odds((one.prediction for one in scored), general)
             calibrated = [
-                replace(prediction, confidence=calibrate(features_of(prediction, posterior, tbox, general, log_odds)))
-                if prediction.class_iri is not None
-                else prediction
-                for prediction, posterior in scored
+                replace(one.prediction, confidence=calibrate(features_of(one, tbox, general, log_odds)))
+                if one.prediction.class_iri is not None
+                else one.prediction
+                for one in scored
             ]
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
@@ -87,33 +91,36 @@ class LexicalGrounder:
         """Return the uninformative classes: the roots and the default class."""
         return self._object_grounder(tbox).general_classes
 
-    def score_views(
-        self, views: Sequence[tuple[str, ObjectView]], tbox: TBox
-    ) -> list[tuple[Prediction, ClassPosterior]]:
-        """Return (prediction with an uncalibrated score, posterior by appearance) for each (prim path, view)."""
+    def score_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[ScoredView]:
+        """Return a prediction with an uncalibrated score for each (prim path, view)."""
         grounder = self._object_grounder(tbox)
         scored = [grounder.predict(path, view) for path, view in views]
         if not self._abstains:
             return scored
-        return [(_abstain(prediction, tbox), posterior) for prediction, posterior in scored]
+        return [_abstain(one, tbox) for one in scored]
 
     def _object_grounder(self, tbox: TBox) -> ObjectGrounder:
-        return _make_object_grounder(tbox, self._use_home_synonyms, self._alignment)
+        return _make_object_grounder(tbox, self._use_home_synonyms, self._use_member_lists, self._alignment)
 
 
-def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
+def _abstain(scored: ScoredView, tbox: TBox) -> ScoredView:
     """Return the prediction, generalised to the superclass that `choose_superclass` returns."""
+    prediction = scored.prediction
     if prediction.class_iri is None:
-        return prediction
+        return scored
     iri = choose_superclass({candidate.class_iri: candidate.score for candidate in prediction.candidates}, tbox)
     if iri == prediction.class_iri:
-        return prediction
+        return scored
     names = ", ".join(tbox.by_iri[candidate.class_iri].readable_name for candidate in prediction.candidates[:3])
     explanation = f"{prediction.explanation}; {tbox.by_iri[iri].readable_name} is safer than any of {names}"
-    return replace(prediction, class_iri=iri, status=Status.SUPERCLASS, explanation=explanation)
+    safer = replace(prediction, class_iri=iri, status=Status.SUPERCLASS, explanation=explanation)
+    return scored._replace(prediction=safer, is_listed=False)
 
 
 @lru_cache(maxsize=4)
-def _make_object_grounder(tbox: TBox, use_home_synonyms: bool, alignment: AlignmentFile | None) -> ObjectGrounder:
+def _make_object_grounder(
+    tbox: TBox, use_home_synonyms: bool, use_member_lists: bool, alignment: AlignmentFile | None
+) -> ObjectGrounder:
     """Return the grounder of a TBox; it has no state from scenes, so all scenes share it."""
-    return ObjectGrounder(tbox, home_names() if use_home_synonyms else {}, alignment)
+    synonyms = home_names() if use_home_synonyms else {}
+    return ObjectGrounder(tbox, synonyms, alignment, use_member_lists=use_member_lists)

@@ -61,7 +61,8 @@ class NameEvidence:
             is_name = group == "name"
             for match in self.match(text, view.parents if is_name else (), view.own_size if is_name else None):
                 explain = partial(_explain_match, match, group)
-                scored.append(ScoredClass(group, match.class_iri, match.score * _WEIGHTS[group], explain))
+                score = match.score * _WEIGHTS[group]
+                scored.append(ScoredClass(group, match.class_iri, score, explain, is_listed=match.is_listed))
             scored.sort(key=lambda found: (-found.score, found.class_iri))
             if scored and scored[0].score >= EVIDENCE.clear_score:
                 break
@@ -124,7 +125,14 @@ class NameEvidence:
                 if iri not in best or best[iri][0] < share:
                     best[iri] = share, reading, matches[0]
         return [
-            ScoredClass("name", iri, share / total, partial(_explain_reading, view.name, reading, match), reading.words)
+            ScoredClass(
+                "name",
+                iri,
+                share / total,
+                partial(_explain_reading, view.name, reading, match),
+                reading.words,
+                match.is_listed,
+            )
             for (iri, share), (_, reading, match) in ((item, best[item[0]]) for item in shares.items())
         ]
 

@@ -7,8 +7,8 @@ from functools import partial
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI, build_rooted_lexicon
-from usd2kg.grounding.lexical.class_posterior import ClassPosterior
+from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, build_alignment
+from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
@@ -18,6 +18,7 @@ from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.reading.conventions import view_without_prefix, without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
@@ -35,6 +36,8 @@ class ObjectGrounder:
         tbox: TBox,
         synonyms: Mapping[ClassIRI, tuple[str, ...]],
         alignment: AlignmentFile | None = None,
+        *,
+        use_member_lists: bool = True,
     ) -> None:
         """Build or read the lexicon of a TBox.
 
@@ -42,15 +45,19 @@ class ObjectGrounder:
             tbox: the candidate classes.
             synonyms: further terms by class IRI.
             alignment: an edited alignment; None to use the one that is built.
+            use_member_lists: whether the lists that usd2kg ships for public ontologies count.
 
         Raises:
             GroundingError: the alignment is invalid, or for another ontology.
         """
         taxonomy = self._taxonomy = load_taxonomy()
         if alignment is None:
-            self._tbox, self._lexicon = build_rooted_lexicon(tbox, taxonomy, synonyms)
+            built = build_alignment(tbox, taxonomy, synonyms, use_lists=use_member_lists)
+            lexicon = built.edited(taxonomy)
         else:
-            self._tbox, self._lexicon = alignment.apply(tbox, taxonomy, synonyms)
+            rooted, lexicon = alignment.apply(tbox, taxonomy, synonyms, use_lists=use_member_lists)
+            built = BuiltAlignment(rooted, lexicon, ())
+        self._alignment, self._tbox, self._lexicon = built, built.tbox, lexicon
         self.general_classes = self._lexicon.general_classes
         """The roots, and the default class."""
         reader = self._reader = NameReader(self._lexicon, taxonomy)
@@ -62,28 +69,30 @@ class ObjectGrounder:
 
     def format_alignment(self, others: Iterable[AlignmentRow] = ()) -> str:
         """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""
-        return format_alignment(self._tbox, self._lexicon, self._taxonomy, others)
+        built = self._alignment
+        return format_alignment(built.tbox, built.lexicon, self._taxonomy, [*built.rows, *others])
 
-    def predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
-        """Return the class of a view with an uncalibrated score, and the posterior by its appearance."""
+    def predict(self, prim_path: str, view: ObjectView) -> ScoredView:
+        """Return the class of a view with an uncalibrated score."""
         prefix = self._context.shared_prefix(view)
-        prediction, posterior = self._predict(prim_path, view_without_prefix(view, prefix))
-        if without_prefix(view.name, prefix) != view.name:
-            note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
-            prediction = replace(prediction, explanation=f"{prediction.explanation}; {note}")
-        return prediction, posterior
+        scored = self._predict(prim_path, view_without_prefix(view, prefix))
+        if without_prefix(view.name, prefix) == view.name:
+            return scored
+        note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
+        explanation = f"{scored.prediction.explanation}; {note}"
+        return scored._replace(prediction=replace(scored.prediction, explanation=explanation))
 
-    def _predict(self, prim_path: str, view: ObjectView) -> tuple[Prediction, ClassPosterior]:
+    def _predict(self, prim_path: str, view: ObjectView) -> ScoredView:
         posterior = self._context.posterior_by_appearance(view)
         scored, word_score = self._score(view)
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
-            return self._default(prim_path, "the evidence does not determine its class"), posterior
+            return ScoredView(self._default(prim_path, "the evidence does not determine its class"), posterior)
         best = scored[0]
         if best.class_iri == NO_CLASS_IRI:
-            return _refusal(prim_path, best.explain()), posterior
+            return ScoredView(_refusal(prim_path, best.explain()), posterior)
         if best.group in CONTEXT_GROUPS and self._is_fallback(best.class_iri):
             # Two unidentified objects are no evidence for each other.
-            return self._default(prim_path, best.explain()), posterior
+            return ScoredView(self._default(prim_path, best.explain()), posterior)
         scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != NO_CLASS_IRI}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
         prediction = Prediction(
@@ -97,7 +106,7 @@ class ObjectGrounder:
             candidates=tuple(Candidate(iri, score) for iri, score in candidates[: EVIDENCE.max_candidates]),
             words=best.words,
         )
-        return prediction, posterior
+        return ScoredView(prediction, posterior, best.is_listed)
 
     def _score(self, view: ObjectView) -> tuple[list[ScoredClass], float]:
         """Return the classes by all evidence that is needed, best first, and the best score of spelled-out words."""

@@ -166,6 +166,7 @@ class TermSettings:
     synonym_weight: float
     lent_weight: float
     head_weight: float
+    listed_weight: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +178,7 @@ class AlignmentSettings:
     min_sense_ratio: float
     assumed_category_size: int
     model_confidence: float
+    listed_confidence: float
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.lexical.alignment.member_rows import ClassMembers
 from usd2kg.grounding.llm.answer_rows import read_answer_rows
 from usd2kg.grounding.llm.class_lists import list_classes, name_classes
 from usd2kg.grounding.llm.completion import Request
@@ -16,18 +17,7 @@ from usd2kg.grounding.llm.prompt_text import fill_template
 from usd2kg.grounding.llm.settings import MEMBERS
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["ClassMembers", "MemberQuestion", "ask_members", "plan_questions"]
-
-
-@dataclass(frozen=True, slots=True)
-class ClassMembers:
-    """A model's answer about one class."""
-
-    class_iri: ClassIRI
-    belongs: tuple[str, ...]
-    """Nouns for things that belong to the class and to none of its subclasses."""
-    excluded: tuple[str, ...]
-    """Nouns for things that belong elsewhere."""
+__all__ = ["MemberQuestion", "ask_members", "plan_questions"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,8 +16,10 @@ from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.namespaces import CONCEPT, SKOS, U2K, WORDNET
 from usd2kg.ontology.prefixes import PREFIXES
 
-__all__ = ["AlignmentRow", "RowKind", "format_rows", "parse_rows", "written_class"]
+__all__ = ["SHIPPED_LISTS", "AlignmentRow", "RowKind", "format_rows", "parse_rows", "written_class"]
 
+SHIPPED_LISTS = "usd2kg member lists"
+"""Name, in a row's `tool`, of the lists in `data/class_members.csv`."""
 _NO_TERM = "https://w3id.org/sssom/NoTermFound"
 _UNSPECIFIED_LICENSE = "https://w3id.org/sssom/license/unspecified"
 _LITERAL = "rdfs literal"
@@ -83,8 +85,8 @@ class AlignmentRow:
     """Where a term comes from."""
     category_size: int = 0
     """Number of concepts in the category."""
-    model: str = ""
-    """The language model that named the subject; empty if none did, or if a person decided after it."""
+    tool: str = ""
+    """The language model that named the subject, or `SHIPPED_LISTS`; empty if neither did, or a person decided."""
     is_kind: bool = False
     """Whether the subject is a kind of the class rather than the class itself; only for writing."""
     is_curated: bool = False
@@ -130,7 +132,7 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
     is_term = row.kind is RowKind.TERM
     is_exact = row.kind is RowKind.CONCEPT and row.confidence == 1.0
     predicate = "skos:exactMatch" if is_exact else "skos:broadMatch" if row.is_kind else row.kind.value
-    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT or bool(row.model)
+    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT or bool(row.tool)
     return {
         "subject_id": "" if is_term else curies.shorten(row.subject),
         "subject_label": one_line(row.subject if is_term else row.label),
@@ -140,7 +142,7 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
         "object_id": curies.shorten(written_class(row.class_iri)),
         "object_label": _class_label(row.class_iri, tbox),
         "mapping_justification": "semapv:BackgroundKnowledgeBasedMatching" if is_known else "semapv:LexicalMatching",
-        "mapping_tool": one_line(row.model),
+        "mapping_tool": one_line(row.tool),
         "confidence": f"{row.confidence:g}",
         "comment": one_line(row.reason),
         "term_kind": row.term_kind.value if is_term else "",
@@ -180,7 +182,7 @@ def _check_unique(path: Path, rows: Iterable[AlignmentRow]) -> None:
     """Raise GroundingError if a concept or term has two classes; a person's row may differ from one that was built."""
     seen: dict[tuple[RowKind, str, bool], AlignmentRow] = {}
     for row in rows:
-        if row.kind is RowKind.CATEGORY or row.is_negated or row.model:
+        if row.kind is RowKind.CATEGORY or row.is_negated or row.tool:
             continue
         subject = row.subject.replace(" ", "") if row.kind is RowKind.TERM else row.subject
         first = seen.setdefault((row.kind, subject, row.is_curated), row)
@@ -217,7 +219,7 @@ def _parse_row(where: str, row: SssomRow, file: SssomFile, tbox: TBox) -> Alignm
         label=cells["subject_label"],
         term_kind=_parse_term_kind(where, cells.get("term_kind", "")),
         category_size=size,
-        model="" if is_curated else cells.get("mapping_tool", ""),
+        tool="" if is_curated else cells.get("mapping_tool", ""),
         is_curated=is_curated,
         is_negated=bool(modifier),
         line=row.line,

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.alignment.home_vocabulary import lend_terms
@@ -67,6 +67,10 @@ class Lexicon:
     """Synset → classes that have it as a member in common usage, though it is not their hyponym."""
     curated_synsets: frozenset[int] = frozenset()
     """Synsets whose class a person chose in an alignment file; they decide alone for themselves and what is below."""
+    listed_synsets: frozenset[int] = frozenset()
+    """Synsets whose class a list of members gives, shipped or a language model's."""
+    excluded_classes: Mapping[int, frozenset[ClassIRI]] = field(default_factory=dict)
+    """Synset → classes that, by a list or a person, neither it nor its hyponyms belong to by a hypernym further up."""
 
 
 def build_lexicon(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> Lexicon:

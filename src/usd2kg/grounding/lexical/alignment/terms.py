@@ -22,6 +22,8 @@ class TermKind(Enum):
     """A name of the home vocabulary, for a class of another ontology with the same label."""
     HEAD = "head"
     """The head noun of a longer label."""
+    LISTED = "listed"
+    """Named by a list that usd2kg ships for the class."""
     MODEL = "model"
     """Named by a language model in an alignment file."""
     CURATED = "curated"
@@ -38,7 +40,8 @@ _WEIGHTS = {
     TermKind.SYNONYM: TERMS.synonym_weight,
     TermKind.LENT: TERMS.lent_weight,
     TermKind.HEAD: TERMS.head_weight,
-    TermKind.MODEL: 1.0,
+    TermKind.LISTED: TERMS.listed_weight,
+    TermKind.MODEL: TERMS.listed_weight,
     TermKind.CURATED: 1.0,
 }
 

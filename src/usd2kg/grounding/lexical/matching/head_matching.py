@@ -22,6 +22,8 @@ class Match(NamedTuple):
     """The whole name."""
     end: int = 0
     """Number of words up to the head noun, which is the last of them."""
+    is_listed: bool = False
+    """Whether a list of what belongs to the class, or a person, names the noun or a hypernym."""
 
     @property
     def explanation(self) -> str:

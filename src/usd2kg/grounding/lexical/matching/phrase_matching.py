@@ -121,7 +121,7 @@ class PhraseMatcher:
                     best[iri] = found.score * weight, found, end
         base = HEAD_NOUN.min_share
         matches = [
-            Match(iri, found.score * (base + (1 - base) * shares[iri]), found.match.reason, phrase, end)
+            found.match._replace(score=found.score * (base + (1 - base) * shares[iri]), phrase=phrase, end=end)
             for iri, (_, found, end) in best.items()
         ]
         return sorted(matches, key=lambda match: (-match.score, match.class_iri)), total

@@ -104,11 +104,15 @@ class Routes:
 
     def _by_sense(self, synset: int, *, is_partial: bool, is_usual: bool) -> Iterator[Route]:
         links: list[tuple[int, int, AlignedClass, int | None]] = []
+        excluded: frozenset[ClassIRI] = frozenset()
         for up, steps in self._taxonomy.walk_up(synset):
+            excluded |= self._lexicon.excluded_classes.get(up, frozenset())
+            found: list[tuple[int, int, AlignedClass, int | None]] = []
             if up in self._lexicon.sense_classes:
-                links.append((up, steps, self._lexicon.sense_classes[up], None))
+                found.append((up, steps, self._lexicon.sense_classes[up], None))
             members = self._lexicon.category_members.get(up, ())
-            links.extend((up, steps, member.aligned, member.synset_count) for member in members)
+            found.extend((up, steps, member.aligned, member.synset_count) for member in members)
+            links.extend(link for link in found if link[2].class_iri not in excluded)
         classes = {aligned.class_iri for _, _, aligned, _ in links}
         passed = {iri for iri in classes if any(one != iri and self._tbox.is_subclass(one, iri) for one in classes)}
         for up, steps, aligned, synset_count in links:

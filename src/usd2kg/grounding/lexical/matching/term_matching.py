@@ -24,8 +24,12 @@ _NO_MATCHES = HeadMatches((), ())
 _NAMED_BY_KIND = {
     TermKind.LABEL: "is the label of",
     TermKind.CURATED: "is in the alignment file a name for",
+    TermKind.LISTED: "is in the list of usd2kg a name for",
     TermKind.MODEL: "is for the language model a name for",
 }
+
+_LISTED_KINDS = frozenset([TermKind.LISTED, TermKind.MODEL, TermKind.CURATED])
+"""Terms that a list of what belongs to a class, or a person, names."""
 
 
 class TermMatcher:
@@ -103,7 +107,7 @@ class TermMatcher:
         key = "".join(before) + self._taxonomy.singular(last)
         term = self._lexicon.terms.get(key)
         if term is not None:
-            return term.kind in {TermKind.MODEL, TermKind.CURATED}
+            return term.kind in _LISTED_KINDS
         if not self._lexicon.curated_synsets or (usual := usual_sense(key, self._taxonomy)) is None:
             return False
         nearest = self._nearest_class(usual.synset)
@@ -146,10 +150,21 @@ class TermMatcher:
                 iri,
                 highest * (share / ranked[first][0]) ** MATCHING.share_power,
                 matched[iri].reason if iri in matched else self._route_reason(route),
+                is_listed=matched[iri].is_listed if iri in matched else self._is_listed_route(route),
             )
             for iri, (share, route) in ranked.items()
         ]
         return _sorted([*by_routes, *(match for iri, match in matched.items() if iri not in ranked)])
+
+    def _is_listed_route(self, route: Route) -> bool:
+        if isinstance(route.origin, Term):
+            return route.origin.kind in _LISTED_KINDS
+        return self._is_listed(route.origin[1], route.origin[2])
+
+    def _is_listed(self, synset: int, aligned: AlignedClass) -> bool:
+        """Return whether a list, or a person, put a synset in a class."""
+        is_decided = synset in self._lexicon.listed_synsets or synset in self._lexicon.curated_synsets
+        return is_decided and self._lexicon.sense_classes.get(synset) == aligned
 
     def _route_reason(self, route: Route) -> Callable[[], str]:
         if isinstance(route.origin, Term):
@@ -218,7 +233,9 @@ class TermMatcher:
     def _match_term(self, term: Term | None) -> tuple[Match, ...]:
         if term is None:
             return ()
-        return (Match(term.class_iri, MATCHING.term_score * term.kind.weight, partial(self._explain_term, term)),)
+        score = MATCHING.term_score * term.kind.weight
+        is_listed = term.kind in _LISTED_KINDS
+        return (Match(term.class_iri, score, partial(self._explain_term, term), is_listed=is_listed),)
 
     def _match_in_place(
         self, key: str, head: str, matches: tuple[Match, ...], places: tuple[str, ...]
@@ -266,7 +283,8 @@ class TermMatcher:
                 score *= MATCHING.general_factor * decay
             else:
                 score *= MATCHING.step_decay**steps
-            yield Match(aligned.class_iri, score, partial(self._explain_hypernym, sense.synset, hypernym, aligned))
+            reason = partial(self._explain_hypernym, sense.synset, hypernym, aligned)
+            yield Match(aligned.class_iri, score, reason, is_listed=self._is_listed(hypernym, aligned))
 
     def _nearest_class(self, synset: int) -> tuple[int, int, AlignedClass] | None:
         """Return the nearest aligned hypernym, its steps and its class.
@@ -277,9 +295,15 @@ class TermMatcher:
         than a covering.
         """
         nearest: tuple[int, int, AlignedClass] | None = None
+        excluded: frozenset[ClassIRI] = frozenset()
         for up, steps in self._taxonomy.walk_up(synset):
             aligned = self._lexicon.sense_classes.get(up)
-            if aligned is None or (nearest is not None and aligned.class_iri == self._lexicon.default_class):
+            excluded |= self._lexicon.excluded_classes.get(up, frozenset())
+            if (
+                aligned is None
+                or aligned.class_iri in excluded
+                or (nearest is not None and aligned.class_iri == self._lexicon.default_class)
+            ):
                 continue
             if nearest is None or self._is_preferred(aligned, steps, nearest):
                 nearest = up, steps, aligned
