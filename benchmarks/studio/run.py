@@ -203,9 +203,7 @@ def main() -> None:
         browser = playwright.chromium.launch(
             executable_path=chromium, args=[*SOFTWARE_GL, "--enable-precise-memory-info"]
         )
-        print(
-            "| scene | first picture, s | all meshes, s | frame, ms | slowest, ms | draw calls | triangles | page, MiB |"
-        )
+        print("| scene | first picture, s | all meshes, s | frame, ms | slowest, ms | calls | triangles | page, MiB |")
         print("| --- | --- | --- | --- | --- | --- | --- | --- |")
         measure_view(browser, demo_scene(), "demo kitchen")
         for objects in options.objects:
