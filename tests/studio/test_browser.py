@@ -73,10 +73,11 @@ def test_a_scene_is_reviewed_with_the_keyboard_alone(browser: Browser, tmp_path:
         page = open_page(browser, client)
         first = group_title(page)
         # An exception: the second member stays open.
-        expect(page.locator(".group-card header p")).to_contain_text("4 of 4 ticked")
+        members = page.locator(".member").count()
+        assert members > 1
         page.keyboard.press("ArrowRight")
         page.keyboard.press("Space")
-        expect(page.locator(".group-card header p")).to_contain_text("3 of 4 ticked")
+        expect(page.locator(".group-card header p")).to_contain_text(f"{members - 1} of {members} ticked")
         page.keyboard.press("Enter")
         expect(page.locator(".group-card header p")).to_contain_text("1 of 1 ticked")
         press_and_wait(page, "j")

@@ -3,6 +3,7 @@ import { buildModel, closures, searchClasses } from "../src/state/model";
 import { shortNames } from "../src/state/names";
 import { buildPrimTree, objectsBelow } from "../src/state/primTree";
 import { treeRows } from "../src/state/tree";
+import { overlaps } from "../src/viewer/overlay";
 import { makeScene } from "./scene";
 
 const model = buildModel(makeScene());
@@ -119,5 +120,14 @@ describe("short names", () => {
       "Table_02",
     ]);
     expect(shortNames(["cup_1", "cup_2"])).toEqual(["cup_1", "cup_2"]);
+  });
+});
+
+describe("labels over the picture", () => {
+  it("overlap if they are near in both directions", () => {
+    const label = { x: 100, y: 50, width: 60 };
+    expect(overlaps(label, { x: 155, y: 60, width: 60 })).toBe(true);
+    expect(overlaps(label, { x: 165, y: 50, width: 60 })).toBe(false);
+    expect(overlaps(label, { x: 100, y: 67, width: 60 })).toBe(false);
   });
 });

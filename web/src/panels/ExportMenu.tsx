@@ -30,23 +30,23 @@ export function ExportMenu({ store }: { store: Store }) {
     setBusy(false);
   };
   return (
-    <select
-      aria-label="Export"
-      class="menu"
-      disabled={isBusy}
-      value=""
-      onChange={(event) => {
-        const name = event.currentTarget.value;
-        event.currentTarget.value = "";
-        if (name !== "") void download(name);
-      }}
-    >
-      <option value="">{isBusy ? "Exporting…" : "Export"}</option>
-      {EXPORTS.map(({ name, label }) => (
-        <option key={name} value={name}>
-          {label}
-        </option>
-      ))}
-    </select>
+    <details class="popover">
+      <summary aria-label="Export">{isBusy ? "Exporting…" : "Export"}</summary>
+      <div>
+        {EXPORTS.map(({ name, label }) => (
+          <button
+            key={name}
+            type="button"
+            disabled={isBusy}
+            onClick={(event) => {
+              event.currentTarget.closest("details")?.removeAttribute("open");
+              void download(name);
+            }}
+          >
+            {label}
+          </button>
+        ))}
+      </div>
+    </details>
   );
 }

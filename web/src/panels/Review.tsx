@@ -42,6 +42,7 @@ function QueueList({ store }: { store: Store }) {
           value={store.order.value}
           onChange={(event) => {
             store.order.value = event.currentTarget.value as QueueOrder;
+            event.currentTarget.blur();
             void store.loadQueue();
           }}
         >

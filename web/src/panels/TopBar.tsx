@@ -31,7 +31,11 @@ export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
         Color by
         <select
           value={store.colorMode.value}
-          onChange={(event) => (store.colorMode.value = event.currentTarget.value as ColorMode)}
+          onChange={(event) => {
+            store.colorMode.value = event.currentTarget.value as ColorMode;
+            // The keys of the review work again at once.
+            event.currentTarget.blur();
+          }}
         >
           {COLOR_MODES.map(({ id, label }) => (
             <option key={id} value={id}>

@@ -171,7 +171,7 @@ function Relations({ store }: { store: Store }) {
     relationKinds.value = chosen;
   };
   return (
-    <details class="relation-kinds">
+    <details class="popover">
       <summary>Relations</summary>
       <div>
         {store.model.data.relation_kinds.map(({ kind, count }) => (
