@@ -77,7 +77,7 @@ def test_errors_are_one_line_and_the_graph_is_unchanged(kitchen: Path):
     before = kitchen.read_bytes()
 
     async def conversation(client: Client) -> None:
-        assert "nothing is named 'unicorn'" in await call(client, "look_up", thing="unicorn")
+        assert "'unicorn' is not a word" in await call(client, "look_up", thing="unicorn")
         assert "is not understood" in await call(client, "ask", question="sing me a song")
         assert "question 'nope' is unknown" in await call(client, "ready_question", id="nope")
         assert "begins with DELETE" in await call(client, "sparql", query="DELETE WHERE { ?s ?p ?o }")

@@ -119,7 +119,7 @@ def test_several_scenes_are_asked_one_by_one(run: Run, graph: Path, tmp_path: Pa
     assert run("query", place, "--scene", "room", "on", "Table_1").out.split()[0] == "object"
     missing = run("query", place, "on", "helicopter")
     assert missing.code != 0
-    assert "nothing is named 'helicopter'" in missing.err
+    assert "there is no helicopter" in missing.err
     count = run("query", place, "--sparql", "SELECT (COUNT(DISTINCT ?o) AS ?n) { ?o u2k:primPath ?p }")
     assert count.out.splitlines()[1] == "8"
 

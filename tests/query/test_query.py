@@ -6,7 +6,7 @@ import pytest
 
 from tests.conftest import shared_file
 from tests.graph.records import BASE, build_graph, open_store, thing
-from tests.grounding.records import make_class, make_object, make_scene, make_tbox
+from tests.grounding.records import LAB, make_class, make_object, make_scene, make_tbox
 from usd2kg.errors import GraphError
 from usd2kg.graph import instantiate, write_graph
 from usd2kg.grounding import ground
@@ -177,12 +177,39 @@ class TestFinding:
         with pytest.raises(GraphError):
             store.find("green mug")
 
-    @pytest.mark.parametrize("thing", ["unicorn", "?", "the", "/Room/None", "", "''"])
-    def test_rejects_an_unknown_name(self, store: GraphStore, thing: str):
+    @pytest.mark.parametrize(
+        ("thing", "message"),
+        [
+            ("helicopter", "there is no helicopter; expected a label, a class, a noun or a prim path"),
+            ("bwl", "'bwl' is not understood; did you mean bowl?"),
+            ("unicorn", "'unicorn' is not a word that this graph or the lexicon knows"),
+            ("?", "'?' names no thing"),
+            ("the", "'the' names no thing"),
+            ("", "'' names no thing"),
+            ("/Room/None", "'/Room/None' is not a word"),
+            ("''", "\"''\" is not a word"),
+        ],
+    )
+    def test_rejects_an_unknown_name(self, store: GraphStore, thing: str, message: str):
         with pytest.raises(GraphError) as error:
             store.find(thing)
-        assert "nothing is named" in str(error.value)
-        assert "room.ttl" in str(error.value)
+        assert str(error.value).startswith("room.ttl: ")
+        assert message in str(error.value)
+
+    def test_reads_misspelt_and_foreign_words_and_says_so(self, store: GraphStore, caplog: pytest.LogCaptureFixture):
+        assert self.found(store, "wardobe") == ["Wardrobe"]
+        assert "“wardobe” was read as “wardrobe”" in caplog.text
+        assert self.found(store, "Schüssel") == ["FruitBowl"]
+        assert "“schüssel” was read as “bowl”" in caplog.text
+
+    def test_a_noun_phrase_may_have_a_relation(self, store: GraphStore):
+        assert self.found(store, "crockery on the dining table") == ["FruitBowl", "mug_red", "plate_1"]
+
+    def test_numbers_distinguish_labels(self, home_tbox: TBox):
+        room = [(make_object(f"/a/box_{number}"), "Box") for number in ("1", "02", "12")]
+        store = open_store(build_graph(home_tbox, room))
+        assert [node.value for node in store.find("box 2")] == [f"{BASE}a.box_02"]
+        assert len(store.find("boxes")) == 3
 
     @pytest.mark.parametrize(
         "name",
@@ -361,7 +388,7 @@ class TestLoading:
         path.write_text("", encoding="utf-8")
         store = load_graph(path)
         assert len(store.store) == 0
-        with pytest.raises(GraphError, match="nothing is named 'table'"):
+        with pytest.raises(GraphError, match="there is no table"):
             store.ask(["on", "table"])
 
 
@@ -392,7 +419,7 @@ class TestKinds:
         ((stated,),) = hall.sparql("SELECT ?c { ?o u2k:conceptConfidence ?c ; rdfs:label 'BookE_01' }").values
         assert confidence == stated
 
-    def test_a_class_comes_before_a_concept(self, hall: GraphStore):
+    def test_an_object_of_a_class_and_a_concept_has_the_confidence_of_the_class(self, hall: GraphStore):
         answer = hall.ask(["all", "of", "table"])
         ((_, label, _, _, confidence),) = answer.values
         stated = hall.sparql("SELECT ?c { ?x owl:annotatedTarget ?t ; sssom:confidence ?c . ?t rdfs:label 'table' }")
@@ -410,6 +437,15 @@ class TestKinds:
     def test_ready_questions_take_nouns(self, hall: GraphStore):
         nearest = hall.answer("nearest", {"thing": "/Hall/BookE_01", "class": "sofa"})
         assert column(nearest, "path") == ["/Hall/couch_1"]
+
+    def test_a_name_means_class_and_concept(self):
+        # The class has the label of a concept. One table is of another class, and one has no name.
+        tbox = make_tbox(make_class("Asset"), make_class("Desk", "Asset", label="table"))
+        scene = make_scene(*(make_object(f"/Hall/{name}") for name in ("table_1", "thing_2", "table_3")))
+        grounding = ground(scene, tbox, decisions={"/Hall/thing_2": LAB + "Desk", "/Hall/table_3": LAB + "Asset"})
+        store = open_store(instantiate(scene, tbox, grounding, base=BASE))
+        paths = column(store.ask(["all", "of", "table"]), "path")
+        assert paths == ["/Hall/table_1", "/Hall/table_3", "/Hall/thing_2"]
 
     def test_an_unknown_noun_is_an_error(self, hall: GraphStore):
         with pytest.raises(GraphError, match="no class or concept is named 'dragon'; expected a noun"):

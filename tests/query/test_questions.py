@@ -156,7 +156,7 @@ class TestGiven:
             ("above", {}, "needs --with thing=OBJECT"),
             ("above", {"thing": "table", "size": "1"}, "has no parameter 'size'; expected thing, distance"),
             ("count", {"thing": "table"}, "has no parameter 'thing'; expected none"),
-            ("above", {"thing": "helicopter"}, "nothing is named 'helicopter'"),
+            ("above", {"thing": "helicopter"}, "there is no helicopter"),
             ("above", {"thing": "table", "distance": "far"}, "a number, without a unit or with one of m, cm, mm"),
             ("above", {"thing": "table", "distance": "3 kg"}, "is not a quantity; expected a number"),
             ("above", {"thing": "table", "distance": "nan"}, "is not a quantity; expected a number"),

@@ -5,16 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from usd2kg.assistant.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
-from usd2kg.assistant.facts import SceneFacts
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.nouns import Nouns, Things, UnknownWordError
 from usd2kg.assistant.places import find_free_places
 from usd2kg.assistant.sentences import begin_sentence, join_words, name_things, number_text
-from usd2kg.assistant.settings import PLACING, WORDS
+from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
+from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
+from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
+from usd2kg.query.settings import WORDS
 
 __all__ = ["MeasureAnswers"]
 
@@ -87,6 +87,8 @@ _COMPARED = {
     "heavier": (_MASS, 1),
     "lighter": (_MASS, -1),
 }
+_WITH_MATERIAL = "?s u2k:material []"
+_COLORED = "{ ?s u2k:color [] } UNION { ?s usd:hasColor/usd:primvars_displayColor [] }"
 _SAME = 0.005
 """Share of a measure by which two things must differ to be unequal."""
 
@@ -200,7 +202,7 @@ class MeasureAnswers:
         if not values:
             raise self._unmeasured(things, measure)
         facts = self._facts
-        order = sorted(values, key=lambda iri: (-sign * values[iri], facts.objects[iri].path))
+        order = sorted(values, key=lambda iri: (-sign * values[iri], facts.path(iri)))
         best = [iri for iri in order if values[iri] == values[order[0]]]
         known = (
             f" of the {len(values)} whose mass is known" if measure is _MASS and len(values) < len(things.iris) else ""
@@ -233,7 +235,7 @@ class MeasureAnswers:
         if not colors:
             raise GraphError(f"not known: the graph has no colour for {things.text}{things.suffix}")
         parts = [
-            f"{facts.label(iri)} is {color}{f' ({source})' if (source := facts.color_sources.get(iri)) else ''}"
+            f"{facts.label(iri)} is {color}{f' ({source})' if (source := facts.color_source(iri)) else ''}"
             for iri, color in colors.items()
         ]
         return InterpretedAnswer(
@@ -244,7 +246,7 @@ class MeasureAnswers:
 
     def _material(self, thing: str) -> InterpretedAnswer:
         things, facts = self._existing(thing), self._facts
-        found = {iri: ", ".join(facts.materials[iri]) for iri in things.iris if facts.materials.get(iri)}
+        found = {iri: ", ".join(facts.materials(iri)) for iri in things.iris if facts.materials(iri)}
         if not found:
             raise GraphError(f"not known: the graph has no material for {things.text}{things.suffix}")
         parts = []
@@ -265,11 +267,11 @@ class MeasureAnswers:
         """Return the things of a colour, a material, or another kind."""
         things, facts, word = self._existing(kind), self._facts, adjective.lower()
         if word in COLORS:
-            if not facts.colors:
+            if not facts.count(_COLORED):
                 raise GraphError("not known: the graph has no colours")
             chosen = [iri for iri in things.iris if has_color(facts, iri, word)]
         elif is_material(word):
-            if not facts.materials:
+            if not facts.count(_WITH_MATERIAL):
                 raise GraphError("not known: the graph has no materials")
             chosen = [iri for iri in things.iris if has_material(facts, iri, word)]
         else:
@@ -312,7 +314,7 @@ class MeasureAnswers:
         width, depth, height = (float(side) for side in body.upper - body.lower)
         floors = set(self._nouns.find("floor").iris)
         surfaces = [
-            iri for iri in facts.things if iri in facts.related("on") and iri not in things.iris and iri not in floors
+            iri for iri in facts.things if iri in facts.supporters and iri not in things.iris and iri not in floors
         ]
         usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.find(noun).iris}
         found = find_free_places(facts, (width, depth, height), surfaces, things.iris)
@@ -329,7 +331,7 @@ class MeasureAnswers:
             f"{things.text} ({width:.2f} × {depth:.2f} m) has room on the {facts.kind(first.surface)} "
             f"{facts.label(first.surface)}, at ({x:g}, {y:g}, {z:g}) m{rest}."
         )
-        paths = tuple(facts.objects[place.surface].path for place in places)
+        paths = tuple(facts.path(place.surface) for place in places)
         table = facts.table(spots, center_m=spots)
         return InterpretedAnswer(f"where to put {things.text}", table, sentence=sentence, places=paths)
 
@@ -338,7 +340,7 @@ class MeasureAnswers:
 
         The box of a table begins at its feet, so nothing is below that box.
         """
-        facts, table = self._facts, self._facts.graph.bodies.table
+        facts, table = self._facts, self._facts.bodies.table
         body = facts.body(anchor)
         if body.lower is None or body.upper is None:
             return []
@@ -373,12 +375,10 @@ class MeasureAnswers:
     def _sure(self, thing: str, kind: str) -> InterpretedAnswer:
         things, facts = self._existing(thing), self._facts
         what = set(self._nouns.find(kind).iris)
-        sure = {iri: facts.confidences[iri] for iri in things.iris if iri in facts.confidences}
+        sure = facts.confidences(things.iris)
         parts = []
         for iri in things.iris:
-            labels = join_words(
-                sorted(facts.class_labels[c] for c in facts.classes.get(iri, ()) if c in facts.class_labels)
-            )
+            labels = join_words(facts.class_labels(iri))
             share = f", {100 * sure[iri]:.0f} % sure" if iri in sure else ""
             other = "" if iri in what else f", not as {kind}"
             parts.append(f"{facts.label(iri)} was classified as {labels or 'nothing'}{share}{other}")
@@ -393,13 +393,15 @@ class MeasureAnswers:
     def _unknown(self) -> InterpretedAnswer:
         facts = self._facts
         things = facts.things
-        unsure = [iri for iri in things if facts.confidences.get(iri, 0.0) < WORDS.min_confidence]
+        sure = facts.confidences(things)
+        unsure = [iri for iri in things if sure.get(iri, 0.0) < WORDS.min_confidence]
         masses = len(self._values(things, _MASS))
         parts = [f"{len(unsure)} of {len(things)} objects have no class or a doubtful one"]
-        for known, name in ((masses, "mass"), (len(facts.materials), "material"), (len(facts.colors), "colour")):
+        materials, colors = facts.count(_WITH_MATERIAL), facts.count(_COLORED)
+        for known, name in ((masses, "mass"), (materials, "material"), (colors, "colour")):
             if known < len(things):
                 parts.append(f"{len(things) - known} lack a {name}" if known else f"no object has a {name}")
         if not facts.has_joints:
             parts.append("there are no joints")
-        table = facts.table(unsure, confidence=facts.confidences)
+        table = facts.table(unsure, confidence=sure)
         return InterpretedAnswer("what is not known", table, sentence=begin_sentence(f"{'; '.join(parts)}."))

@@ -3,15 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from usd2kg.assistant.describe import description_answer
-from usd2kg.assistant.facts import SceneFacts
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.nouns import Nouns, Things, UnknownWordError
 from usd2kg.assistant.phrases import RELATIONS, Phrase, match_phrase, normalize
 from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
+from usd2kg.query.lookup import Nouns, Things, UnknownWordError
 from usd2kg.query.questions import list_questions
 
 __all__ = ["ask_offline"]
@@ -37,16 +36,17 @@ def ask_offline(graph: GraphStore, text: str) -> InterpretedAnswer:
     Raises:
         GraphError: the question or one of its words is not understood.
     """
-    return _Answerer(graph).answer(text)
+    phrase = match_phrase(text)
+    return _Answerer(graph, is_english=phrase is None or phrase.is_english).answer(text, phrase)
 
 
 class _Answerer:
     """Answers questions about one graph."""
 
-    def __init__(self, graph: GraphStore) -> None:
+    def __init__(self, graph: GraphStore, is_english: bool) -> None:
         self._graph = graph
-        self._facts = SceneFacts(graph)
-        self._nouns = Nouns(self._facts)
+        self._facts = graph.facts
+        self._nouns = Nouns(self._facts, is_english=is_english)
         self._measures = MeasureAnswers(self._facts, self._nouns)
         self._handlers: Mapping[str, Callable[..., InterpretedAnswer]] = {
             "about": self._about,
@@ -64,8 +64,8 @@ class _Answerer:
             "where": self._where,
         }
 
-    def answer(self, text: str) -> InterpretedAnswer:
-        phrase = match_phrase(text)
+    def answer(self, text: str, phrase: Phrase | None) -> InterpretedAnswer:
+        """Return the answer to a question, or to a noun alone, which matches no phrase."""
         if phrase is not None:
             return self._answer_phrase(phrase)
         # A noun alone: “laptops?”
@@ -80,7 +80,7 @@ class _Answerer:
         return self._list(things)
 
     def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
-        question, given, self._nouns.is_english = phrase
+        question, given, _ = phrase
         handler = self._handlers.get(question) or self._measures.find(question)
         if handler is None:
             return self._ready_question(question, given)
@@ -123,15 +123,13 @@ class _Answerer:
     def _located(self, iris: Sequence[str]) -> Answer:
         """Return objects with what they are on and in."""
         facts = self._facts
-        columns = {}
-        for name in ("on", "inside"):
-            anchors: dict[str, str] = {}
-            for anchor, found in facts.related(name).items():
-                for iri in found:
-                    if anchor in facts.objects:
-                        anchors.setdefault(iri, facts.label(anchor))
-            columns[name] = anchors
-        return facts.table(facts.sorted(iris), **columns)
+        on = {iri: facts.label(anchors[0]) for iri in iris if (anchors := facts.anchors("on", iri))}
+        inside: dict[str, str] = {}
+        for iri in iris:
+            rooms = facts.anchors("room", iri)
+            containers = [anchor for anchor in facts.anchors("inside", iri) if anchor not in rooms]
+            inside.update((iri, facts.label(anchor)) for anchor in (containers or rooms)[:1])
+        return facts.table(facts.sorted(iris), on=on, inside=inside)
 
     # Relations.
 
@@ -188,17 +186,19 @@ class _Answerer:
         Raises:
             GraphError: there are none.
         """
-        if relation != "inside" or not self._nouns.in_area(text):
-            return self._found(text)
         try:
-            return self._nouns.find(text)
+            things = self._nouns.find(text)
         except UnknownWordError:
-            return Things((), text)
+            if relation == "inside" and self._nouns.in_area(text):
+                return Things((), text)
+            raise
+        if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
+            raise GraphError(self._absent(things).removesuffix("."))
+        return things
 
     def _below(self, anchors: Sequence[str]) -> set[str]:
-        answers = [self._graph.answer("below", {"thing": self._facts.objects[iri].path}) for iri in anchors]
-        by_path = {one.path: one.iri for one in self._facts.objects.values()}
-        below = {by_path[path] for answer in answers for path in _column(answer, "path") if path in by_path}
+        answers = [self._graph.answer("below", {"thing": self._facts.path(iri)}) for iri in anchors]
+        below = {iri for answer in answers for path in _column(answer, "path") for iri in self._facts.at_path(path)}
         return below | {iri for anchor in anchors for iri in self._measures.between_legs(anchor)}
 
     def _the(self, things: Things) -> str:
@@ -220,9 +220,7 @@ class _Answerer:
             said: list[str] = []
             for name in ("inside", "on", "attached", "room"):
                 rooms = set(facts.anchors("room", iri))
-                anchors = [
-                    a for a in facts.anchors(name, iri) if a in facts.objects and (name == "room" or a not in rooms)
-                ]
+                anchors = [a for a in facts.anchors(name, iri) if name == "room" or a not in rooms]
                 places += anchors
                 if name != "room" or not said:
                     said += [f"{_SAID.get(name, 'in')} the {facts.kind(a)} {facts.label(a)}" for a in anchors[:1]]
@@ -232,7 +230,7 @@ class _Answerer:
                 said.append(f"at ({x:.2f}, {y:.2f}, {z:.2f}) m")
             parts.append(f"{facts.label(iri)} is {', '.join(said) or 'somewhere, without a known place'}")
         sentence = f"{'; '.join(parts[:4])}{f'; and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
-        named = tuple(dict.fromkeys(facts.objects[iri].path for iri in places))
+        named = tuple(dict.fromkeys(facts.path(iri) for iri in places))
         return InterpretedAnswer(f"where: {things.text}", self._located(things.iris), sentence=sentence, places=named)
 
     def _stands_on(self, thing: str) -> InterpretedAnswer:
@@ -251,11 +249,11 @@ class _Answerer:
         )
 
     def _parts(self, thing: str) -> InterpretedAnswer:
-        answers = [self._graph.parts_of(self._facts.objects[iri].path) for iri in self._found(thing).iris]
+        answers = [self._graph.parts_of(self._facts.path(iri)) for iri in self._found(thing).iris]
         return InterpretedAnswer(f"parts of {thing}", join_answers(answers))
 
     def _about(self, thing: str) -> InterpretedAnswer:
-        answers = [description_answer(self._graph, self._facts.objects[iri].path) for iri in self._found(thing).iris]
+        answers = [description_answer(self._graph, self._facts.path(iri)) for iri in self._found(thing).iris]
         return InterpretedAnswer(f"all about {thing}", join_answers(answers))
 
     def _found(self, text: str) -> Things:
@@ -279,7 +277,7 @@ class _Answerer:
             return self._nearest(understood, values)
         if "thing" not in values:
             return InterpretedAnswer(understood, self._graph.answer(question, values))
-        paths = [self._facts.objects[iri].path for iri in self._found(values["thing"]).iris]
+        paths = [self._facts.path(iri) for iri in self._found(values["thing"]).iris]
         answers = [self._graph.answer(question, {**values, "thing": path}) for path in paths]
         found = join_answers(answers)
         if question == "to-open" and not found.rows:
@@ -296,7 +294,7 @@ class _Answerer:
         gaps = self._measures.gaps(what.iris, anchors.iris)
         if not gaps:
             return InterpretedAnswer(understood, facts.table(()), sentence=begin_sentence(self._absent(what)))
-        nearest = min(gaps, key=lambda iri: (gaps[iri], facts.objects[iri].path))
+        nearest = min(gaps, key=lambda iri: (gaps[iri], facts.path(iri)))
         sentence = (
             f"The nearest {what.text} to {self._the(anchors)} is {facts.label(nearest)}, "
             f"{number_text(gaps[nearest], 'm')} away."

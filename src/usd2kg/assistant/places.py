@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.assistant.facts import SceneFacts
 from usd2kg.assistant.settings import PLACING
+from usd2kg.query.lookup import SceneFacts
 
 __all__ = ["FreePlace", "find_free_places"]
 
@@ -37,13 +37,13 @@ def find_free_places(
         surfaces: IRIs of the objects to try.
         moved: IRIs of things that leave their place.
     """
-    table = facts.graph.bodies.table
+    table = facts.bodies.table
     rows = {iri: row for row, iri in enumerate(table.iris)}
     gone = [rows[iri] for iri in moved if iri in rows]
     found = []
     for iri in surfaces:
         row = rows.get(iri)
-        bottoms = [table.lower[rows[one], 2] for one in facts.related("on").get(iri, ()) if one in rows]
+        bottoms = [table.lower[rows[one], 2] for one in facts.related("on", iri) if one in rows]
         level = float(np.nanmedian(bottoms)) if bottoms else np.nan
         if row is None or np.isnan(table.lower[row]).any() or not level <= PLACING.max_height:
             continue

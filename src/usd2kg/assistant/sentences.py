@@ -3,22 +3,15 @@
 from collections import Counter
 from collections.abc import Sequence
 
-from usd2kg.assistant.facts import SceneFacts
+from usd2kg.query.lookup import SceneFacts
+from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
-__all__ = ["IRREGULAR_PLURALS", "begin_sentence", "count_phrase", "join_words", "name_things", "number_text", "plural"]
+__all__ = ["begin_sentence", "count_phrase", "join_words", "name_things", "number_text", "plural"]
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 _MOST_NAMED = 6
 """Kinds of things that a sentence names."""
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
-IRREGULAR_PLURALS = {
-    "mouse": "mice",
-    "knife": "knives",
-    "shelf": "shelves",
-    "person": "people",
-    "leaf": "leaves",
-    "loaf": "loaves",
-}
 
 
 def begin_sentence(text: str) -> str:

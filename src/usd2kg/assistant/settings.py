@@ -8,11 +8,9 @@ __all__ = [
     "PLACING",
     "PROMPT",
     "RESULTS",
-    "WORDS",
     "PlacingSettings",
     "PromptSettings",
     "ResultSettings",
-    "WordSettings",
 ]
 
 
@@ -40,15 +38,6 @@ class PromptSettings:
 
 
 @dataclass(frozen=True)
-class WordSettings:
-    """How words of a question are matched with those of the graph."""
-
-    min_confidence: float
-    min_similarity: float
-    min_letters: int
-
-
-@dataclass(frozen=True)
 class PlacingSettings:
     """How free places are searched; lengths are metres."""
 
@@ -61,5 +50,4 @@ class PlacingSettings:
 
 RESULTS = read_settings("assistant", "results", ResultSettings)
 PROMPT = read_settings("assistant", "prompt", PromptSettings)
-WORDS = read_settings("assistant", "words", WordSettings)
 PLACING = read_settings("assistant", "placing", PlacingSettings)

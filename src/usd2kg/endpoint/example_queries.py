@@ -51,7 +51,9 @@ def _fill(store: ox.Store, question: Question, terms: dict[str, ox.NamedNode | N
         bound[parameter] = term
         unit = f" {parameter.kind}" if parameter.kind in {"m", "kg"} else ""
         title = title.replace(f"{{{parameter.name}}}", _shown(store, term) + unit)
-    return ExampleQuery(title, f"# {_line(title)}\n{question.bind(bound)}")
+    return ExampleQuery(
+        title, f"# {_line(title)}\n{question.bind({parameter: [term] for parameter, term in bound.items()})}"
+    )
 
 
 def _term(parameter: Parameter, terms: dict[str, ox.NamedNode | None]) -> ox.NamedNode | ox.Literal | None:

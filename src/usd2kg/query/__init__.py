@@ -1,11 +1,10 @@
 """Queries over a graph: SPARQL, geometric functions, and ready questions in English."""
 
 from usd2kg.query.answer import Answer
-from usd2kg.query.dataset import FUNCTION_NAMESPACE, Dataset
+from usd2kg.query.dataset import FUNCTION_NAMESPACE, Dataset, term_list
 from usd2kg.query.functions import FUNCTIONS
 from usd2kg.query.graph_file import load_graph
 from usd2kg.query.graph_store import GraphStore
-from usd2kg.query.lookup import term_list
 from usd2kg.query.questions import Parameter, Question, list_questions
 
 __all__ = [

@@ -1,7 +1,7 @@
 """Dataset: the graphs of a store that queries run on."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,7 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import PREFIXES
 
-__all__ = ["FUNCTION_NAMESPACE", "INDEX_NAME", "QUERY_PREFIXES", "Dataset", "with_prefixes"]
+__all__ = ["FUNCTION_NAMESPACE", "INDEX_NAME", "QUERY_PREFIXES", "Dataset", "term_list", "with_prefixes"]
 
 FUNCTION_NAMESPACE = "https://w3id.org/usd2kg/function#"
 """Prefix `u2kf:` in queries."""
@@ -30,6 +30,15 @@ def with_prefixes(sparql: str) -> str:
     declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
     used = [n for n in QUERY_PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
     return "".join(f"PREFIX {name}: <{QUERY_PREFIXES[name]}>\n" for name in used) + sparql.strip()
+
+
+def term_list(nodes: Iterable[ox.NamedNode]) -> str:
+    """Return nodes in SPARQL syntax, for VALUES.
+
+    Nodes come from the store and are escaped by their serialisation, so no text of a user or a stage becomes part of a
+    query.
+    """
+    return " ".join(str(node) for node in nodes)
 
 
 @dataclass(frozen=True)
@@ -52,6 +61,19 @@ class Dataset:
         if self.graphs is None:
             return len(self.store)
         return sum(1 for graph in self.graphs for _ in self.store.quads_for_pattern(None, None, None, graph))
+
+    def objects(self, subject: ox.NamedNode | ox.BlankNode, predicate: ox.NamedNode) -> list[Any]:
+        """Return the values of a property of a node, each once."""
+        return list(dict.fromkeys(quad.object for quad in self._quads(subject, predicate, None)))
+
+    def subjects(self, predicate: ox.NamedNode, value: ox.NamedNode | ox.Literal) -> list[Any]:
+        """Return the nodes that have a value of a property, each once."""
+        return list(dict.fromkeys(quad.subject for quad in self._quads(None, predicate, value)))
+
+    def _quads(self, subject: Any, predicate: ox.NamedNode, value: Any) -> Iterator[ox.Quad]:
+        # A pattern takes microseconds, a query that is parsed and planned for it some hundred.
+        for graph in (None,) if self.graphs is None else self.graphs:
+            yield from self.store.quads_for_pattern(subject, predicate, value, graph)
 
     def query(self, sparql: str, **options: Any) -> ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples:
         """Return the result of a query; the package's prefixes are predefined.

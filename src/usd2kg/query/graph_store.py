@@ -1,6 +1,7 @@
 """GraphStore: a graph with its queries."""
 
 import itertools
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -12,9 +13,9 @@ from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.body_table import parse_vector
 from usd2kg.query.complexity import check_complexity
-from usd2kg.query.dataset import Dataset
+from usd2kg.query.dataset import Dataset, term_list
 from usd2kg.query.functions import make_functions
-from usd2kg.query.lookup import Lookup, term_list
+from usd2kg.query.lookup import Nouns, SceneFacts
 from usd2kg.query.questions import Parameter, Question, find_question, parse_number
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 from usd2kg.query.settings import LOOKUP
@@ -23,8 +24,10 @@ from usd2kg.query.staging import list_found_first
 
 __all__ = ["GraphStore"]
 
-_Term = ox.NamedNode | ox.Literal
-"""A term to which a parameter of a question is bound."""
+logger = logging.getLogger(__name__)
+
+_Terms = tuple[ox.NamedNode | ox.Literal, ...]
+"""What a parameter of a question is bound to: one term, or all classes and concepts of a name."""
 
 
 class GraphStore:
@@ -42,7 +45,7 @@ class GraphStore:
         self._source = source
         self._bodies = BodyIndex(dataset)
         self._functions = make_functions(self._bodies)
-        self._lookup = Lookup(dataset, source)
+        self._facts = SceneFacts(dataset, self._bodies)
         self._keeper = keeper
 
     def __len__(self) -> int:
@@ -69,6 +72,11 @@ class GraphStore:
         """Boxes, extents, masses and joints of the objects."""
         return self._bodies
 
+    @property
+    def facts(self) -> SceneFacts:
+        """Names, kinds, looks and relations of the objects, read when they are needed."""
+        return self._facts
+
     def sparql(self, query: str) -> Answer:
         """Return the answer to a SPARQL 1.1 query; the package's prefixes and functions are predefined.
 
@@ -94,33 +102,32 @@ class GraphStore:
         filled = question.fill(given or {})
         choices = [self._terms(parameter, value) for parameter, value in filled.items()]
         ambiguous = [p for p, terms in zip(filled, choices, strict=True) if p.kind == "object" and len(terms) > 1]
-        labels = {node.value: label for node, _, label in self._lookup.objects} if ambiguous else {}
         answers = []
         for terms in itertools.product(*choices):
             bound = dict(zip(filled, terms, strict=True))
             found = self._run_staged(question.bind(bound, self._candidates(question, bound)))
-            answers.append(with_columns(found, {p.name: labels[str(bound[p].value)] for p in ambiguous}))
+            answers.append(with_columns(found, {p.name: self._facts.label(str(bound[p][0].value)) for p in ambiguous}))
         return join_answers(answers)
 
-    def _candidates(self, question: Question, bound: Mapping[Parameter, _Term]) -> Sequence[ox.NamedNode] | None:
+    def _candidates(self, question: Question, bound: Mapping[Parameter, _Terms]) -> Sequence[ox.NamedNode] | None:
         """Return the objects within the distance that the question allows; None if these are too many to list."""
         if question.candidates is None:
             return None
-        distance, origin = ({p.name: term for p, term in bound.items()}[name] for name in question.candidates)
+        distance, origin = ({p.name: terms[0] for p, terms in bound.items()}[name] for name in question.candidates)
         found = self._bodies.within(float(distance.value), str(origin.value))
         return None if found is None or len(found) > LOOKUP.max_listed else [*map(ox.NamedNode, found)]
 
-    def _terms(self, parameter: Parameter, value: str) -> Sequence[_Term]:
-        """Return the terms that a value can denote."""
+    def _terms(self, parameter: Parameter, value: str) -> Sequence[_Terms]:
+        """Return what a value can denote; the question is asked for each."""
         if parameter.kind == "object":
-            return self.find(value)
+            return [(node,) for node in self.find(value)]
         if parameter.kind == "class":
-            return self._lookup.kinds(value)
+            return [tuple(self._kinds(value))]
         if parameter.kind == "position":
             if parse_vector(value) is None:
                 raise GraphError(f"{parameter.name} {value!r} is not a position; expected x y z in metres: '1 0.5 2'")
-            return [ox.Literal(value)]
-        return [ox.Literal(parse_number(value, parameter.kind))]
+            return [(ox.Literal(value),)]
+        return [(ox.Literal(parse_number(value, parameter.kind)),)]
 
     def _run_staged(self, query: str) -> Answer:
         """Return the answer to a query of this package, quickly where it is about few objects."""
@@ -172,9 +179,10 @@ class GraphStore:
         return self._about(templates.PARTS_OF, thing)
 
     def all_of(self, name: str) -> Answer:
-        """Return the objects of a class, or else of a concept, with everything below it.
+        """Return the objects of a class or concept, with everything below it.
 
-        A class is named by label, local name, CURIE or IRI; a concept by a noun, such as `book` or `couch`.
+        A class is named by label, local name, CURIE or IRI; a concept by a noun, such as `book` or `couch`. A noun that
+        names both means both.
         """
         return self._about(templates.ALL_OF, name)
 
@@ -187,17 +195,31 @@ class GraphStore:
         return self._about(*templates.parse_question(words))
 
     def find(self, thing: str) -> list[ox.NamedNode]:
-        """Return the objects that match a name, by the first criterion with a match.
+        """Return the objects that a name or a noun phrase means, as for `ask`: see `Nouns.find`.
 
-        Criteria in order: prim path; label, as written, in lower case or capitalised; class or concept, with
-        everything below it; label in any case; all words in the label; all words in the asset's name.
+        Words that are read in another way than written are logged.
 
         Raises:
-            GraphError: no object matches.
+            GraphError: a word is not understood, or there is no such object.
         """
-        return self._lookup.find(thing)
+        expected = "expected a label, a class, a noun or a prim path; usd2kg query GRAPH all of KIND lists objects"
+        try:
+            things = Nouns(self._facts).find(thing)
+        except GraphError as error:
+            raise GraphError(f"{self._source}: {error}; {expected}") from error
+        if not things.iris:
+            raise GraphError(f"{self._source}: there is no {things.text}; {expected}")
+        if things.note:
+            logger.warning("%s: %s", self._source, things.note)
+        return [*map(ox.NamedNode, things.iris)]
+
+    def _kinds(self, name: str) -> list[ox.NamedNode]:
+        try:
+            return Nouns(self._facts).kinds(name)
+        except GraphError as error:
+            raise GraphError(f"{self._source}: {error}") from error
 
     def _about(self, template: templates.QueryTemplate, name: str) -> Answer:
-        things = self._lookup.kinds(name) if template.takes_kind else self._lookup.find(name)
+        things = self._kinds(name) if template.takes_kind else self.find(name)
         answer = self._run_staged(template.fill(term_list(things)))
         return replace(answer, columns=tuple(template.columns.get(column, column) for column in answer.columns))

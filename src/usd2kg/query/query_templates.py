@@ -95,11 +95,11 @@ SELECT DISTINCT ?object ?class ?concept ?path ?confidence WHERE {{{{
   ?o rdfs:label ?object ; u2k:primPath ?path .
   {_CLASS}
   OPTIONAL {{{{ ?o u2k:concept/skos:prefLabel ?concept . }}}}
-  OPTIONAL {{{{
+  OPTIONAL {{{{ SELECT ?o (MAX(?stated) AS ?of_class) {{{{
     {_PAIRS}
     ?o a ?k . ?k rdfs:subClassOf* ?a .
-    ?x owl:annotatedSource ?o ; owl:annotatedTarget ?k ; sssom:confidence ?of_class .
-  }}}}
+    ?x owl:annotatedSource ?o ; owl:annotatedTarget ?k ; sssom:confidence ?stated .
+  }}}} GROUP BY ?o }}}}
   OPTIONAL {{{{ ?o u2k:conceptConfidence ?of_concept . }}}}
   BIND (COALESCE(?of_class, ?of_concept) AS ?confidence)
 }}}} ORDER BY ?path"""

@@ -9,10 +9,12 @@ __all__ = [
     "COMPLEXITY",
     "LOOKUP",
     "SWEEP",
+    "WORDS",
     "CacheSettings",
     "ComplexitySettings",
     "LookupSettings",
     "SweepSettings",
+    "WordSettings",
 ]
 
 
@@ -31,11 +33,20 @@ class SweepSettings:
 
 @dataclass(frozen=True)
 class LookupSettings:
-    """Which labels are suggested for an unknown name."""
+    """What is offered for an unknown name, and how much is listed for a known one."""
 
     min_label_similarity: float
     max_suggestions: int
     max_listed: int
+
+
+@dataclass(frozen=True)
+class WordSettings:
+    """How words of a name are matched with those of the graph."""
+
+    min_confidence: float
+    min_similarity: float
+    min_letters: int
 
 
 @dataclass(frozen=True)
@@ -59,5 +70,6 @@ class CacheSettings:
 
 SWEEP = read_settings("query", "sweep", SweepSettings)
 LOOKUP = read_settings("query", "lookup", LookupSettings)
+WORDS = read_settings("query", "words", WordSettings)
 COMPLEXITY = read_settings("query", "complexity", ComplexitySettings)
 CACHE = read_settings("query", "cache", CacheSettings)

@@ -9,7 +9,7 @@ syntax, never inserted as text.
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -66,15 +66,17 @@ class Question:
     position. None if other objects can be an answer."""
 
     def bind(
-        self, terms: Mapping[Parameter, ox.NamedNode | ox.Literal], candidates: Iterable[ox.NamedNode] | None = None
+        self,
+        terms: Mapping[Parameter, Sequence[ox.NamedNode | ox.Literal]],
+        candidates: Iterable[ox.NamedNode] | None = None,
     ) -> str:
-        """Return the query with a term in place of each parameter, without the comments of its file.
+        """Return the query with terms in place of each parameter, without the comments of its file.
 
         Args:
-            terms: the values.
+            terms: the values; several for a class, which stands in VALUES, else one.
             candidates: the only objects that can be an answer; None for all.
         """
-        written = {parameter.variable: str(term) for parameter, term in terms.items()}
+        written = {parameter.variable: " ".join(map(str, values)) for parameter, values in terms.items()}
         query = re.sub(r"\?(the_[a-z]+)", lambda found: written.get(found[1], found[0]), self.sparql)
         if candidates is None:
             return query

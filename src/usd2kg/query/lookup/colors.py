@@ -3,16 +3,16 @@
 import colorsys
 from typing import NamedTuple
 
-from usd2kg.assistant.facts import SceneFacts
 from usd2kg.knowledge import word_map, word_set
+from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.words import split_identifier
 
 __all__ = ["COLORS", "color_name", "has_color", "has_material", "is_material", "material_words", "own_colors"]
 
-_MATERIALS = word_map("assistant", "substances")
+_MATERIALS = word_map("query", "substances")
 """Word in the name of a material → the substance: oak → wood."""
-_SUBSTANCES = word_set("assistant", "substance_names")
-_COLOR_WORDS = word_map("assistant", "color_words")
+_SUBSTANCES = word_set("query", "substance_names")
+_COLOR_WORDS = word_map("query", "color_words")
 """Word in the name of a material → the colour: navy → blue."""
 
 
@@ -59,12 +59,12 @@ def color_name(rgb: tuple[float, float, float]) -> str:
 
 def own_colors(facts: SceneFacts, iri: str) -> list[str]:
     """Return the colours of an object, the main one first: from its material's name, else from its colour."""
-    source = facts.color_sources.get(iri, "")
-    words = [word.lower() for word in split_identifier(source)]
+    words = [word.lower() for word in split_identifier(facts.color_source(iri))]
     named = [_COLOR_WORDS.get(word, word) for word in words if word in COLORS or word in _COLOR_WORDS]
     if named:
         return named
-    return [color_name(facts.colors[iri])] if iri in facts.colors else []
+    rgb = facts.color(iri)
+    return [color_name(rgb)] if rgb is not None else []
 
 
 def has_color(facts: SceneFacts, iri: str, color: str) -> bool:
@@ -74,7 +74,7 @@ def has_color(facts: SceneFacts, iri: str, color: str) -> bool:
 
 def material_words(facts: SceneFacts, iri: str) -> list[str]:
     """Return the substances that the names of an object's materials mean."""
-    words = [word.lower() for name in facts.materials.get(iri, ()) for word in split_identifier(name)]
+    words = [word.lower() for name in facts.materials(iri) for word in split_identifier(name)]
     return list(
         dict.fromkeys(_MATERIALS.get(word, word) for word in words if word in _MATERIALS or word in _SUBSTANCES)
     )

@@ -6,24 +6,25 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rapidfuzz import fuzz, process
+import pyoxigraph as ox
 
-from usd2kg.assistant.colors import COLORS, has_color, has_material, is_material
-from usd2kg.assistant.facts import SceneFacts
-from usd2kg.assistant.sentences import IRREGULAR_PLURALS
-from usd2kg.assistant.settings import WORDS
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.languages import translate
+from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
+from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.kinds import Kinds
+from usd2kg.query.lookup.spelling import Spelling
+from usd2kg.query.lookup.word_forms import is_noun, name_words, noun_words, singular, split_phrase
 from usd2kg.words import split_identifier
 
 __all__ = ["Nouns", "Things", "UnknownWordError"]
 
-_FILLERS = word_set("assistant", "determiners")
-_EVERYTHING = word_set("assistant", "general_nouns")
-_QUESTION_WORDS = word_set("assistant", "question_words")
-_AREAS = word_set("assistant", "area_nouns")
+_DETERMINERS = word_set("query", "determiners")
+_EVERYTHING = word_set("query", "general_nouns")
+_QUESTION_WORDS = word_set("query", "question_words")
+_AREAS = word_set("query", "area_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
 _RELATIONS = {
@@ -46,8 +47,10 @@ _RELATIONS = {
     "hanging on": "attached",
     "from": "inside",
 }
-_IRREGULAR = {many: one for one, many in IRREGULAR_PLURALS.items()}
 _RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{'|'.join(_RELATIONS)}) (?P<second>.+)")
+
+_Criterion = Callable[[], Iterable[str]]
+"""Returns the objects that match a name in one way."""
 
 
 class UnknownWordError(GraphError):
@@ -73,10 +76,17 @@ class Things:
 class Nouns:
     """Resolves noun phrases in the words of people, with the lexicon that grounded the scene."""
 
-    def __init__(self, facts: SceneFacts) -> None:
+    def __init__(self, facts: SceneFacts, *, is_english: bool = True) -> None:
+        """Wrap the facts of a graph.
+
+        Args:
+            facts: the graph.
+            is_english: whether the words are English; else a word that two languages have may be foreign.
+        """
         self._facts = facts
-        self.is_english = True
-        """Whether the question is in English; else a word that two languages have may be foreign."""
+        self._is_english = is_english
+        self._kinds = Kinds(facts)
+        self._spelling = Spelling(facts, self._kinds)
 
     def find(self, text: str) -> Things:
         """Return the objects that a noun phrase means.
@@ -88,15 +98,18 @@ class Nouns:
         Raises:
             UnknownWordError: a word is not understood; the message has the nearest ones.
         """
-        words = _strip(text)
+        exact = text.strip()
+        if named := self._facts.at_path(exact) or self._facts.labelled({exact} - {""}):
+            return Things(tuple(self._facts.sorted(named)), exact)
+        words = split_phrase(text)
         if not words:
-            raise UnknownWordError("the question names no thing; expected a noun, such as table")
+            raise UnknownWordError(f"{exact!r} names no thing; expected a noun, such as table")
         if foreign := [word for word in words if word in _QUESTION_WORDS]:
             raise UnknownWordError(f"{foreign[0]!r} is not understood in a name")
         found = self._find(" ".join(words))
         if found is not None and found.iris:
             return found
-        for language in (None,) if self.is_english else _LANGUAGES:
+        for language in (None,) if self._is_english else _LANGUAGES:
             if (english := translate(tuple(words), language)) and set(english) != set(words):
                 translated = self._find(" ".join(english))
                 if translated is not None and translated.iris:
@@ -113,74 +126,89 @@ class Nouns:
         if restricted is not None:
             return restricted
         # The noun is known, and no object is one.
-        return Things((), text) if _is_noun(text) else None
+        return Things((), text) if is_noun(text) or self._kinds.find(text) else None
 
     def _named(self, text: str) -> list[str]:
         """Return the objects with this name, of this kind, or with these words, by the first criterion with a match."""
-        lower, words = text.lower(), _stems(text)
-        objects = self._facts.objects.values()
-        criteria: tuple[Callable[[], Iterable[str]], ...] = (
-            lambda: (one.iri for one in objects if one.path.lower() == lower),
-            lambda: (one.iri for one in objects if lower in {one.label.lower(), one.path.lower().rpartition("/")[2]}),
-            lambda: (one.iri for one in objects if len(words) > 1 and words == _stems(one.label)),
-            lambda: self._main_of_group(lower),
-            lambda: self._in_place(text) if self._is_plain(text) else (),
-            lambda: self._of_kind(text),
-            lambda: (one.iri for one in objects if words and words <= _stems(one.label)),
-            lambda: self._in_place(text),
-            lambda: (iri for iri, names in self._assets.items() if words and any(words <= _stems(n) for n in names)),
+        facts, lower, words, names = self._facts, text.lower(), noun_words(text), name_words(text)
+        exact: tuple[_Criterion, ...] = (
+            lambda: facts.at_path(text),
+            lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
         )
-        for criterion in criteria:
-            if found := self._facts.sorted(criterion()):
+        named: tuple[_Criterion, ...] = (
+            lambda: facts.by_name.get(lower, ()),
+            lambda: self._labelled(lambda label: len(words) > 1 and words == names == noun_words(label)),
+            lambda: self._main_of_group(lower),
+        )
+        kinds: tuple[_Criterion, ...] = (
+            lambda: self._in_place(text) if self._is_plain(text) else (),
+            lambda: self._kinds.objects(text),
+        )
+        rest: tuple[_Criterion, ...] = (
+            lambda: self._labelled(lambda label: bool(names) and names <= name_words(label)),
+            lambda: self._in_place(text),
+            lambda: (iri for iri, asset in facts.assets() if names and names <= name_words(asset)),
+        )
+        # One noun is rarely a name, and all names of a large graph take seconds to read.
+        for criterion in (*exact, *kinds, *named, *rest) if text.isalpha() else (*exact, *named, *kinds, *rest):
+            if found := facts.sorted(criterion()):
                 return found
         return []
 
-    def _of_kind(self, text: str) -> set[str]:
-        """Return the objects of a class or concept. A confident object wins over a doubtful one."""
-        facts, wanted = self._facts, _stems(text)
-        classes = {iri for iri, label in facts.class_labels.items() if _stems(label) == wanted}
-        classes = facts.below(classes, "rdfs:subClassOf")
-        named = {iri for iri, label in facts.concept_labels.items() if _stems(label) == wanted}
-        *before, last = text.split()
-        singular = " ".join([*before, _singular(last)])
-        concepts = facts.below({*concepts_named(text), *concepts_named(singular), *named}, "skos:broader")
-        found = {iri for iri, own in facts.classes.items() if not own.isdisjoint(classes)}
-        found |= {iri for iri, concept in facts.concepts.items() if concept in concepts}
-        sure = {iri for iri in found if facts.confidences.get(iri, 1.0) >= WORDS.min_confidence}
-        return sure or found
+    def _labelled(self, accepts: Callable[[str], bool]) -> list[str]:
+        return [one.iri for one in self._facts.objects.values() if accepts(one.label)]
+
+    def kinds(self, text: str) -> list[ox.NamedNode]:
+        """Return the classes and concepts that a noun names.
+
+        Raises:
+            UnknownWordError: there are none; the message lists the classes of the graph's objects.
+        """
+        words = split_phrase(text)
+        found = self._kinds.find(text.strip()) or self._kinds.find(" ".join(words))
+        if found:
+            return found
+        if (english := translate(tuple(words), None)) and (found := self._kinds.find(" ".join(english))):
+            return found
+        nearest = self._spelling.correct(words, is_noun).nearest if not is_noun(" ".join(words)) else []
+        advice = f"; did you mean {' or '.join(nearest)}?" if nearest else ""
+        raise UnknownWordError(
+            f"no class or concept is named {text!r}{advice}; expected a noun that is a concept of an object, or one of "
+            f"the classes {', '.join(self._kinds.used_labels)}"
+        )
 
     def _in_place(self, text: str) -> set[str]:
         """Return the objects of a kind below a group that the words before the noun name: dining chairs."""
         words = text.split()
         for start in range(1, len(words)):
-            place = _stems(" ".join(words[:start]))
-            kind = self._of_kind(" ".join(words[start:]))
-            if found := {iri for iri in kind if iri in self._facts.objects and place <= _stems(self._group(iri))}:
+            place = noun_words(" ".join(words[:start]))
+            kind = self._kinds.objects(" ".join(words[start:]))
+            if found := {iri for iri in kind if place <= noun_words(self._group(iri))}:
                 return found
         return set()
 
     def _is_plain(self, text: str) -> bool:
         """Return whether the words before a noun do not make another kind: a dining chair is a chair."""
         *before, last = text.split()
-        head = _singular(last)
+        head = singular(last)
         return bool(before) and not set(concepts_named(" ".join([*before, head]))).isdisjoint(concepts_named(head))
 
     def _main_of_group(self, name: str) -> set[str]:
         """Return the objects of the kind that a group is named after: the desk of Desk_A1."""
-        grouped = {iri for iri, one in self._facts.objects.items() if name in one.path.lower().split("/")[2:-1]}
+        grouped = {one.iri for one in self._facts.objects.values() if name in one.path.lower().split("/")[2:-1]}
         if not grouped:
             return set()
         noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
-        return (self._of_kind(noun) & grouped) or grouped
+        return (self._kinds.objects(noun) & grouped) or grouped
 
     def in_area(self, text: str) -> set[str]:
         """Return the objects below the groups that are named after a place: the reception area."""
-        words = _stems(" ".join(word for word in _strip(text) if word not in _AREAS))
-        return {iri for iri in self._facts.things if words and words <= _stems(self._group(iri))}
+        words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
+        return {iri for iri in self._facts.things if words and words <= noun_words(self._group(iri))}
 
     def _group(self, iri: str) -> str:
         """Return the path of the groups of an object, without the root that all share."""
-        return self._facts.objects[iri].path.rpartition("/")[0].removeprefix(self._root)
+        return self._facts.path(iri).rpartition("/")[0].removeprefix(self._root)
 
     @cached_property
     def _root(self) -> str:
@@ -192,7 +220,7 @@ class Nouns:
         parts = _RELATION.fullmatch(text)
         if parts is None:
             return None
-        first = self._find(" ".join(_strip(parts["first"])))
+        first = self._find(" ".join(split_phrase(parts["first"])))
         if first is None:
             return None
         near = self.around(_RELATIONS[parts["relation"]], parts["second"], is_direct=False)
@@ -220,18 +248,16 @@ class Nouns:
     def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""
         facts = self._facts
-        found: set[str] = set()
-        waiting = [*anchors]
-        names = [relation] if is_direct or relation not in {"on", "inside"} else ["on", "inside"]
-        first = {iri for anchor in waiting for iri in facts.related(relation).get(anchor, ())}
+        first = {iri for anchor in anchors for iri in facts.related(relation, anchor) if facts.find(iri)}
         if is_direct or relation not in {"on", "inside"}:
             return first
+        found: set[str] = set()
         waiting = [*first]
         while waiting:
             iri = waiting.pop()
             if iri not in found:
                 found.add(iri)
-                waiting.extend(one for name in names for one in facts.related(name).get(iri, ()))
+                waiting.extend(one for name in ("on", "inside") for one in facts.related(name, iri))
         return found
 
     def _modified(self, text: str) -> Things | None:
@@ -257,79 +283,15 @@ class Nouns:
         Raises:
             UnknownWordError: no spelling, or several, are near.
         """
-        unknown = [word for word in words if not self._is_known(word)] or words
-        corrected, nearest = list(words), []
-        for word in unknown:
-            similar = process.extract(
-                word, self._vocabulary, scorer=fuzz.ratio, score_cutoff=WORDS.min_similarity, limit=3
-            )
-            nearest += [name for name, _, _ in similar]
-            if similar and (len(similar) == 1 or similar[0][1] > similar[1][1]) and len(word) >= WORDS.min_letters:
-                corrected[words.index(word)] = similar[0][0]
+        corrected, unknown, nearest = self._spelling.correct(words, self._is_known)
         if corrected != words and (found := self._find(" ".join(corrected))) is not None and found.iris:
             return replace(found, note=f"“{' '.join(words)}” was read as “{' '.join(corrected)}”")
-        advice = f"; did you mean {' or '.join(dict.fromkeys(nearest))}?" if nearest else ""
         shown = " ".join(unknown)
         raise UnknownWordError(
-            f"{shown!r} is not understood{advice}"
-            if advice
+            f"{shown!r} is not understood; did you mean {' or '.join(nearest)}?"
+            if nearest
             else f"{shown!r} is not a word that this graph or the lexicon knows"
         )
 
     def _is_known(self, word: str) -> bool:
-        return word in _RELATIONS or word in _FILLERS or _is_noun(word) or bool(_stems(word) & self._stems_in_use)
-
-    @cached_property
-    def _stems_in_use(self) -> frozenset[str]:
-        return frozenset(stem for word in self._vocabulary for stem in _stems(word))
-
-    @cached_property
-    def _vocabulary(self) -> list[str]:
-        """The words of names, classes and concepts of the graph."""
-        facts = self._facts
-        texts = [one.label for one in facts.objects.values()]
-        texts += [*facts.class_labels.values(), *facts.concept_labels.values()]
-        words = {word.lower() for text in texts for word in split_identifier(text)}
-        return sorted(word for word in words if word.isalpha() and len(word) >= WORDS.min_letters)
-
-    @cached_property
-    def _assets(self) -> dict[str, list[str]]:
-        found: dict[str, list[str]] = {}
-        for row in self._facts.graph.dataset.select("SELECT ?s ?v { ?s u2k:primPath [] ; u2k:asset ?v }"):
-            found.setdefault(str(row["s"].value), []).append(str(row["v"].value))
-        return found
-
-
-def _strip(text: str) -> list[str]:
-    """Return the words of a noun phrase without articles and words that add nothing."""
-    words = re.sub(r"\b(that|which) (is|are) ", "", text.strip(" ?!.,;"), flags=re.IGNORECASE).split()
-    while words and words[0].lower() in _FILLERS:
-        words = words[1:]
-    while len(words) > 1 and words[-1].lower() in {"here", "there", "please"}:
-        words = words[:-1]
-    cleaned = " ".join(words)
-    for tail in (" in here", " in this scene", " in the scene"):
-        cleaned = cleaned.removesuffix(tail)
-    return [
-        word if "/" in word or "_" in word else word.lower()
-        for word in cleaned.split()
-        if word.lower() not in {"the", "a", "an"}
-    ]
-
-
-def _stems(text: str) -> frozenset[str]:
-    return frozenset(_singular(word.lower()) for word in split_identifier(text) if not word.isdigit())
-
-
-def _singular(word: str) -> str:
-    if word in _IRREGULAR:
-        return _IRREGULAR[word]
-    for ending, singular in (("ves", "f"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("fe", "f"), ("s", "")):
-        if word.endswith(ending) and len(word) > len(ending) + 2 and not word.endswith("ss"):
-            return word.removesuffix(ending) + singular
-    return word
-
-
-def _is_noun(text: str) -> bool:
-    """Return whether the lexicon knows a noun, or all words of a compound."""
-    return bool(text) and bool(concepts_named(text) or all(concepts_named(_singular(word)) for word in text.split()))
+        return word in _RELATIONS or word in _DETERMINERS or is_noun(word)

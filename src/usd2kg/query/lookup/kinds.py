@@ -1,0 +1,94 @@
+"""Kinds: the classes and concepts that a noun names, and their objects."""
+
+import re
+from collections.abc import Iterable
+from functools import cached_property
+
+import pyoxigraph as ox
+
+from usd2kg.graph.vocabulary import RDF, RDFS, SKOS, U2K
+from usd2kg.grounding import concepts_named
+from usd2kg.ontology import expand_curie
+from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.word_forms import name_words, singular
+from usd2kg.query.settings import WORDS
+
+__all__ = ["Kinds"]
+
+_CLASSES = "SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }"
+_CONCEPTS = "SELECT DISTINCT ?c ?l WHERE { ?c a skos:Concept . OPTIONAL { ?c skos:prefLabel ?l } }"
+_USED_LABELS = "SELECT DISTINCT ?l WHERE { ?o u2k:primPath [] ; a ?c . ?c rdfs:label ?l } ORDER BY ?l"
+
+
+class Kinds:
+    """Finds classes and concepts of one graph by name."""
+
+    def __init__(self, facts: SceneFacts) -> None:
+        self._facts = facts
+
+    def find(self, name: str) -> list[ox.NamedNode]:
+        """Return the classes with this label, local name, CURIE or IRI, and the concepts that the noun may mean."""
+        return sorted({*self._classes_named(name), *self._concepts_named(name)}, key=lambda node: str(node.value))
+
+    def objects(self, name: str) -> set[str]:
+        """Return the objects of a kind and of all kinds below it. A confident object wins over a doubtful one."""
+        found = {iri for kind in self._below(self.find(name)) for iri in self._members(kind)}
+        sure = self._facts.confidences(found)
+        return {iri for iri in found if sure.get(iri, 1.0) >= WORDS.min_confidence} or found
+
+    @cached_property
+    def used_labels(self) -> list[str]:
+        """The labels of the classes of objects."""
+        return [row["l"].value for row in self._facts.dataset.select(_USED_LABELS)]
+
+    @cached_property
+    def names(self) -> list[tuple[ox.NamedNode, str]]:
+        """All classes and concepts with each of their labels; empty for one without."""
+        return [*self._classes, *self._concepts]
+
+    def _classes_named(self, name: str) -> list[ox.NamedNode]:
+        wanted, iris = name_words(name), {name, expand_curie(name)}
+        return [
+            node
+            for node, label in self._classes
+            if node.value in iris
+            or (wanted and wanted in (name_words(label), name_words(re.split(r"[#/]", node.value)[-1])))
+        ]
+
+    def _concepts_named(self, name: str) -> list[ox.NamedNode]:
+        wanted = name_words(name)
+        *before, last = name.split() or [name]
+        iris = {name, expand_curie(name), *concepts_named(name), *concepts_named(" ".join([*before, singular(last)]))}
+        return [
+            node for node, label in self._concepts if node.value in iris or (wanted and name_words(label) == wanted)
+        ]
+
+    @cached_property
+    def _classes(self) -> list[tuple[ox.NamedNode, str]]:
+        return self._labelled(_CLASSES)
+
+    @cached_property
+    def _concepts(self) -> list[tuple[ox.NamedNode, str]]:
+        return self._labelled(_CONCEPTS)
+
+    def _labelled(self, query: str) -> list[tuple[ox.NamedNode, str]]:
+        rows = self._facts.dataset.select(query)
+        named = ((row["c"], row["l"].value if row["l"] is not None else "") for row in rows)
+        return [(node, label) for node, label in named if isinstance(node, ox.NamedNode)]
+
+    def _below(self, kinds: Iterable[ox.NamedNode]) -> set[ox.NamedNode]:
+        """Return kinds and everything below them."""
+        found: set[ox.NamedNode] = set()
+        waiting = [*kinds]
+        while waiting:
+            node = waiting.pop()
+            if node not in found:
+                found.add(node)
+                for predicate in (RDFS.subClassOf, SKOS.broader):
+                    waiting += [n for n in self._facts.dataset.subjects(predicate, node) if isinstance(n, ox.NamedNode)]
+        return found
+
+    def _members(self, kind: ox.NamedNode) -> list[str]:
+        """Return the objects with a class or concept."""
+        nodes = [*self._facts.dataset.subjects(RDF.type, kind), *self._facts.dataset.subjects(U2K.concept, kind)]
+        return [node.value for node in nodes if self._facts.find(node.value)]

@@ -1,0 +1,94 @@
+"""Words of names and questions: singulars, and what adds no meaning."""
+
+import re
+from functools import lru_cache
+
+from usd2kg.grounding import concepts_named
+from usd2kg.knowledge import word_set
+from usd2kg.words import split_identifier
+
+__all__ = ["IRREGULAR_PLURALS", "is_noun", "name_words", "noun_words", "singular", "split_phrase"]
+
+_FILLERS = word_set("query", "determiners")
+IRREGULAR_PLURALS = {
+    "mouse": "mice",
+    "knife": "knives",
+    "shelf": "shelves",
+    "person": "people",
+    "leaf": "leaves",
+    "loaf": "loaves",
+    "half": "halves",
+    "scarf": "scarves",
+}
+_IRREGULAR = {many: one for one, many in IRREGULAR_PLURALS.items()}
+_ENDINGS = (
+    ("ies", "y"),
+    ("sses", "ss"),
+    ("ches", "ch"),
+    ("shes", "sh"),
+    ("xes", "x"),
+    ("s", ""),
+)
+_MIN_STEM = 2
+"""Letters before an ending."""
+
+
+@lru_cache(maxsize=65536)
+def singular(word: str) -> str:
+    """Return an approximate singular; errors cancel out where both sides of a comparison are stemmed.
+
+    >>> [singular(word) for word in ("boxes", "knives", "gloves", "gas")]
+    ['box', 'knife', 'glove', 'gas']
+    """
+    if word in _IRREGULAR:
+        return _IRREGULAR[word]
+    for ending, replacement in _ENDINGS:
+        stem = word.removesuffix(ending)
+        if stem != word and len(stem) >= _MIN_STEM + (ending == "s") and not word.endswith("ss"):
+            return stem + replacement
+    return word
+
+
+def noun_words(text: str) -> frozenset[str]:
+    """Return the words of a name in the singular, without numbers.
+
+    >>> sorted(noun_words("DiningTables_02"))
+    ['dining', 'table']
+    """
+    return frozenset(singular(word.lower()) for word in split_identifier(text) if not word.isdigit())
+
+
+def name_words(text: str) -> frozenset[str]:
+    """Return the words of a name in the singular, and its numbers without leading zeros.
+
+    >>> sorted(name_words("DiningTables_02"))
+    ['2', 'dining', 'table']
+    """
+    parts = (word.lower() for word in split_identifier(text))
+    return frozenset(part.lstrip("0") or "0" if part.isdigit() else singular(part) for part in parts)
+
+
+def is_noun(text: str) -> bool:
+    """Return whether the lexicon knows a noun, or all words of a compound."""
+    return bool(text) and bool(concepts_named(text) or all(concepts_named(singular(word)) for word in text.split()))
+
+
+def split_phrase(text: str) -> list[str]:
+    """Return the words of a noun phrase without articles and words that add nothing.
+
+    >>> split_phrase("all the cups that are on the table, please")
+    ['cups', 'on', 'table']
+    """
+    words = re.sub(r"\b(that|which) (is|are) ", "", text.strip(" ?!.,;"), flags=re.IGNORECASE).split()
+    while words and words[0].lower() in _FILLERS:
+        words = words[1:]
+    while len(words) > 1 and words[-1].lower() in {"here", "there", "please"}:
+        words = words[:-1]
+    cleaned = " ".join(words).rstrip(",")
+    for tail in (" in here", " in this scene", " in the scene"):
+        cleaned = cleaned.removesuffix(tail)
+    return [
+        word if "/" in word or "_" in word else word.lower()
+        for word in cleaned.split()
+        if word.lower() not in {"the", "a", "an"}
+    ]
