@@ -14,7 +14,7 @@ from usd2kg.validation.shacl import compile_shapes, find_violations
 
 COUNT = 20_000
 SECONDS = 60.0
-"""Limit of processor time: about ten times the usual; a quadratic step takes minutes."""
+"""Limit of processor time; a quadratic step takes many minutes."""
 
 
 def crowd(same_place: bool) -> GraphStore:
