@@ -90,8 +90,13 @@ def _measure_gaps(scene: CheckedScene, rule: Rule, free: NDArray[np.int64]) -> _
     is_hollow = is_structure & (thickness > rule.number("max_thickness"))
     held = np.zeros(len(free), np.bool_)
     gap, surface = np.full(len(free), np.inf), np.full(len(free), -1, np.int64)
+    lower_z, bottom_z, hold_volume = lower[:, 2], lower[free, 2], ratio * volumes[free]
+    may_hold = is_structure & ~is_hollow
     wider = lower[free, :2] - contact, upper[free, :2] + contact
     for row, other in overlapping_pairs(*wider, (lower[:, :2], upper[:, :2])):
+        # In a pile nearly all pairs are of boxes that neither bear nor hold each other.
+        some = may_hold[other] | (lower_z[other] < bottom_z[row]) | (volumes[other] > hold_volume[row])
+        row, other = row[some], other[some]  # noqa: PLW2901
         some = (free[row] != other) & ~is_hollow[other]
         row, other = row[some], other[some]  # noqa: PLW2901
         this = free[row]
