@@ -25,7 +25,7 @@ def open_journal(folder: Path, tbox: TBox) -> tuple[Journal, ReviewState]:
 
 
 def decide(journal: Journal, review: ReviewState, paths: list[str], verdict: Verdict, reviewer: str = "Ann") -> None:
-    event = review.decide(paths, verdict, reviewer, TIME, review.version)
+    event = review.decide(dict.fromkeys(paths, verdict), reviewer, TIME, review.version)
     journal.append(event, review.before(event))
     review.apply(event)
 
@@ -143,7 +143,8 @@ def test_every_sequence_of_acts_is_read_back(tmp_path_factory: pytest.TempPathFa
     for act, who, paths, kind, comment in acts:
         iri = tbox.resolve("Cup") if kind is VerdictKind.CLASS else None
         if act == "decide":
-            event = review.decide(paths, Verdict(kind, iri, comment=comment), who, TIME, review.version)
+            verdict = Verdict(kind, iri, comment=comment)
+            event = review.decide(dict.fromkeys(paths, verdict), who, TIME, review.version)
         elif not (review.can_undo(who) if act == "undo" else review.can_redo(who)):
             continue
         else:

@@ -12,7 +12,7 @@ CUP, BOWL = (Verdict(VerdictKind.CLASS, f"https://x.org/{name}") for name in ("C
 
 
 def decide(review: ReviewState, who: str, verdict: Verdict, *paths: str, seen: int | None = None) -> None:
-    review.apply(review.decide(paths, verdict, who, TIME, review.version if seen is None else seen))
+    review.apply(review.decide(dict.fromkeys(paths, verdict), who, TIME, review.version if seen is None else seen))
 
 
 def classes(review: ReviewState, *paths: str) -> list[str]:

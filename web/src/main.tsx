@@ -3,7 +3,7 @@
 import { render } from "preact";
 import { ApiFailure, createClient, readKey, storeKey } from "./api/client";
 import { listen } from "./api/events";
-import type { ChangeEvent, SceneData, States } from "./api/types";
+import type { ChangeEvent, SceneData, States, SuggestionsEvent } from "./api/types";
 import { App } from "./panels/App";
 import { KeyForm } from "./panels/KeyForm";
 import { Store } from "./state/store";
@@ -26,6 +26,7 @@ async function start(): Promise<void> {
     void store.reload();
     const handlers = {
       onChange: (change: ChangeEvent) => store.receive(change),
+      onSuggestions: (event: SuggestionsEvent) => store.receiveSuggestions(event),
       onLink: (isConnected: boolean) => {
         if (!isConnected) store.saving.value = "offline";
         else if (store.saving.value === "offline") void store.reload();

@@ -81,6 +81,7 @@ describe("event stream", () => {
     };
     let version = 0;
     const handlers = {
+      onSuggestions: () => undefined,
       onChange: (change: ChangeEvent) => {
         version = change.version;
       },
@@ -95,7 +96,12 @@ describe("event stream", () => {
     const links: boolean[] = [];
     const denied = vi.fn();
     const send: typeof fetch = async () => new Response('{"error": "wrong key"}', { status: 401 });
-    const handlers = { onChange: () => undefined, onLink: (is: boolean) => void links.push(is), onDenied: denied };
+    const handlers = {
+      onChange: () => undefined,
+      onSuggestions: () => undefined,
+      onLink: (is: boolean) => void links.push(is),
+      onDenied: denied,
+    };
     await listen(createClient("k", send), () => 0, handlers, new AbortController().signal);
     expect(denied).toHaveBeenCalledOnce();
     expect(links).toEqual([]);

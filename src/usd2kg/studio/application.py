@@ -211,35 +211,29 @@ class _Api:
         reviewer = _reviewer(body)
         comment, seen = field(body, "comment", str, ""), field(body, "seen", int, self._session.version)
         action = field(body, "action", str)
-        changed: list[ObjectState] = []
-        for verdict, chosen in self._verdicts(action, body, paths, comment):
-            changed += await asyncio.to_thread(self._session.decide, chosen, verdict, reviewer, seen)
+        verdicts = self._verdicts(action, body, paths, comment)
+        changed = await asyncio.to_thread(self._session.decide, verdicts, reviewer, seen)
         return self._announce(changed, body, f"{action} {len(changed)} objects")
 
-    def _verdicts(
-        self, action: str, body: dict[str, Any], paths: list[str], comment: str
-    ) -> list[tuple[Verdict, list[str]]]:
-        """Return the verdicts of a request, each with its objects."""
+    def _verdicts(self, action: str, body: dict[str, Any], paths: list[str], comment: str) -> dict[str, Verdict]:
+        """Return prim path → verdict of a request."""
         kinds = {"unsure": VerdictKind.UNSURE, "no-class": VerdictKind.NO_CLASS, "clear": VerdictKind.OPEN}
         if action in kinds:
-            return [(Verdict(kinds[action], comment=comment), paths)]
+            return dict.fromkeys(paths, Verdict(kinds[action], comment=comment))
         if action == "choose":
             index = field(body, "class", int)
             if not 0 <= index < len(self._session.tbox.classes):
                 raise BadRequestError(f"field class: {index} is no class")
             iri = self._session.tbox.classes[index].iri
-            return [(Verdict(VerdictKind.CLASS, iri, comment=comment), paths)]
+            return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, iri, comment=comment))
         if action != "confirm":
             raise BadRequestError(
                 f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
             )
-        suggested: dict[str, list[str]] = {}
-        for path in paths:
-            suggestion = self._session.predictions[path].class_iri
-            if suggestion is None:
-                raise BadRequestError(f"{path}: has no suggestion to confirm; choose a class")
-            suggested.setdefault(suggestion, []).append(path)
-        return [(Verdict(VerdictKind.CLASS, iri, comment=comment), same) for iri, same in suggested.items()]
+        suggested = {path: self._session.predictions[path].class_iri for path in paths}
+        if without := next((path for path, iri in suggested.items() if iri is None), None):
+            raise BadRequestError(f"{without}: has no suggestion to confirm; choose a class")
+        return {path: Verdict(VerdictKind.CLASS, iri, comment=comment) for path, iri in suggested.items()}
 
     async def _undo(self, request: Request) -> Response:
         body = await read_body(request)
@@ -252,8 +246,9 @@ class _Api:
     async def _ground_again(self, request: Request) -> Response:
         body = await read_body(request)
         changes = await asyncio.to_thread(self._session.ground_again)
-        states = [self._session.state(new.prim_path) for _, new in changes]
-        self._announce(states, body, f"ground again: {len(changes)} suggestions changed")
+        # Suggestions are no events of the journal: the other pages load all states.
+        self._events.publish("suggestions", {"reviewer": _reviewer(body), "page": field(body, "page", str, "")})
+        self._outputs.notify()
         found = [
             {
                 "object": self._catalog.object(new.prim_path),
@@ -271,25 +266,28 @@ class _Api:
         reviewer = _reviewer(body)
         reply = {**self._reply(changed, reviewer), "message": message}
         change = {key: reply[key] for key in ("version", "states", "message")}
-        self._events.publish({**change, "reviewer": reviewer, "page": field(body, "page", str, "")})
+        self._events.publish("change", {**change, "reviewer": reviewer, "page": field(body, "page", str, "")})
         self._outputs.notify()
         return JSONResponse(reply)
 
     async def _stream(self, request: Request) -> Response:
         """Stream the changes; a page that has missed some gets the states of all objects first."""
         since = request.query_params.get("since", "")
+        # First listen, then compare, so that no change is missed in between.
+        listener = self._events.subscribe()
         first = ""
         if since.isdecimal() and int(since) < self._session.version:
             first = LiveEvents.format(
+                "change",
                 {
                     "version": self._session.version,
                     "reviewer": "",
                     "page": "",
                     "message": "",
                     "states": [state_json(state, self._catalog) for state in self._session.states()],
-                }
+                },
             )
-        return StreamingResponse(self._events.listen(first), media_type="text/event-stream")
+        return StreamingResponse(self._events.listen(listener, first), media_type="text/event-stream")
 
     # Pictures.
 

@@ -13,53 +13,61 @@ __all__ = ["LiveEvents"]
 _WAITING = 1000
 """Changes that may wait for a slow page; it then has to load all states again."""
 
+Listener = asyncio.Queue[str | None]
+"""Texts for one page; None ends its stream."""
+
 
 class LiveEvents:
     """The pages that listen; used from one event loop."""
 
     def __init__(self) -> None:
-        self._listeners: set[asyncio.Queue[str | None]] = set()
+        self._listeners: set[Listener] = set()
 
-    def publish(self, change: dict[str, Any]) -> None:
-        """Send a change to all pages."""
-        text = self.format(change)
-        for queue in self._listeners:
+    def publish(self, name: str, data: dict[str, Any]) -> None:
+        """Send an event to all pages."""
+        text = self.format(name, data)
+        for listener in list(self._listeners):
             try:
-                queue.put_nowait(text)
+                listener.put_nowait(text)
             except asyncio.QueueFull:
                 # The page reconnects and asks for what it missed.
-                _end(queue)
+                _end(listener)
+                self._listeners.discard(listener)
 
     @staticmethod
-    def format(change: dict[str, Any]) -> str:
-        """Return a change as an event of the stream."""
-        return f"event: change\nid: {change['version']}\ndata: {json.dumps(change)}\n\n"
+    def format(name: str, data: dict[str, Any]) -> str:
+        """Return an event as text of the stream."""
+        return f"event: {name}\ndata: {json.dumps(data)}\n\n"
 
-    async def listen(self, first: str = "") -> AsyncIterator[str]:
-        """Yield the text of the stream: `first`, then each change, with comments in between as signs of life."""
-        queue: asyncio.Queue[str | None] = asyncio.Queue(_WAITING)
-        self._listeners.add(queue)
+    def subscribe(self) -> Listener:
+        """Return a listener that receives all events from now on; `listen` reads it."""
+        listener: Listener = asyncio.Queue(_WAITING)
+        self._listeners.add(listener)
+        return listener
+
+    async def listen(self, listener: Listener, first: str = "") -> AsyncIterator[str]:
+        """Yield the text of the stream: `first`, then each event, with comments in between as signs of life."""
         try:
             yield first or ": connected\n\n"
             while True:
                 try:
-                    text = await asyncio.wait_for(queue.get(), SERVER.heartbeat_s)
+                    text = await asyncio.wait_for(listener.get(), SERVER.heartbeat_s)
                 except TimeoutError:
                     text = ": alive\n\n"
                 if text is None:
                     return
                 yield text
         finally:
-            self._listeners.discard(queue)
+            self._listeners.discard(listener)
 
     def close(self) -> None:
         """End all streams."""
-        for queue in self._listeners:
-            _end(queue)
+        for listener in self._listeners:
+            _end(listener)
 
 
-def _end(queue: "asyncio.Queue[str | None]") -> None:
+def _end(listener: Listener) -> None:
     with suppress(asyncio.QueueEmpty):
         while True:
-            queue.get_nowait()
-    queue.put_nowait(None)
+            listener.get_nowait()
+    listener.put_nowait(None)

@@ -1,6 +1,6 @@
 """ReviewState: the verdict on each object, who may undo what, and where reviewers disagree."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from usd2kg.errors import GroundingError
@@ -14,11 +14,14 @@ class ReviewState:
     """The verdicts that a sequence of events leads to.
 
     Undo and redo are events of their own: the sequence only grows, so that undo is unlimited and survives a restart.
+    One thread applies events; others may read at the same time, so iteration is over copies.
     """
 
     def __init__(self, events: Iterable[Event] = ()) -> None:
         self._verdicts: dict[str, Verdict] = {}
         self._events: dict[int, Event] = {}
+        self._numbers_of: dict[str, list[int]] = {}
+        """Prim path → numbers of the events that concern it."""
         self._before: dict[int, Mapping[str, Verdict]] = {}
         self._done: dict[str, list[int]] = {}
         """Reviewer → numbers of the decisions that can be undone, the last one at the end."""
@@ -41,47 +44,46 @@ class ReviewState:
 
     def history(self, prim_path: str) -> list[tuple[Event, Verdict]]:
         """Return the events that concern an object, oldest first, each with the verdict that it set."""
-        return [
-            (event, change.verdict)
-            for event in self._events.values()
-            for change in event.changes
-            if change.prim_path == prim_path
-        ]
+        events = [self._events[number] for number in list(self._numbers_of.get(prim_path, ()))]
+        return [(event, c.verdict) for event in events for c in event.changes if c.prim_path == prim_path]
 
     def decisions(self) -> dict[str, Decision]:
         """Return prim path → decision, for the objects whose class is settled."""
         return {
             path: Decision(verdict.class_iri, verdict.reviewer, verdict.comment, verdict.time)
-            for path, verdict in self._verdicts.items()
+            for path, verdict in list(self._verdicts.items())
             if verdict.kind in {VerdictKind.CLASS, VerdictKind.NO_CLASS}
         }
 
     def is_conflict(self, prim_path: str) -> bool:
         """Return whether reviewers disagree about an object, and nobody has decided after seeing both verdicts."""
-        given = [v for v in self._by_reviewer.get(prim_path, {}).values() if v.kind is not VerdictKind.OPEN]
+        given = [v for v in list(self._by_reviewer.get(prim_path, {}).values()) if v.kind is not VerdictKind.OPEN]
         return prim_path not in self._is_settled and any(not given[0].agrees(other) for other in given[1:])
 
     def by_reviewer(self) -> Mapping[str, Mapping[str, Verdict]]:
         """Return prim path → reviewer → last verdict."""
-        return self._by_reviewer
+        return {path: dict(given) for path, given in list(self._by_reviewer.items())}
 
     # Making events.
 
-    def decide(self, paths: Sequence[str], verdict: Verdict, reviewer: str, time: str, seen: int) -> Event:
-        """Return the event that sets one verdict for several objects; `apply` makes it valid.
+    def decide(self, verdicts: Mapping[str, Verdict], reviewer: str, time: str, seen: int) -> Event:
+        """Return the event that sets the verdicts on several objects; `apply` makes it valid.
 
         Args:
-            paths: the objects.
-            verdict: kind, class and comment.
+            verdicts: prim path → kind, class and comment.
             reviewer: who decides.
             time: when, as ISO 8601 in UTC.
             seen: number of the last event that the reviewer had seen.
         """
         number = self.version + 1
-        who, when = ("", "") if verdict.kind is VerdictKind.OPEN else (reviewer, time)
-        given = replace(verdict, reviewer=who, time=when, event=number)
-        changes = tuple(Change(path, given) for path in dict.fromkeys(paths))
-        return Event(number, Action.DECIDE, reviewer, time, changes, seen)
+        signed = {
+            verdict: replace(verdict, event=number)
+            if verdict.kind is VerdictKind.OPEN
+            else replace(verdict, reviewer=reviewer, time=time, event=number)
+            for verdict in set(verdicts.values())
+        }
+        changes = tuple(Change(path, signed[verdict]) for path, verdict in verdicts.items())
+        return Event(number, Action.DECIDE, reviewer, time, changes, min(seen, number - 1))
 
     def can_undo(self, reviewer: str) -> bool:
         """Return whether a reviewer has a decision to undo."""
@@ -138,6 +140,7 @@ class ReviewState:
         self._before[event.number] = self.before(event)
         self._events[event.number] = event
         for change in event.changes:
+            self._numbers_of.setdefault(change.prim_path, []).append(event.number)
             self._apply_change(event, change)
         done, undone = (stacks.setdefault(event.reviewer, []) for stacks in (self._done, self._undone))
         if event.action is Action.DECIDE:

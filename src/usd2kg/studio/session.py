@@ -83,20 +83,25 @@ class StudioSession:
 
     # Decisions.
 
-    def decide(self, paths: Sequence[str], verdict: Verdict, reviewer: str, seen: int) -> list[ObjectState]:
-        """Record one verdict for several objects; return their states once the journal is on disk.
+    def decide(self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int) -> list[ObjectState]:
+        """Record the verdicts on several objects as one event; return their states once the journal is on disk.
+
+        Args:
+            verdicts: prim path → kind, class and comment.
+            reviewer: who decides.
+            seen: number of the last event that the reviewer had seen.
 
         Raises:
             GroundingError: there are no objects, or one is unknown.
             OutputError: the journal cannot be written; nothing has changed.
         """
-        unknown = [path for path in paths if path not in self.predictions]
-        if unknown or not paths:
+        unknown = [path for path in verdicts if path not in self.predictions]
+        if unknown or not verdicts:
             raise GroundingError(
                 f"decision about {unknown[0] if unknown else 'nothing'}; expected objects of the scene"
             )
         with self._lock:
-            return self._record(self.review.decide(paths, verdict, reviewer, _now(), seen))
+            return self._record(self.review.decide(verdicts, reviewer, _now(), seen))
 
     def undo(self, reviewer: str) -> list[ObjectState]:
         """Take back a reviewer's last decision, as `decide`.

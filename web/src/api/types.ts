@@ -256,6 +256,13 @@ export interface ChangeEvent {
   message: string;
 }
 
+/** The same stream, event `suggestions`: the open objects were grounded again, so all states have to be loaded. */
+export interface SuggestionsEvent {
+  reviewer: string;
+  /** The page that caused it. */
+  page: string;
+}
+
 /** `POST /api/ask` with {question}. */
 export interface AskReply {
   understood: string;

@@ -16,6 +16,7 @@ import type {
   RegroundReply,
   SceneData,
   States,
+  SuggestionsEvent,
 } from "../api/types";
 import type { ColorMode } from "./colors";
 import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters";
@@ -369,6 +370,13 @@ export class Store {
     if (change.page === this.page) return;
     if (change.reviewer !== "") this.notify(`${change.reviewer}: ${change.message}`);
     void this.loadQueue(true);
+  }
+
+  /** Loads the suggestions that another page has asked for. */
+  receiveSuggestions({ reviewer, page }: SuggestionsEvent): void {
+    if (page === this.page) return;
+    this.notify(`${reviewer} has grounded the open objects again`);
+    void this.reload();
   }
 
   report(error: unknown): void {
