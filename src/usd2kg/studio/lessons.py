@@ -4,24 +4,17 @@ If reviewers gave all objects of one concept the same class, the concept belongs
 concept teaches the same about the words of its name.
 """
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from usd2kg.grounding import Decision, Grounding
-from usd2kg.grounding.sssom_decisions import NO_TERM
-from usd2kg.grounding.sssom_file import Curies, format_sssom_file, one_line
+from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind, format_rows
+from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.ontology import ClassIRI, TBox
-from usd2kg.ontology.namespaces import CONCEPT, WORDNET
-from usd2kg.ontology.prefixes import PREFIXES
 from usd2kg.scene import Scene
 
 __all__ = ["Lesson", "find_lessons", "format_lessons"]
-
-_COLUMNS = (
-    *("subject_id", "subject_label", "subject_type", "predicate_id", "object_id", "object_label"),
-    *("mapping_justification", "reviewer_label", "comment"),
-)
-_PREFIXES = {**PREFIXES, "concept": CONCEPT, "wn": WORDNET, "sssom": "https://w3id.org/sssom/"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,31 +61,29 @@ def find_lessons(suggestions: Grounding, decisions: Mapping[str, Decision], scen
 
 def format_lessons(lessons: Iterable[Lesson], tbox: TBox) -> str:
     """Return the lessons as SSSOM/TSV, an input of `--alignment` that changes the alignment that is built."""
-    curies = Curies(_PREFIXES, used=("sssom",))
-    rows: dict[tuple[str, str], dict[str, str]] = {}
+    rows: dict[tuple[RowKind, str], AlignmentRow] = {}
     for lesson in lessons:
-        # The noun of a concept may be the label of another class, which a row for the concept alone does not change.
-        for concept in dict.fromkeys((lesson.concept, "")):
-            rows.setdefault((concept, lesson.label), _row(lesson, concept, tbox, curies))
-    header = {
-        "mapping_set_id": f"https://w3id.org/usd2kg/lessons/{tbox.content_hash.removeprefix('sha256:')}",
-        "mapping_set_title": f"Concepts of {tbox.ontology_iri}, as reviewers decided",
-        "license": "https://w3id.org/sssom/license/unspecified",
-        "object_source_version": tbox.content_hash,
-    }
-    return format_sssom_file(header, curies, {}, _COLUMNS, rows.values())
+        for row in _rows(lesson):
+            rows.setdefault((row.kind, row.subject), row)
+    return format_rows([*rows.values()], tbox)
 
 
-def _row(lesson: Lesson, concept: str, tbox: TBox, curies: Curies) -> dict[str, str]:
-    """Return the row for the concept of a lesson, or for its words if `concept` is empty."""
-    return {
-        "subject_id": curies.shorten(concept) if concept else "",
-        "subject_label": one_line(lesson.label),
-        "subject_type": "skos concept" if concept else "rdfs literal",
-        "predicate_id": "skos:closeMatch" if concept else "skos:exactMatch",
-        "object_id": curies.shorten(lesson.class_iri or NO_TERM),
-        "object_label": one_line(tbox.by_iri[lesson.class_iri].label) if lesson.class_iri else "",
-        "mapping_justification": "semapv:ManualMappingCuration",
-        "reviewer_label": "|".join(name.replace("|", r"\|") for name in lesson.reviewers),
-        "comment": f"decided for {lesson.objects} {'object' if lesson.objects == 1 else 'objects'}",
-    }
+def _rows(lesson: Lesson) -> Iterator[AlignmentRow]:
+    """Yield the row for a concept, if there is one, and that for its noun.
+
+    The noun may be the label of another class, which a row for the concept alone does not change.
+    """
+    row = AlignmentRow(
+        RowKind.TERM,
+        lesson.label,
+        lesson.class_iri or NO_CLASS_IRI,
+        confidence=1.0,
+        label=lesson.label,
+        reason=f"decided for {lesson.objects} {'object' if lesson.objects == 1 else 'objects'}",
+        term_kind=TermKind.CURATED,
+        is_curated=True,
+        reviewers=lesson.reviewers,
+    )
+    if lesson.concept:
+        yield replace(row, kind=RowKind.CONCEPT, subject=lesson.concept)
+    yield row

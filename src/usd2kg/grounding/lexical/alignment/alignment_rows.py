@@ -91,19 +91,21 @@ class AlignmentRow:
     """Whether the subject is a kind of the class rather than the class itself; only for writing."""
     is_curated: bool = False
     """Whether a person decided."""
+    reviewers: tuple[str, ...] = ()
+    """Who decided; only for writing."""
     is_negated: bool = False
     """Whether the subject does not belong to the class."""
     line: int = 0
     """Line in the file."""
 
 
-def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI) -> str:
+def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI | None = None) -> str:
     """Return the text of a file.
 
     Args:
         rows: in the order to be written.
         tbox: the classes.
-        default: the class of objects without a more specific one.
+        default: the class of objects without a more specific one; None for a file that only changes an alignment.
     """
     curies = Curies(_PREFIXES, used=("semapv", "skos", "sssom", "u2k", "wn", "xsd"))
     cells = [_cells_of(row, tbox, curies) for row in rows]
@@ -118,7 +120,7 @@ def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI) -> 
         "subject_source_version": "3.1",
         **({} if tbox.ontology_iri.startswith("file:") else {"object_source": curies.shorten(tbox.ontology_iri)}),
         "object_source_version": tbox.content_hash,
-        "default_class": curies.shorten(written_class(default)),
+        **({} if default is None else {"default_class": curies.shorten(written_class(default))}),
     }
     return format_sssom_file(header, curies, _EXTENSIONS, _COLUMNS, cells)
 
@@ -132,7 +134,6 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
     is_term = row.kind is RowKind.TERM
     is_exact = row.kind is RowKind.CONCEPT and row.confidence == 1.0
     predicate = "skos:exactMatch" if is_exact else "skos:broadMatch" if row.is_kind else row.kind.value
-    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT or bool(row.tool)
     return {
         "subject_id": "" if is_term else curies.shorten(row.subject),
         "subject_label": one_line(row.subject if is_term else row.label),
@@ -141,13 +142,21 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
         "predicate_modifier": "Not" if row.is_negated else "",
         "object_id": curies.shorten(written_class(row.class_iri)),
         "object_label": _class_label(row.class_iri, tbox),
-        "mapping_justification": "semapv:BackgroundKnowledgeBasedMatching" if is_known else "semapv:LexicalMatching",
+        "mapping_justification": _justification(row),
         "mapping_tool": one_line(row.tool),
+        "reviewer_label": "|".join(one_line(name).replace("|", r"\|") for name in row.reviewers),
         "confidence": f"{row.confidence:g}",
         "comment": one_line(row.reason),
         "term_kind": row.term_kind.value if is_term else "",
         "category_size": str(row.category_size) if row.category_size else "",
     }
+
+
+def _justification(row: AlignmentRow) -> str:
+    if row.is_curated:
+        return _CURATED
+    is_known = row.kind is RowKind.CATEGORY or row.term_kind is TermKind.LENT or bool(row.tool)
+    return "semapv:BackgroundKnowledgeBasedMatching" if is_known else "semapv:LexicalMatching"
 
 
 def _class_label(iri: ClassIRI, tbox: TBox) -> str:
