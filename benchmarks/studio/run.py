@@ -22,7 +22,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 
 from benchmarks.scale.stage import write_place
 from usd2kg.demo import demo_scene
-from usd2kg.endpoint.listening import open_socket
+from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.studio import ProjectSources, open_project
 from usd2kg.studio.app_files import read_app_files
 from usd2kg.studio.application import make_app
@@ -54,7 +54,7 @@ def studio(scene: Path) -> Iterator[str]:
     with (
         tempfile.TemporaryDirectory() as folder,
         open_project(Path(folder) / "project", ProjectSources(scene)) as project,
-        open_socket("127.0.0.1", 0) as socket,
+        open_socket(Address()) as socket,
     ):
         socket.listen()
         session = open_session(project)
@@ -62,7 +62,7 @@ def studio(scene: Path) -> Iterator[str]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
         thread.start()
         try:
-            yield f"http://127.0.0.1:{socket.getsockname()[1]}/"
+            yield url_of(socket)
         finally:
             server.should_exit = True
             thread.join()

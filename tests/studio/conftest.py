@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from usd2kg.endpoint.listening import open_socket
+from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.studio import ProjectSources, open_project
 from usd2kg.studio.app_files import AppFile, read_app_files
 from usd2kg.studio.application import make_app
@@ -141,7 +141,7 @@ class Studio(Client):
 @contextmanager
 def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
     """A studio in this process, which starts at once since the grounder is loaded."""
-    with open_project(folder, ProjectSources(stage)) as project, open_socket("127.0.0.1", 0) as socket:
+    with open_project(folder, ProjectSources(stage)) as project, open_socket(Address()) as socket:
         socket.listen()
         session = open_session(project)
         app = make_app(session, APP_FILES, key=KEY, reviewer="Ann")
@@ -149,7 +149,7 @@ def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
         thread.start()
         try:
-            yield Client(f"http://127.0.0.1:{socket.getsockname()[1]}/")
+            yield Client(url_of(socket))
         finally:
             server.should_exit = True
             thread.join(20)

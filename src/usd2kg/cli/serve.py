@@ -5,19 +5,20 @@ from typing import Annotated
 
 from typer import Argument, Option
 
+from usd2kg.cli.options.address import AddressOptions, Port
+from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.output import notify
 
 __all__ = ["serve_command"]
 
 
+@expand_bundles
 def serve_command(
     graph: Annotated[
         str, Argument(metavar="GRAPH|FOLDER", help="Graph written by usd2kg build, or folder of a store.")
     ],
-    host: Annotated[
-        str, Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")
-    ] = "127.0.0.1",
-    port: Annotated[int, Option("--port", min=0, max=65535, help="Port; 0 chooses a free one.")] = 7878,
+    where: AddressOptions,
+    port: Port = 7878,
     time_limit: Annotated[
         float, Option("--time-limit", min=0.1, help="Seconds after which a query is cancelled.")
     ] = 10.0,
@@ -35,25 +36,17 @@ def serve_command(
             help="Web origin that may send requests, like https://my.lab, or *. Repeatable; default: none.",
         ),
     ] = None,
-    allow_host: Annotated[
-        list[str] | None,
-        Option(
-            "--allow-host",
-            metavar="NAME",
-            help="Host name accepted in requests in addition to localhost. Repeatable; default: none.",
-        ),
-    ] = None,
 ) -> None:
     """Serve a graph as a read-only SPARQL 1.1 endpoint with a query page, until Ctrl+C."""
     from usd2kg.endpoint import EndpointLimits, ServeOptions, serve  # noqa: PLC0415 - loads OpenUSD, too slow for --help
-    from usd2kg.endpoint.listening import is_loopback  # noqa: PLC0415
 
     limits = EndpointLimits(time_limit, max_rows, max_body, memory_limit, workers)
-    if not is_loopback(host):
-        notify(f"{host}: the endpoint has no authentication; anyone who reaches this machine can query it")
+    address = where.address(port)
+    if not address.is_local:
+        notify(f"{address.host}: the endpoint has no authentication; anyone who reaches this machine can query it")
     # Service managers stop it with SIGTERM. As after Ctrl+C, the temporary copy of the graph has to be removed.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        serve(graph, ServeOptions(host, port, allow_host or (), cors or (), limits), notify)
+        serve(graph, ServeOptions(address, cors or (), limits), notify)
     except KeyboardInterrupt:
         notify("stopped")

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
+from usd2kg.cli.options.address import AddressOptions, Port
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import BaseIri, OntologyFile
 from usd2kg.cli.options.grounding import AlignmentFile
@@ -22,6 +23,7 @@ __all__ = ["studio_command"]
 def studio_command(
     target: Annotated[Path, Argument(metavar="SCENE|FOLDER", help="A USD stage, or the folder of a project.")],
     reading: StageOptions,
+    where: AddressOptions,
     ontology: OntologyFile = None,
     mapping: Annotated[
         Path | None,
@@ -37,18 +39,7 @@ def studio_command(
         Option("--project", help="Folder of decisions and outputs; default: SCENE.studio in the current folder."),
     ] = None,
     reviewer: Reviewer = None,
-    host: Annotated[
-        str, Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")
-    ] = "127.0.0.1",
-    port: Annotated[int, Option("--port", min=0, max=65535, help="Port; 0 chooses a free one.")] = 7879,
-    allow_host: Annotated[
-        list[str] | None,
-        Option(
-            "--allow-host",
-            metavar="NAME",
-            help="Host name accepted in requests in addition to localhost. Repeatable; default: none.",
-        ),
-    ] = None,
+    port: Port = 7879,
     no_browser: Annotated[bool, Option("--no-browser", help="Do not open the browser; print the address.")] = False,
 ) -> None:
     """Open a scene in the browser to look at it, review classes, ask and export, until Ctrl+C.
@@ -56,8 +47,7 @@ def studio_command(
     The page suggests --reviewer, or else the login name, and can change it.
     With a --host other than this machine, a password in USD2KG_STUDIO_PASSWORD is needed.
     """
-    from usd2kg.endpoint.listening import is_loopback  # noqa: PLC0415
-    from usd2kg.studio import ProjectSources, StudioOptions, open_project, serve_studio  # noqa: PLC0415 - OpenUSD
+    from usd2kg.studio import ProjectSources, serve_studio  # noqa: PLC0415 - OpenUSD
 
     sources = None
     if target.is_dir():
@@ -68,17 +58,15 @@ def studio_command(
         folder = project or Path(f"{target.stem}.studio")
         sources = ProjectSources(target, ontology, mapping, alignment, base, reading.read_options())
 
-    def report(address: str) -> None:
-        notify(f"studio at {address}")
+    def report(url: str) -> None:
+        notify(f"studio at {url}")
         notify(f"decisions and outputs in {folder}")
         if not no_browser:
-            webbrowser.open(address)
+            webbrowser.open(url)
 
     # Service managers stop it with SIGTERM. As after Ctrl+C, the outputs are written first.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    options = StudioOptions(host, port, allow_host or (), reviewer)
     try:
-        with open_project(folder, sources) as opened:
-            serve_studio(opened, options, is_local=is_loopback(host), when_ready=report)
+        serve_studio(folder, sources, where.address(port), reviewer=reviewer, when_ready=report)
     except KeyboardInterrupt:
         notify("stopped")

@@ -2,9 +2,11 @@
 
 from usd2kg.endpoint.bounded import BoundedQueries
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
+from usd2kg.endpoint.listening import Address
 from usd2kg.endpoint.serving import ServeOptions, serve
 
 __all__ = [
+    "Address",
     "BoundedQueries",
     "EndpointLimits",
     "ServeOptions",

@@ -8,6 +8,7 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
+from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError
 from usd2kg.query.graph_file import load_graph
@@ -20,11 +21,7 @@ __all__ = ["ServeOptions", "serve"]
 class ServeOptions:
     """Address, allowed clients and limits."""
 
-    host: str = "127.0.0.1"
-    port: int = 7878
-    """0 selects a free port."""
-    hosts: Sequence[str] = ()
-    """Host names that are served in addition to localhost and IP addresses."""
+    address: Address = field(default_factory=Address)
     origins: Sequence[str] = ()
     """Origins whose pages may send queries (CORS), such as https://my.lab, or *."""
     limits: EndpointLimits = field(default_factory=EndpointLimits)
@@ -52,15 +49,12 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
     except ModuleNotFoundError as error:
         raise GraphError(f"serve: {error.name} is not installed; run: pip install 'usd2kg[serve]'") from error
     from usd2kg.endpoint.example_queries import make_examples  # noqa: PLC0415
-    from usd2kg.endpoint.listening import open_socket  # noqa: PLC0415
 
     with (
         tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary,
-        open_socket(options.host, options.port) as socket,
+        open_socket(options.address) as socket,
     ):
         folder, _keeper = _prepare(place, Path(temporary) / "store")
-        host, port = socket.getsockname()[:2]
-        address = f"http://{f'[{host}]' if ':' in host else host}:{port}/"
         store = ox.Store.read_only(str(folder))
         app = make_app(
             WorkerPool(folder, options.limits),
@@ -68,8 +62,8 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
             examples=make_examples(store),
-            when_ready=lambda: report(f"serves {place} at {address} (SPARQL at /sparql)"),
-            hosts=[*options.hosts, options.host],
+            when_ready=lambda: report(f"serves {place} at {url_of(socket)} (SPARQL at /sparql)"),
+            hosts=options.address.served_names,
             origins=options.origins,
         )
         del store
