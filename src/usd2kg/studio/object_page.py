@@ -45,7 +45,7 @@ def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[st
         "evidence": prediction.evidence,
         "candidates": _candidates(prediction, session.tbox, catalog),
         "concept": _concept(prediction, session),
-        "relations": [relation_json(relation, catalog) for relation in session.relations_of.get(obj.prim_path, ())],
+        "relations": [relation_json(relation, catalog) for relation in session.relations_of(obj.prim_path)],
         "history": [
             {
                 "event": event.number,

@@ -1,10 +1,9 @@
 """StudioSession: one scene under review, with everything that follows from the decisions."""
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from functools import cached_property
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -45,9 +44,11 @@ class StudioSession:
         self.suggestions = grounding
         """The grounding without the decisions of the project; open objects may have been grounded again."""
         self.relations = tuple(relations)
+        """The relations by the classes of the last graph that was built; at first by the suggestions."""
         self.base = project.sources.base or default_base(scene.source)
         self.journal = Journal(project.journal, self.base, tbox)
         self.review = ReviewState(self.journal.events)
+        self._relations_of = self.relations, _by_object(self.relations)
         self._lock = threading.Lock()
         self._graph_lock = threading.Lock()
         self._graph: tuple[Grounding, int, KnowledgeGraph] | None = None
@@ -63,15 +64,13 @@ class StudioSession:
         """Prim path → suggestion, in scene order."""
         return self.suggestions.by_path
 
-    @cached_property
-    def relations_of(self) -> Mapping[str, list[Relation]]:
-        """Prim path → relations of which it is the target or an anchor."""
-        found: dict[str, list[Relation]] = {}
-        for relation in self.relations:
-            for path in dict.fromkeys((relation.target, relation.anchor, relation.other_anchor)):
-                if path is not None:
-                    found.setdefault(path, []).append(relation)
-        return found
+    def relations_of(self, prim_path: str) -> list[Relation]:
+        """Return the relations of which an object is the target or an anchor."""
+        relations, found = self._relations_of
+        if relations is not self.relations:
+            relations, found = self.relations, _by_object(self.relations)
+            self._relations_of = relations, found
+        return found.get(prim_path, [])
 
     def state(self, prim_path: str) -> ObjectState:
         """Return the state of one object."""
@@ -143,17 +142,44 @@ class StudioSession:
             GroundingError: the suggestions come from another grounder, or from an edited alignment.
             OutputError: the lessons cannot be written.
         """
-        sources = self.project.sources
-        if sources.mapping is not None or sources.alignment is not None:
-            given = sources.mapping or sources.alignment
+        if not self._learns():
+            given = self.project.sources.mapping or self.project.sources.alignment
             raise GroundingError(f"the suggestions come from {given}; only those of the built alignment can be learned")
+        write_whole(self.project.lessons, format_lessons(self.lessons(), self.tbox).encode())
+        renewed = self._ground_with_lessons()
         with self._lock:
-            text = format_lessons(self.lessons(), self.tbox)
-            write_whole(self.project.lessons, text.encode())
             before = self.suggestions
-            self.suggestions = _apply_lessons(self.project, self.scene, self.tbox, before, self.review)
-        pairs = zip(before.predictions, self.suggestions.predictions, strict=True)
+            self.suggestions = self._merge_open(before, renewed)
+            after = self.suggestions
+        pairs = zip(before.predictions, after.predictions, strict=True)
         return [(old, new) for old, new in pairs if old.class_iri != new.class_iri]
+
+    def apply_kept_lessons(self) -> None:
+        """Apply the lessons that `ground_again` has kept in the project, if there are any."""
+        if self.project.lessons.exists() and self._learns():
+            self.suggestions = self._merge_open(self.suggestions, self._ground_with_lessons())
+
+    def _learns(self) -> bool:
+        """Return whether the suggestions come from the alignment that is built, which lessons can change."""
+        return self.project.sources.mapping is None and self.project.sources.alignment is None
+
+    def _ground_with_lessons(self) -> Grounding:
+        """Return the grounding of the open objects by the alignment and the lessons of the project."""
+        decided = self.review.decisions()
+        grounder = make_grounder("lexical", alignment=self.project.lessons)
+        still_open = [p.prim_path for p in self.suggestions.predictions if p.prim_path not in decided]
+        return ground(self.scene, self.tbox, grounder, paths=still_open)
+
+    def _merge_open(self, before: Grounding, renewed: Grounding) -> Grounding:
+        """Return a grounding with the renewed predictions of the objects that are still open.
+
+        A decided object keeps what was suggested when a person decided, so that a correction stays one.
+        """
+        decided = self.review.decisions()
+        predictions = tuple(
+            p if p.prim_path in decided else renewed.by_path.get(p.prim_path, p) for p in before.predictions
+        )
+        return replace(before, predictions=predictions, concepts={**renewed.concepts, **before.concepts})
 
     # What follows.
 
@@ -166,7 +192,10 @@ class StudioSession:
         with self._graph_lock:
             suggestions, version = self.suggestions, self.version
             if self._graph is None or self._graph[0] is not suggestions or self._graph[1] != version:
-                built = instantiate(self.scene, self.tbox, self.grounding(), base=self.base, relations=self.relations)
+                grounding = self.grounding()
+                # What a person says an object is decides what it may hold and bear.
+                self.relations = find_relations(self.scene, self.tbox, grounding)
+                built = instantiate(self.scene, self.tbox, grounding, base=self.base, relations=self.relations)
                 self._graph = suggestions, version, built
             return self._graph[2]
 
@@ -204,19 +233,18 @@ def open_session(project: Project) -> StudioSession:
     else:
         grounding = ground(scene, tbox, make_grounder("lexical", alignment=sources.alignment))
     session = StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
-    if project.lessons.exists() and sources.mapping is None and sources.alignment is None:
-        session.suggestions = _apply_lessons(project, scene, tbox, grounding, session.review)
+    session.apply_kept_lessons()
     return session
 
 
-def _apply_lessons(project: Project, scene: Scene, tbox: TBox, before: Grounding, review: ReviewState) -> Grounding:
-    """Return the grounding with the open objects grounded by the alignment and the lessons of the project."""
-    decisions = review.decisions()
-    grounder = make_grounder("lexical", alignment=project.lessons)
-    still_open = [p.prim_path for p in before.predictions if p.prim_path not in decisions]
-    renewed = ground(scene, tbox, grounder, paths=still_open)
-    predictions = tuple(renewed.by_path.get(p.prim_path, p) for p in before.predictions)
-    return replace(before, predictions=predictions, concepts={**renewed.concepts, **before.concepts})
+def _by_object(relations: Iterable[Relation]) -> dict[str, list[Relation]]:
+    """Return prim path → relations of which it is the target or an anchor."""
+    found: dict[str, list[Relation]] = {}
+    for relation in relations:
+        for path in dict.fromkeys((relation.target, relation.anchor, relation.other_anchor)):
+            if path is not None:
+                found.setdefault(path, []).append(relation)
+    return found
 
 
 def _read_mapping(file: Path, scene: Scene, tbox: TBox) -> Grounding:
