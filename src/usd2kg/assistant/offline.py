@@ -207,7 +207,7 @@ class _Answerer:
             return things.text
         if len(labels) == 1:
             return f"the {self._facts.kind(things.iris[0])} {labels[0]}"
-        return f"the {count_phrase(len(labels), things.text).partition(' ')[0]} {things.text}"
+        return f"the {count_phrase(len(labels), things.text)}"
 
     def _where(self, thing: str) -> InterpretedAnswer:
         facts, things = self._facts, self._nouns.find(thing)

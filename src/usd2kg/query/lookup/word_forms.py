@@ -84,7 +84,7 @@ def split_phrase(text: str) -> list[str]:
         words = words[1:]
     while len(words) > 1 and words[-1].lower() in {"here", "there", "please"}:
         words = words[:-1]
-    cleaned = " ".join(words).rstrip(",")
+    cleaned = " ".join(word.rstrip(",;:") for word in words)
     for tail in (" in here", " in this scene", " in the scene"):
         cleaned = cleaned.removesuffix(tail)
     return [
