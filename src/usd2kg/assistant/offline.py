@@ -48,7 +48,11 @@ class _Answerer:
         self._facts = graph.facts
         self._nouns = Nouns(self._facts, is_english=is_english)
         self._measures = MeasureAnswers(self._facts, self._nouns)
-        self._handlers: Mapping[str, Callable[..., InterpretedAnswer]] = {
+
+    @property
+    def _handlers(self) -> Mapping[str, Callable[..., InterpretedAnswer]]:
+        # An attribute would be a reference cycle, which keeps the graph until the next full garbage collection.
+        return {
             "about": self._about,
             "all": self._all,
             "how-many": self._how_many,

@@ -63,7 +63,7 @@ def write_label_layer(session: StudioSession, target: Path, *, is_bare: bool) ->
     """
     classes = classes_of_grounding(session.grounding())
     options = LabelOptions(is_bare=is_bare, provenance={"ontology": session.tbox.ontology_iri})
-    label_stage(session.project.sources.scene, classes, session.tbox, target, options=options)
+    label_stage(session.label_stage, classes, session.tbox, target, options=options)
 
 
 def _objects(session: StudioSession) -> bytes:

@@ -4,7 +4,9 @@ import threading
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import pyoxigraph as ox
 
@@ -18,7 +20,8 @@ from usd2kg.pipeline import open_tbox
 from usd2kg.query import GraphStore
 from usd2kg.query.dataset import Dataset
 from usd2kg.relations import Relation, find_relations
-from usd2kg.scene import Scene, read_scene
+from usd2kg.scene import ReadOptions, Scene, read_scene
+from usd2kg.scene.stage import open_stage
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
 from usd2kg.studio.object_state import ObjectState, state_of
@@ -208,6 +211,14 @@ class StudioSession:
                 store.bulk_extend(ox.Quad(t.subject, t.predicate, t.object) for t in graph.triples)
                 self._answers = graph, GraphStore(Dataset(store), self.scene.source)
             return self._answers[1]
+
+    @cached_property
+    def label_stage(self) -> Any:
+        """The stage that labels are written over; it stays open.
+
+        OpenUSD never frees the Python objects of the layers of a closed stage.
+        """
+        return open_stage(self.project.sources.scene, ReadOptions()).stage
 
     @property
     def last_answers(self) -> GraphStore | None:
