@@ -117,10 +117,10 @@ def test_the_cache_can_be_switched_off(graph_file: Path, cache: Path, monkeypatc
 
 def test_the_default_is_in_the_cache_folder(graph_file: Path, cache: Path, monkeypatch, tmp_path: Path):
     monkeypatch.delenv(GRAPH_CACHE_VARIABLE)
-    monkeypatch.setattr(graph_cache, "cache_folder", lambda: tmp_path / "mine")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "mine"))
     index = load_graph(graph_file, is_indexed=True).dataset.index
     assert index is not None
-    assert index.is_relative_to(tmp_path / "mine" / "graphs")
+    assert index.is_relative_to(tmp_path / "mine" / "usd2kg" / "graphs")
 
 
 def test_without_a_usable_folder_the_file_is_parsed(graph_file: Path, cache: Path):

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.cache_folder import cache_folder
+from usd2kg.cache_folder import chosen_cache_folder
 from usd2kg.errors import StoreError
 from usd2kg.folder_lock import LOCK_NAME, lock_exclusive, lock_shared, release_when_unused
 from usd2kg.query.dataset import INDEX_NAME
@@ -45,7 +45,7 @@ def open_cached(path: Path, load: Callable[[ox.Store], None]) -> tuple[ox.Store,
     Raises:
         SyntaxError: the file does not parse; so do other errors of `load`, except those of the disk.
     """
-    folder = _folder()
+    folder = chosen_cache_folder(GRAPH_CACHE_VARIABLE, "graphs")
     if folder is None or path.stat().st_size < CACHE.min_mib * _MIB:
         return None
     entry = folder / _key(path)
@@ -58,16 +58,6 @@ def open_cached(path: Path, load: Callable[[ox.Store], None]) -> tuple[ox.Store,
         logger.info("%s: not cached (%s)", path, error)
         return None
     return found or _make(entry, path, load)
-
-
-def _folder() -> Path | None:
-    chosen = os.environ.get(GRAPH_CACHE_VARIABLE, "")
-    if chosen.lower() == "off":
-        return None
-    try:
-        return Path(chosen) if chosen else cache_folder() / "graphs"
-    except RuntimeError:
-        return None
 
 
 def _key(path: Path) -> str:
