@@ -15,6 +15,7 @@ INTRODUCTION = """\
 # Command line
 
 Written by `tools/write_cli_docs.py` from the help texts. Data goes to stdout, messages and progress go to stderr.
+[usd2kg.toml](project_file.md) sets options once for a project.
 
 | exit code | meaning |
 | --- | --- |
