@@ -43,7 +43,7 @@ def serve_studio(
     except ModuleNotFoundError as error:
         raise Usd2kgError(f"studio: {error.name} is not installed; run: pip install 'usd2kg[studio]'") from error
     from usd2kg.studio.app_files import read_app_files  # noqa: PLC0415
-    from usd2kg.studio.session import open_session  # noqa: PLC0415
+    from usd2kg.studio.opening import open_session  # noqa: PLC0415
 
     key = choose_key(is_local=address.is_local)
     files = read_app_files()

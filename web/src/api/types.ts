@@ -12,6 +12,9 @@ export type ConceptIndex = number;
 /** Lower x, y, z, upper x, y, z. */
 export type Box = [number, number, number, number, number, number];
 
+/** Quaternion x, y, z, w, then extents along the own x, y, z. */
+export type Turned = [number, number, number, number, number, number, number];
+
 /** `GET /api/scene`: what does not change during a session. */
 export interface SceneData {
   title: string;
@@ -21,8 +24,10 @@ export interface SceneData {
   grounder: string;
   /** Whether confidences are fitted probabilities; otherwise they only rank. */
   is_calibrated: boolean;
-  /** Whether decisions are refused, because a graph is shown without its stage. */
-  is_read_only: boolean;
+  /** Whether the source is a knowledge graph, not a stage. */
+  is_graph: boolean;
+  /** Why something cannot be done in this session, as with a graph without its stage; absent if it can. */
+  limits: Partial<Record<Limit, string>>;
   /** Name under which this page decides, as the server suggests it. */
   reviewer: string;
   objects: ObjectColumns;
@@ -33,6 +38,9 @@ export interface SceneData {
   figures: { label: string; value: string }[];
 }
 
+/** Meshes and pictures, the layer of semantic labels, grounding again. */
+export type Limit = "meshes" | "labels" | "reground";
+
 /** Parallel arrays, one entry for each object, in scene order: parents before children. */
 export interface ObjectColumns {
   path: string[];
@@ -41,6 +49,8 @@ export interface ObjectColumns {
   parent: ObjectIndex[];
   /** Box of the object's own geometry; null without geometry. */
   box: (Box | null)[];
+  /** Orientation (quaternion x, y, z, w) and extents along the object's own axes; null if those are the world's. */
+  turned: (Turned | null)[];
   /** Room or group prim that holds it, as an index into `rooms`. */
   room: number[];
   rooms: string[];
@@ -159,8 +169,8 @@ export interface HistoryEntry {
 
 export interface Candidate {
   class: ClassIndex;
-  /** Share of the score among the candidates, from 0 to 1. */
-  share: number;
+  /** Share of the score among the candidates, from 0 to 1; null if the scores are unknown, as in a graph. */
+  share: number | null;
   /** Path of the taxonomy from the class to its root, as labels. */
   taxonomy: string[];
 }

@@ -53,6 +53,7 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
           Meshes {loading[0]} of {loading[1]}
         </p>
       )}
+      {store.model.data.limits.meshes !== undefined && <p class="boxes-only">{store.model.data.limits.meshes}</p>}
       <ViewTools store={store} />
       <Legend store={store} entries={legend} />
       <HoverLine store={store} />

@@ -84,7 +84,7 @@ export class Viewer {
     host.append(labels);
     this.overlay = new LabelOverlay(labels);
     this.cameras = new Cameras(canvas, () => this.invalidate());
-    this.boxes = new BoxBatch(data.objects.box, data.objects.color);
+    this.boxes = new BoxBatch(data.objects.box, data.objects.color, data.objects.turned);
     this.scene.add(this.boxes.group, this.selection.segments, this.relations.segments, this.hidden.segments);
     this.scene.add(new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8d8578, 1.1), this.light);
     this.resizer = new ResizeObserver(() => this.resize());
