@@ -10,6 +10,7 @@ export function makeScene(): SceneData {
     grounder: "lexical",
     is_calibrated: true,
     is_graph: false,
+    has_comparison: false,
     limits: {},
     reviewer: "Ann",
     objects: {

@@ -47,6 +47,15 @@ def studio_command(
             help="Folder of decisions and outputs; default: SCENE.studio or GRAPH.ttl.studio in the current folder.",
         ),
     ] = None,
+    compare: Annotated[
+        Path | None,
+        Option(
+            "--compare",
+            metavar="OTHER",
+            help="Show the changes from OTHER: another version as a stage or graph, or a mapping of another run or "
+            "grounder (grounding.json, SSSOM).",
+        ),
+    ] = None,
     reviewer: Reviewer = None,
     port: Port = 7879,
     no_browser: Annotated[bool, Option("--no-browser", help="Do not open the browser; print the address.")] = False,
@@ -77,6 +86,6 @@ def studio_command(
     # Service managers stop it with SIGTERM. As after Ctrl+C, the outputs are written first.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        serve_studio(folder, sources, where.address(port), reviewer=reviewer, when_ready=report)
+        serve_studio(folder, sources, where.address(port), reviewer=reviewer, compared=compare, when_ready=report)
     except KeyboardInterrupt:
         notify("stopped")

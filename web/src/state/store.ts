@@ -26,7 +26,7 @@ import { isOpen, predictStates } from "./review";
 import { StateTable } from "./stateTable";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
-export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run";
+export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run" | "compare";
 
 export interface Notice {
   id: number;
