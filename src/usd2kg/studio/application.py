@@ -19,10 +19,12 @@ from usd2kg.studio.access import KeyGate
 from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
 from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.comparison import Comparison
 from usd2kg.studio.exports import EXPORTS
 from usd2kg.studio.live_events import LiveEvents
 from usd2kg.studio.object_page import object_page, relation_json
 from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.other_version import OtherVersion
 from usd2kg.studio.outputs import OutputFiles
 from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
@@ -45,6 +47,7 @@ def make_app(
     key: str,
     reviewer: str,
     hosts: Iterable[str] = (),
+    other: OtherVersion | None = None,
     when_ready: Callable[[], None] = lambda: None,
 ) -> Starlette:
     """Return the application.
@@ -55,9 +58,10 @@ def make_app(
         key: the access key that requests for data must carry.
         reviewer: the name that the page suggests for the reviewer.
         hosts: host names that are served in addition to localhost and IP addresses.
+        other: the version that the scene is compared with; None for no comparison.
         when_ready: called when requests are answered.
     """
-    api = _Api(session, reviewer)
+    api = _Api(session, reviewer, other)
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
@@ -100,7 +104,7 @@ def _checked(handler: Handler) -> Handler:
 class _Api:
     """The handlers of requests for data."""
 
-    def __init__(self, session: StudioSession, reviewer: str) -> None:
+    def __init__(self, session: StudioSession, reviewer: str, other: OtherVersion | None) -> None:
         self._session = session
         self._catalog = Catalog(session.scene, session.tbox, session.suggestions, session.relations)
         self._reviewer = reviewer
@@ -108,6 +112,7 @@ class _Api:
         self._pictures = Pictures(session, self._catalog)
         self._questions = Questions(session, self._catalog)
         self._outputs = OutputFiles(session)
+        self._comparison = None if other is None else Comparison(session, self._catalog, other)
 
     def routes(self) -> list[tuple[str, str, Handler]]:
         """Return (method, path, handler)."""
@@ -116,6 +121,7 @@ class _Api:
             ("GET", "/states", self._states),
             ("GET", "/object/{index:int}", self._object),
             ("GET", "/relations", self._relations),
+            ("GET", "/comparison", self._compare),
             ("GET", "/queue", self._queue),
             ("GET", "/events", self._stream),
             ("GET", "/geometry", self._geometry),
@@ -144,7 +150,10 @@ class _Api:
     # The scene.
 
     async def _scene(self, _: Request) -> Response:
-        return JSONResponse(scene_json(self._session, self._catalog, self._reviewer))
+        has_comparison = self._comparison is not None
+        return JSONResponse(
+            {**scene_json(self._session, self._catalog, self._reviewer), "has_comparison": has_comparison}
+        )
 
     async def _states(self, request: Request) -> Response:
         reviewer = request.query_params.get("reviewer", self._reviewer)
@@ -173,6 +182,11 @@ class _Api:
         kind = request.query_params.get("kind", "")
         found = [relation_json(r, self._catalog) for r in self._session.relations if r.kind == kind]
         return JSONResponse({"relations": found})
+
+    async def _compare(self, _: Request) -> Response:
+        if self._comparison is None:
+            raise BadRequestError("there is nothing to compare; start with --compare OTHER", 404)
+        return JSONResponse(await asyncio.to_thread(self._comparison.json))
 
     # Review.
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
+from usd2kg.errors import SceneError
 from usd2kg.graph import format_sssom, serialize_graph
 from usd2kg.grounding import format_mapping
 from usd2kg.labels import LabelOptions, classes_of_grounding, label_stage
@@ -61,6 +62,8 @@ def write_label_layer(session: StudioSession, target: Path, *, is_bare: bool) ->
     Raises:
         Usd2kgError: the stage cannot be read or the layer cannot be written.
     """
+    if session.stage is None:
+        raise SceneError(session.stage_note)
     classes = classes_of_grounding(session.grounding())
     options = LabelOptions(is_bare=is_bare, provenance={"ontology": session.tbox.ontology_iri})
     label_stage(session.label_stage, classes, session.tbox, target, options=options)

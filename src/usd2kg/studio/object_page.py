@@ -89,7 +89,7 @@ def _candidates(prediction: Prediction, tbox: TBox, catalog: Catalog) -> list[di
     return [
         {
             "class": catalog.class_(iri),
-            "share": score / total if total else 1 / len(scores),
+            "share": score / total if total else None,
             "taxonomy": _path_to_root(iri, tbox),
         }
         for iri, score in list(scores.items())[:_MAX_CANDIDATES]

@@ -3,10 +3,11 @@
 from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cached_property
+from pathlib import Path
 
 from usd2kg.errors import SceneError
 from usd2kg.render import Renderer
-from usd2kg.scene.object_geometry import read_geometry
+from usd2kg.scene.object_geometry import SceneGeometry, read_geometry
 from usd2kg.scene.stage import open_stage, time_code
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.geometry import GeometryFiles
@@ -49,17 +50,24 @@ class Pictures:
 
     @cached_property
     def _renderer(self) -> Renderer:
-        sources = self._session.project.sources
-        return Renderer(sources.scene, sources.reading)
+        return Renderer(self._stage, self._session.project.sources.reading)
 
     @cached_property
     def _geometry(self) -> GeometryFiles:
-        sources = self._session.project.sources
-        opened = open_stage(sources.scene, sources.reading)
+        if self._session.stage is None:
+            return GeometryFiles(SceneGeometry((), ()), self._catalog)
+        reading = self._session.project.sources.reading
+        opened = open_stage(self._stage, reading)
         if opened.content_hash != self._session.scene.content_hash:
-            raise SceneError(f"{sources.scene}: has changed since it was read; start the studio again")
-        geometry = read_geometry(opened, self._session.scene, time_code(sources.reading.time))
+            raise SceneError(f"{self._stage}: has changed since it was read; start the studio again")
+        geometry = read_geometry(opened, self._session.scene, time_code(reading.time))
         return GeometryFiles(geometry, self._catalog)
+
+    @property
+    def _stage(self) -> Path:
+        if self._session.stage is None:
+            raise SceneError(self._session.stage_note)
+        return self._session.stage
 
     def _thumbnail(self, index: int) -> bytes:
         if index in self._thumbnails:

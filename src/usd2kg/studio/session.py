@@ -29,7 +29,7 @@ from usd2kg.studio.project import Project
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.verdicts import Event, Verdict
 
-__all__ = ["StudioSession", "open_session"]
+__all__ = ["StudioSession", "open_stage_session"]
 
 
 class StudioSession:
@@ -39,7 +39,14 @@ class StudioSession:
     """
 
     def __init__(
-        self, project: Project, scene: Scene, tbox: TBox, grounding: Grounding, relations: Sequence[Relation]
+        self,
+        project: Project,
+        scene: Scene,
+        tbox: TBox,
+        grounding: Grounding,
+        relations: Sequence[Relation],
+        *,
+        base: str | None = None,
     ) -> None:
         self.project = project
         self.scene = scene
@@ -48,7 +55,13 @@ class StudioSession:
         """The grounding without the decisions of the project; open objects may have been grounded again."""
         self.relations = tuple(relations)
         """The relations by the classes of the last graph that was built; at first by the suggestions."""
-        self.base = project.sources.base or default_base(scene.source)
+        self.stage: Path | None = project.sources.scene
+        """The stage of the geometry; None if there is only a graph."""
+        self.stage_note = ""
+        """What is known of the stage of a graph, for people; empty if the source is a stage."""
+        self.limits: Mapping[str, str] = {}
+        """What cannot be done in this session (`meshes`, `labels`, `reground`) → why."""
+        self.base = base or project.sources.base or default_base(scene.source)
         self.journal = Journal(project.journal, self.base, tbox)
         self.review = ReviewState(self.journal.events)
         self._relations_of = self.relations, _by_object(self.relations)
@@ -195,12 +208,13 @@ class StudioSession:
         with self._graph_lock:
             suggestions, version = self.suggestions, self.version
             if self._graph is None or self._graph[0] is not suggestions or self._graph[1] != version:
-                grounding = self.grounding()
-                # What a person says an object is decides what it may hold and bear.
-                self.relations = find_relations(self.scene, self.tbox, grounding)
-                built = instantiate(self.scene, self.tbox, grounding, base=self.base, relations=self.relations)
-                self._graph = suggestions, version, built
+                self._graph = suggestions, version, self._make_graph(self.grounding())
             return self._graph[2]
+
+    def _make_graph(self, grounding: Grounding) -> KnowledgeGraph:
+        # What a person says an object is decides what it may hold and bear.
+        self.relations = find_relations(self.scene, self.tbox, grounding)
+        return instantiate(self.scene, self.tbox, grounding, base=self.base, relations=self.relations)
 
     def answers(self) -> GraphStore:
         """Return the graph of the current decisions, to be queried."""
@@ -218,7 +232,8 @@ class StudioSession:
 
         OpenUSD never frees the Python objects of the layers of a closed stage.
         """
-        return open_stage(self.project.sources.scene, ReadOptions()).stage
+        assert self.stage is not None, "a graph without a stage has no label layer"
+        return open_stage(self.stage, ReadOptions()).stage
 
     @property
     def last_answers(self) -> GraphStore | None:
@@ -230,8 +245,8 @@ class StudioSession:
         self.journal.close()
 
 
-def open_session(project: Project) -> StudioSession:
-    """Read, ground and relate the scene of a project.
+def open_stage_session(project: Project) -> StudioSession:
+    """Read, ground and relate the stage of a project.
 
     Raises:
         Usd2kgError: a source cannot be read.

@@ -12,6 +12,9 @@ export type ConceptIndex = number;
 /** Lower x, y, z, upper x, y, z. */
 export type Box = [number, number, number, number, number, number];
 
+/** Quaternion x, y, z, w, then extents along the own x, y, z. */
+export type Turned = [number, number, number, number, number, number, number];
+
 /** `GET /api/scene`: what does not change during a session. */
 export interface SceneData {
   title: string;
@@ -21,8 +24,12 @@ export interface SceneData {
   grounder: string;
   /** Whether confidences are fitted probabilities; otherwise they only rank. */
   is_calibrated: boolean;
-  /** Whether decisions are refused, because a graph is shown without its stage. */
-  is_read_only: boolean;
+  /** Whether the source is a knowledge graph, not a stage. */
+  is_graph: boolean;
+  /** Whether `GET /api/comparison` answers. */
+  has_comparison: boolean;
+  /** Why something cannot be done in this session, as with a graph without its stage; absent if it can. */
+  limits: Partial<Record<Limit, string>>;
   /** Name under which this page decides, as the server suggests it. */
   reviewer: string;
   objects: ObjectColumns;
@@ -33,6 +40,9 @@ export interface SceneData {
   figures: { label: string; value: string }[];
 }
 
+/** Meshes and pictures, the layer of semantic labels, grounding again. */
+export type Limit = "meshes" | "labels" | "reground";
+
 /** Parallel arrays, one entry for each object, in scene order: parents before children. */
 export interface ObjectColumns {
   path: string[];
@@ -41,6 +51,8 @@ export interface ObjectColumns {
   parent: ObjectIndex[];
   /** Box of the object's own geometry; null without geometry. */
   box: (Box | null)[];
+  /** Orientation (quaternion x, y, z, w) and extents along the object's own axes; null if those are the world's. */
+  turned: (Turned | null)[];
   /** Room or group prim that holds it, as an index into `rooms`. */
   room: number[];
   rooms: string[];
@@ -159,8 +171,8 @@ export interface HistoryEntry {
 
 export interface Candidate {
   class: ClassIndex;
-  /** Share of the score among the candidates, from 0 to 1. */
-  share: number;
+  /** Share of the score among the candidates, from 0 to 1; null if the scores are unknown, as in a graph. */
+  share: number | null;
   /** Path of the taxonomy from the class to its root, as labels. */
   taxonomy: string[];
 }
@@ -180,6 +192,75 @@ export interface RelationRecord {
 /** `GET /api/relations?kind=on`: all relations of one kind. */
 export interface RelationList {
   relations: RelationRecord[];
+}
+
+/** An object can have several; `relations` are on, inside, part of, and room. */
+export type ChangeKind =
+  | "appeared"
+  | "disappeared"
+  | "class"
+  | "moved"
+  | "turned"
+  | "resized"
+  | "renamed"
+  | "mass"
+  | "asset"
+  | "relations";
+
+/** `GET /api/comparison`: the changes from another version, or mapping, to the scene with its current decisions. */
+export interface Comparison {
+  /** The file that `--compare` names. */
+  other: string;
+  source: "stage" | "graph" | "mapping";
+  /** `States.version` of the decisions that are compared. */
+  version: number;
+  /** Number of objects with each kind of change; kinds without objects are left out. */
+  counts: Partial<Record<ChangeKind, number>>;
+  unchanged: number;
+  /** What could not be compared. */
+  notes: string[];
+  /** By kind, then by path. */
+  changes: SceneChange[];
+}
+
+export interface SceneChange {
+  /** The most telling first. */
+  kinds: ChangeKind[];
+  /** -1 if it disappeared. */
+  object: ObjectIndex;
+  path: string;
+  /** Empty if it appeared. */
+  path_before: string;
+  name: string;
+  /** Null if it appeared. */
+  before: ClassClaim | null;
+  /** Null if it disappeared. */
+  after: ClassClaim | null;
+  box_before: Box | null;
+  turned_before: Turned | null;
+  distance_m: number | null;
+  /** The object that explains the move: it carried this one; -1 if none does. */
+  carried_by: ObjectIndex;
+  turned_degrees: number;
+  /** Extents before and after. */
+  sizes: [[number, number, number], [number, number, number]] | null;
+  /** Kilograms before and after. */
+  masses: [number | null, number | null] | null;
+  /** New relations, with paths of now, and former ones, with paths of before. */
+  gained: { kind: string; anchor: string }[];
+  lost: { kind: string; anchor: string }[];
+  /** Why an object with another path is the same. */
+  reason: string;
+}
+
+/** The class of an object according to one version. */
+export interface ClassClaim {
+  /** -1 without a class, or with one of another ontology, which has a label all the same. */
+  class: ClassIndex;
+  label: string;
+  /** Null if there is none, or a person decided. */
+  confidence: number | null;
+  is_decided: boolean;
 }
 
 /** `GET /api/queue?order=gain`: what to review, in order. */

@@ -27,7 +27,10 @@ export function App({ store }: { store: Store }) {
     }),
     [],
   );
-  const thumbnails = useMemo(() => new ThumbnailCache(store.client), [store]);
+  const thumbnails = useMemo(
+    () => new ThumbnailCache(store.client, store.model.data.limits.meshes === undefined),
+    [store],
+  );
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => handleKey(event, store, commands);
     addEventListener("keydown", onKey);

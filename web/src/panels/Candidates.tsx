@@ -22,9 +22,11 @@ export function Candidates({ store, targets }: { store: Store; targets: readonly
             >
               <kbd>{number + 1}</kbd>
               <span class="name">{cls?.label}</span>
-              <span class="share" style={{ "--share": `${Math.round(100 * share)}%` }}>
-                {Math.round(100 * share)} %
-              </span>
+              {share !== null && (
+                <span class="share" style={{ "--share": `${Math.round(100 * share)}%` }}>
+                  {Math.round(100 * share)} %
+                </span>
+              )}
               <span class="path">{taxonomy.slice(1).join(" ‹ ")}</span>
             </button>
           </li>

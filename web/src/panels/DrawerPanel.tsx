@@ -2,8 +2,10 @@
 
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
+import { comparisonOf } from "../state/comparison";
 import type { Drawer, Store } from "../state/store";
 import { Ask } from "./Ask";
+import { Compare } from "./Compare";
 import { Diagnostics } from "./Diagnostics";
 import { Review } from "./Review";
 import { RunFigures } from "./RunFigures";
@@ -28,6 +30,9 @@ export function DrawerPanel({ store }: { store: Store }) {
     { id: "sparql", label: "SPARQL" },
     { id: "diagnostics", label: "Diagnostics", count: store.model.data.diagnostics.length },
     { id: "run", label: "Run" },
+    ...(store.model.data.has_comparison
+      ? [{ id: "compare" as const, label: "Compare", count: comparisonOf(store).changes.value.length }]
+      : []),
   ];
   const { drawer, isDrawerOpen } = store;
   return (
@@ -60,6 +65,7 @@ export function DrawerPanel({ store }: { store: Store }) {
           <Sparql store={store} />
         </Kept>
         {drawer.value === "diagnostics" && <Diagnostics store={store} />}
+        {drawer.value === "compare" && <Compare store={store} />}
         {drawer.value === "run" && <RunFigures store={store} />}
       </div>
     </section>

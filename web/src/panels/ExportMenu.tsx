@@ -15,6 +15,7 @@ const EXPORTS: { name: string; label: string }[] = [
 
 export function ExportMenu({ store }: { store: Store }) {
   const [isBusy, setBusy] = useState(false);
+  const { limits } = store.model.data;
   const download = async (name: string) => {
     setBusy(true);
     try {
@@ -37,7 +38,8 @@ export function ExportMenu({ store }: { store: Store }) {
           <button
             key={name}
             type="button"
-            disabled={isBusy}
+            disabled={isBusy || (name === "labels.usda" && limits.labels !== undefined)}
+            title={name === "labels.usda" ? (limits.labels ?? "") : ""}
             onClick={(event) => {
               event.currentTarget.closest("details")?.removeAttribute("open");
               void download(name);

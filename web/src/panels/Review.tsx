@@ -16,7 +16,6 @@ const ORDERS: { id: QueueOrder; label: string }[] = [
 
 export function Review({ store }: { store: Store }) {
   const group = store.group.value;
-  if (store.model.data.is_read_only) return <p class="empty">A graph is shown without its stage: nothing to decide.</p>;
   return (
     <div class="review">
       <QueueList store={store} />
@@ -202,7 +201,8 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       </button>
       <button
         type="button"
-        title="Ground the open objects with what the decisions teach"
+        title={store.model.data.limits.reground ?? "Ground the open objects with what the decisions teach"}
+        disabled={store.model.data.limits.reground !== undefined}
         onClick={() => store.groundAgain()}
       >
         Ground again <kbd>R</kbd>

@@ -3,7 +3,7 @@
 import type { ObjectIndex, ObjectState, ReviewState } from "../api/types";
 import { classLabel, conceptLabel, roomLabel, type SceneModel } from "./model";
 
-export type ColorMode = "material" | "class" | "concept" | "confidence" | "state" | "room" | "answer";
+export type ColorMode = "material" | "class" | "concept" | "confidence" | "state" | "room" | "answer" | "change";
 
 export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "material", label: "Material" },
@@ -13,6 +13,7 @@ export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "state", label: "Review" },
   { id: "room", label: "Room" },
   { id: "answer", label: "Answer" },
+  { id: "change", label: "Change" },
 ];
 
 /** sRGB, each from 0 to 1. */
@@ -22,6 +23,8 @@ export interface LegendEntry {
   label: string;
   color: Rgb;
   objects: ObjectIndex[];
+  /** Number of objects, if some are no longer in the scene. */
+  count?: number;
 }
 
 export interface Coloring {
@@ -30,7 +33,7 @@ export interface Coloring {
   legend: LegendEntry[];
 }
 
-const GREY: Rgb = [0.62, 0.64, 0.67];
+export const GREY: Rgb = [0.62, 0.64, 0.67];
 const ANSWER: Rgb = [0.96, 0.62, 0.11];
 
 /** Also in styles/states.css. */
@@ -66,7 +69,7 @@ const CONFIDENCE_STEPS: { from: number; label: string; color: Rgb }[] = [
 
 /** Returns the colours and the legend of a mode. */
 export function colorObjects(
-  mode: ColorMode,
+  mode: Exclude<ColorMode, "change">,
   model: SceneModel,
   states: readonly ObjectState[],
   answer: ReadonlySet<ObjectIndex>,
@@ -156,7 +159,7 @@ function byAnswer(states: readonly ObjectState[], answer: ReadonlySet<ObjectInde
   ]);
 }
 
-function fill(count: number, legend: LegendEntry[]): Coloring {
+export function fill(count: number, legend: LegendEntry[]): Coloring {
   const colors: (Rgb | null)[] = new Array(count).fill(null);
   for (const { color, objects } of legend) for (const object of objects) colors[object] = color;
   return { colors, legend };

@@ -26,7 +26,7 @@ import { isOpen, predictStates } from "./review";
 import { StateTable } from "./stateTable";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
-export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run";
+export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run" | "compare";
 
 export interface Notice {
   id: number;
@@ -250,7 +250,7 @@ export class Store {
    * back.
    */
   async decide(objects: readonly ObjectIndex[], action: DecisionAction, chosen?: ClassIndex): Promise<void> {
-    if (objects.length === 0 || this.model.data.is_read_only || this.hasJustMoved()) return;
+    if (objects.length === 0 || this.hasJustMoved()) return;
     const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
     const { seen, group } = { seen: this.version.value, group: this.group.value };
     if (action !== "clear") this.moveOn(objects);
@@ -293,6 +293,11 @@ export class Store {
 
   /** Grounds the open objects again with what the decisions teach, and lists what changed. */
   async groundAgain(): Promise<void> {
+    const { reground } = this.model.data.limits;
+    if (reground !== undefined) {
+      this.notify(reground);
+      return;
+    }
     this.saving.value = "saving";
     try {
       const body = { reviewer: this.reviewer.value, page: this.page };

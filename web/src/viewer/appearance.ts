@@ -32,11 +32,14 @@ export function appearanceOf(
   const [alone, filtered, selected] = [isolated.value, shown.value, new Set(selection.value)];
   const isGhostly = isSeeThrough.value && selected.size > 0;
   const hidden = isCutAway.value ? cutAway(store.model.data, eye.value.direction) : new Set<ObjectIndex>();
+  const holders = store.model.data.limits.meshes === undefined ? new Set() : new Set(store.model.data.objects.parent);
   return (object) => {
     if (object < 0) return { isVisible: alone === null, color: null, opacity: isGhostly ? GHOST : 1 };
     const isHidden = (hidden.has(object) || before.has(object)) && !selected.has(object);
     const isWanted = alone === null ? !isHidden : alone.has(object);
-    const isGhost = (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
+    // A box without meshes would hide what the object holds.
+    const isGhost =
+      holders.has(object) || (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
     return { isVisible: isWanted, color: colors[object] ?? null, opacity: isGhost ? GHOST : 1 };
   };
 }
