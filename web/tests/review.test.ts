@@ -7,7 +7,7 @@ import { focusOf } from "../src/state/candidates";
 import { findAgain, groupAfter, withoutObjects } from "../src/state/queue";
 import { applyStates, durationText, isOpen, predictStates, superclass } from "../src/state/review";
 import { Store } from "../src/state/store";
-import { cutAway, occluders } from "../src/viewer/appearance";
+import { cutAway, findHolders, occluders } from "../src/viewer/appearance";
 import { makeScene, makeState, makeStates } from "./scene";
 
 const QUEUE: Queue = {
@@ -351,6 +351,15 @@ describe("view", () => {
   it("hides the wall between the viewer and the scene", () => {
     expect([...cutAway(scene, { x: 0, y: -1 })]).toEqual([3]);
     expect([...cutAway(scene, { x: 0, y: 1 })]).toEqual([]);
+  });
+
+  it("finds boxes that hold others: a large one around three middles, not a small one, and parents", () => {
+    const small = (x: number): [number, number, number, number, number, number] => [x, 1, 0, x + 0.2, 1.2, 0.2];
+    const walls: [number, number, number, number, number, number] = [0, 0, 0, 5, 5, 3];
+    const crate: [number, number, number, number, number, number] = [0.9, 0.9, 0, 3.5, 1.3, 0.3];
+    const boxes = [walls, small(1), small(2), small(3), crate, null];
+    const objects = { ...scene.objects, box: boxes, parent: [-1, -1, 5, -1, -1, -1] };
+    expect([...findHolders({ ...scene, objects })].filter((found) => found >= 0).sort()).toEqual([0, 5]);
   });
 
   it("finds what hides an object: what is before it, not what is behind", () => {
