@@ -1,6 +1,7 @@
 """The command `usd2kg`.
 
-Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, or `diff` has differences; 2 wrong
+Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, `diff` has differences, or `doctor`
+misses a package; 2 wrong
 usage, or an input or output cannot be used; 130 `ground` was interrupted and wrote a partial mapping.
 """
 
@@ -19,6 +20,7 @@ from usd2kg.cli import (
     completions,
     demo,
     diff,
+    doctor,
     evaluate,
     graph,
     ground,
@@ -58,6 +60,7 @@ app.command("diff")(diff.diff_command)
 app.command("render")(render.render_command)
 app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)
+app.command("doctor")(doctor.doctor_command)
 app.command("init")(init.make_init_command(app))
 app.add_typer(graph.app, name="graph")
 app.add_typer(label.app, name="label")
