@@ -19,6 +19,7 @@ from usd2kg.studio.access import KeyGate
 from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
 from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.decision_request import read_decision
 from usd2kg.studio.exports import EXPORTS
 from usd2kg.studio.live_events import LiveEvents
 from usd2kg.studio.object_page import object_page, relation_json
@@ -30,7 +31,6 @@ from usd2kg.studio.request_body import BadRequestError, field, object_indices, r
 from usd2kg.studio.review_queue import QUEUE_ORDERS, estimate_seconds, make_queue
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
-from usd2kg.studio.verdicts import Verdict, VerdictKind
 
 __all__ = ["make_app"]
 
@@ -209,31 +209,12 @@ class _Api:
         objects = self._session.scene.objects
         paths = [objects[index].prim_path for index in object_indices(body, len(objects))]
         reviewer = _reviewer(body)
-        comment, seen = field(body, "comment", str, ""), field(body, "seen", int, self._session.version)
-        action = field(body, "action", str)
-        verdicts = self._verdicts(action, body, paths, comment)
-        changed = await asyncio.to_thread(self._session.decide, verdicts, reviewer, seen)
-        return self._announce(changed, body, f"{action} {len(changed)} objects")
-
-    def _verdicts(self, action: str, body: dict[str, Any], paths: list[str], comment: str) -> dict[str, Verdict]:
-        """Return prim path → verdict of a request."""
-        kinds = {"unsure": VerdictKind.UNSURE, "no-class": VerdictKind.NO_CLASS, "clear": VerdictKind.OPEN}
-        if action in kinds:
-            return dict.fromkeys(paths, Verdict(kinds[action], comment=comment))
-        if action == "choose":
-            index = field(body, "class", int)
-            if not 0 <= index < len(self._session.tbox.classes):
-                raise BadRequestError(f"field class: {index} is no class")
-            iri = self._session.tbox.classes[index].iri
-            return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, iri, comment=comment))
-        if action != "confirm":
-            raise BadRequestError(
-                f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
-            )
-        suggested = {path: self._session.predictions[path].class_iri for path in paths}
-        if without := next((path for path, iri in suggested.items() if iri is None), None):
-            raise BadRequestError(f"{without}: has no suggestion to confirm; choose a class")
-        return {path: Verdict(VerdictKind.CLASS, iri, comment=comment) for path, iri in suggested.items()}
+        seen = field(body, "seen", int, self._session.version)
+        decision = read_decision(body, paths, self._session, self._catalog)
+        changed = await asyncio.to_thread(
+            self._session.decide, decision.verdicts, reviewer, seen, concept=decision.concept
+        )
+        return self._announce(changed, body, f"{decision.action} {len(changed)} objects")
 
     async def _undo(self, request: Request) -> Response:
         body = await read_body(request)

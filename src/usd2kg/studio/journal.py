@@ -28,7 +28,7 @@ _COLUMNS = (
     *("subject_id", "predicate_id", "object_id", "object_label", "mapping_justification"),
     *("reviewer_id", "reviewer_label", "review_date", "comment"),
     *("prim_path", VERDICT, "decided_at", "before"),
-    *("event", "action", "actor", "time", "seen", "reverts"),
+    *("event", "action", "actor", "time", "seen", "reverts", "concept"),
 )
 _EXTENSIONS = {
     "prim_path": "u2k:primPath",
@@ -41,8 +41,9 @@ _EXTENSIONS = {
     "time": "dcterms:modified",
     "seen": "u2k:seenEvent",
     "reverts": "u2k:revertedEvent",
+    "concept": "u2k:decidedConcept",
 }
-_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-6:])
+_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-7:])
 _EXPECTED = "expected the decisions of a studio project"
 _ORCID = "https://orcid.org/"
 _CURATED = "semapv:ManualMappingCuration"
@@ -135,6 +136,7 @@ class Journal:
             "time": event.time,
             "seen": str(event.seen),
             "reverts": str(event.reverts or ""),
+            "concept": self._shorten(event.concept) if event.concept else "",
         }
 
     def _shorten(self, iri: str) -> str:
@@ -197,7 +199,9 @@ def _read_event(where: str, cells: Mapping[str, str], expand: Callable[[str], st
     iri = expand(cells["object_id"]) if kind is VerdictKind.CLASS else None
     who = "" if kind is VerdictKind.OPEN else reviewer
     verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number)
-    return Event(number, action, cells["actor"], cells["time"], (Change(cells["prim_path"], verdict),), seen, reverts)
+    change = Change(cells["prim_path"], verdict)
+    concept = expand(cells["concept"])
+    return Event(number, action, cells["actor"], cells["time"], (change,), seen, reverts, concept)
 
 
 def _write_all(file: io.FileIO, data: bytes) -> None:

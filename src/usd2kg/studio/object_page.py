@@ -52,6 +52,7 @@ def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[st
                 "action": event.action.value,
                 "verdict": verdict.kind.value,
                 "class": catalog.class_(verdict.class_iri),
+                "concept": catalog.concept(event.concept),
                 "reviewer": event.reviewer,
                 "time": event.time,
                 "comment": verdict.comment,

@@ -49,9 +49,9 @@ class Project:
         return self.folder / "decisions.sssom.tsv"
 
     @property
-    def lessons(self) -> Path:
-        """What the decisions teach about concepts, an input of `--alignment`; it exists once they were applied."""
-        return self.folder / "lessons.sssom.tsv"
+    def applied_lessons(self) -> Path:
+        """What the decisions had taught when the open objects were last grounded again; absent before."""
+        return self.folder / "applied.sssom.tsv"
 
 
 @contextmanager

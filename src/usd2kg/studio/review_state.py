@@ -55,6 +55,10 @@ class ReviewState:
             if verdict.kind in {VerdictKind.CLASS, VerdictKind.NO_CLASS}
         }
 
+    def standing(self) -> list[Event]:
+        """Return the decisions that are not undone, oldest first."""
+        return [self._events[number] for number in sorted(n for done in list(self._done.values()) for n in list(done))]
+
     def is_conflict(self, prim_path: str) -> bool:
         """Return whether reviewers disagree about an object, and nobody has decided after seeing both verdicts."""
         given = [v for v in list(self._by_reviewer.get(prim_path, {}).values()) if v.kind is not VerdictKind.OPEN]
@@ -66,7 +70,9 @@ class ReviewState:
 
     # Making events.
 
-    def decide(self, verdicts: Mapping[str, Verdict], reviewer: str, time: str, seen: int) -> Event:
+    def decide(
+        self, verdicts: Mapping[str, Verdict], reviewer: str, time: str, seen: int, *, concept: str = ""
+    ) -> Event:
         """Return the event that sets the verdicts on several objects; `apply` makes it valid.
 
         Args:
@@ -74,6 +80,7 @@ class ReviewState:
             reviewer: who decides.
             time: when, as ISO 8601 in UTC.
             seen: number of the last event that the reviewer had seen.
+            concept: IRI of the concept, if the decision is about all its objects.
         """
         number = self.version + 1
         signed = {
@@ -83,7 +90,7 @@ class ReviewState:
             for verdict in set(verdicts.values())
         }
         changes = tuple(Change(path, signed[verdict]) for path, verdict in verdicts.items())
-        return Event(number, Action.DECIDE, reviewer, time, changes, min(seen, number - 1))
+        return Event(number, Action.DECIDE, reviewer, time, changes, min(seen, number - 1), concept=concept)
 
     def can_undo(self, reviewer: str) -> bool:
         """Return whether a reviewer has a decision to undo."""

@@ -82,13 +82,16 @@ class StudioSession:
 
     # Decisions.
 
-    def decide(self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int) -> list[ObjectState]:
+    def decide(
+        self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int, *, concept: str = ""
+    ) -> list[ObjectState]:
         """Record the verdicts on several objects as one event; return their states once the journal is on disk.
 
         Args:
             verdicts: prim path → kind, class and comment.
             reviewer: who decides.
             seen: number of the last event that the reviewer had seen.
+            concept: IRI of the concept, if the decision is about all its objects.
 
         Raises:
             GroundingError: there are no objects, or one is unknown.
@@ -100,7 +103,7 @@ class StudioSession:
                 f"decision about {unknown[0] if unknown else 'nothing'}; expected objects of the scene"
             )
         with self._lock:
-            return self._record(self.review.decide(verdicts, reviewer, _now(), seen))
+            return self._record(self.review.decide(verdicts, reviewer, _now(), seen, concept=concept))
 
     def undo(self, reviewer: str) -> list[ObjectState]:
         """Take back a reviewer's last decision, as `decide`.
@@ -131,7 +134,7 @@ class StudioSession:
 
     def lessons(self) -> list[Lesson]:
         """Return what the decisions teach about concepts and words."""
-        return find_lessons(self.suggestions, self.review.decisions(), self.scene)
+        return find_lessons(self.suggestions, self.review.decisions(), self.scene, self.review.standing())
 
     def ground_again(self) -> list[tuple[Prediction, Prediction]]:
         """Ground the open objects again with what the decisions teach; return the predictions that changed.
@@ -145,7 +148,7 @@ class StudioSession:
         if not self._learns():
             given = self.project.sources.mapping or self.project.sources.alignment
             raise GroundingError(f"the suggestions come from {given}; only those of the built alignment can be learned")
-        write_whole(self.project.lessons, format_lessons(self.lessons(), self.tbox).encode())
+        write_whole(self.project.applied_lessons, format_lessons(self.lessons(), self.tbox).encode())
         renewed = self._ground_with_lessons()
         with self._lock:
             before = self.suggestions
@@ -156,7 +159,7 @@ class StudioSession:
 
     def apply_kept_lessons(self) -> None:
         """Apply the lessons that `ground_again` has kept in the project, if there are any."""
-        if self.project.lessons.exists() and self._learns():
+        if self.project.applied_lessons.exists() and self._learns():
             self.suggestions = self._merge_open(self.suggestions, self._ground_with_lessons())
 
     def _learns(self) -> bool:
@@ -166,7 +169,7 @@ class StudioSession:
     def _ground_with_lessons(self) -> Grounding:
         """Return the grounding of the open objects by the alignment and the lessons of the project."""
         decided = self.review.decisions()
-        grounder = make_grounder("lexical", alignment=self.project.lessons)
+        grounder = make_grounder("lexical", alignment=self.project.applied_lessons)
         still_open = [p.prim_path for p in self.suggestions.predictions if p.prim_path not in decided]
         return ground(self.scene, self.tbox, grounder, paths=still_open)
 

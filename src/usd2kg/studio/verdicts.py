@@ -75,3 +75,5 @@ class Event:
     """Number of the last event that the reviewer had seen."""
     reverts: int = 0
     """For `undo` and `redo`, the number of the decision that is taken back or made again; else 0."""
+    concept: str = ""
+    """IRI of the concept, if the reviewer decided that all its objects have the class; empty otherwise."""

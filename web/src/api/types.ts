@@ -152,6 +152,8 @@ export interface HistoryEntry {
   action: "decide" | "undo" | "redo";
   verdict: "open" | "class" | "no-class" | "unsure";
   class: ClassIndex;
+  /** The concept, if the decision was about all its objects; else -1. */
+  concept: ConceptIndex;
   reviewer: string;
   time: string;
   comment: string;
@@ -226,6 +228,8 @@ export interface DecisionRequest {
   action: DecisionAction;
   /** For `choose`. */
   class?: ClassIndex;
+  /** For `choose`: the concept of all these objects, which belongs to the class from now on, in other scenes too. */
+  concept?: ConceptIndex;
   comment?: string;
   reviewer: string;
   /** Number that tells this page from others, which hear of the decision by an event. */

@@ -1,6 +1,8 @@
 /** All keys, in one table: the handler and the help are made from it. */
 
+import type { Signal } from "@preact/signals";
 import { loadCandidates } from "../state/candidates";
+import { openConcept } from "../state/concepts";
 import { superclass } from "../state/review";
 import type { Store } from "../state/store";
 
@@ -87,6 +89,12 @@ export const BINDINGS: Binding[] = [
     run: (store) => {
       store.isBulkOpen.value = true;
     },
+  },
+  {
+    keys: ["E"],
+    help: "Every object of the concept has one class, here and in other scenes",
+    section: "Review",
+    run: openConcept,
   },
   {
     keys: ["R"],
@@ -226,12 +234,17 @@ function moveMember(store: Store, by: number): void {
   if (count > 0) store.member.value = (store.member.value + by + count) % count;
 }
 
+/** Returns whether each dialog is open. */
+export function dialogs(store: Store): Signal<boolean>[] {
+  return [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen, store.isConceptOpen];
+}
+
 function close(store: Store): void {
   if (store.changes.value !== null) {
     store.changes.value = null;
     return;
   }
-  for (const dialog of [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen]) {
+  for (const dialog of dialogs(store)) {
     if (dialog.value) {
       dialog.value = false;
       return;

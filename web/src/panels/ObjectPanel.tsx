@@ -3,7 +3,8 @@
 import type { ComponentChildren } from "preact";
 import type { HistoryEntry, ObjectPage, RelationRecord } from "../api/types";
 import { focusOf, pageOf } from "../state/candidates";
-import { classLabel } from "../state/model";
+import { openConcept } from "../state/concepts";
+import { classLabel, conceptLabel } from "../state/model";
 import type { Store } from "../state/store";
 import { relationText } from "../viewer/annotations";
 import { Candidates } from "./Candidates";
@@ -41,7 +42,10 @@ export function ObjectPanel({ store }: { store: Store }) {
           <p class="concept">
             Concept <strong>{page.concept.label}</strong>
             {page.concept.confidence !== null && ` (${page.concept.confidence.toFixed(2)})`}
-            <span class="path"> ‹ {page.concept.hypernyms.slice(0, 5).join(" ‹ ")}</span>
+            <span class="path"> ‹ {page.concept.hypernyms.slice(0, 5).join(" ‹ ")}</span>{" "}
+            <button type="button" onClick={() => openConcept(store)}>
+              Every {page.concept.label} is… <kbd>E</kbd>
+            </button>
           </p>
         )}
       </Section>
@@ -152,6 +156,7 @@ function History({ store, entries }: { store: Store; entries: HistoryEntry[] }) 
       {entries.map((entry) => (
         <li key={entry.event}>
           <strong>{entry.verdict === "class" ? classLabel(store.model, entry.class) : VERDICTS[entry.verdict]}</strong>{" "}
+          {entry.concept >= 0 && `(every ${conceptLabel(store.model, entry.concept)}) `}
           {entry.action !== "decide" && `(${entry.action}) `}by {entry.reviewer},{" "}
           {new Date(entry.time).toLocaleString()}
           {entry.comment !== "" && <q>{entry.comment}</q>}

@@ -2,7 +2,8 @@
 
 import type { Signal } from "@preact/signals";
 import type { QueueGroup, QueueOrder } from "../api/types";
-import { classLabel } from "../state/model";
+import { openConcept } from "../state/concepts";
+import { classLabel, conceptLabel } from "../state/model";
 import type { Store } from "../state/store";
 import { Thumbnail } from "./Thumbnail";
 import { VirtualList } from "./VirtualList";
@@ -188,6 +189,11 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       >
         Another class <kbd>/</kbd>
       </button>
+      {group.concept >= 0 && (
+        <button type="button" title="All open objects of the concept, in one stroke" onClick={() => openConcept(store)}>
+          Every {conceptLabel(store.model, group.concept)} <kbd>E</kbd>
+        </button>
+      )}
       <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "no-class")}>
         No class fits <kbd>N</kbd>
       </button>

@@ -1,0 +1,78 @@
+"""read_decision: the decision in the body of a request, checked."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.request_body import BadRequestError, field
+from usd2kg.studio.session import StudioSession
+from usd2kg.studio.verdicts import Verdict, VerdictKind
+
+__all__ = ["RequestedDecision", "read_decision"]
+
+_KINDS = {"unsure": VerdictKind.UNSURE, "no-class": VerdictKind.NO_CLASS, "clear": VerdictKind.OPEN}
+
+
+@dataclass(frozen=True, slots=True)
+class RequestedDecision:
+    """What a page asks to record."""
+
+    action: str
+    verdicts: Mapping[str, Verdict]
+    """Prim path → verdict."""
+    concept: str
+    """IRI of the concept, if the decision is about all its objects; empty otherwise."""
+
+
+def read_decision(
+    body: dict[str, Any], paths: Sequence[str], session: StudioSession, catalog: Catalog
+) -> RequestedDecision:
+    """Return the decision of a request.
+
+    Args:
+        body: the request.
+        paths: prim paths of its objects.
+        session: the scene under review.
+        catalog: numbers of classes and concepts.
+
+    Raises:
+        BadRequestError: a field is missing or wrong.
+    """
+    action = field(body, "action", str)
+    comment = field(body, "comment", str, "")
+    concept = _concept(body, action, paths, session, catalog)
+    return RequestedDecision(action, _verdicts(body, action, paths, session, comment), concept)
+
+
+def _verdicts(
+    body: dict[str, Any], action: str, paths: Sequence[str], session: StudioSession, comment: str
+) -> Mapping[str, Verdict]:
+    if action in _KINDS:
+        return dict.fromkeys(paths, Verdict(_KINDS[action], comment=comment))
+    if action == "choose":
+        index = field(body, "class", int)
+        if not 0 <= index < len(session.tbox.classes):
+            raise BadRequestError(f"field class: {index} is no class")
+        return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, session.tbox.classes[index].iri, comment=comment))
+    if action != "confirm":
+        raise BadRequestError(
+            f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
+        )
+    suggested = {path: session.predictions[path].class_iri for path in paths}
+    if without := next((path for path, iri in suggested.items() if iri is None), None):
+        raise BadRequestError(f"{without}: has no suggestion to confirm; choose a class")
+    return {path: Verdict(VerdictKind.CLASS, iri, comment=comment) for path, iri in suggested.items()}
+
+
+def _concept(body: dict[str, Any], action: str, paths: Sequence[str], session: StudioSession, catalog: Catalog) -> str:
+    """Return the concept that all objects of a decision have; empty if the decision is about objects only."""
+    index = field(body, "concept", int, -1)
+    if index == -1:
+        return ""
+    if action != "choose" or not 0 <= index < len(catalog.concept_iris):
+        raise BadRequestError(f"field concept: {index}; expected a concept, with the action choose")
+    iri = catalog.concept_iris[index]
+    if other := next((path for path in paths if session.predictions[path].concept != iri), None):
+        raise BadRequestError(f"{other}: has another concept; expected objects of {iri}")
+    return iri

@@ -1,0 +1,49 @@
+"""Decisions beyond a class of an object, in a real browser and by keyboard alone."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.studio.conftest import needs_page, running_studio
+from tests.studio.test_browser import CHROMIUM, browser, close_page, open_page  # noqa: F401 - a fixture
+from usd2kg.demo import demo_scene
+
+pytestmark = [
+    pytest.mark.studio,
+    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
+    needs_page,
+]
+
+
+def test_a_concept_is_decided_in_one_stroke(browser: Browser, tmp_path: Path):  # noqa: F811
+    with running_studio(demo_scene(), tmp_path / "project") as client:
+        page = open_page(browser, client)
+        page.keyboard.press("Control+k")
+        page.keyboard.type("cup")
+        page.keyboard.press("Escape")
+        page.keyboard.press("j")
+        page.keyboard.press("k")
+        page.keyboard.press("e")
+        dialog = page.get_by_role("dialog")
+        expect(dialog).to_be_visible()
+        boxes = dialog.get_by_role("checkbox")
+        members = boxes.count()
+        assert members > 1
+        page.keyboard.type("bowl")
+        expect(dialog.get_by_role("option").first).to_contain_text("bowl")
+        # One exception stays open.
+        while not boxes.last.evaluate("box => box === document.activeElement"):
+            page.keyboard.press("Tab")
+        page.keyboard.press("Space")
+        expect(dialog).to_contain_text(f"{members - 1} of {members} open ticked")
+        page.keyboard.press("Enter")
+        expect(dialog).to_be_hidden()
+        expect(page.locator(".notice").last).to_contain_text(f"set {members - 1} objects")
+        expect(page.locator(".status-bar .saving")).to_have_text("Saved")
+        changed = [s for s in client.ask("api/states").json()["states"] if s["state"] != "suggested"]
+        assert {state["state"] for state in changed} == {"corrected"}
+        assert len(changed) == members - 1
+        page.keyboard.press("Control+z")
+        expect(page.get_by_role("button", name="Undo")).to_be_disabled()
+        close_page(page)
