@@ -27,7 +27,9 @@ SPATIAL = frozenset(
 ALIGNMENT = frozenset({"categorySize", "defaultClass", "termKind"})
 """Terms of alignment files."""
 
-JOURNAL = frozenset({"action", "decidedConcept", "event", "revertedEvent", "seenEvent", "verdict", "verdictBefore"})
+JOURNAL = frozenset(
+    {"action", "decidedConcept", "event", "proposedSubclass", "revertedEvent", "seenEvent", "verdict", "verdictBefore"}
+)
 """Terms of journals of decisions."""
 
 KINDS = {OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty}

@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.studio.conftest import needs_page, running_studio
+from tests.studio.conftest import HOSTILE, needs_page, running_studio
 from tests.studio.test_browser import CHROMIUM, browser, close_page, open_page  # noqa: F401 - a fixture
 from usd2kg.demo import demo_scene
+from usd2kg.ontology import load_tbox
 
 pytestmark = [
     pytest.mark.studio,
@@ -47,3 +48,31 @@ def test_a_concept_is_decided_in_one_stroke(browser: Browser, tmp_path: Path):  
         page.keyboard.press("Control+z")
         expect(page.get_by_role("button", name="Undo")).to_be_disabled()
         close_page(page)
+
+
+def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Path):  # noqa: F811
+    folder = tmp_path / "project"
+    with running_studio(stage, folder) as client:
+        page = open_page(browser, client)
+        for _ in range(10):
+            if "cup" in page.locator(".group-card h2").inner_text().lower():
+                break
+            page.keyboard.press("j")
+        page.keyboard.press("m")
+        dialog = page.get_by_role("dialog")
+        expect(dialog.get_by_label("Label of the class")).to_have_value("cup")
+        expect(dialog.get_by_label("Label of the class")).to_be_focused()
+        page.keyboard.type(HOSTILE)
+        page.keyboard.press("Tab")
+        page.keyboard.type("found in many kitchens")
+        page.keyboard.press("Enter")
+        expect(dialog).to_be_hidden()
+        expect(page.locator(".notice").last).to_contain_text(f"Proposed “{HOSTILE}” below cup for 2 objects")
+        expect(page.locator(".status-bar .saving")).to_have_text("Saved")
+        page.locator("#tab-run").click()
+        expect(page.get_by_text(f"Proposed class “{HOSTILE}”")).to_be_visible()
+        assert page.title() == "kitchen.usda · usd2kg studio"
+        assert page.locator("img[src=x]").count() == 0
+        close_page(page)
+    (proposed,) = [cls for cls in load_tbox(folder / "proposals.ttl").classes if cls.label == HOSTILE]
+    assert proposed.comment == "2 objects, such as /Kitchen/Cup_1"

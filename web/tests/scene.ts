@@ -58,6 +58,7 @@ export function makeState(object: number, given: Partial<ObjectState> = {}): Obj
     reviewer: "",
     time: "",
     comment: "",
+    proposal: "",
     is_conflict: false,
     ...given,
   };

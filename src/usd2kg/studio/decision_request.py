@@ -1,12 +1,15 @@
 """read_decision: the decision in the body of a request, checked."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from usd2kg.ontology import OntologyClass
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.request_body import BadRequestError, field
 from usd2kg.studio.session import StudioSession
+from usd2kg.studio.settings import SERVER
 from usd2kg.studio.verdicts import Verdict, VerdictKind
 
 __all__ = ["RequestedDecision", "read_decision"]
@@ -40,13 +43,13 @@ def read_decision(
         BadRequestError: a field is missing or wrong.
     """
     action = field(body, "action", str)
-    comment = field(body, "comment", str, "")
+    comment, proposal = field(body, "comment", str, ""), _proposal(body, action, session)
     concept = _concept(body, action, paths, session, catalog)
-    return RequestedDecision(action, _verdicts(body, action, paths, session, comment), concept)
+    return RequestedDecision(action, _verdicts(body, action, paths, session, comment, proposal), concept)
 
 
 def _verdicts(
-    body: dict[str, Any], action: str, paths: Sequence[str], session: StudioSession, comment: str
+    body: dict[str, Any], action: str, paths: Sequence[str], session: StudioSession, comment: str, proposal: str
 ) -> Mapping[str, Verdict]:
     if action in _KINDS:
         return dict.fromkeys(paths, Verdict(_KINDS[action], comment=comment))
@@ -54,7 +57,8 @@ def _verdicts(
         index = field(body, "class", int)
         if not 0 <= index < len(session.tbox.classes):
             raise BadRequestError(f"field class: {index} is no class")
-        return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, session.tbox.classes[index].iri, comment=comment))
+        iri = session.tbox.classes[index].iri
+        return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, iri, comment=comment, proposal=proposal))
     if action != "confirm":
         raise BadRequestError(
             f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
@@ -76,3 +80,22 @@ def _concept(body: dict[str, Any], action: str, paths: Sequence[str], session: S
     if other := next((path for path in paths if session.predictions[path].concept != iri), None):
         raise BadRequestError(f"{other}: has another concept; expected objects of {iri}")
     return iri
+
+
+def _proposal(body: dict[str, Any], action: str, session: StudioSession) -> str:
+    """Return the label of a subclass that a request proposes; empty if it proposes none."""
+    label = field(body, "proposal", str, "").strip()
+    if not label:
+        return ""
+    if action != "choose":
+        raise BadRequestError("field proposal: expected the action choose, with the superclass")
+    if not label.isprintable() or len(label) > SERVER.max_label or not re.search(r"[^\W_]", label):
+        raise BadRequestError(f"field proposal: expected letters, at most {SERVER.max_label} characters, on one line")
+    known = next((cls for cls in session.tbox.classes if label.casefold() in _names(cls)), None)
+    if known is not None:
+        raise BadRequestError(f"field proposal: the ontology has the class {known.readable_name}; choose it")
+    return label
+
+
+def _names(cls: OntologyClass) -> set[str]:
+    return {cls.label.casefold(), cls.local_name.casefold()}

@@ -28,7 +28,7 @@ _COLUMNS = (
     *("subject_id", "predicate_id", "object_id", "object_label", "mapping_justification"),
     *("reviewer_id", "reviewer_label", "review_date", "comment"),
     *("prim_path", VERDICT, "decided_at", "before"),
-    *("event", "action", "actor", "time", "seen", "reverts", "concept"),
+    *("event", "action", "actor", "time", "seen", "reverts", "concept", "proposal"),
 )
 _EXTENSIONS = {
     "prim_path": "u2k:primPath",
@@ -42,8 +42,9 @@ _EXTENSIONS = {
     "seen": "u2k:seenEvent",
     "reverts": "u2k:revertedEvent",
     "concept": "u2k:decidedConcept",
+    "proposal": "u2k:proposedSubclass",
 }
-_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-7:])
+_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-8:])
 _EXPECTED = "expected the decisions of a studio project"
 _ORCID = "https://orcid.org/"
 _CURATED = "semapv:ManualMappingCuration"
@@ -137,6 +138,7 @@ class Journal:
             "seen": str(event.seen),
             "reverts": str(event.reverts or ""),
             "concept": self._shorten(event.concept) if event.concept else "",
+            "proposal": one_line(verdict.proposal),
         }
 
     def _shorten(self, iri: str) -> str:
@@ -198,7 +200,7 @@ def _read_event(where: str, cells: Mapping[str, str], expand: Callable[[str], st
     reviewer = expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|")
     iri = expand(cells["object_id"]) if kind is VerdictKind.CLASS else None
     who = "" if kind is VerdictKind.OPEN else reviewer
-    verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number)
+    verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number, cells["proposal"])
     change = Change(cells["prim_path"], verdict)
     concept = expand(cells["concept"])
     return Event(number, action, cells["actor"], cells["time"], (change,), seen, reverts, concept)

@@ -53,6 +53,7 @@ def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[st
                 "verdict": verdict.kind.value,
                 "class": catalog.class_(verdict.class_iri),
                 "concept": catalog.concept(event.concept),
+                "proposal": verdict.proposal,
                 "reviewer": event.reviewer,
                 "time": event.time,
                 "comment": verdict.comment,

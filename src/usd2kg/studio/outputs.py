@@ -69,6 +69,7 @@ class OutputFiles:
             lambda: self._export("mapping.sssom.tsv"),
             lambda: self._export("grounding.json"),
             lambda: self._export("lessons.sssom.tsv"),
+            lambda: self._export("proposals.ttl"),
             lambda: write_label_layer(self._session, self.folder / "labels.usda", is_bare=False),
         ]
         self.problem = ""

@@ -120,5 +120,6 @@ def state_json(state: ObjectState, catalog: Catalog) -> dict[str, Any]:
         "reviewer": verdict.reviewer or (before.reviewer if before is not None else ""),
         "time": verdict.time or (before.time if before is not None else ""),
         "comment": verdict.comment or (before.comment if before is not None else ""),
+        "proposal": verdict.proposal,
         "is_conflict": state.is_conflict,
     }

@@ -33,6 +33,7 @@ class ServerSettings:
     max_body_bytes: int
     max_objects_per_decision: int
     max_text: int
+    max_label: int
     outputs_delay_s: float
     heartbeat_s: float
     thumbnail_size: tuple[int, int]

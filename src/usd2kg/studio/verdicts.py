@@ -35,6 +35,8 @@ class Verdict:
     comment: str = ""
     event: int = 0
     """Number of the event that set it; 0 if none did."""
+    proposal: str = ""
+    """For the kind `class`, the label of a subclass that the person proposes for it; empty without one."""
 
     def agrees(self, other: "Verdict") -> bool:
         """Return whether two verdicts say the same, whoever gave them."""

@@ -98,6 +98,8 @@ export interface ObjectState {
   /** ISO 8601 in UTC; empty if undecided. */
   time: string;
   comment: string;
+  /** Label of a subclass that the reviewer proposes for the class; empty without one. */
+  proposal: string;
   /** Whether two reviewers decided differently and nobody has settled it. */
   is_conflict: boolean;
 }
@@ -154,6 +156,8 @@ export interface HistoryEntry {
   class: ClassIndex;
   /** The concept, if the decision was about all its objects; else -1. */
   concept: ConceptIndex;
+  /** Label of a subclass that was proposed; empty without one. */
+  proposal: string;
   reviewer: string;
   time: string;
   comment: string;
@@ -230,6 +234,8 @@ export interface DecisionRequest {
   class?: ClassIndex;
   /** For `choose`: the concept of all these objects, which belongs to the class from now on, in other scenes too. */
   concept?: ConceptIndex;
+  /** For `choose`: label of a subclass that the ontology lacks and the reviewer proposes. */
+  proposal?: string;
   comment?: string;
   reviewer: string;
   /** Number that tells this page from others, which hear of the decision by an event. */

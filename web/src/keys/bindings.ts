@@ -3,6 +3,7 @@
 import type { Signal } from "@preact/signals";
 import { loadCandidates } from "../state/candidates";
 import { openConcept } from "../state/concepts";
+import { openProposal } from "../state/proposals";
 import { superclass } from "../state/review";
 import type { Store } from "../state/store";
 
@@ -95,6 +96,12 @@ export const BINDINGS: Binding[] = [
     help: "Every object of the concept has one class, here and in other scenes",
     section: "Review",
     run: openConcept,
+  },
+  {
+    keys: ["M"],
+    help: "A class is missing: propose a subclass",
+    section: "Review",
+    run: openProposal,
   },
   {
     keys: ["R"],
@@ -236,7 +243,7 @@ function moveMember(store: Store, by: number): void {
 
 /** Returns whether each dialog is open. */
 export function dialogs(store: Store): Signal<boolean>[] {
-  return [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen, store.isConceptOpen];
+  return [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen, store.isConceptOpen, store.isProposalOpen];
 }
 
 function close(store: Store): void {

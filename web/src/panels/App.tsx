@@ -12,6 +12,7 @@ import { DrawerPanel } from "./DrawerPanel";
 import { Help } from "./Help";
 import { Notices } from "./Notices";
 import { ObjectPanel } from "./ObjectPanel";
+import { ProposalDialog } from "./ProposalDialog";
 import { Sidebar } from "./Sidebar";
 import { StatusBar } from "./StatusBar";
 import { ThumbnailCache, Thumbnails } from "./Thumbnail";
@@ -48,6 +49,7 @@ export function App({ store }: { store: Store }) {
       {store.isClassSearchOpen.value && <ClassSearch store={store} />}
       {store.isBulkOpen.value && <BulkDialog store={store} />}
       {store.isConceptOpen.value && <ConceptDialog store={store} />}
+      {store.isProposalOpen.value && <ProposalDialog store={store} />}
       {store.changes.value !== null && <ChangesDialog store={store} changes={store.changes.value} />}
       <Notices store={store} />
     </Thumbnails.Provider>

@@ -30,6 +30,11 @@ export function ObjectPanel({ store }: { store: Store }) {
         <div>
           <h2 title={page.path}>{page.name}</h2>
           <p class="class-line">{state.class < 0 ? "no class" : classLabel(model, state.class)}</p>
+          {state.proposal !== "" && (
+            <p class="muted">
+              proposed below it: <strong>{state.proposal}</strong>
+            </p>
+          )}
           <StateBadge state={state.state} />
           {state.confidence !== null && <p class="muted">confidence {state.confidence.toFixed(2)}</p>}
         </div>
@@ -156,6 +161,7 @@ function History({ store, entries }: { store: Store; entries: HistoryEntry[] }) 
       {entries.map((entry) => (
         <li key={entry.event}>
           <strong>{entry.verdict === "class" ? classLabel(store.model, entry.class) : VERDICTS[entry.verdict]}</strong>{" "}
+          {entry.proposal !== "" && `(proposed below it: ${entry.proposal}) `}
           {entry.concept >= 0 && `(every ${conceptLabel(store.model, entry.concept)}) `}
           {entry.action !== "decide" && `(${entry.action}) `}by {entry.reviewer},{" "}
           {new Date(entry.time).toLocaleString()}

@@ -4,6 +4,7 @@ import type { Signal } from "@preact/signals";
 import type { QueueGroup, QueueOrder } from "../api/types";
 import { openConcept } from "../state/concepts";
 import { classLabel, conceptLabel } from "../state/model";
+import { openProposal } from "../state/proposals";
 import type { Store } from "../state/store";
 import { Thumbnail } from "./Thumbnail";
 import { VirtualList } from "./VirtualList";
@@ -187,13 +188,24 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
           store.isClassSearchOpen.value = true;
         }}
       >
-        Another class <kbd>/</kbd>
+        Other class <kbd>/</kbd>
       </button>
       {group.concept >= 0 && (
         <button type="button" title="All open objects of the concept, in one stroke" onClick={() => openConcept(store)}>
           Every {conceptLabel(store.model, group.concept)} <kbd>E</kbd>
         </button>
       )}
+      <button
+        type="button"
+        disabled={isNone}
+        title="No class is fine enough: propose a subclass"
+        onClick={() => {
+          store.select([]);
+          openProposal(store);
+        }}
+      >
+        Missing class <kbd>M</kbd>
+      </button>
       <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "no-class")}>
         No class fits <kbd>N</kbd>
       </button>

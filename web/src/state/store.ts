@@ -30,7 +30,7 @@ export type Saving = "saved" | "saving" | "failed" | "offline";
 export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run";
 
 /** What a decision says beside class and objects. */
-export type DecisionDetails = Pick<DecisionRequest, "concept">;
+export type DecisionDetails = Pick<DecisionRequest, "concept" | "proposal" | "comment">;
 
 export interface Notice {
   id: number;
@@ -73,6 +73,7 @@ export class Store {
   readonly isClassSearchOpen = signal(false);
   readonly isBulkOpen = signal(false);
   readonly isConceptOpen = signal(false);
+  readonly isProposalOpen = signal(false);
 
   /** What grounding again has changed, while its list is open. */
   readonly changes = signal<RegroundReply["changes"] | null>(null);
@@ -406,7 +407,7 @@ function describe(
   count: number,
   action: DecisionAction,
   chosen: ClassIndex | undefined,
-  { concept }: DecisionDetails,
+  { concept, proposal }: DecisionDetails,
 ): string {
   const things =
     count === 1 ? (model.data.objects.name[reply.states[0]?.object ?? -1] ?? "1 object") : `${count} objects`;
@@ -416,6 +417,7 @@ function describe(
     case "confirm":
       return classes.size > 1 ? `Confirmed ${things} of ${classes.size} classes` : `Confirmed ${things} as ${label}`;
     case "choose":
+      if (proposal !== undefined) return `Proposed “${proposal}” below ${label} for ${things}`;
       return concept === undefined
         ? `Set ${things} to ${label}`
         : `Every “${conceptLabel(model, concept)}” is ${label}: set ${things}`;
