@@ -28,7 +28,17 @@ ALIGNMENT = frozenset({"categorySize", "defaultClass", "termKind"})
 """Terms of alignment files."""
 
 JOURNAL = frozenset(
-    {"action", "decidedConcept", "event", "proposedSubclass", "revertedEvent", "seenEvent", "verdict", "verdictBefore"}
+    {
+        "action",
+        "decidedConcept",
+        "event",
+        "isAudit",
+        "proposedSubclass",
+        "revertedEvent",
+        "seenEvent",
+        "verdict",
+        "verdictBefore",
+    }
 )
 """Terms of journals of decisions."""
 

@@ -76,3 +76,29 @@ def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Pa
         close_page(page)
     (proposed,) = [cls for cls in load_tbox(folder / "proposals.ttl").classes if cls.label == HOSTILE]
     assert proposed.comment == "2 objects, such as /Kitchen/Cup_1"
+
+
+def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):  # noqa: F811
+    with running_studio(demo_scene(), tmp_path / "project") as client:
+        page = open_page(browser, client)
+        expect(page.locator(".queue-row .confidence").first).not_to_be_empty()
+        page.keyboard.press("v")
+        note = page.locator(".audit-note")
+        expect(note).to_contain_text("0 of 30 judged, drawn at random from 294")
+        expect(page.locator(".object-panel h2")).to_be_visible()
+        for key, done in (("Enter", 1), ("Enter", 2), ("n", 3), ("q", 4)):
+            page.keyboard.press(key)
+            expect(note).to_contain_text(f"{done} of 30 judged")
+        expect(page.locator(".queue-row .confidence").first).to_be_empty()
+        expect(page.locator(".object-panel .share")).to_have_count(0)
+        expect(page.locator(".object-panel")).not_to_contain_text("confidence")
+        page.keyboard.press("Control+z")
+        expect(note).to_contain_text("3 of 30 judged")
+        page.locator("#tab-run").click()
+        figures = page.get_by_role("region", name="Random audit")
+        expect(figures).to_contain_text("2 of 3 right: 67 %, 95 % interval 21 to 94 %")
+        expect(figures).to_contain_text("n = 3")
+        page.keyboard.press("v")
+        expect(note).to_be_hidden()
+        expect(page.locator(".queue-row .confidence").first).not_to_be_empty()
+        close_page(page)

@@ -13,6 +13,18 @@ export const QUEUE: Queue = {
   open: 4,
   decided: 0,
   agreement: [],
+  audit: {
+    population: 4,
+    sample: 4,
+    waiting: 4,
+    unsure: 0,
+    judged: 0,
+    right: 0,
+    interval: null,
+    calibration_error: null,
+    with_confidence: 0,
+    bins: [],
+  },
   seconds_left: null,
 };
 

@@ -18,6 +18,7 @@ from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
 from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
+from usd2kg.studio.audit import audit_json
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.decision_request import read_decision
 from usd2kg.studio.exports import EXPORTS
@@ -28,7 +29,7 @@ from usd2kg.studio.outputs import OutputFiles
 from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
 from usd2kg.studio.request_body import BadRequestError, field, object_indices, read_body
-from usd2kg.studio.review_queue import QUEUE_ORDERS, estimate_seconds, make_queue
+from usd2kg.studio.review_queue import AUDIT_ORDER, QUEUE_ORDERS, estimate_seconds, make_audit_queue, make_queue
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
 
@@ -178,10 +179,14 @@ class _Api:
 
     async def _queue(self, request: Request) -> Response:
         order = request.query_params.get("order", QUEUE_ORDERS[0])
-        if order not in QUEUE_ORDERS:
-            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(QUEUE_ORDERS)}")
-        states = self._session.states()
-        groups = make_queue(states, self._session.scene.by_path, self._catalog.room_of, order)
+        expected = (*QUEUE_ORDERS, AUDIT_ORDER)
+        if order not in expected:
+            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(expected)}")
+        states, audit, by_path = self._session.states(), self._session.audit(), self._session.scene.by_path
+        if order == AUDIT_ORDER:
+            groups = make_audit_queue(audit.waiting, self._session.predictions, by_path)
+        else:
+            groups = make_queue(states, by_path, self._catalog.room_of, order)
         still_open = sum(state.status.is_open for state in states)
         return JSONResponse(
             {
@@ -200,6 +205,7 @@ class _Api:
                 "open": still_open,
                 "decided": len(states) - still_open,
                 "agreement": [asdict(found) for found in find_agreement(self._session.review.by_reviewer())],
+                "audit": audit_json(audit),
                 "seconds_left": estimate_seconds(self._session.journal.events, len(groups)),
             }
         )
@@ -212,7 +218,12 @@ class _Api:
         seen = field(body, "seen", int, self._session.version)
         decision = read_decision(body, paths, self._session, self._catalog)
         changed = await asyncio.to_thread(
-            self._session.decide, decision.verdicts, reviewer, seen, concept=decision.concept
+            self._session.decide,
+            decision.verdicts,
+            reviewer,
+            seen,
+            concept=decision.concept,
+            is_audit=decision.is_audit,
         )
         return self._announce(changed, body, f"{decision.action} {len(changed)} objects")
 

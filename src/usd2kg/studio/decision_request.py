@@ -26,6 +26,8 @@ class RequestedDecision:
     """Prim path → verdict."""
     concept: str
     """IRI of the concept, if the decision is about all its objects; empty otherwise."""
+    is_audit: bool
+    """Whether the objects were drawn at random."""
 
 
 def read_decision(
@@ -45,7 +47,9 @@ def read_decision(
     action = field(body, "action", str)
     comment, proposal = field(body, "comment", str, ""), _proposal(body, action, session)
     concept = _concept(body, action, paths, session, catalog)
-    return RequestedDecision(action, _verdicts(body, action, paths, session, comment, proposal), concept)
+    return RequestedDecision(
+        action, _verdicts(body, action, paths, session, comment, proposal), concept, _is_audit(body, paths, session)
+    )
 
 
 def _verdicts(
@@ -95,6 +99,16 @@ def _proposal(body: dict[str, Any], action: str, session: StudioSession) -> str:
     if known is not None:
         raise BadRequestError(f"field proposal: the ontology has the class {known.readable_name}; choose it")
     return label
+
+
+def _is_audit(body: dict[str, Any], paths: Sequence[str], session: StudioSession) -> bool:
+    """Return whether a request is about objects of the random sample, all of them."""
+    if not field(body, "audit", bool, False):
+        return False
+    sample = set(session.audit().sample)
+    if other := next((path for path in paths if path not in sample), None):
+        raise BadRequestError(f"field audit: {other} is not in the random sample")
+    return True
 
 
 def _names(cls: OntologyClass) -> set[str]:

@@ -28,7 +28,7 @@ _COLUMNS = (
     *("subject_id", "predicate_id", "object_id", "object_label", "mapping_justification"),
     *("reviewer_id", "reviewer_label", "review_date", "comment"),
     *("prim_path", VERDICT, "decided_at", "before"),
-    *("event", "action", "actor", "time", "seen", "reverts", "concept", "proposal"),
+    *("event", "action", "actor", "time", "seen", "reverts", "concept", "proposal", "audit"),
 )
 _EXTENSIONS = {
     "prim_path": "u2k:primPath",
@@ -43,8 +43,9 @@ _EXTENSIONS = {
     "reverts": "u2k:revertedEvent",
     "concept": "u2k:decidedConcept",
     "proposal": "u2k:proposedSubclass",
+    "audit": "u2k:isAudit",
 }
-_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-8:])
+_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-9:])
 _EXPECTED = "expected the decisions of a studio project"
 _ORCID = "https://orcid.org/"
 _CURATED = "semapv:ManualMappingCuration"
@@ -139,6 +140,7 @@ class Journal:
             "reverts": str(event.reverts or ""),
             "concept": self._shorten(event.concept) if event.concept else "",
             "proposal": one_line(verdict.proposal),
+            "audit": "true" if event.is_audit else "",
         }
 
     def _shorten(self, iri: str) -> str:
@@ -202,8 +204,8 @@ def _read_event(where: str, cells: Mapping[str, str], expand: Callable[[str], st
     who = "" if kind is VerdictKind.OPEN else reviewer
     verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number, cells["proposal"])
     change = Change(cells["prim_path"], verdict)
-    concept = expand(cells["concept"])
-    return Event(number, action, cells["actor"], cells["time"], (change,), seen, reverts, concept)
+    concept, is_audit = expand(cells["concept"]), cells["audit"] == "true"
+    return Event(number, action, cells["actor"], cells["time"], (change,), seen, reverts, concept, is_audit)
 
 
 def _write_all(file: io.FileIO, data: bytes) -> None:

@@ -3,7 +3,7 @@
 import statistics
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import pairwise
 
@@ -14,7 +14,10 @@ from usd2kg.studio.object_state import ObjectState
 from usd2kg.studio.settings import QUEUE
 from usd2kg.studio.verdicts import Action, Event
 
-__all__ = ["QUEUE_ORDERS", "QueueGroup", "estimate_seconds", "make_queue"]
+__all__ = ["AUDIT_ORDER", "QUEUE_ORDERS", "QueueGroup", "estimate_seconds", "make_audit_queue", "make_queue"]
+
+AUDIT_ORDER = "audit"
+"""The order in which each object of the random sample is a group."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +70,15 @@ _ORDERS: Mapping[str, Callable[[QueueGroup], tuple[object, ...]]] = {
     "class": lambda group: (group.suggested or "", -group.gain, group.id),
 }
 QUEUE_ORDERS = (*_ORDERS, "place")
+
+
+def make_audit_queue(
+    paths: Iterable[str], predictions: Mapping[str, Prediction], objects: Mapping[str, SceneObject]
+) -> list[QueueGroup]:
+    """Return a group for each object of an audit, without the confidence, which would sway the reviewer."""
+    common = _common_words(objects.values())
+    groups = (_make_group([predictions[path]], objects, common) for path in paths)
+    return [replace(group, confidence=None, gain=0.0) for group in groups]
 
 
 def _key(prediction: Prediction, obj: SceneObject) -> tuple[object, ...]:

@@ -71,7 +71,14 @@ class ReviewState:
     # Making events.
 
     def decide(
-        self, verdicts: Mapping[str, Verdict], reviewer: str, time: str, seen: int, *, concept: str = ""
+        self,
+        verdicts: Mapping[str, Verdict],
+        reviewer: str,
+        time: str,
+        seen: int,
+        *,
+        concept: str = "",
+        is_audit: bool = False,
     ) -> Event:
         """Return the event that sets the verdicts on several objects; `apply` makes it valid.
 
@@ -81,6 +88,7 @@ class ReviewState:
             time: when, as ISO 8601 in UTC.
             seen: number of the last event that the reviewer had seen.
             concept: IRI of the concept, if the decision is about all its objects.
+            is_audit: whether the objects were drawn at random.
         """
         number = self.version + 1
         signed = {
@@ -90,7 +98,8 @@ class ReviewState:
             for verdict in set(verdicts.values())
         }
         changes = tuple(Change(path, signed[verdict]) for path, verdict in verdicts.items())
-        return Event(number, Action.DECIDE, reviewer, time, changes, min(seen, number - 1), concept=concept)
+        before = min(seen, number - 1)
+        return Event(number, Action.DECIDE, reviewer, time, changes, before, concept=concept, is_audit=is_audit)
 
     def can_undo(self, reviewer: str) -> bool:
         """Return whether a reviewer has a decision to undo."""

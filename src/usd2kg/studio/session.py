@@ -19,6 +19,7 @@ from usd2kg.query import GraphStore
 from usd2kg.query.dataset import Dataset
 from usd2kg.relations import Relation, find_relations
 from usd2kg.scene import Scene, read_scene
+from usd2kg.studio.audit import Audit, make_audit
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
 from usd2kg.studio.object_state import ObjectState, state_of
@@ -83,7 +84,7 @@ class StudioSession:
     # Decisions.
 
     def decide(
-        self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int, *, concept: str = ""
+        self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int, *, concept: str = "", is_audit: bool = False
     ) -> list[ObjectState]:
         """Record the verdicts on several objects as one event; return their states once the journal is on disk.
 
@@ -92,6 +93,7 @@ class StudioSession:
             reviewer: who decides.
             seen: number of the last event that the reviewer had seen.
             concept: IRI of the concept, if the decision is about all its objects.
+            is_audit: whether the objects were drawn at random.
 
         Raises:
             GroundingError: there are no objects, or one is unknown.
@@ -103,7 +105,8 @@ class StudioSession:
                 f"decision about {unknown[0] if unknown else 'nothing'}; expected objects of the scene"
             )
         with self._lock:
-            return self._record(self.review.decide(verdicts, reviewer, _now(), seen, concept=concept))
+            decided = self.review.decide(verdicts, reviewer, _now(), seen, concept=concept, is_audit=is_audit)
+            return self._record(decided)
 
     def undo(self, reviewer: str) -> list[ObjectState]:
         """Take back a reviewer's last decision, as `decide`.
@@ -129,6 +132,10 @@ class StudioSession:
         self.journal.append(event, self.review.before(event))
         self.review.apply(event)
         return [self.state(change.prim_path) for change in event.changes if change.prim_path in self.predictions]
+
+    def audit(self) -> Audit:
+        """Return the random sample that is audited, and what is found so far."""
+        return make_audit(self.states(), self.review.standing())
 
     # Learning.
 

@@ -79,3 +79,5 @@ class Event:
     """For `undo` and `redo`, the number of the decision that is taken back or made again; else 0."""
     concept: str = ""
     """IRI of the concept, if the reviewer decided that all its objects have the class; empty otherwise."""
+    is_audit: bool = False
+    """Whether the objects were drawn at random, to measure how often suggestions are right."""

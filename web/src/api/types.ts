@@ -196,8 +196,30 @@ export interface Queue {
   decided: number;
   /** Pairs of reviewers with objects in common. */
   agreement: Agreement[];
+  /** The random sample, whatever the order. */
+  audit: Audit;
   /** Estimate for all open groups from this session's pace; null before five decisions. */
   seconds_left: number | null;
+}
+
+/** How often suggestions are right, by the verdicts on objects that were drawn at random. */
+export interface Audit {
+  /** Objects from which the sample is drawn. */
+  population: number;
+  sample: number;
+  /** Those of the sample without a verdict. */
+  waiting: number;
+  unsure: number;
+  /** Those whose class is settled. */
+  judged: number;
+  right: number;
+  /** Wilson's 95 % interval of the share that is right; null if none is judged. */
+  interval: [number, number] | null;
+  /** Expected calibration error of the judged objects with a confidence; null without any. */
+  calibration_error: number | null;
+  with_confidence: number;
+  /** Non-empty bins of confidence, lowest first; `accuracy` is the share that is right. */
+  bins: { lower: number; upper: number; count: number; confidence: number; accuracy: number }[];
 }
 
 /** How far two reviewers agree about the objects that both decided. */
@@ -222,7 +244,8 @@ export interface QueueGroup {
   gain: number;
 }
 
-export type QueueOrder = "gain" | "confidence" | "class" | "place";
+/** With `audit`, each waiting object of the random sample is a group, without its confidence. */
+export type QueueOrder = "gain" | "confidence" | "class" | "place" | "audit";
 
 export type DecisionAction = "confirm" | "choose" | "unsure" | "no-class" | "clear";
 
@@ -236,6 +259,8 @@ export interface DecisionRequest {
   concept?: ConceptIndex;
   /** For `choose`: label of a subclass that the ontology lacks and the reviewer proposes. */
   proposal?: string;
+  /** Whether the objects are of the random sample, and the decision counts for it. */
+  audit?: boolean;
   comment?: string;
   reviewer: string;
   /** Number that tells this page from others, which hear of the decision by an event. */

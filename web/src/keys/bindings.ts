@@ -1,6 +1,7 @@
 /** All keys, in one table: the handler and the help are made from it. */
 
 import type { Signal } from "@preact/signals";
+import { toggleAudit } from "../state/audit";
 import { loadCandidates } from "../state/candidates";
 import { openConcept } from "../state/concepts";
 import { openProposal } from "../state/proposals";
@@ -111,6 +112,12 @@ export const BINDINGS: Binding[] = [
   },
   { keys: ["Ctrl+Z", "Z"], help: "Undo", section: "Review", run: (store) => void store.undo() },
   { keys: ["Ctrl+Shift+Z", "Ctrl+Y", "Shift+Z"], help: "Redo", section: "Review", run: (store) => void store.redo() },
+  {
+    keys: ["V"],
+    help: "Audit a random sample to verify the suggestions, or back to the queue",
+    section: "Queue",
+    run: toggleAudit,
+  },
   {
     keys: ["ArrowDown", "J", "S"],
     help: "Skip to the next group",

@@ -4,6 +4,7 @@ import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
 import type { Drawer, Store } from "../state/store";
 import { Ask } from "./Ask";
+import { AuditFigures } from "./AuditFigures";
 import { Diagnostics } from "./Diagnostics";
 import { Review } from "./Review";
 import { RunFigures } from "./RunFigures";
@@ -60,7 +61,12 @@ export function DrawerPanel({ store }: { store: Store }) {
           <Sparql store={store} />
         </Kept>
         {drawer.value === "diagnostics" && <Diagnostics store={store} />}
-        {drawer.value === "run" && <RunFigures store={store} />}
+        {drawer.value === "run" && (
+          <>
+            <AuditFigures audit={store.queue.value?.audit} />
+            <RunFigures store={store} />
+          </>
+        )}
       </div>
     </section>
   );

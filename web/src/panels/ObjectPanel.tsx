@@ -2,6 +2,7 @@
 
 import type { ComponentChildren } from "preact";
 import type { HistoryEntry, ObjectPage, RelationRecord } from "../api/types";
+import { isAuditing } from "../state/audit";
 import { focusOf, pageOf } from "../state/candidates";
 import { openConcept } from "../state/concepts";
 import { classLabel, conceptLabel } from "../state/model";
@@ -36,7 +37,9 @@ export function ObjectPanel({ store }: { store: Store }) {
             </p>
           )}
           <StateBadge state={state.state} />
-          {state.confidence !== null && <p class="muted">confidence {state.confidence.toFixed(2)}</p>}
+          {state.confidence !== null && !isAuditing(store) && (
+            <p class="muted">confidence {state.confidence.toFixed(2)}</p>
+          )}
         </div>
       </header>
       {state.is_conflict && <p class="conflict">Reviewers disagree. A decision now settles it.</p>}
@@ -46,7 +49,7 @@ export function ObjectPanel({ store }: { store: Store }) {
         {page.concept !== null && (
           <p class="concept">
             Concept <strong>{page.concept.label}</strong>
-            {page.concept.confidence !== null && ` (${page.concept.confidence.toFixed(2)})`}
+            {page.concept.confidence !== null && !isAuditing(store) && ` (${page.concept.confidence.toFixed(2)})`}
             <span class="path"> ‹ {page.concept.hypernyms.slice(0, 5).join(" ‹ ")}</span>{" "}
             <button type="button" onClick={() => openConcept(store)}>
               Every {page.concept.label} is… <kbd>E</kbd>

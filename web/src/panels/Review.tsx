@@ -2,6 +2,7 @@
 
 import type { Signal } from "@preact/signals";
 import type { QueueGroup, QueueOrder } from "../api/types";
+import { auditText, isAuditing, showOrder, toggleAudit } from "../state/audit";
 import { openConcept } from "../state/concepts";
 import { classLabel, conceptLabel } from "../state/model";
 import { openProposal } from "../state/proposals";
@@ -14,6 +15,7 @@ const ORDERS: { id: QueueOrder; label: string }[] = [
   { id: "confidence", label: "least confident" },
   { id: "class", label: "class" },
   { id: "place", label: "place" },
+  { id: "audit", label: "at random" },
 ];
 
 export function Review({ store }: { store: Store }) {
@@ -38,23 +40,28 @@ function QueueList({ store }: { store: Store }) {
   const current = groups.findIndex((group) => group.id === store.group.value?.id);
   return (
     <div class="queue">
-      <label class="field">
-        Order
-        <select
-          value={store.order.value}
-          onChange={(event) => {
-            store.order.value = event.currentTarget.value as QueueOrder;
-            event.currentTarget.blur();
-            void store.loadQueue();
-          }}
-        >
-          {ORDERS.map(({ id, label }) => (
-            <option key={id} value={id}>
-              {label}
-            </option>
-          ))}
-        </select>
-      </label>
+      <div class="queue-order">
+        <label class="field">
+          Order
+          <select
+            value={store.order.value}
+            onChange={(event) => {
+              showOrder(store, event.currentTarget.value as QueueOrder);
+              event.currentTarget.blur();
+            }}
+          >
+            {ORDERS.map(({ id, label }) => (
+              <option key={id} value={id}>
+                {label}
+              </option>
+            ))}
+          </select>
+        </label>
+        <button type="button" aria-pressed={isAuditing(store)} onClick={() => toggleAudit(store)}>
+          Audit <kbd>V</kbd>
+        </button>
+      </div>
+      {isAuditing(store) && <p class="audit-note">{auditText(store.queue.value?.audit)}</p>}
       <VirtualList rows={groups} rowHeight={ROW_HEIGHT} role="listbox" label="Groups to review" current={current}>
         {(group: QueueGroup, index) => (
           // biome-ignore lint/a11y/useKeyWithClickEvents: arrows move in the queue from anywhere

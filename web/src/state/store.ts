@@ -19,6 +19,7 @@ import type {
   States,
   SuggestionsEvent,
 } from "../api/types";
+import { isAuditOf } from "./audit";
 import type { ColorMode } from "./colors";
 import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters";
 import { buildModel, classLabel, conceptLabel, type SceneModel } from "./model";
@@ -264,6 +265,7 @@ export class Store {
     if (objects.length === 0 || this.model.data.is_read_only || this.hasJustMoved()) return;
     const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
     const { seen, group } = { seen: this.version.value, group: this.group.value };
+    const isAudit = isAuditOf(this, objects, action, details);
     if (action !== "clear") this.moveOn(objects);
     const reply = await this.send("decisions", {
       objects,
@@ -273,6 +275,7 @@ export class Store {
       seen,
       ...(chosen === undefined ? {} : { class: chosen }),
       ...details,
+      ...(isAudit ? { audit: true } : {}),
     });
     forget();
     if (reply !== null) this.notify(describe(this.model, reply, objects.length, action, chosen, details));
