@@ -139,9 +139,10 @@ class Studio(Client):
 
 
 @contextmanager
-def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
+def running_studio(stage: Path, folder: Path, second: Path | None = None) -> Iterator[Client]:
     """A studio in this process, which starts at once since the grounder is loaded."""
-    with open_project(folder, ProjectSources(stage)) as project, open_socket(Address()) as socket:
+    sources = ProjectSources(stage, second_mapping=second)
+    with open_project(folder, sources) as project, open_socket(Address()) as socket:
         socket.listen()
         session = open_session(project)
         app = make_app(session, APP_FILES, key=KEY, reviewer="Ann")

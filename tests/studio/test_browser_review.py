@@ -7,6 +7,7 @@ from playwright.sync_api import Browser, expect
 
 from tests.studio.conftest import HOSTILE, needs_page, running_studio
 from tests.studio.test_browser import CHROMIUM, browser, close_page, open_page  # noqa: F401 - a fixture
+from tests.studio.test_disagreement import write_second
 from usd2kg.demo import demo_scene
 from usd2kg.ontology import load_tbox
 
@@ -76,6 +77,22 @@ def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Pa
         close_page(page)
     (proposed,) = [cls for cls in load_tbox(folder / "proposals.ttl").classes if cls.label == HOSTILE]
     assert proposed.comment == "2 objects, such as /Kitchen/Cup_1"
+
+
+def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: Path, tmp_path: Path):  # noqa: F811
+    second = write_second(stage, tmp_path / "second.json")
+    with running_studio(stage, tmp_path / "project", second) as client:
+        page = open_page(browser, client)
+        order = page.get_by_label("Order")
+        while not order.evaluate("select => select === document.activeElement"):
+            page.keyboard.press("Tab")
+        # The first letter chooses, and the keys of the review work again at once.
+        page.keyboard.press("d")
+        expect(page.locator(".queue-row .class-name").first).to_have_text("cup ≠ bowl")
+        expect(page.locator(".object-panel .disputed")).to_contain_text("bowl (0.50): disagrees")
+        page.keyboard.press("Enter")
+        expect(page.locator(".queue-row .class-name").first).to_have_text("table ≠ no class")
+        close_page(page)
 
 
 def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):  # noqa: F811

@@ -7,8 +7,28 @@ import { makeScene, makeState, makeStates } from "./scene";
 
 export const QUEUE: Queue = {
   groups: [
-    { id: "/K/Table/Cup_1", title: "cup", objects: [2, 1], suggested: 1, concept: 0, confidence: 0.65, gain: 0.7 },
-    { id: "/K/wall", title: "wall", objects: [3], suggested: 0, concept: -1, confidence: null, gain: 1 },
+    {
+      id: "/K/Table/Cup_1",
+      title: "cup",
+      objects: [2, 1],
+      suggested: 1,
+      concept: 0,
+      confidence: 0.65,
+      gain: 0.7,
+      is_disputed: false,
+      second: -1,
+    },
+    {
+      id: "/K/wall",
+      title: "wall",
+      objects: [3],
+      suggested: 0,
+      concept: -1,
+      confidence: null,
+      gain: 1,
+      is_disputed: false,
+      second: -1,
+    },
   ],
   open: 4,
   decided: 0,

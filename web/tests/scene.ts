@@ -8,6 +8,7 @@ export function makeScene(): SceneData {
     source: "kitchen.usda",
     ontology: { iri: "https://x.org/onto", label: "onto" },
     grounder: "lexical",
+    second_grounder: "",
     is_calibrated: true,
     is_read_only: false,
     reviewer: "Ann",

@@ -32,6 +32,13 @@ def studio_command(
             help="Mapping to review, by any grounder: usd2kg ground -o MAPPING.json; default: by the lexical grounder.",
         ),
     ] = None,
+    second_mapping: Annotated[
+        Path | None,
+        Option(
+            "--second-mapping",
+            help="Mapping by another grounder; the queue can begin with the objects about which the two disagree.",
+        ),
+    ] = None,
     alignment: AlignmentFile = None,
     base: BaseIri = None,
     project: Annotated[
@@ -56,7 +63,7 @@ def studio_command(
         folder = target
     else:
         folder = project or Path(f"{target.stem}.studio")
-        sources = ProjectSources(target, ontology, mapping, alignment, base, reading.read_options())
+        sources = ProjectSources(target, ontology, mapping, second_mapping, alignment, base, reading.read_options())
 
     def report(url: str) -> None:
         notify(f"studio at {url}")

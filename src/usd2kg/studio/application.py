@@ -21,6 +21,7 @@ from usd2kg.studio.app_files import PAGE_POLICY, AppFile
 from usd2kg.studio.audit import audit_json
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.decision_request import read_decision
+from usd2kg.studio.disagreement import DISAGREEMENT_ORDER, make_disagreement_queue
 from usd2kg.studio.exports import EXPORTS
 from usd2kg.studio.live_events import LiveEvents
 from usd2kg.studio.object_page import object_page, relation_json
@@ -179,12 +180,15 @@ class _Api:
 
     async def _queue(self, request: Request) -> Response:
         order = request.query_params.get("order", QUEUE_ORDERS[0])
-        expected = (*QUEUE_ORDERS, AUDIT_ORDER)
+        second = self._session.second
+        expected = (*QUEUE_ORDERS, AUDIT_ORDER, *([DISAGREEMENT_ORDER] if second is not None else []))
         if order not in expected:
             raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(expected)}")
         states, audit, by_path = self._session.states(), self._session.audit(), self._session.scene.by_path
         if order == AUDIT_ORDER:
             groups = make_audit_queue(audit.waiting, self._session.predictions, by_path)
+        elif order == DISAGREEMENT_ORDER and second is not None:
+            groups = make_disagreement_queue(states, by_path, second)
         else:
             groups = make_queue(states, by_path, self._catalog.room_of, order)
         still_open = sum(state.status.is_open for state in states)
@@ -199,6 +203,8 @@ class _Api:
                         "concept": self._catalog.concept(group.concept),
                         "confidence": group.confidence,
                         "gain": group.gain,
+                        "is_disputed": group.is_disputed,
+                        "second": self._catalog.class_(group.second),
                     }
                     for group in groups
                 ],

@@ -22,6 +22,7 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
         "source": scene.source,
         "ontology": {"iri": tbox.ontology_iri, "label": tbox.source},
         "grounder": grounding.grounder,
+        "second_grounder": session.second.grounder if session.second is not None else "",
         "is_calibrated": grounding.is_calibrated,
         "is_read_only": False,
         "reviewer": reviewer,

@@ -37,13 +37,21 @@ class StudioSession:
     """
 
     def __init__(
-        self, project: Project, scene: Scene, tbox: TBox, grounding: Grounding, relations: Sequence[Relation]
+        self,
+        project: Project,
+        scene: Scene,
+        tbox: TBox,
+        grounding: Grounding,
+        relations: Sequence[Relation],
+        second: Grounding | None = None,
     ) -> None:
         self.project = project
         self.scene = scene
         self.tbox = tbox
         self.suggestions = grounding
         """The grounding without the decisions of the project; open objects may have been grounded again."""
+        self.second = second
+        """What another grounder says; None without one."""
         self.relations = tuple(relations)
         """The relations by the classes of the last graph that was built; at first by the suggestions."""
         self.base = project.sources.base or default_base(scene.source)
@@ -242,7 +250,8 @@ def open_session(project: Project) -> StudioSession:
         grounding = _read_mapping(sources.mapping, scene, tbox)
     else:
         grounding = ground(scene, tbox, make_grounder("lexical", alignment=sources.alignment))
-    session = StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
+    second = _read_mapping(sources.second_mapping, scene, tbox) if sources.second_mapping is not None else None
+    session = StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding), second)
     session.apply_kept_lessons()
     return session
 

@@ -19,6 +19,8 @@ export interface SceneData {
   source: string;
   ontology: { iri: string; label: string };
   grounder: string;
+  /** The grounder of a second mapping; empty without one. */
+  second_grounder: string;
   /** Whether confidences are fitted probabilities; otherwise they only rank. */
   is_calibrated: boolean;
   /** Whether decisions are refused, because a graph is shown without its stage. */
@@ -141,12 +143,23 @@ export interface ObjectPage {
   evidence: string[];
   /** Best first, at most 9 for the digit keys. */
   candidates: Candidate[];
+  /** What the grounder of the second mapping says; null without one. */
+  second: SecondAnswer | null;
   concept: { iri: string; label: string; confidence: number | null; hypernyms: string[] } | null;
   relations: RelationRecord[];
   /** All decisions about the object, oldest first. */
   history: HistoryEntry[];
   /** The statements about the object in Turtle, as of the last graph; empty before the first. */
   turtle: string;
+}
+
+export interface SecondAnswer {
+  grounder: string;
+  class: ClassIndex;
+  confidence: number | null;
+  explanation: string;
+  /** Whether it is another class than the suggestion. */
+  is_disputed: boolean;
 }
 
 export interface HistoryEntry {
@@ -242,10 +255,14 @@ export interface QueueGroup {
   confidence: number | null;
   /** Expected number of wrong classes that a look at the group settles. */
   gain: number;
+  /** With the order `disagreement`, whether the second grounder gives its objects another class. */
+  is_disputed: boolean;
+  /** The class by the second grounder, if it is disputed; else -1. */
+  second: ClassIndex;
 }
 
-/** With `audit`, each waiting object of the random sample is a group, without its confidence. */
-export type QueueOrder = "gain" | "confidence" | "class" | "place" | "audit";
+/** `disagreement` needs a second mapping. With `audit`, each waiting object of the random sample is a group, without its confidence. */
+export type QueueOrder = "gain" | "confidence" | "class" | "place" | "audit" | "disagreement";
 
 export type DecisionAction = "confirm" | "choose" | "unsure" | "no-class" | "clear";
 

@@ -57,6 +57,16 @@ export function ObjectPanel({ store }: { store: Store }) {
           </p>
         )}
       </Section>
+      {page.second !== null && (
+        <Section title={`Second grounder (${page.second.grounder})`}>
+          <p class={page.second.is_disputed ? "disputed" : ""}>
+            <strong>{classLabel(model, page.second.class)}</strong>
+            {page.second.confidence !== null && !isAuditing(store) && ` (${page.second.confidence.toFixed(2)})`}
+            {page.second.is_disputed && ": disagrees"}
+          </p>
+          <p class="muted">{page.second.explanation}</p>
+        </Section>
+      )}
       <Section title="Candidates">
         <Candidates store={store} targets={targets.includes(page.object) ? targets : [page.object]} />
       </Section>

@@ -16,7 +16,14 @@ const ORDERS: { id: QueueOrder; label: string }[] = [
   { id: "class", label: "class" },
   { id: "place", label: "place" },
   { id: "audit", label: "at random" },
+  { id: "disagreement", label: "disagreement" },
 ];
+
+/** Returns the orders that the scene allows. */
+function ordersOf(store: Store): typeof ORDERS {
+  const hasSecond = store.model.data.second_grounder !== "";
+  return hasSecond ? ORDERS : ORDERS.filter(({ id }) => id !== "disagreement");
+}
 
 export function Review({ store }: { store: Store }) {
   const group = store.group.value;
@@ -50,7 +57,7 @@ function QueueList({ store }: { store: Store }) {
               event.currentTarget.blur();
             }}
           >
-            {ORDERS.map(({ id, label }) => (
+            {ordersOf(store).map(({ id, label }) => (
               <option key={id} value={id}>
                 {label}
               </option>
@@ -78,7 +85,8 @@ function QueueList({ store }: { store: Store }) {
               {group.objects.length > 1 && <span class="count">{group.objects.length}</span>}
             </span>
             <span class="class-name">
-              {group.suggested < 0 ? "no class" : classLabel(store.model, group.suggested)}
+              {classLabel(store.model, group.suggested)}
+              {group.is_disputed && ` ≠ ${classLabel(store.model, group.second)}`}
             </span>
             <span class="confidence">{group.confidence === null ? "" : group.confidence.toFixed(2)}</span>
           </div>
