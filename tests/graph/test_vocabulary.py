@@ -36,6 +36,8 @@ JOURNAL = frozenset(
         "proposedSubclass",
         "revertedEvent",
         "seenEvent",
+        "suggestedClass",
+        "suggestedConfidence",
         "verdict",
         "verdictBefore",
     }

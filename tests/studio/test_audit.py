@@ -8,11 +8,12 @@ import pytest
 
 from tests.studio.conftest import Client, running_studio
 from tests.studio.test_application import CUP_1, FLOOR, TABLE, THING, class_index, decide
+from tests.studio.test_lessons import MORE
 from usd2kg.evaluation.metrics.intervals import wilson_interval
 from usd2kg.grounding import Prediction, Status
 from usd2kg.grounding.model import Review
 from usd2kg.studio.audit import audit_json, make_audit
-from usd2kg.studio.object_state import ObjectState, ReviewStatus
+from usd2kg.studio.object_state import ObjectState, ReviewStatus, suggestion_of
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import OPEN, Verdict, VerdictKind
@@ -32,7 +33,8 @@ def judged(states: list[ObjectState]) -> ReviewState:
     """The events that give the verdicts of states, in an audit."""
     review = ReviewState()
     verdicts = {found.prim_path: found.verdict for found in states if found.verdict != OPEN}
-    review.apply(review.decide(verdicts, "Ann", TIME, 0, is_audit=True))
+    suggested = {found.prim_path: suggestion_of(found.prediction) for found in states}
+    review.apply(review.decide(verdicts, "Ann", TIME, 0, suggested=suggested, is_audit=True))
     return review
 
 
@@ -74,6 +76,13 @@ def test_wilson_intervals(right: int, total: int, expected: tuple[float, float])
 def test_an_interval_needs_samples():
     with pytest.raises(ValueError, match="of no samples"):
         wilson_interval(0, 0)
+
+
+def test_a_call_that_failed_is_wrong():
+    found = state("a", None, given(None), answer=None)
+    failed = replace(found, prediction=replace(found.prediction, status=Status.FAILED))
+    figures = audit_json(make_audit([failed], judged([failed]).standing()))
+    assert (figures["judged"], figures["right"], figures["calibration_error"]) == (1, 0, None)
 
 
 def test_a_full_sample_is_continued_in_the_same_random_order():
@@ -126,6 +135,23 @@ def test_verdicts_of_an_audit_are_marked_and_undone(stage: Path, tmp_path: Path)
         # A later verdict outside the audit corrects the truth.
         decide(studio, [TABLE], "no-class", "Bob")
         assert (audit(studio)["judged"], audit(studio)["right"]) == (1, 0)
+
+
+@pytest.mark.studio
+def test_the_suggestion_of_that_time_counts_after_grounding_again(tmp_path: Path):
+    (tmp_path / "scene.usda").write_text(MORE)
+    folder = tmp_path / "project"
+    with running_studio(tmp_path / "scene.usda", folder) as studio:
+        paths = studio.ask("api/scene").json()["objects"]["path"]
+        one, two = paths.index("/Kitchen/Zxqv"), paths.index("/Kitchen/Zxqv_2")
+        cupboard = {"class": class_index(studio, "Cupboard")}
+        decide(studio, [one], "choose", audit=True, **cupboard)
+        assert studio.ask("api/reground", {"reviewer": "Ann", "page": "p"}).status == 200
+        decide(studio, [two], "confirm", audit=True)
+        found = audit(studio)
+        assert (found["judged"], found["right"]) == (2, 1)
+    with running_studio(tmp_path / "scene.usda", folder) as studio:
+        assert audit(studio) == found
 
 
 @pytest.mark.studio

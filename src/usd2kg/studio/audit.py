@@ -12,12 +12,10 @@ from typing import Any
 from usd2kg.evaluation import Score
 from usd2kg.evaluation.metrics.calibration import calibration_error, reliability_bins
 from usd2kg.evaluation.metrics.intervals import wilson_interval
-from usd2kg.grounding import Prediction, Status
 from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
-from usd2kg.ontology import ClassIRI
 from usd2kg.studio.object_state import ObjectState
 from usd2kg.studio.settings import AUDIT
-from usd2kg.studio.verdicts import Event, VerdictKind
+from usd2kg.studio.verdicts import Event, Suggestion, VerdictKind
 
 __all__ = ["Audit", "audit_json", "make_audit"]
 
@@ -49,7 +47,7 @@ def make_audit(states: Iterable[ObjectState], standing: Iterable[Event]) -> Audi
     """
     # What a person decided before the project is no suggestion of the grounder.
     drawn = sorted((state for state in states if state.prediction.review is None), key=_draw)
-    marked = {change.prim_path for event in standing if event.is_audit for change in event.changes}
+    marked = {change.prim_path: change for event in standing if event.is_audit for change in event.changes}
     is_done = [state.prim_path in marked and state.verdict.kind is not VerdictKind.OPEN for state in drawn]
     first = is_done.index(False) if False in is_done else len(drawn)
     size = min(AUDIT.sample * (first // AUDIT.sample + 1), len(drawn))
@@ -60,7 +58,7 @@ def make_audit(states: Iterable[ObjectState], standing: Iterable[Event]) -> Audi
         tuple(state.prim_path for state, _ in pairs),
         tuple(state.prim_path for state, done in pairs if not done),
         sum(state.verdict.kind is VerdictKind.UNSURE for state in judged),
-        tuple(_score(state) for state in judged if state.verdict.kind is not VerdictKind.UNSURE),
+        tuple(_score(s, marked[s.prim_path].suggested) for s in judged if s.verdict.kind is not VerdictKind.UNSURE),
     )
 
 
@@ -69,23 +67,18 @@ def _draw(state: ObjectState) -> bytes:
     return hashlib.sha256(f"{AUDIT.seed} {state.prim_path}".encode("utf-8", "surrogatepass")).digest()
 
 
-def _score(state: ObjectState) -> Score:
-    prediction = state.prediction
+def _score(state: ObjectState, suggested: Suggestion | None) -> Score:
+    """Return how the valid verdict and the suggestion at the time of the audit compare; no answer is wrong."""
     return Score(
         id=state.prim_path,
         name=state.prim_path,
         target=state.verdict.class_iri or NO_CLASS_IRI,
         also=frozenset(),
-        answer=_answer(prediction),
-        confidence=prediction.confidence,
-        status=prediction.status,
-        explanation=prediction.explanation,
+        answer=(suggested.class_iri or NO_CLASS_IRI) if suggested is not None else None,
+        confidence=suggested.confidence if suggested is not None else None,
+        status=state.prediction.status,
+        explanation=state.prediction.explanation,
     )
-
-
-def _answer(prediction: Prediction) -> ClassIRI | None:
-    """Return the suggested class; a refusal says that no class fits, a failed call says nothing."""
-    return NO_CLASS_IRI if prediction.status is Status.REFUSED else prediction.class_iri
 
 
 def audit_json(audit: Audit) -> dict[str, Any]:

@@ -4,16 +4,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from usd2kg.grounding import Grounding, Prediction, Status
+from usd2kg.grounding import Grounding, Prediction
 from usd2kg.scene import SceneObject
 from usd2kg.studio.catalog import Catalog
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_state import ObjectState, suggestion_of
 from usd2kg.studio.review_queue import QueueGroup, group_open
 
 __all__ = ["DISAGREEMENT_ORDER", "make_disagreement_queue", "second_answer"]
 
 DISAGREEMENT_ORDER = "disagreement"
-_NO_ANSWER = frozenset({Status.UNREADABLE, Status.FAILED, Status.MISSING})
 
 
 def make_disagreement_queue(
@@ -55,4 +54,5 @@ def second_answer(prediction: Prediction, second: Grounding | None, catalog: Cat
 
 def _disagree(prediction: Prediction, other: Prediction) -> bool:
     """Return whether two grounders answer differently; a failed call is no answer."""
-    return not {prediction.status, other.status} & _NO_ANSWER and prediction.class_iri != other.class_iri
+    first, second = suggestion_of(prediction), suggestion_of(other)
+    return first is not None and second is not None and first.class_iri != second.class_iri

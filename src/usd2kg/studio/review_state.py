@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Decision
-from usd2kg.studio.verdicts import OPEN, Action, Change, Event, Verdict, VerdictKind
+from usd2kg.studio.verdicts import OPEN, Action, Change, Event, Suggestion, Verdict, VerdictKind
 
 __all__ = ["ReviewState"]
 
@@ -77,6 +77,7 @@ class ReviewState:
         time: str,
         seen: int,
         *,
+        suggested: Mapping[str, Suggestion | None] | None = None,
         concept: str = "",
         is_audit: bool = False,
     ) -> Event:
@@ -87,6 +88,7 @@ class ReviewState:
             reviewer: who decides.
             time: when, as ISO 8601 in UTC.
             seen: number of the last event that the reviewer had seen.
+            suggested: prim path → what was suggested.
             concept: IRI of the concept, if the decision is about all its objects.
             is_audit: whether the objects were drawn at random.
         """
@@ -97,7 +99,8 @@ class ReviewState:
             else replace(verdict, reviewer=reviewer, time=time, event=number)
             for verdict in set(verdicts.values())
         }
-        changes = tuple(Change(path, signed[verdict]) for path, verdict in verdicts.items())
+        known = suggested or {}
+        changes = tuple(Change(path, signed[verdict], known.get(path)) for path, verdict in verdicts.items())
         before = min(seen, number - 1)
         return Event(number, Action.DECIDE, reviewer, time, changes, before, concept=concept, is_audit=is_audit)
 

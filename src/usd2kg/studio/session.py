@@ -22,7 +22,7 @@ from usd2kg.scene import Scene, read_scene
 from usd2kg.studio.audit import Audit, make_audit
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
-from usd2kg.studio.object_state import ObjectState, state_of
+from usd2kg.studio.object_state import ObjectState, state_of, suggestion_of
 from usd2kg.studio.project import Project
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.verdicts import Event, Verdict
@@ -113,8 +113,11 @@ class StudioSession:
                 f"decision about {unknown[0] if unknown else 'nothing'}; expected objects of the scene"
             )
         with self._lock:
-            decided = self.review.decide(verdicts, reviewer, _now(), seen, concept=concept, is_audit=is_audit)
-            return self._record(decided)
+            suggested = {path: suggestion_of(self.predictions[path]) for path in verdicts}
+            event = self.review.decide(
+                verdicts, reviewer, _now(), seen, suggested=suggested, concept=concept, is_audit=is_audit
+            )
+            return self._record(event)
 
     def undo(self, reviewer: str) -> list[ObjectState]:
         """Take back a reviewer's last decision, as `decide`.

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["OPEN", "Action", "Change", "Event", "Verdict", "VerdictKind"]
+__all__ = ["OPEN", "Action", "Change", "Event", "Suggestion", "Verdict", "VerdictKind"]
 
 
 class VerdictKind(StrEnum):
@@ -55,11 +55,23 @@ class Action(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class Suggestion:
+    """What a grounder had suggested when a person decided."""
+
+    class_iri: ClassIRI | None
+    """None if it said that no class fits."""
+    confidence: float | None
+    """Probability that it is right; None if the grounder gave none."""
+
+
+@dataclass(frozen=True, slots=True)
 class Change:
     """The verdict that an event sets for one object."""
 
     prim_path: str
     verdict: Verdict
+    suggested: Suggestion | None = None
+    """For `decide`; None if the grounder gave no answer."""
 
 
 @dataclass(frozen=True, slots=True)
