@@ -140,9 +140,12 @@ class Studio(Client):
 
 
 @contextmanager
-def running_studio(stage: Path, folder: Path, compared: Path | None = None) -> Iterator[Client]:
+def running_studio(
+    stage: Path, folder: Path, compared: Path | None = None, second: Path | None = None
+) -> Iterator[Client]:
     """A studio in this process, which starts at once since the grounder is loaded."""
-    with open_project(folder, ProjectSources(stage)) as project, open_socket(Address()) as socket:
+    sources = ProjectSources(stage, second_mapping=second)
+    with open_project(folder, sources) as project, open_socket(Address()) as socket:
         socket.listen()
         session = open_session(project)
         other = None if compared is None else read_other_version(compared, project.sources, session.tbox)

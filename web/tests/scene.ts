@@ -8,6 +8,7 @@ export function makeScene(): SceneData {
     source: "kitchen.usda",
     ontology: { iri: "https://x.org/onto", label: "onto" },
     grounder: "lexical",
+    second_grounder: "",
     is_calibrated: true,
     is_graph: false,
     has_comparison: false,
@@ -61,6 +62,7 @@ export function makeState(object: number, given: Partial<ObjectState> = {}): Obj
     reviewer: "",
     time: "",
     comment: "",
+    proposal: "",
     is_conflict: false,
     ...given,
   };

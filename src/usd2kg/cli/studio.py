@@ -38,6 +38,13 @@ def studio_command(
             help="Mapping to review, by any grounder: usd2kg ground -o MAPPING.json; default: by the lexical grounder.",
         ),
     ] = None,
+    second_mapping: Annotated[
+        Path | None,
+        Option(
+            "--second-mapping",
+            help="Mapping by another grounder; the queue can begin with the objects about which the two disagree.",
+        ),
+    ] = None,
     alignment: AlignmentFile = None,
     base: BaseIri = None,
     project: Annotated[
@@ -75,7 +82,7 @@ def studio_command(
     else:
         # A graph often has the name of its stage, which may have a project of its own.
         folder = project or Path(f"{target.name if is_graph(target) else target.stem}.studio")
-        sources = ProjectSources(target, ontology, mapping, alignment, base, reading.read_options())
+        sources = ProjectSources(target, ontology, mapping, second_mapping, alignment, base, reading.read_options())
 
     def report(url: str) -> None:
         notify(f"studio at {url}")

@@ -18,8 +18,11 @@ from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
 from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
+from usd2kg.studio.audit import audit_json
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.comparison import Comparison
+from usd2kg.studio.decision_request import read_decision
+from usd2kg.studio.disagreement import DISAGREEMENT_ORDER, make_disagreement_queue
 from usd2kg.studio.exports import EXPORTS
 from usd2kg.studio.live_events import LiveEvents
 from usd2kg.studio.object_page import object_page, relation_json
@@ -29,10 +32,9 @@ from usd2kg.studio.outputs import OutputFiles
 from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
 from usd2kg.studio.request_body import BadRequestError, field, object_indices, read_body
-from usd2kg.studio.review_queue import QUEUE_ORDERS, estimate_seconds, make_queue
+from usd2kg.studio.review_queue import AUDIT_ORDER, QUEUE_ORDERS, estimate_seconds, make_audit_queue, make_queue
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
-from usd2kg.studio.verdicts import Verdict, VerdictKind
 
 __all__ = ["make_app"]
 
@@ -192,10 +194,17 @@ class _Api:
 
     async def _queue(self, request: Request) -> Response:
         order = request.query_params.get("order", QUEUE_ORDERS[0])
-        if order not in QUEUE_ORDERS:
-            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(QUEUE_ORDERS)}")
-        states = self._session.states()
-        groups = make_queue(states, self._session.scene.by_path, self._catalog.room_of, order)
+        second = self._session.second
+        expected = (*QUEUE_ORDERS, AUDIT_ORDER, *([DISAGREEMENT_ORDER] if second is not None else []))
+        if order not in expected:
+            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(expected)}")
+        states, audit, by_path = self._session.states(), self._session.audit(), self._session.scene.by_path
+        if order == AUDIT_ORDER:
+            groups = make_audit_queue(audit.waiting, self._session.predictions, by_path)
+        elif order == DISAGREEMENT_ORDER and second is not None:
+            groups = make_disagreement_queue(states, by_path, second)
+        else:
+            groups = make_queue(states, by_path, self._catalog.room_of, order)
         still_open = sum(state.status.is_open for state in states)
         return JSONResponse(
             {
@@ -208,12 +217,15 @@ class _Api:
                         "concept": self._catalog.concept(group.concept),
                         "confidence": group.confidence,
                         "gain": group.gain,
+                        "is_disputed": group.is_disputed,
+                        "second": self._catalog.class_(group.second),
                     }
                     for group in groups
                 ],
                 "open": still_open,
                 "decided": len(states) - still_open,
                 "agreement": [asdict(found) for found in find_agreement(self._session.review.by_reviewer())],
+                "audit": audit_json(audit),
                 "seconds_left": estimate_seconds(self._session.journal.events, len(groups)),
             }
         )
@@ -223,31 +235,17 @@ class _Api:
         objects = self._session.scene.objects
         paths = [objects[index].prim_path for index in object_indices(body, len(objects))]
         reviewer = _reviewer(body)
-        comment, seen = field(body, "comment", str, ""), field(body, "seen", int, self._session.version)
-        action = field(body, "action", str)
-        verdicts = self._verdicts(action, body, paths, comment)
-        changed = await asyncio.to_thread(self._session.decide, verdicts, reviewer, seen)
-        return self._announce(changed, body, f"{action} {len(changed)} objects")
-
-    def _verdicts(self, action: str, body: dict[str, Any], paths: list[str], comment: str) -> dict[str, Verdict]:
-        """Return prim path → verdict of a request."""
-        kinds = {"unsure": VerdictKind.UNSURE, "no-class": VerdictKind.NO_CLASS, "clear": VerdictKind.OPEN}
-        if action in kinds:
-            return dict.fromkeys(paths, Verdict(kinds[action], comment=comment))
-        if action == "choose":
-            index = field(body, "class", int)
-            if not 0 <= index < len(self._session.tbox.classes):
-                raise BadRequestError(f"field class: {index} is no class")
-            iri = self._session.tbox.classes[index].iri
-            return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, iri, comment=comment))
-        if action != "confirm":
-            raise BadRequestError(
-                f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
-            )
-        suggested = {path: self._session.predictions[path].class_iri for path in paths}
-        if without := next((path for path, iri in suggested.items() if iri is None), None):
-            raise BadRequestError(f"{without}: has no suggestion to confirm; choose a class")
-        return {path: Verdict(VerdictKind.CLASS, iri, comment=comment) for path, iri in suggested.items()}
+        seen = field(body, "seen", int, self._session.version)
+        decision = read_decision(body, paths, self._session, self._catalog)
+        changed = await asyncio.to_thread(
+            self._session.decide,
+            decision.verdicts,
+            reviewer,
+            seen,
+            concept=decision.concept,
+            is_audit=decision.is_audit,
+        )
+        return self._announce(changed, body, f"{decision.action} {len(changed)} objects")
 
     async def _undo(self, request: Request) -> Response:
         body = await read_body(request)

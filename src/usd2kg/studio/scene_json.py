@@ -22,6 +22,7 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
         "source": scene.source,
         "ontology": {"iri": tbox.ontology_iri, "label": tbox.source},
         "grounder": grounding.grounder,
+        "second_grounder": session.second.grounder if session.second is not None else "",
         "is_calibrated": grounding.is_calibrated,
         "is_graph": bool(session.stage_note),
         "limits": dict(session.limits),
@@ -130,5 +131,6 @@ def state_json(state: ObjectState, catalog: Catalog) -> dict[str, Any]:
         "reviewer": verdict.reviewer or (before.reviewer if before is not None else ""),
         "time": verdict.time or (before.time if before is not None else ""),
         "comment": verdict.comment or (before.comment if before is not None else ""),
+        "proposal": verdict.proposal,
         "is_conflict": state.is_conflict,
     }

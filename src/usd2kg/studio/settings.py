@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["GEOMETRY", "QUEUE", "SERVER", "GeometrySettings", "QueueSettings", "ServerSettings"]
+__all__ = [
+    "AUDIT",
+    "GEOMETRY",
+    "QUEUE",
+    "SERVER",
+    "AuditSettings",
+    "GeometrySettings",
+    "QueueSettings",
+    "ServerSettings",
+]
 
 
 @dataclass(frozen=True)
@@ -15,6 +24,14 @@ class QueueSettings:
     pace_decisions: int
     longest_pause_s: float
     min_decisions: int
+
+
+@dataclass(frozen=True)
+class AuditSettings:
+    """The random sample that measures how often suggestions are right."""
+
+    sample: int
+    seed: int
 
 
 @dataclass(frozen=True)
@@ -33,6 +50,7 @@ class ServerSettings:
     max_body_bytes: int
     max_objects_per_decision: int
     max_text: int
+    max_label: int
     outputs_delay_s: float
     heartbeat_s: float
     thumbnail_size: tuple[int, int]
@@ -40,5 +58,6 @@ class ServerSettings:
 
 
 QUEUE = read_settings("studio", "queue", QueueSettings)
+AUDIT = read_settings("studio", "audit", AuditSettings)
 GEOMETRY = read_settings("studio", "geometry", GeometrySettings)
 SERVER = read_settings("studio", "server", ServerSettings)

@@ -22,6 +22,8 @@ export interface SceneData {
   source: string;
   ontology: { iri: string; label: string };
   grounder: string;
+  /** The grounder of a second mapping; empty without one. */
+  second_grounder: string;
   /** Whether confidences are fitted probabilities; otherwise they only rank. */
   is_calibrated: boolean;
   /** Whether the source is a knowledge graph, not a stage. */
@@ -110,6 +112,8 @@ export interface ObjectState {
   /** ISO 8601 in UTC; empty if undecided. */
   time: string;
   comment: string;
+  /** Label of a subclass that the reviewer proposes for the class; empty without one. */
+  proposal: string;
   /** Whether two reviewers decided differently and nobody has settled it. */
   is_conflict: boolean;
 }
@@ -151,6 +155,8 @@ export interface ObjectPage {
   evidence: string[];
   /** Best first, at most 9 for the digit keys. */
   candidates: Candidate[];
+  /** What the grounder of the second mapping says; null without one. */
+  second: SecondAnswer | null;
   concept: { iri: string; label: string; confidence: number | null; hypernyms: string[] } | null;
   relations: RelationRecord[];
   /** All decisions about the object, oldest first. */
@@ -159,11 +165,24 @@ export interface ObjectPage {
   turtle: string;
 }
 
+export interface SecondAnswer {
+  grounder: string;
+  class: ClassIndex;
+  confidence: number | null;
+  explanation: string;
+  /** Whether it is another class than the suggestion. */
+  is_disputed: boolean;
+}
+
 export interface HistoryEntry {
   event: number;
   action: "decide" | "undo" | "redo";
   verdict: "open" | "class" | "no-class" | "unsure";
   class: ClassIndex;
+  /** The concept, if the decision was about all its objects; else -1. */
+  concept: ConceptIndex;
+  /** Label of a subclass that was proposed; empty without one. */
+  proposal: string;
   reviewer: string;
   time: string;
   comment: string;
@@ -271,8 +290,30 @@ export interface Queue {
   decided: number;
   /** Pairs of reviewers with objects in common. */
   agreement: Agreement[];
+  /** The random sample, whatever the order. */
+  audit: Audit;
   /** Estimate for all open groups from this session's pace; null before five decisions. */
   seconds_left: number | null;
+}
+
+/** How often suggestions are right, by the verdicts on objects that were drawn at random. */
+export interface Audit {
+  /** Objects from which the sample is drawn. */
+  population: number;
+  sample: number;
+  /** Those of the sample without a verdict. */
+  waiting: number;
+  unsure: number;
+  /** Those whose class is settled. */
+  judged: number;
+  right: number;
+  /** Wilson's 95 % interval of the share that is right; null if none is judged. */
+  interval: [number, number] | null;
+  /** Expected calibration error of the judged objects with a confidence; null without any. */
+  calibration_error: number | null;
+  with_confidence: number;
+  /** Non-empty bins of confidence, lowest first; `accuracy` is the share that is right. */
+  bins: { lower: number; upper: number; count: number; confidence: number; accuracy: number }[];
 }
 
 /** How far two reviewers agree about the objects that both decided. */
@@ -295,9 +336,14 @@ export interface QueueGroup {
   confidence: number | null;
   /** Expected number of wrong classes that a look at the group settles. */
   gain: number;
+  /** With the order `disagreement`, whether the second grounder gives its objects another class. */
+  is_disputed: boolean;
+  /** The class by the second grounder, if it is disputed; else -1. */
+  second: ClassIndex;
 }
 
-export type QueueOrder = "gain" | "confidence" | "class" | "place";
+/** `disagreement` needs a second mapping. With `audit`, each waiting object of the random sample is a group, without its confidence. */
+export type QueueOrder = "gain" | "confidence" | "class" | "place" | "audit" | "disagreement";
 
 export type DecisionAction = "confirm" | "choose" | "unsure" | "no-class" | "clear";
 
@@ -307,6 +353,12 @@ export interface DecisionRequest {
   action: DecisionAction;
   /** For `choose`. */
   class?: ClassIndex;
+  /** For `choose`: the concept of all these objects, which belongs to the class from now on, in other scenes too. */
+  concept?: ConceptIndex;
+  /** For `choose`: label of a subclass that the ontology lacks and the reviewer proposes. */
+  proposal?: string;
+  /** Whether the objects are of the random sample, and the decision counts for it. */
+  audit?: boolean;
   comment?: string;
   reviewer: string;
   /** Number that tells this page from others, which hear of the decision by an event. */

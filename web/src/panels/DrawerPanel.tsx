@@ -5,6 +5,7 @@ import { useRef } from "preact/hooks";
 import { comparisonOf } from "../state/comparison";
 import type { Drawer, Store } from "../state/store";
 import { Ask } from "./Ask";
+import { AuditFigures } from "./AuditFigures";
 import { Compare } from "./Compare";
 import { Diagnostics } from "./Diagnostics";
 import { Review } from "./Review";
@@ -66,7 +67,12 @@ export function DrawerPanel({ store }: { store: Store }) {
         </Kept>
         {drawer.value === "diagnostics" && <Diagnostics store={store} />}
         {drawer.value === "compare" && <Compare store={store} />}
-        {drawer.value === "run" && <RunFigures store={store} />}
+        {drawer.value === "run" && (
+          <>
+            <AuditFigures audit={store.queue.value?.audit} />
+            <RunFigures store={store} />
+          </>
+        )}
       </div>
     </section>
   );

@@ -9,6 +9,7 @@ const EXPORTS: { name: string; label: string }[] = [
   { name: "mapping.sssom.tsv", label: "Mapping (SSSOM)" },
   { name: "decisions.sssom.tsv", label: "Decisions (SSSOM journal)" },
   { name: "lessons.sssom.tsv", label: "What decisions teach (alignment)" },
+  { name: "proposals.ttl", label: "Proposed classes (OWL)" },
   { name: "objects.csv", label: "Objects (CSV)" },
   { name: "grounding.json", label: "Grounding (JSON)" },
 ];
