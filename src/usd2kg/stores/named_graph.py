@@ -5,17 +5,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
-from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, named_node
-from usd2kg.ontology import Closure, TBox, without_header
 from usd2kg.query.graph_file import load_graph
+
+if TYPE_CHECKING:
+    from usd2kg.graph.abox import KnowledgeGraph
+    from usd2kg.ontology import Closure, TBox
 
 __all__ = [
     "NamedGraph",
@@ -40,13 +42,15 @@ class NamedGraph:
     """Without duplicates."""
 
 
-def make_named_graph(graph: KnowledgeGraph) -> NamedGraph:
+def make_named_graph(graph: "KnowledgeGraph") -> NamedGraph:
     """Return the named graph of a scene."""
     return NamedGraph(graph.iri, tuple(dict.fromkeys(graph.triples)))
 
 
-def make_ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
+def make_ontology_graph(tbox: "TBox", closure: "Closure") -> NamedGraph:
     """Return an ontology, its imports and the u2k vocabulary as one named graph that all scenes of a store share."""
+    from usd2kg.ontology import without_header  # noqa: PLC0415 - loads the parsers of OWL
+
     iri = tbox.ontology_iri
     # Do not publish local paths.
     iri = f"urn:usd2kg:ontology:{tbox.content_hash}" if iri.startswith("file:") else iri
