@@ -21,6 +21,7 @@ from usd2kg.errors import GraphError, one_line
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.dataset import QUERY_PREFIXES, Dataset
+from usd2kg.query.dataset_clause import names_dataset
 from usd2kg.query.functions import make_functions
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 from usd2kg.query.sparql_errors import describe_syntax_error
@@ -85,10 +86,13 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: End
 
 
 def _dataset(request: dict[str, Any]) -> dict[str, Any]:
-    """Return the dataset of a request (SPARQL 1.1 Protocol, section 2.1.4); by default the union of all graphs."""
+    """Return the dataset of a request: its own (SPARQL 1.1 Protocol, section 2.1.4), else that of the query.
+
+    Without either, it is the union of all graphs.
+    """
     default, named = request["default_graphs"], request["named_graphs"]
     if not default and not named:
-        return {"use_default_graph_as_union": True}
+        return {} if names_dataset(request["query"]) else {"use_default_graph_as_union": True}
     return {
         "default_graph": [ox.NamedNode(iri) for iri in default],
         "named_graphs": [ox.NamedNode(iri) for iri in named],

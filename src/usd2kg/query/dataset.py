@@ -9,6 +9,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.query.dataset_clause import names_dataset
 
 __all__ = ["FUNCTION_NAMESPACE", "INDEX_NAME", "QUERY_PREFIXES", "Dataset", "term_list", "with_prefixes"]
 
@@ -43,7 +44,7 @@ def term_list(nodes: Iterable[ox.NamedNode]) -> str:
 
 @dataclass(frozen=True)
 class Dataset:
-    """Graphs of a store, queried as their union."""
+    """Graphs of a store, queried as their union unless a query names others with FROM or FROM NAMED."""
 
     store: ox.Store
     graphs: tuple[ox.NamedNode, ...] | None = None
@@ -78,14 +79,19 @@ class Dataset:
     def query(self, sparql: str, **options: Any) -> ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples:
         """Return the result of a query; the package's prefixes are predefined.
 
+        FROM and FROM NAMED choose among all graphs of the store.
+
         Args:
             sparql: the query.
             options: further arguments of `pyoxigraph.Store.query`.
         """
-        graphs: Mapping[str, Any] = (
-            {"use_default_graph_as_union": True} if self.graphs is None else {"default_graph": [*self.graphs]}
-        )
-        return self.store.query(sparql, prefixes=QUERY_PREFIXES, **graphs, **options)
+        return self.store.query(sparql, prefixes=QUERY_PREFIXES, **self._graphs_of(sparql), **options)
+
+    def _graphs_of(self, sparql: str) -> Mapping[str, Any]:
+        # The engine ignores FROM and FROM NAMED where a dataset is passed beside the query.
+        if names_dataset(sparql):
+            return {}
+        return {"use_default_graph_as_union": True} if self.graphs is None else {"default_graph": [*self.graphs]}
 
     def select(self, sparql: str, **options: Any) -> list[Any]:
         """Return the rows of a SELECT query."""
