@@ -128,7 +128,7 @@ def test_without_a_usable_folder_the_file_is_parsed(graph_file: Path, cache: Pat
     assert labels(load_graph(graph_file, is_indexed=True)) == ["cup"]
 
 
-@pytest.mark.parametrize("part", ["index/CURRENT", "bodies.npz"])
+@pytest.mark.parametrize("part", ["index/CURRENT", "boxes.npz"])
 def test_a_damaged_entry_is_made_again(graph_file: Path, cache: Path, part: str, caplog):
     load_graph(graph_file, is_indexed=True).answer("reach", {"position": "0 0 0"})
     (entry,) = entries(cache)

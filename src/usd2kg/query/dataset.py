@@ -71,6 +71,18 @@ class Dataset:
         """Return the nodes that have a value of a property, each once."""
         return list(dict.fromkeys(quad.subject for quad in self._quads(None, predicate, value)))
 
+    def quads(self, predicate: ox.NamedNode) -> Iterator[tuple[Any, Any]]:
+        """Yield the subjects and values of a property; a pair of several graphs occurs each time."""
+        return ((quad.subject, quad.object) for quad in self._quads(None, predicate, None))
+
+    def pairs(self, predicate: ox.NamedNode) -> Iterator[tuple[str, str]]:
+        """Yield the named subjects and the values of a property as text."""
+        return (
+            (subject.value, value.value)
+            for subject, value in self.quads(predicate)
+            if isinstance(subject, ox.NamedNode) and not isinstance(value, ox.Triple)
+        )
+
     def _quads(self, subject: Any, predicate: ox.NamedNode, value: Any) -> Iterator[ox.Quad]:
         # A pattern takes microseconds, a query that is parsed and planned for it some hundred.
         for graph in (None,) if self.graphs is None else self.graphs:
