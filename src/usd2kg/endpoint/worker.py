@@ -1,9 +1,9 @@
 """Worker process: answers one query at a time over a read-only store; can be killed at any moment.
 
-Usage: python -m usd2kg.endpoint.worker FOLDER LIMITS
+Usage: python -m usd2kg.endpoint.worker FOLDER LIMITS [TABLES]
 
-LIMITS is `EndpointLimits` as JSON. Each line on stdin is a request as a JSON object. Each answer on stdout is one line
-of JSON, whose `length` is the number of bytes that follow.
+LIMITS is `EndpointLimits` as JSON, TABLES a folder for tables that are computed from the store. Each line on stdin is
+a request as a JSON object. Each answer on stdout is one line of JSON, whose `length` is the number of bytes after it.
 """
 
 import json
@@ -35,21 +35,22 @@ class NotAcceptableError(Exception):
 
 def main(arguments: list[str]) -> None:
     """Answer requests until stdin ends."""
-    folder, settings = arguments
+    folder, settings, *tables = arguments
     limits = EndpointLimits(**json.loads(settings))
     store = ox.Store.read_only(folder)
     _limit_memory(limits.memory_mib)
-    serve_requests(store, limits, sys.stdin.buffer, sys.stdout.buffer)
+    dataset = Dataset(store, folder=Path(tables[0]) if tables else None)
+    serve_requests(dataset, limits, sys.stdin.buffer, sys.stdout.buffer)
 
 
-def serve_requests(store: ox.Store, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
+def serve_requests(dataset: Dataset, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer each request; the first line written reports that the process is ready."""
-    functions = make_functions(BodyIndex(Dataset(store)))
+    functions = make_functions(BodyIndex(dataset))
     _write(answers, {"ready": True}, b"")
     for line in requests:
         _terminate_after(limits.seconds + limits.orphan_grace_s)
         try:
-            media_type, rendered = answer(store, functions, json.loads(line), limits)
+            media_type, rendered = answer(dataset.store, functions, json.loads(line), limits)
         except NotAcceptableError as error:
             _write(answers, {"status": 406}, str(error).encode())
         except GraphError as error:

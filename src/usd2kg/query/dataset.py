@@ -50,12 +50,13 @@ class Dataset:
     graphs: tuple[ox.NamedNode, ...] | None = None
     """None for all graphs."""
     folder: Path | None = None
-    """Folder of the index of a file, where tables that are computed from the graphs may be kept."""
+    """Folder in the cache, where tables that are computed from the graphs are kept; has the index of a large file."""
 
     @property
     def index(self) -> Path | None:
         """The files of the engine; None in memory and for a store of the user."""
-        return None if self.folder is None else self.folder / INDEX_NAME
+        index = None if self.folder is None else self.folder / INDEX_NAME
+        return index if index is not None and index.is_dir() else None
 
     def __len__(self) -> int:
         """Return the number of triples; those of several graphs count each time."""
