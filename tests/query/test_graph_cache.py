@@ -19,7 +19,7 @@ from usd2kg.errors import GraphError, StoreError
 from usd2kg.folder_lock import lock_exclusive
 from usd2kg.query import GraphStore, graph_cache, load_graph
 from usd2kg.query.graph_cache import GRAPH_CACHE_VARIABLE
-from usd2kg.query.lookup import object_table
+from usd2kg.query.lookup import object_columns
 from usd2kg.query.questions import list_questions
 from usd2kg.stores import EmbeddedStore, embedded, read_named_graph, view_scenes
 
@@ -269,7 +269,7 @@ def test_tables_of_a_store_are_kept_until_it_changes(kitchen: Path, cache: Path,
     before = count()
     assert len(entries(cache)) == 1
     with monkeypatch.context() as patch:
-        patch.setattr(object_table, "_Reader", None)
+        patch.setattr(object_columns, "_ColumnReader", None)
         assert count() == before
     store.update("INSERT { GRAPH ?g { <urn:new> u2k:primPath '/New' } } WHERE { GRAPH ?g { ?s a owl:Ontology } }")
     assert count() == before + 1

@@ -72,6 +72,11 @@ class Dataset:
         """Return the nodes that have a value of a property, each once."""
         return list(dict.fromkeys(quad.subject for quad in self._quads(None, predicate, value)))
 
+    def triples(self) -> Iterator[ox.Triple]:
+        """Yield all triples; one of several graphs occurs each time."""
+        for graph in (None,) if self.graphs is None else self.graphs:
+            yield from (quad.triple for quad in self.store.quads_for_pattern(None, None, None, graph))
+
     def quads(self, predicate: ox.NamedNode) -> Iterator[tuple[Any, Any]]:
         """Yield the subjects and values of a property; a pair of several graphs occurs each time."""
         return ((quad.subject, quad.object) for quad in self._quads(None, predicate, None))

@@ -13,7 +13,7 @@ from usd2kg.query.answer import Answer
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.body_table import Body, parse_vector
 from usd2kg.query.dataset import Dataset
-from usd2kg.query.lookup.object_table import ObjectTable, Pairs, load_object_table
+from usd2kg.query.lookup.object_columns import ObjectColumns, RowPairs, load_object_columns
 from usd2kg.query.lookup.word_forms import common_stem
 
 __all__ = ["SceneFacts"]
@@ -28,9 +28,9 @@ class SceneFacts:
         self._labels: dict[str, str] = {}
 
     @cached_property
-    def columns(self) -> ObjectTable:
+    def columns(self) -> ObjectColumns:
         """The names, kinds and relations of all objects; groups that are rooms by name are included."""
-        return load_object_table(self.dataset)
+        return load_object_columns(self.dataset)
 
     # Names.
 
@@ -113,7 +113,7 @@ class SceneFacts:
     def _kind_rows(self) -> dict[str, int]:
         return {kind: row for row, kind in enumerate(self.columns.kinds)}
 
-    def _kinds_of(self, iri: str, pairs: Pairs) -> list[str]:
+    def _kinds_of(self, iri: str, pairs: RowPairs) -> list[str]:
         row = self.columns.rows.get(iri)
         return [] if row is None else [self.columns.kinds[kind] for kind in pairs.of_first(row)]
 

@@ -14,7 +14,7 @@ from usd2kg.query.column_file import Columns, keep_columns, pack_texts, unpack_t
 from usd2kg.query.dataset import Dataset
 from usd2kg.words import split_identifier
 
-__all__ = ["ObjectTable", "Pairs", "load_object_table"]
+__all__ = ["ObjectColumns", "RowPairs", "load_object_columns"]
 
 _FILE = "objects.npz"
 _GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
@@ -44,8 +44,8 @@ _TEXTS = ("iris", "labels", "paths", "kinds", "assets", "words")
 _PAIRS = ("of_class", "of_concept", "of_asset")
 
 
-class Pairs:
-    """Pairs of row numbers, for lookups in both directions."""
+class RowPairs:
+    """RowPairs of row numbers, for lookups in both directions."""
 
     def __init__(self, pairs: NDArray[np.int32]) -> None:
         """Wrap (m, 2) pairs, each once, in ascending order."""
@@ -70,7 +70,7 @@ class Pairs:
 
 
 @dataclass(frozen=True)
-class ObjectTable:
+class ObjectColumns:
     """The n objects of a graph, by prim path; groups that are rooms by name are included."""
 
     iris: list[str]
@@ -85,17 +85,17 @@ class ObjectTable:
     """(n,)"""
     confidence: NDArray[np.float64]
     """(n,): confidence in the class; NaN where none is stated."""
-    of_class: Pairs
+    of_class: RowPairs
     """Object, class."""
-    of_concept: Pairs
+    of_concept: RowPairs
     """Object, concept."""
-    of_asset: Pairs
+    of_asset: RowPairs
     """Object, asset."""
-    relations: Mapping[str, Pairs]
+    relations: Mapping[str, RowPairs]
     """Relation → object, anchor."""
 
     @property
-    def of_kind(self) -> tuple[Pairs, Pairs]:
+    def of_kind(self) -> tuple[RowPairs, RowPairs]:
         """Object, class or concept."""
         return self.of_class, self.of_concept
 
@@ -105,13 +105,13 @@ class ObjectTable:
         return {iri: row for row, iri in enumerate(self.iris)}
 
 
-def load_object_table(dataset: Dataset) -> ObjectTable:
+def load_object_columns(dataset: Dataset) -> ObjectColumns:
     """Return the table of a dataset: from its folder, if it has one, where the first call leaves it."""
     path = None if dataset.folder is None else dataset.folder / _FILE
-    return keep_columns(path, _from_columns, lambda: _Reader(dataset).table(), _to_columns)
+    return keep_columns(path, _from_columns, lambda: _ColumnReader(dataset).table(), _to_columns)
 
 
-class _Reader:
+class _ColumnReader:
     """Reads the objects of a dataset property by property, which is faster than object by object."""
 
     def __init__(self, dataset: Dataset) -> None:
@@ -122,7 +122,7 @@ class _Reader:
         self._paths = [path for path, _ in ordered]
         self._rows = {iri: row for row, iri in enumerate(self._iris)}
 
-    def table(self) -> ObjectTable:
+    def table(self) -> ObjectColumns:
         labels = _smallest(self._dataset.pairs(RDFS.label))
         named = [labels.get(iri, path.rpartition("/")[2]) for iri, path in zip(self._iris, self._paths, strict=True)]
         groups = {node.value for node in self._dataset.subjects(RDF.type, U2K.RoomGroup)}
@@ -131,7 +131,7 @@ class _Reader:
             for pairs in (self._typed(), self._dataset.pairs(U2K.concept), self._dataset.pairs(U2K.asset))
         )
         kinds, files = (sorted({value for _, value in pairs}) for pairs in ([*classes, *concepts], assets))
-        return ObjectTable(
+        return ObjectColumns(
             self._iris,
             named,
             self._paths,
@@ -165,12 +165,12 @@ class _Reader:
                         found[row] = float(value.value)
         return found
 
-    def _to_values(self, pairs: Iterable[tuple[str, str]], values: Sequence[str]) -> Pairs:
+    def _to_values(self, pairs: Iterable[tuple[str, str]], values: Sequence[str]) -> RowPairs:
         """Return object and value as rows."""
         rows = {value: row for row, value in enumerate(values)}
         return _sorted_pairs((self._rows[iri], rows[value]) for iri, value in pairs)
 
-    def _related(self, links: Iterable[_Link]) -> Pairs:
+    def _related(self, links: Iterable[_Link]) -> RowPairs:
         rows = self._rows
         stated = (
             (anchor, iri) if link.is_inverse else (iri, anchor)
@@ -188,11 +188,11 @@ def _smallest(pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     return found
 
 
-def _sorted_pairs(pairs: Iterable[tuple[int, int]]) -> Pairs:
-    return Pairs(np.array(sorted(set(pairs)), dtype=np.int32).reshape(-1, 2))
+def _sorted_pairs(pairs: Iterable[tuple[int, int]]) -> RowPairs:
+    return RowPairs(np.array(sorted(set(pairs)), dtype=np.int32).reshape(-1, 2))
 
 
-def _to_columns(table: ObjectTable) -> Columns:
+def _to_columns(table: ObjectColumns) -> Columns:
     if not table.iris:
         return {}
     return {
@@ -204,17 +204,17 @@ def _to_columns(table: ObjectTable) -> Columns:
     }
 
 
-def _from_columns(columns: Columns) -> ObjectTable:
+def _from_columns(columns: Columns) -> ObjectColumns:
     texts: dict[str, Any] = {name: unpack_texts(columns[name]) for name in _TEXTS}
     sizes = {len(texts["iris"]), len(texts["labels"]), len(texts["paths"]), len(columns["confidence"])}
     if len(sizes) != 1:
         raise ValueError(f"columns of different lengths: {sorted(sizes)}")
-    return ObjectTable(
+    return ObjectColumns(
         **texts,
-        of_class=Pairs(columns["of_class"]),
-        of_concept=Pairs(columns["of_concept"]),
-        of_asset=Pairs(columns["of_asset"]),
+        of_class=RowPairs(columns["of_class"]),
+        of_concept=RowPairs(columns["of_concept"]),
+        of_asset=RowPairs(columns["of_asset"]),
         is_group=columns["is_group"],
         confidence=columns["confidence"],
-        relations={name: Pairs(columns[f"relation {name}"]) for name in _RELATIONS},
+        relations={name: RowPairs(columns[f"relation {name}"]) for name in _RELATIONS},
     )
