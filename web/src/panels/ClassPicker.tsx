@@ -1,6 +1,6 @@
 /** A field that finds a class by label, synonym or definition; Enter submits the form around it. */
 
-import { useMemo, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import type { ClassIndex } from "../api/types";
 import { type SceneModel, searchClasses } from "../state/model";
 
@@ -49,6 +49,7 @@ interface Props {
 
 export function ClassPicker({ model, choice, label, isFocused, onPick }: Props) {
   const { text, found, active, mark } = choice;
+  useEffect(() => document.getElementById(`found-${active}`)?.scrollIntoView({ block: "nearest" }), [active]);
   const onKey = (event: KeyboardEvent) => {
     if (event.key === "ArrowDown") mark(Math.max(Math.min(active + 1, found.length - 1), 0));
     else if (event.key === "ArrowUp") mark(Math.max(active - 1, 0));
