@@ -141,7 +141,7 @@ class Studio(Client):
 
 @contextmanager
 def running_studio(
-    stage: Path, folder: Path, compared: Path | None = None, second: Path | None = None
+    stage: Path, folder: Path, *, compared: Path | None = None, second: Path | None = None
 ) -> Iterator[Client]:
     """A studio in this process, which starts at once since the grounder is loaded."""
     sources = ProjectSources(stage, second_mapping=second)

@@ -229,7 +229,7 @@ def test_changes_are_listed_filtered_and_looked_at_with_the_keyboard(browser: Br
     # Before, Cup_2 was 0.3 m farther, there was a plate, and no Zxqv.
     earlier = STAGE.replace("(-0.2, 0, 0.75)", "(-0.2, 0.3, 0.75)").replace('"Zxqv"', '"Plate"')
     before.write_text(earlier.replace("(1.5, 1.5, 0.15)", "(-1.5, -1.5, 0.15)").replace("size = 0.3", "size = 0.4"))
-    with running_studio(now, tmp_path / "project", before) as client:
+    with running_studio(now, tmp_path / "project", compared=before) as client:
         page = open_page(browser, client)
         changes = page.get_by_role("listbox", name="Changes")
         rows = changes.get_by_role("option")

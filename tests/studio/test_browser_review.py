@@ -81,7 +81,7 @@ def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Pa
 
 def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: Path, tmp_path: Path):  # noqa: F811
     second = write_second(stage, tmp_path / "second.json")
-    with running_studio(stage, tmp_path / "project", second) as client:
+    with running_studio(stage, tmp_path / "project", second=second) as client:
         page = open_page(browser, client)
         order = page.get_by_label("Order")
         while not order.evaluate("select => select === document.activeElement"):

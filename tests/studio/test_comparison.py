@@ -46,7 +46,7 @@ def test_two_versions_of_a_scene(stage: Path, earlier: Path, form: str, tmp_path
     if form != "usda":
         other = tmp_path / f"earlier.{form}"
         write_graph(build(earlier).graph, other)
-    with running_studio(stage, tmp_path / "project", other) as client:
+    with running_studio(stage, tmp_path / "project", compared=other) as client:
         assert client.ask("api/scene").json()["has_comparison"]
         found = comparison(client)
         changes = by_path(found)
@@ -69,7 +69,7 @@ def test_two_versions_of_a_scene(stage: Path, earlier: Path, form: str, tmp_path
 def test_decisions_are_compared_too(stage: Path, tmp_path: Path):
     same = tmp_path / "same.ttl"
     write_graph(build(stage).graph, same)
-    with running_studio(stage, tmp_path / "project", same) as client:
+    with running_studio(stage, tmp_path / "project", compared=same) as client:
         assert comparison(client)["counts"] == {}
         classes = client.ask("api/scene").json()["classes"]
         plate = next(index for index, cls in enumerate(classes) if cls["name"] == "Plate")
@@ -99,7 +99,7 @@ def test_the_mapping_of_another_run(stage: Path, form: str, tmp_path: Path):
         data["predictions"][TABLE] |= {"class_iri": wrong, "confidence": 0.4, "status": "grounded"}
         data["predictions"].append({**data["predictions"][TABLE], "prim_path": "/Kitchen/Elsewhere"})
         mapping.write_text(json.dumps(data))
-    with running_studio(stage, tmp_path / "project", mapping) as client:
+    with running_studio(stage, tmp_path / "project", compared=mapping) as client:
         found = comparison(client)
         assert found["source"] == "mapping"
         assert {"appeared", "disappeared", "moved"}.isdisjoint(found["counts"])
@@ -119,7 +119,7 @@ def test_a_journal_of_decisions_is_a_mapping(stage: Path, tmp_path: Path):
         body = {"objects": [CUP_1], "action": "no-class", "reviewer": "Bob"}
         assert client.ask("api/decisions", body).status == 200
         assert client.ask("api/decisions", {**body, "objects": [CUP_2], "action": "unsure"}).status == 200
-    with running_studio(stage, tmp_path / "second", tmp_path / "first" / "decisions.sssom.tsv") as client:
+    with running_studio(stage, tmp_path / "second", compared=tmp_path / "first" / "decisions.sssom.tsv") as client:
         found = comparison(client)
         assert found["counts"] == {"class": 1}
         change = by_path(found)["/Kitchen/Cup_1"]

@@ -12,7 +12,7 @@ from usd2kg.grounding import Prediction, Status, format_mapping, ground
 from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import read_scene
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.session import open_session
+from usd2kg.studio.opening import open_session
 
 pytestmark = pytest.mark.studio
 
@@ -39,7 +39,7 @@ def write_second(stage: Path, target: Path) -> Path:
 
 def test_the_queue_begins_with_the_largest_disputed_group(stage: Path, tmp_path: Path):
     folder = tmp_path / "project"
-    with running_studio(stage, folder, write_second(stage, tmp_path / "second.json")) as studio:
+    with running_studio(stage, folder, second=write_second(stage, tmp_path / "second.json")) as studio:
         assert studio.ask("api/scene").json()["second_grounder"] == "other"
         groups = studio.ask("api/queue?order=disagreement").json()["groups"]
         bowl = class_index(studio, "Bowl")
