@@ -6,8 +6,6 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-import pyoxigraph as ox
-
 from usd2kg.errors import GroundingError
 from usd2kg.files import write_whole
 from usd2kg.graph import KnowledgeGraph, instantiate
@@ -16,7 +14,6 @@ from usd2kg.grounding import Grounding, Prediction, apply_decisions, ground, mak
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.query import GraphStore
-from usd2kg.query.dataset import Dataset
 from usd2kg.relations import Relation, find_relations
 from usd2kg.scene import Scene, read_scene
 from usd2kg.studio.journal import Journal
@@ -204,9 +201,7 @@ class StudioSession:
         graph = self.graph()
         with self._graph_lock:
             if self._answers is None or self._answers[0] is not graph:
-                store = ox.Store()
-                store.bulk_extend(ox.Quad(t.subject, t.predicate, t.object) for t in graph.triples)
-                self._answers = graph, GraphStore(Dataset(store), self.scene.source)
+                self._answers = graph, GraphStore.from_triples(graph.triples, self.scene.source)
             return self._answers[1]
 
     @property
