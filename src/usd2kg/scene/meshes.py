@@ -15,7 +15,16 @@ from usd2kg.scene.settings import MAX_COORDINATE, MESHES
 from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.stage import OpenedStage
 
-__all__ = ["NEUTRAL_GREY", "MeshPiece", "MeshReader", "ObjectMesh", "iterate_meshes", "points_to_metres", "read_mesh"]
+__all__ = [
+    "NEUTRAL_GREY",
+    "MeshPiece",
+    "MeshReader",
+    "ObjectMesh",
+    "determinant",
+    "iterate_meshes",
+    "points_to_metres",
+    "read_mesh",
+]
 
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -185,7 +194,7 @@ class MeshReader:
             return
         points = mesh.points @ matrix[:3, :3] + matrix[3, :3]
         # Mirroring inverts the winding.
-        triangles = mesh.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else mesh.triangles
+        triangles = mesh.triangles[:, ::-1] if determinant(matrix) < 0 else mesh.triangles
         for look, chosen in self._looks_of(prim, mesh):
             yield MeshPiece(str(prim.GetPath()), points, triangles if chosen is None else triangles[chosen], look)
 
@@ -256,7 +265,8 @@ class MeshReader:
         A material colour overrides the display colour, as in a renderer; many exporters write both.
         """
         rest = np.ones(len(mesh.triangles), np.bool_)
-        for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)):
+        subsets = UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)) if prim.GetAllChildrenNames() else ()
+        for subset in subsets:
             look = self._material_look(subset.GetPrim())
             chosen = rest & np.isin(mesh.face_of, _array(subset.GetIndicesAttr().Get(self.time), np.int64))
             if look.color is not None and subset.GetElementTypeAttr().Get() == "face" and chosen.any():
@@ -373,11 +383,29 @@ def _triangulate(mesh: Any, time: Usd.TimeCode) -> tuple[_LocalMesh | None, str]
         return None, f"faceVertexCounts add up to {int(counts.sum())}, but faceVertexIndices has {len(indices)} values"
     if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):
         return None, f"faceVertexIndices has values outside 0 … {len(points) - 1}"
-    fan = np.maximum(counts - 2, 0)
-    face_of = np.repeat(np.arange(len(counts)), fan)
-    first = np.repeat(np.cumsum(counts) - counts, fan)
-    nth = np.arange(len(face_of)) - np.repeat(np.cumsum(fan) - fan, fan)
-    corners = np.stack([first, first + nth + 1, first + nth + 2], axis=1)
+    corners, face_of = _fans(counts)
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         corners = corners[:, ::-1]
     return _LocalMesh(points, indices[corners].astype(np.int32), face_of), ""
+
+
+def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the corners (m, 3) of the triangles of polygons with `counts` corners each, and the polygon of each."""
+    size = int(counts[0])
+    if size >= 3 and (counts == size).all():
+        nth = np.arange(size - 2)
+        fan = np.stack([np.zeros_like(nth), nth + 1, nth + 2], axis=1)
+        corners = (np.arange(len(counts)) * size)[:, None, None] + fan
+        return corners.reshape(-1, 3), np.repeat(np.arange(len(counts)), size - 2)
+    fans = np.maximum(counts - 2, 0)
+    face_of = np.repeat(np.arange(len(counts)), fans)
+    first = np.repeat(np.cumsum(counts) - counts, fans)
+    nth = np.arange(len(face_of)) - np.repeat(np.cumsum(fans) - fans, fans)
+    return np.stack([first, first + nth + 1, first + nth + 2], axis=1), face_of
+
+
+def determinant(matrix: Points) -> float:
+    """Return the determinant of the linear part of a transform (4, 4); negative if it inverts the winding."""
+    # That of numpy takes ten times as long for one small matrix.
+    (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
+    return float(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))

@@ -292,16 +292,17 @@ class _Api:
     # Pictures.
 
     async def _geometry(self, _: Request) -> Response:
-        manifest = (await _wait(self._pictures.geometry())).manifest()
-        # The first graph is built when the page has what it shows first.
-        self._outputs.notify()
-        return JSONResponse(manifest)
+        return JSONResponse((await _wait(self._pictures.geometry())).manifest())
 
     async def _geometry_file(self, request: Request) -> Response:
+        index = int(request.path_params["index"])
         try:
-            content = await _wait(self._pictures.file(int(request.path_params["index"])))
+            content = await _wait(self._pictures.file(index))
         except IndexError as error:
             raise BadRequestError("there is no such file", 404) from error
+        if index + 1 == len((await _wait(self._pictures.geometry())).manifest()["chunks"]):
+            # The first graph is built when the page has what it shows.
+            self._outputs.notify()
         return Response(content, media_type="model/gltf-binary")
 
     async def _thumbnail(self, request: Request) -> Response:

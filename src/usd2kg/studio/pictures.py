@@ -6,7 +6,7 @@ from functools import cached_property
 
 from usd2kg.errors import SceneError
 from usd2kg.render import Renderer
-from usd2kg.scene.object_geometry import read_geometry
+from usd2kg.scene.object_geometry import GeometryReader
 from usd2kg.scene.stage import open_stage, time_code
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.geometry import GeometryFiles
@@ -58,8 +58,8 @@ class Pictures:
         opened = open_stage(sources.scene, sources.reading)
         if opened.content_hash != self._session.scene.content_hash:
             raise SceneError(f"{sources.scene}: has changed since it was read; start the studio again")
-        geometry = read_geometry(opened, self._session.scene, time_code(sources.reading.time))
-        return GeometryFiles(geometry, self._catalog)
+        reader = GeometryReader(opened, self._session.scene, time_code(sources.reading.time))
+        return GeometryFiles(reader, self._session.scene, self._catalog)
 
     def _thumbnail(self, index: int) -> bytes:
         if index in self._thumbnails:

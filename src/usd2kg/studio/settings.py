@@ -24,6 +24,7 @@ class GeometrySettings:
     max_triangles: int
     min_mesh_triangles: int
     chunk_triangles: int
+    chunk_objects: int
 
 
 @dataclass(frozen=True)

@@ -292,8 +292,9 @@ export interface ExampleQuery {
   query: string;
 }
 
-/** `GET /api/geometry`: the parts of the scene's meshes; each is `GET /api/geometry/{index}.glb`. */
+/** `GET /api/geometry`: the parts of the scene's meshes, the largest first; each is `GET /api/geometry/{index}.glb`. */
 export interface GeometryManifest {
+  /** Numbers of triangles are estimates; the meshes are read when they are asked for. */
   chunks: { triangles: number }[];
   triangles: number;
   /** Triangles before decimation. */

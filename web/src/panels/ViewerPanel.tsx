@@ -2,7 +2,7 @@
 
 import { computed, effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { GeometryManifest, ObjectIndex } from "../api/types";
+import type { ObjectIndex } from "../api/types";
 import type { ViewCommands } from "../keys/bindings";
 import { pageOf } from "../state/candidates";
 import { colorObjects, cssColor, type LegendEntry } from "../state/colors";
@@ -10,6 +10,7 @@ import { classLabel } from "../state/model";
 import type { Store } from "../state/store";
 import { annotate } from "../viewer/annotations";
 import { appearanceOf, MAX_WATCHED, occluders } from "../viewer/appearance";
+import { loadGeometry } from "../viewer/loading";
 import { Viewer } from "../viewer/viewer";
 
 export function ViewerPanel({ store, view }: { store: Store; view: { current: ViewCommands | null } }) {
@@ -101,12 +102,7 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
 
 async function load(store: Store, viewer: Viewer, setLoading: (loading: [number, number]) => void): Promise<void> {
   try {
-    const { chunks } = await store.client.get<GeometryManifest>("geometry");
-    for (const [index] of chunks.entries()) {
-      setLoading([index, chunks.length]);
-      await viewer.addFile(await (await store.client.blob(`geometry/${index}.glb`)).arrayBuffer());
-    }
-    setLoading([chunks.length, chunks.length]);
+    await loadGeometry(store.client, viewer, (done, count) => setLoading([done, count]));
     document.documentElement.dataset["geometry"] = "loaded";
   } catch (error) {
     setLoading([0, 0]);
