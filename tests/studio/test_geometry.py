@@ -14,7 +14,7 @@ from tests.scene.usda import METRES, component, cube, xform
 from usd2kg.grounding import ground, make_grounder
 from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import ReadOptions, read_scene
-from usd2kg.scene.object_geometry import GeometryReader
+from usd2kg.scene.object_geometry import NO_TEXTURE, GeometryReader
 from usd2kg.scene.stage import open_stage, time_code
 from usd2kg.studio import geometry as geometry_module
 from usd2kg.studio.catalog import Catalog
@@ -107,7 +107,14 @@ def test_files_are_read_by_another_library():
     rng = np.random.default_rng(1)
     points = rng.random((70000, 3), np.float32)
     triangles = rng.integers(0, 70000, (100, 3), np.int32)
-    mesh = ShadedMesh(points, np.tile(np.float32([0, 0, 1]), (70000, 1)), np.full((70000, 4), 128, np.uint8), triangles)
+    mesh = ShadedMesh(
+        points,
+        np.tile(np.float32([0, 0, 1]), (70000, 1)),
+        np.full((70000, 4), 128, np.uint8),
+        np.zeros((70000, 2), np.float32),
+        triangles,
+        np.full(100, NO_TEXTURE),
+    )
     matrix = np.eye(4)
     matrix[3, :3] = 1, 2, 3
     content = write_glb({7: mesh}, [GlbNode(7, np.eye(4), {"object": 3}), GlbNode(7, matrix, {"object": 4})])

@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +12,14 @@ from pxr import Usd
 from usd2kg.scene.meshes import NEUTRAL_GREY, MeshPiece, MeshReader, determinant
 from usd2kg.scene.model import Diagnostic, Scene, StageFrame
 from usd2kg.scene.stage import OpenedStage, captured_diagnostics
+from usd2kg.scene.textures import Texture
 from usd2kg.scene.triangle_counter import TriangleCounter
 
-__all__ = ["ColoredMesh", "GeometryReader", "Placement"]
+__all__ = ["NO_TEXTURE", "ColoredMesh", "GeometryReader", "Placement", "join_meshes"]
 
 Array = NDArray[np.float64]
+
+NO_TEXTURE = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +31,15 @@ class ColoredMesh:
     triangles: NDArray[np.int32]
     """(m, 3), indices into `points`, counter-clockwise seen from outside."""
     colors: NDArray[np.uint8]
-    """(n, 4), linear RGB and opacity, 255 for 1."""
+    """(n, 4), linear RGB and opacity, 255 for 1; the colour counts where there is no texture."""
+    uv: NDArray[np.float32]
+    """(n, 2), texture coordinates; 0 where there is no texture."""
+    texture: NDArray[np.int32]
+    """(m,), index of the texture of each triangle in `GeometryReader.textures`, or `NO_TEXTURE`."""
+
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """Return all arrays; meshes are equal if these are."""
+        return self.points, self.triangles, self.colors, self.uv, self.texture
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +79,17 @@ class GeometryReader:
         self._to_metres = _frame_matrix(opened.frame)
         self._scene = scene
         self._notes: list[Diagnostic] = [] if diagnostics is None else diagnostics
-        self._reader = MeshReader(opened.stage, time, self._notes)
+        self._reader = MeshReader(opened.stage, time, self._notes, reads_textures=True)
         self._triangles = TriangleCounter(opened.stage, time)
+        self._textures: dict[Texture, int] = {}
         self._by_digest: dict[bytes, int] = {}
         self._of_prototype: dict[str, list[tuple[str, int]]] = {}
         """Path of a prototype → (path below its instance, mesh) of each object in it."""
+
+    @property
+    def textures(self) -> tuple[Texture, ...]:
+        """The textures of the meshes that have been read so far."""
+        return tuple(self._textures)
 
     def count(self, prim_path: str) -> int:
         """Return about how many triangles an outermost object has, without reading its points."""
@@ -128,29 +146,42 @@ class GeometryReader:
 
     def _add(self, pieces: Sequence[MeshPiece]) -> int:
         """Return the index of the mesh of some pieces; equal meshes are stored once."""
-        mesh = _join(pieces)
-        digest = hashlib.sha256(mesh.points.tobytes() + mesh.triangles.tobytes() + mesh.colors.tobytes()).digest()
+        mesh = join_meshes([self._split_at_seams(piece) for piece in pieces])
+        digest = hashlib.sha256(b"".join(part.tobytes() for part in mesh.arrays())).digest()
         if digest not in self._by_digest:
             self._by_digest[digest] = len(self.meshes)
             self.meshes.append(mesh)
         return self._by_digest[digest]
 
-
-def _join(pieces: Sequence[MeshPiece]) -> ColoredMesh:
-    """Return the pieces as one mesh."""
-    starts = np.cumsum([0, *(len(piece.points) for piece in pieces)])
-    colors = [
-        np.tile(
-            np.round(255 * np.array([*(piece.look.color or NEUTRAL_GREY), piece.look.opacity])).astype(np.uint8),
-            (len(piece.points), 1),
+    def _split_at_seams(self, piece: MeshPiece) -> ColoredMesh:
+        """Return a piece as a mesh, with several points where the corners at a point differ in texture coordinates."""
+        points, triangles, texture = piece.points, piece.triangles, NO_TEXTURE
+        uv: NDArray[np.float32] | None = None
+        if piece.uv is not None and piece.look.mapping is not None:
+            corners, uv = triangles.reshape(-1).astype(np.int64), piece.uv.reshape(-1, 2)
+            key = np.column_stack([corners, uv.astype(np.float32).view(np.int32)])
+            _, first, which = np.unique(key, axis=0, return_index=True, return_inverse=True)
+            points, uv, triangles = points[corners[first]], uv[first], which.reshape(-1, 3).astype(np.int32)
+            texture = self._textures.setdefault(piece.look.mapping.texture, len(self._textures))
+        color = np.round(255 * np.array([*(piece.look.color or NEUTRAL_GREY), piece.look.opacity])).astype(np.uint8)
+        return ColoredMesh(
+            points.astype(np.float32),
+            triangles.astype(np.int32),
+            np.tile(color, (len(points), 1)),
+            np.zeros((len(points), 2), np.float32) if uv is None else uv,
+            np.full(len(triangles), texture, np.int32),
         )
-        for piece in pieces
-    ]
-    triangles = [piece.triangles + np.int32(start) for piece, start in zip(pieces, starts, strict=False)]
+
+
+def join_meshes(parts: Sequence[ColoredMesh]) -> ColoredMesh:
+    """Return several meshes as one."""
+    starts = np.cumsum([0, *(len(part.points) for part in parts)])
     return ColoredMesh(
-        points=np.concatenate([piece.points for piece in pieces]).astype(np.float32),
-        triangles=np.concatenate(triangles).astype(np.int32),
-        colors=np.concatenate(colors),
+        np.concatenate([part.points for part in parts]),
+        np.concatenate([part.triangles + np.int32(start) for part, start in zip(parts, starts, strict=False)]),
+        np.concatenate([part.colors for part in parts]),
+        np.concatenate([part.uv for part in parts]),
+        np.concatenate([part.texture for part in parts]),
     )
 
 

@@ -120,6 +120,7 @@ class _Api:
             ("GET", "/events", self._stream),
             ("GET", "/geometry", self._geometry),
             ("GET", "/geometry/{index:int}.glb", self._geometry_file),
+            ("GET", "/geometry/textures/{index:int}", self._texture),
             ("GET", "/thumbnail/{index:int}.png", self._thumbnail),
             ("GET", "/examples", self._examples),
             ("GET", "/export/{name}", self._export),
@@ -304,6 +305,13 @@ class _Api:
             # The first graph is built when the page has what it shows.
             self._outputs.notify()
         return Response(content, media_type="model/gltf-binary")
+
+    async def _texture(self, request: Request) -> Response:
+        try:
+            image = await _wait(self._pictures.texture(int(request.path_params["index"])))
+        except IndexError as error:
+            raise BadRequestError("there is no such texture", 404) from error
+        return Response(status_code=204) if image is None else Response(image.content, media_type=image.media_type)
 
     async def _thumbnail(self, request: Request) -> Response:
         return Response(await _wait(self._pictures.thumbnail(self._index(request))), media_type="image/png")

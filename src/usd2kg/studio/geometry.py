@@ -11,6 +11,7 @@ from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.glb import GlbNode, write_glb
 from usd2kg.studio.mesh_budget import ShadedMesh, decimate, shade
 from usd2kg.studio.settings import GEOMETRY
+from usd2kg.studio.texture_images import TextureImage, TextureImages
 
 __all__ = ["GeometryFiles"]
 
@@ -36,6 +37,7 @@ class GeometryFiles:
         self._share = min(1.0, GEOMETRY.max_triangles / max(1, self._source_triangles))
         self._shaded: dict[int, ShadedMesh] = {}
         self._files: dict[int, bytes] = {}
+        self._images = TextureImages()
 
     def manifest(self) -> dict[str, Any]:
         """Return the number of files and an estimate of triangles; see `web/src/api/types.ts`."""
@@ -60,6 +62,16 @@ class GeometryFiles:
             self._files[index] = self._write([*self._reader.read(chunk.prim_paths), *outside])
         return self._files[index]
 
+    def texture(self, index: int) -> TextureImage | None:
+        """Return the image of a texture that a file names; None if it is not shown.
+
+        Raises:
+            IndexError: no file that was made has such a texture.
+        """
+        if not 0 <= index < len(self._reader.textures):
+            raise IndexError(index)
+        return self._images.image(self._reader.textures[index])
+
     def _write(self, placements: Sequence[Placement]) -> bytes:
         meshes = {placement.mesh: self._mesh(placement.mesh) for placement in placements}
         nodes = [
@@ -67,7 +79,11 @@ class GeometryFiles:
             for placement in placements
             if len(meshes[placement.mesh].triangles)
         ]
-        return write_glb({node.mesh: meshes[node.mesh] for node in nodes}, nodes)
+        textures = [
+            {"texture": number, "wrap": texture.wrap, "scale": texture.scale}
+            for number, texture in enumerate(self._reader.textures)
+        ]
+        return write_glb({node.mesh: meshes[node.mesh] for node in nodes}, nodes, textures)
 
     def _mesh(self, index: int) -> ShadedMesh:
         if index not in self._shaded:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.scene.object_geometry import NO_TEXTURE
 from usd2kg.studio.mesh_budget import ShadedMesh
 
 __all__ = ["GlbNode", "write_glb"]
@@ -29,9 +30,17 @@ class GlbNode(NamedTuple):
     extras: Mapping[str, Any]
 
 
-def write_glb(meshes: Mapping[int, ShadedMesh], nodes: Sequence[GlbNode]) -> bytes:
-    """Return a file with the nodes, which share meshes."""
-    writer = _Writer()
+def write_glb(
+    meshes: Mapping[int, ShadedMesh], nodes: Sequence[GlbNode], textures: Sequence[Mapping[str, Any]] = ()
+) -> bytes:
+    """Return a file with the nodes, which share meshes.
+
+    Args:
+        meshes: key → mesh.
+        nodes: the nodes, in order.
+        textures: extras of the primitives with each texture.
+    """
+    writer = _Writer(textures)
     number = {key: index for index, key in enumerate(meshes)}
     document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "usd2kg"},
@@ -39,7 +48,7 @@ def write_glb(meshes: Mapping[int, ShadedMesh], nodes: Sequence[GlbNode]) -> byt
         "scenes": [{"nodes": list(range(len(nodes)))}] if nodes else [{}],
     }
     if nodes:
-        document["meshes"] = [{"primitives": [writer.primitive(mesh)]} for mesh in meshes.values()]
+        document["meshes"] = [{"primitives": writer.primitives(mesh)} for mesh in meshes.values()]
         document["nodes"] = [
             {
                 "name": f"n{index}",
@@ -56,24 +65,36 @@ def write_glb(meshes: Mapping[int, ShadedMesh], nodes: Sequence[GlbNode]) -> byt
 class _Writer:
     """The binary part of a file: one view for each accessor."""
 
-    def __init__(self) -> None:
+    def __init__(self, textures: Sequence[Mapping[str, Any]]) -> None:
+        self._textures = textures
         self._parts: list[bytes] = []
         self._size = 0
         self._views: list[dict[str, int]] = []
         self._accessors: list[dict[str, Any]] = []
 
-    def primitive(self, mesh: ShadedMesh) -> dict[str, Any]:
-        """Add a mesh; return its primitive."""
+    def primitives(self, mesh: ShadedMesh) -> list[dict[str, Any]]:
+        """Add a mesh; return a primitive for each of its textures. They share the points."""
         width = np.uint16 if len(mesh.points) <= _MAX_SHORT else np.uint32
         low, high = mesh.points.min(axis=0).tolist(), mesh.points.max(axis=0).tolist()
-        return {
-            "attributes": {
-                "POSITION": self._add(mesh.points, "VEC3", min=low, max=high),
-                "NORMAL": self._add(mesh.normals, "VEC3"),
-                "COLOR_0": self._add(mesh.colors, "VEC4", normalized=True),
-            },
-            "indices": self._add(mesh.triangles.astype(width).reshape(-1), "SCALAR", _ELEMENT_ARRAY_BUFFER),
+        attributes = {
+            "POSITION": self._add(mesh.points, "VEC3", min=low, max=high),
+            "NORMAL": self._add(mesh.normals, "VEC3"),
+            "COLOR_0": self._add(mesh.colors, "VEC4", normalized=True),
         }
+        textures = np.unique(mesh.texture).tolist()
+        if textures != [NO_TEXTURE]:
+            # USD has the origin below the first row of an image, glTF above it.
+            attributes["TEXCOORD_0"] = self._add(np.column_stack([mesh.uv[:, 0], 1 - mesh.uv[:, 1]]), "VEC2")
+        return [
+            {
+                "attributes": attributes,
+                "indices": self._add(
+                    mesh.triangles[mesh.texture == texture].astype(width).reshape(-1), "SCALAR", _ELEMENT_ARRAY_BUFFER
+                ),
+                **({} if texture == NO_TEXTURE else {"extras": dict(self._textures[texture])}),
+            }
+            for texture in textures
+        ]
 
     def _add(self, values: NDArray[Any], kind: str, target: int = _ARRAY_BUFFER, **more: Any) -> int:
         data = np.ascontiguousarray(values).tobytes()

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.render.triangle_soup import corner_normals
-from usd2kg.scene.object_geometry import ColoredMesh
+from usd2kg.scene.object_geometry import NO_TEXTURE, ColoredMesh, join_meshes
 
 __all__ = ["ShadedMesh", "decimate", "shade"]
 
@@ -17,11 +17,17 @@ class ShadedMesh(NamedTuple):
     points: NDArray[np.float32]
     normals: NDArray[np.float32]
     colors: NDArray[np.uint8]
+    uv: NDArray[np.float32]
     triangles: NDArray[np.int32]
+    texture: NDArray[np.int32]
+    """(m,), see `ColoredMesh`."""
 
 
 def decimate(mesh: ColoredMesh, target: int) -> ColoredMesh:
-    """Return the mesh with about `target` triangles, by quadric error (Garland and Heckbert 1997), color by color."""
+    """Return the mesh with about `target` triangles, by quadric error (Garland and Heckbert 1997), color by color.
+
+    A mesh that is decimated loses its textures, since its points get new places.
+    """
     if len(mesh.triangles) <= target:
         return mesh
     import fast_simplification  # noqa: PLC0415 - an extra
@@ -37,15 +43,14 @@ def decimate(mesh: ColoredMesh, target: int) -> ColoredMesh:
         )
         parts.append(
             ColoredMesh(
-                points.astype(np.float32), faces.astype(np.int32), np.tile(color, (len(points), 1)).astype(np.uint8)
+                points.astype(np.float32),
+                faces.astype(np.int32),
+                np.tile(color, (len(points), 1)).astype(np.uint8),
+                np.zeros((len(points), 2), np.float32),
+                np.full(len(faces), NO_TEXTURE, np.int32),
             )
         )
-    starts = np.cumsum([0, *(len(part.points) for part in parts)])
-    return ColoredMesh(
-        np.concatenate([part.points for part in parts]),
-        np.concatenate([part.triangles + np.int32(start) for part, start in zip(parts, starts, strict=False)]),
-        np.concatenate([part.colors for part in parts]),
-    )
+    return join_meshes(parts)
 
 
 def shade(mesh: ColoredMesh) -> ShadedMesh:
@@ -61,5 +66,7 @@ def shade(mesh: ColoredMesh) -> ShadedMesh:
         points=mesh.points[used],
         normals=normals[first].astype(np.float32),
         colors=mesh.colors[used],
+        uv=mesh.uv[used],
         triangles=corner_of.reshape(-1, 3).astype(np.int32),
+        texture=mesh.texture,
     )

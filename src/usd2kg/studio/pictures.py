@@ -12,6 +12,7 @@ from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.geometry import GeometryFiles
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.settings import SERVER
+from usd2kg.studio.texture_images import TextureImage
 
 __all__ = ["Pictures"]
 
@@ -42,6 +43,10 @@ class Pictures:
     def file(self, index: int) -> "Future[bytes]":
         """Return one GLB file; the future raises IndexError if there is none."""
         return self._thread.submit(lambda: self._geometry.file(index))
+
+    def texture(self, index: int) -> "Future[TextureImage | None]":
+        """Return the image of a texture; None if it is not shown. The future raises IndexError if there is none."""
+        return self._thread.submit(lambda: self._geometry.texture(index))
 
     def close(self) -> None:
         """Stop; pictures that are waiting are dropped."""

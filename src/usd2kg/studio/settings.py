@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["GEOMETRY", "QUEUE", "SERVER", "GeometrySettings", "QueueSettings", "ServerSettings"]
+__all__ = [
+    "GEOMETRY",
+    "QUEUE",
+    "SERVER",
+    "TEXTURES",
+    "GeometrySettings",
+    "QueueSettings",
+    "ServerSettings",
+    "TextureSettings",
+]
 
 
 @dataclass(frozen=True)
@@ -28,6 +37,18 @@ class GeometrySettings:
 
 
 @dataclass(frozen=True)
+class TextureSettings:
+    """How images of textures are scaled down, and which are left out."""
+
+    max_side: int
+    max_lossless_side: int
+    jpeg_quality: int
+    max_file_bytes: int
+    max_pixels: int
+    max_scene_bytes: int
+
+
+@dataclass(frozen=True)
 class ServerSettings:
     """Limits of requests, and when files follow the decisions."""
 
@@ -42,4 +63,5 @@ class ServerSettings:
 
 QUEUE = read_settings("studio", "queue", QueueSettings)
 GEOMETRY = read_settings("studio", "geometry", GeometrySettings)
+TEXTURES = read_settings("studio", "textures", TextureSettings)
 SERVER = read_settings("studio", "server", ServerSettings)

@@ -9,11 +9,12 @@ import {
   Plane,
   Raycaster,
   Scene,
+  type Texture,
   Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
-import type { Box, ObjectIndex, SceneData } from "../api/types";
+import type { Box, ObjectIndex, SceneData, TextureUse } from "../api/types";
 import type { Eye } from "./appearance";
 import { BoxBatch } from "./boxes";
 import { Cameras, type ViewName } from "./cameras";
@@ -53,6 +54,7 @@ export class Viewer {
   private readonly scene = new Scene();
   private readonly boxes: BoxBatch;
   private readonly meshes = new MeshBatches();
+  private readonly textures = new Map<number, Texture>();
   private readonly selection = new LineSet("#ff9d00");
   private readonly relations = new LineSet("#ff9d00");
   private readonly hidden = new LineSet("#8a93a0");
@@ -95,9 +97,18 @@ export class Viewer {
     this.paint();
   }
 
-  /** Adds one GLB file; its objects replace their boxes. */
-  async addFile(data: ArrayBuffer): Promise<void> {
-    for (const batch of this.meshes.add(await readParts(data))) this.scene.add(batch);
+  /** Adds one GLB file; its objects replace their boxes. Returns the textures that it uses. */
+  async addFile(data: ArrayBuffer): Promise<TextureUse[]> {
+    const parts = await readParts(data);
+    for (const batch of this.meshes.add(parts)) this.scene.add(batch);
+    this.paint();
+    return parts.flatMap(({ texture }) => (texture === null ? [] : [texture]));
+  }
+
+  /** Adds the image of a texture. */
+  addTexture(index: number, texture: Texture): void {
+    this.textures.set(index, texture);
+    this.meshes.setTextures(this.textures);
     this.paint();
   }
 
@@ -230,6 +241,10 @@ export class Viewer {
     return performance.now() - start;
   }
 
+  get textureCount(): number {
+    return this.textures.size;
+  }
+
   get drawCalls(): number {
     return this.renderer.info.render.calls;
   }
@@ -261,6 +276,7 @@ export class Viewer {
     this.resizer.disconnect();
     this.cameras.dispose();
     this.meshes.dispose();
+    for (const texture of this.textures.values()) texture.dispose();
     this.boxes.dispose();
     this.selection.dispose();
     this.relations.dispose();
