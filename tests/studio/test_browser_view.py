@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.studio.conftest import needs_page, running_studio
 from tests.studio.test_browser import CHROMIUM, SOFTWARE_GL, close_page, open_page
@@ -66,6 +66,30 @@ def test_textures_are_shown_with_the_colours_of_materials_only(browser: Browser,
         page.get_by_label("Color by").select_option("confidence")
         page.wait_for_timeout(300)
         assert share(view_of(page), GREEN) < 0.001
+        close_page(page)
+
+
+def test_the_picture_comes_back_after_the_context_is_lost(browser: Browser, board: Path, tmp_path: Path) -> None:
+    with running_studio(board, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.wait_for_function("window.studioViewer.textureCount === 1")
+        page.wait_for_timeout(300)
+        before = view_of(page)
+        page.evaluate(
+            "window.lose = document.querySelector('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');"
+            "window.lose.loseContext()"
+        )
+        message = page.get_by_role("alert").filter(has_text="graphics memory")
+        expect(message).to_be_visible()
+        page.get_by_label("Color by").select_option("confidence")
+        page.get_by_label("Color by").select_option("material")
+        page.evaluate("window.lose.restoreContext()")
+        expect(message).to_have_count(0)
+        page.wait_for_timeout(500)
+        after = view_of(page)
+        # The picture is the same, with its texture.
+        assert np.abs(after - before).mean() < 1
+        assert share(after, BLUE) > 0.01
         close_page(page)
 
 

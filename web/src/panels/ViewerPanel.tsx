@@ -16,6 +16,7 @@ import { Viewer } from "../viewer/viewer";
 export function ViewerPanel({ store, view }: { store: Store; view: { current: ViewCommands | null } }) {
   const host = useRef<HTMLDivElement>(null);
   const [problem, setProblem] = useState("");
+  const [isLost, setLost] = useState(false);
   const [legend, setLegend] = useState<LegendEntry[]>([]);
   const [loading, setLoading] = useState<[number, number]>([0, 0]);
   useEffect(() => {
@@ -27,6 +28,7 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
         onHover: (object) => {
           store.hovered.value = object ?? -1;
         },
+        onContext: setLost,
       });
     } catch {
       setProblem("This browser has no WebGL 2, so there is no picture. Everything else works.");
@@ -49,6 +51,12 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
     <main class="viewer" aria-label="3D view">
       <div class="canvas-host" ref={host} />
       {problem !== "" && <p class="empty">{problem}</p>}
+      {isLost && (
+        <p class="context-lost" role="alert">
+          The browser has taken the graphics memory away, so there is no picture. It comes back by itself; if it does
+          not, load the page again. Decisions are saved.
+        </p>
+      )}
       {loading[0] < loading[1] && (
         <p class="loading">
           Meshes {loading[0]} of {loading[1]}

@@ -32,6 +32,8 @@ export interface RelationLine {
 export interface ViewerEvents {
   onPick(object: ObjectIndex | null, isAdding: boolean): void;
   onHover(object: ObjectIndex | null, x: number, y: number): void;
+  /** The browser has taken the graphics context away, or has given it back. */
+  onContext(isLost: boolean): void;
 }
 
 const HOVER_MS = 60;
@@ -92,6 +94,7 @@ export class Viewer {
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(host);
     this.listen(canvas);
+    this.watchContext(canvas);
     this.resize();
     this.cameras.frame(this.boundsOf(null), "perspective", true);
     this.paint();
@@ -208,6 +211,19 @@ export class Viewer {
     canvas.addEventListener("pointerleave", () => {
       clearTimeout(this.hoverTimer);
       this.events.onHover(null, 0, 0);
+    });
+  }
+
+  /** The renderer uploads everything again with the first frame after the context is back. */
+  private watchContext(canvas: HTMLCanvasElement): void {
+    canvas.addEventListener("webglcontextlost", (event) => {
+      // Otherwise the browser does not give it back.
+      event.preventDefault();
+      this.events.onContext(true);
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.events.onContext(false);
+      this.paint();
     });
   }
 
