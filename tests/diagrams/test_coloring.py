@@ -192,6 +192,16 @@ def test_the_command_colours_by_class(kitchen, tmp_path):
         assert share_of(pixels[:, 160:], color) > 0.003
 
 
+def test_the_command_colours_by_support(kitchen, tmp_path):
+    target = tmp_path / "k.png"
+    assert invoke(kitchen, "-o", target, "--color-by", "support", "--size", "160x120").exit_code == 0
+    picture = pixels_of(target.read_bytes())[:, :160]
+    # The table is on the floor, which comes first in the scene, and the mug on the table.
+    table, mug = (share_of(picture, color) for color in COLORS.categories[:2])
+    assert table > mug > 0.005
+    assert share_of(picture, COLORS.categories[2]) < 0.001
+
+
 def test_the_command_highlights_an_answer(kitchen, tmp_path):
     target = tmp_path / "k.png"
     result = invoke(kitchen, "-o", target, "--ask", "what stands on the table?", "--size", "160x120")
@@ -214,7 +224,11 @@ def test_decisions_change_the_class(kitchen, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
-        (["--color-by", "weight"], OutputError, "expected material, class, concept, confidence, room or answer"),
+        (
+            ["--color-by", "weight"],
+            OutputError,
+            "concept, confidence, room, support or answer",
+        ),
         (["--color-by", "answer"], OutputError, "needs a question"),
         (["--color-by", "room", "--ask", "where is the mug?"], OutputError, "shows no answer"),
         (["/Mug", "--color-by", "room", "--context"], OutputError, "without --color-by"),
@@ -228,7 +242,7 @@ def test_errors_of_the_command(kitchen, tmp_path, arguments, error, message):
     assert message in str(result.exception)
 
 
-@pytest.mark.parametrize("mode", ["class", "concept", "confidence", "room"])
+@pytest.mark.parametrize("mode", ["class", "concept", "confidence", "room", "support"])
 def test_real_scenes_have_the_colours_of_their_legend(tmp_path, mode):
     house = shared_file("scenes/aws_robomaker/small_house.usdc")
     target = tmp_path / "house.png"

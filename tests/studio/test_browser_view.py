@@ -69,6 +69,18 @@ def test_textures_are_shown_with_the_colours_of_materials_only(browser: Browser,
         close_page(page)
 
 
+def test_colours_by_support(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.get_by_label("Color by").select_option("support")
+        legend = page.get_by_label("Legend")
+        expect(legend.get_by_text("Table")).to_be_visible()
+        # Both cups.
+        legend.get_by_text("Table").click()
+        expect(page.locator("[role=treeitem][aria-selected=true]")).to_have_count(2)
+        close_page(page)
+
+
 def test_the_picture_comes_back_after_the_context_is_lost(browser: Browser, board: Path, tmp_path: Path) -> None:
     with running_studio(board, tmp_path / "project") as studio:
         page = open_page(browser, studio)

@@ -55,11 +55,29 @@ describe("colours", () => {
   });
 
   it("explains each colour", () => {
-    for (const mode of ["class", "concept", "confidence", "state", "room", "answer"] as const) {
+    for (const mode of ["class", "concept", "confidence", "state", "room", "support", "answer"] as const) {
       const { colors, legend } = colorObjects(mode, model, states, new Set([1]));
       expect(legend.reduce((total, entry) => total + entry.objects.length, 0)).toBe(4);
       for (const { color, objects } of legend) for (const object of objects) expect(colors[object]).toEqual(color);
     }
+  });
+
+  it("colours objects by what they stand on", () => {
+    const { colors, legend } = colorObjects(
+      "support",
+      model,
+      states,
+      new Set(),
+      new Map([
+        [1, 0],
+        [2, 0],
+      ]),
+    );
+    expect(legend.map((entry) => [entry.label, entry.objects])).toEqual([
+      ["on and in nothing", [0, 3]],
+      ["Table", [1, 2]],
+    ]);
+    expect(colors).toEqual([rgb(REST), rgb(CATEGORIES[0]), rgb(CATEGORIES[0]), rgb(REST)]);
   });
 
   it("separates a confidence that is not given from a low one", () => {

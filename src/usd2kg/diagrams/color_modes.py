@@ -1,4 +1,4 @@
-"""color_scene: the colours of the objects of a scene by class, concept, confidence or room."""
+"""color_scene: the colours of the objects of a scene by class, concept, confidence, room or support."""
 
 from collections.abc import Sequence
 from enum import StrEnum
@@ -19,6 +19,7 @@ class ColorMode(StrEnum):
     CONCEPT = "concept"
     CONFIDENCE = "confidence"
     ROOM = "room"
+    SUPPORT = "support"
     ANSWER = "answer"
 
 
@@ -28,11 +29,11 @@ def color_scene(
     """Return the colours of all objects by a property of theirs.
 
     Args:
-        mode: class, concept, confidence or room.
+        mode: class, concept, confidence, room or support.
         tbox: the classes.
         grounding: the grounding with the decisions of a person.
         suggestions: the same without; it has the confidence, and colours are given to classes by their size in it.
-        relations: the relations between the objects, for rooms.
+        relations: the relations between the objects, for rooms and supports.
     """
     predictions = grounding.predictions
     if mode is ColorMode.CONFIDENCE:
@@ -48,8 +49,11 @@ def color_scene(
         of_object = {p.prim_path: p.concept for p in predictions}
         labels = {iri: grounding.concepts[iri].label for iri in sorted(grounding.concepts)}
         return color_by_group(of_object, labels, of_object, "no concept")
-    assert mode is ColorMode.ROOM, f"{mode} is no property of a scene"
-    rooms = {relation.target: relation.anchor for relation in relations if relation.kind == "room"}
-    in_room = {p.prim_path: rooms.get(p.prim_path) for p in predictions}
-    labels = {room: room.rpartition("/")[2] for room in rooms.values()}
-    return color_by_group(in_room, labels, in_room, "no room")
+    kinds, none = (("room",), "no room") if mode is ColorMode.ROOM else (("on", "inside"), "on and in nothing")
+    # Later kinds win: what is in a box on a shelf is in the box.
+    anchor_of = {r.target: r.anchor for kind in kinds for r in relations if r.kind == kind}
+    groups = {p.prim_path: anchor_of.get(p.prim_path) for p in predictions}
+    # Rooms may be groups, which are no objects.
+    order = dict.fromkeys([*(path for path in groups if path in anchor_of.values()), *anchor_of.values()])
+    labels = {path: path.rpartition("/")[2] for path in order}
+    return color_by_group(groups, labels, groups, none)

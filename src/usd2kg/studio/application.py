@@ -172,6 +172,8 @@ class _Api:
 
     async def _relations(self, request: Request) -> Response:
         kind = request.query_params.get("kind", "")
+        # The graph of the current decisions, which change what may hold and bear something.
+        await asyncio.to_thread(self._session.graph)
         found = [relation_json(r, self._catalog) for r in self._session.relations if r.kind == kind]
         return JSONResponse({"relations": found})
 

@@ -177,7 +177,7 @@ export interface RelationRecord {
   rule: string;
 }
 
-/** `GET /api/relations?kind=on`: all relations of one kind. */
+/** `GET /api/relations?kind=on`: all relations of one kind, by the current decisions. */
 export interface RelationList {
   relations: RelationRecord[];
 }

@@ -8,6 +8,7 @@ import { pageOf } from "../state/candidates";
 import { colorObjects, cssColor, type LegendEntry } from "../state/colors";
 import { classLabel } from "../state/model";
 import type { Store } from "../state/store";
+import { followSupports } from "../state/supports";
 import { annotate } from "../viewer/annotations";
 import { appearanceOf, MAX_WATCHED, occluders } from "../viewer/appearance";
 import { loadGeometry } from "../viewer/loading";
@@ -49,7 +50,7 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
   }, [store, view]);
   return (
     <main class="viewer" aria-label="3D view">
-      <div class="canvas-host" ref={host} />
+      <div class="canvas-host" data-lost={isLost} ref={host} />
       {problem !== "" && <p class="empty">{problem}</p>}
       {isLost && (
         <p class="context-lost" role="alert">
@@ -83,13 +84,16 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
     const watched = store.selection.value.slice(0, MAX_WATCHED);
     return store.isCutAway.value ? occluders(store.model.data, watched, viewer.eye.value) : new Set();
   });
+  const { supports, stop } = followSupports(store);
   return [
+    stop,
     effect(() => {
       const { colors, legend } = colorObjects(
         store.colorMode.value,
         store.model,
         store.states.value,
         store.answer.value,
+        supports.value,
       );
       setLegend(legend);
       viewer.setAppearance(appearanceOf(store, colors, viewer.eye, before.value), store.colorMode.value === "material");
@@ -197,7 +201,12 @@ function Legend({ store, entries }: { store: Store; entries: LegendEntry[] }) {
   return (
     <section class="legend" aria-label="Legend">
       {entries.slice(0, MAX_LEGEND).map(({ label, color, objects }) => (
-        <button key={`${label} ${objects[0]}`} type="button" title="Select" onClick={() => store.select(objects)}>
+        <button
+          key={`${label} ${objects[0]}`}
+          type="button"
+          title={`Select ${label}`}
+          onClick={() => store.select(objects)}
+        >
           <svg viewBox="0 0 10 10" aria-hidden="true">
             <rect width="10" height="10" rx="2" fill={cssColor(color)} />
           </svg>

@@ -3,8 +3,9 @@
 import type { ObjectIndex, ObjectState, ReviewState } from "../api/types";
 import { classLabel, conceptLabel, roomLabel, type SceneModel } from "./model";
 import { ANSWER, CATEGORIES, CONFIDENCE_BOUNDS, CONFIDENCE_COLORS, REST } from "./palette";
+import type { Supports } from "./supports";
 
-export type ColorMode = "material" | "class" | "concept" | "confidence" | "state" | "room" | "answer";
+export type ColorMode = "material" | "class" | "concept" | "confidence" | "state" | "room" | "support" | "answer";
 
 export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "material", label: "Material" },
@@ -13,6 +14,7 @@ export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "confidence", label: "Confidence" },
   { id: "state", label: "Review" },
   { id: "room", label: "Room" },
+  { id: "support", label: "Support" },
   { id: "answer", label: "Answer" },
 ];
 
@@ -60,6 +62,7 @@ export function colorObjects(
   model: SceneModel,
   states: readonly ObjectState[],
   answer: ReadonlySet<ObjectIndex>,
+  supports: Supports = new Map(),
 ): Coloring {
   switch (mode) {
     case "material":
@@ -83,6 +86,12 @@ export function colorObjects(
         states,
         (state) => model.data.objects.room[state.object] ?? -1,
         (_, first) => roomLabel(model, first),
+      );
+    case "support":
+      return byGroup(
+        states,
+        (state) => supports.get(state.object) ?? -1,
+        (key) => (key < 0 ? "on and in nothing" : (model.shortNames[key] ?? "")),
       );
     case "confidence":
       return byStep(states);

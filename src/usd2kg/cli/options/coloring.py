@@ -24,8 +24,8 @@ class ColorOptions(OptionBundle):
         str,
         Option(
             "--color-by",
-            help="What colours show, with a legend: material, class, concept, confidence, room, or answer, which needs "
-            "--ask.",
+            help="What colours show, with a legend: material, class, concept, confidence, room, support "
+            "(what an object is on or in), or answer, which needs --ask.",
         ),
     ] = "material"
     ask: Annotated[
