@@ -1,8 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { categoryColor, colorObjects, oklch } from "../src/state/colors";
+import { byGroup, colorObjects, rgb } from "../src/state/colors";
 import { countBy, type Filters, filterObjects, isFiltering, NO_FILTERS } from "../src/state/filters";
 import { buildModel } from "../src/state/model";
-import { makeScene, makeStates } from "./scene";
+import { CATEGORIES, REST } from "../src/state/palette";
+import { makeScene, makeState, makeStates } from "./scene";
 
 const model = buildModel(makeScene());
 const { states } = makeStates();
@@ -54,11 +55,29 @@ describe("colours", () => {
   });
 
   it("explains each colour", () => {
-    for (const mode of ["class", "concept", "confidence", "state", "room", "answer"] as const) {
+    for (const mode of ["class", "concept", "confidence", "state", "room", "support", "answer"] as const) {
       const { colors, legend } = colorObjects(mode, model, states, new Set([1]));
       expect(legend.reduce((total, entry) => total + entry.objects.length, 0)).toBe(4);
       for (const { color, objects } of legend) for (const object of objects) expect(colors[object]).toEqual(color);
     }
+  });
+
+  it("colours objects by what they stand on", () => {
+    const { colors, legend } = colorObjects(
+      "support",
+      model,
+      states,
+      new Set(),
+      new Map([
+        [1, 0],
+        [2, 0],
+      ]),
+    );
+    expect(legend.map((entry) => [entry.label, entry.objects])).toEqual([
+      ["on and in nothing", [0, 3]],
+      ["Table", [1, 2]],
+    ]);
+    expect(colors).toEqual([rgb(REST), rgb(CATEGORIES[0]), rgb(CATEGORIES[0]), rgb(REST)]);
   });
 
   it("separates a confidence that is not given from a low one", () => {
@@ -71,20 +90,24 @@ describe("colours", () => {
     ]);
   });
 
-  it("converts OKLCH as its author does", () => {
-    expect(oklch(1, 0, 0).map((value) => value.toFixed(3))).toEqual(["1.000", "1.000", "1.000"]);
-    // sRGB red is about L 0.628, C 0.2577, h 29.23.
-    expect(oklch(0.628, 0.2577, 29.23).map((value) => value.toFixed(2))).toEqual(["1.00", "0.00", "0.00"]);
+  it("ranks classes by the suggestions, so that a correction moves no colour", () => {
+    const before = colorObjects("class", model, states, new Set()).colors;
+    // Both cups become tables, which are now more than the cups were.
+    const corrected = states.map((state) => (state.object === 3 ? state : { ...state, class: 2 }));
+    const after = colorObjects("class", model, corrected, new Set()).colors;
+    expect(after[1]).toEqual(before[0]);
+    expect(after[0]).toEqual(before[0]);
+    expect(before[1]).toEqual(rgb(CATEGORIES[0]));
   });
 
-  it("gives neighbours different colours", () => {
-    const seen = new Set(
-      [...Array(60).keys()].map((index) =>
-        categoryColor(index)
-          .map((v) => v.toFixed(2))
-          .join(),
-      ),
+  it("gives the largest groups a colour each, and the rest one that nothing else has", () => {
+    const many = [...Array(60).keys()].map((object) => makeState(object, { class: object, suggested: object }));
+    const { colors } = byGroup(
+      many,
+      (state) => state.class,
+      (key) => `${key}`,
     );
-    expect(seen.size).toBe(60);
+    expect(new Set(colors.map(String)).size).toBe(CATEGORIES.length + 1);
+    expect(colors.at(-1)).toEqual(rgb(REST));
   });
 });

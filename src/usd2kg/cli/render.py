@@ -6,9 +6,12 @@ from typing import Annotated
 
 from typer import Argument, Option
 
+from usd2kg.cli.options.bundles import check_files, expand_bundles
+from usd2kg.cli.options.coloring import ColorOptions
 from usd2kg.cli.options.common import SceneFile
 from usd2kg.cli.options.stage import MetresPerUnit, TimeCode, UpAxis
 from usd2kg.cli.output import notify
+from usd2kg.cli.picture_colors import find_colors
 from usd2kg.errors import OutputError
 from usd2kg.files import check_writable, write_whole
 
@@ -18,8 +21,10 @@ _GEOMETRY_CODES = frozenset({"mesh", "copies"})
 """Codes of the diagnostics about geometry that the picture lacks."""
 
 
+@expand_bundles
 def render_command(
     scene: SceneFile,
+    coloring: ColorOptions,
     path: Annotated[
         str | None, Argument(metavar="[PATH]", help="Prim path of an object; default: the whole scene.")
     ] = None,
@@ -35,22 +40,35 @@ def render_command(
     up_axis: UpAxis = None,
     time_code: TimeCode = None,
 ) -> None:
-    """Render an object, or the whole scene from above, as a PNG picture."""
+    """Render an object, or the whole scene from above, as a PNG picture.
+
+    --color-by grounds the objects with the lexical grounder and adds a legend to the right of the picture.
+    """
     pixels = {} if size is None else {"size": _parse_size(size)}
     if context and path is None:
         raise OutputError("--context shows one object in its place; expected the PATH of an object after the scene")
+    mode = coloring.mode()
+    if context and mode.value != "material":
+        raise OutputError("--context highlights one object by its colour; use it without --color-by")
     target = output or Path(f"{_file_name(path) if path else scene.stem}.png")
     if target.suffix.lower() != ".png":
         raise OutputError(f"{target}: expected a file name ending in .png")
     check_writable(target)
+    check_files([target], [scene], coloring)
+    from usd2kg.diagrams import add_legend  # noqa: PLC0415
     from usd2kg.render import Renderer  # noqa: PLC0415
     from usd2kg.scene import ReadOptions  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-    renderer = Renderer(scene, ReadOptions(metres_per_unit=metres_per_unit, up_axis=up_axis, time=time_code))
+    reading = ReadOptions(metres_per_unit=metres_per_unit, up_axis=up_axis, time=time_code)
+    renderer = Renderer(scene, reading)
+    colors = None if mode.value == "material" else find_colors(scene, reading, mode, coloring)
+    linear = None if colors is None else colors.linear_colors()
     if path is None:
-        picture = renderer.render_scene(**pixels)
+        picture = renderer.render_scene(**pixels, colors=linear)
     else:
-        picture = renderer.render_object(path, **pixels, in_context=context)
+        picture = renderer.render_object(path, **pixels, in_context=context, colors=linear)
+    if colors is not None:
+        picture = add_legend(picture, colors, coloring.ask or mode.value.capitalize())
     write_whole(target, picture)
     for note in renderer.diagnostics:
         if note.code in _GEOMETRY_CODES:

@@ -1,10 +1,10 @@
-"""Settings of the diagrams, from `knowledge/settings/diagrams.toml`."""
+"""Settings of the diagrams, from `knowledge/settings/diagrams.toml` and `coloring.toml`."""
 
 from dataclasses import dataclass
 
 from usd2kg.knowledge import read_settings
 
-__all__ = ["PNG", "ROOM", "SHAPES", "SURROUNDINGS", "TEXT"]
+__all__ = ["COLORS", "CONFIDENCE", "LEGEND", "PNG", "ROOM", "SHAPES", "SURROUNDINGS", "TEXT"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +74,37 @@ class _PngSettings:
     max_pixels: float
 
 
+@dataclass(frozen=True, slots=True)
+class _PaletteSettings:
+    """Section `palette` of `coloring.toml`."""
+
+    categories: tuple[str, ...]
+    rest: str
+    answer: str
+
+
+@dataclass(frozen=True, slots=True)
+class _ConfidenceSettings:
+    """Section `confidence` of `coloring.toml`."""
+
+    lower_bounds: tuple[float, ...]
+    colors: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _LegendSettings:
+    """Section `legend` of `coloring.toml`."""
+
+    swatch: float
+    title_measure: float
+    max_letters: int
+
+
 TEXT = read_settings("diagrams", "text", _TextSettings)
 SHAPES = read_settings("diagrams", "shapes", _ShapeSettings)
 ROOM = read_settings("diagrams", "room", _RoomSettings)
 SURROUNDINGS = read_settings("diagrams", "surroundings", _SurroundingsSettings)
 PNG = read_settings("diagrams", "png", _PngSettings)
+COLORS = read_settings("coloring", "palette", _PaletteSettings)
+CONFIDENCE = read_settings("coloring", "confidence", _ConfidenceSettings)
+LEGEND = read_settings("coloring", "legend", _LegendSettings)

@@ -1,5 +1,6 @@
 """SVG 1.1 shapes and escaped text, with upper bounds of text widths."""
 
+import base64
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from xml.sax.saxutils import escape, quoteattr
@@ -26,8 +27,10 @@ def text_width(text: str, size: float) -> float:
 def _em(c: str) -> float:
     if unicodedata.east_asian_width(c) in "WF":
         return 1.05
-    if c in "MWmw@%—…×" or c.isupper():
-        return 0.86 if c in "MWmw@%—…" else 0.72
+    if c in "W@%—…\ufffd":
+        return 1.05
+    if c in "MWmw×" or c.isupper():
+        return 0.86 if c in "Mmw" else 0.72
     return 0.36 if c in "iljtf.,:;|!'()[] I" else 0.61
 
 
@@ -65,6 +68,11 @@ class Canvas:
             f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="{radius:g}" '
             f'fill="{fill}" stroke="{stroke}"/>'
         )
+
+    def image(self, png: bytes, width: float, height: float) -> None:
+        """Draw a PNG in the upper left corner."""
+        data = base64.b64encode(png).decode()
+        self._parts.append(f'<image width="{width:g}" height="{height:g}" href="data:image/png;base64,{data}"/>')
 
     def path(self, points: Sequence[tuple[float, float]], stroke: str = LINE, dashed: bool = False) -> None:
         """Draw a polyline."""

@@ -2,7 +2,7 @@
 
 import itertools
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import pyoxigraph as ox
@@ -47,6 +47,18 @@ class GraphStore:
         self._functions = make_functions(self._bodies)
         self._facts = SceneFacts(dataset, self._bodies)
         self._keeper = keeper
+
+    @classmethod
+    def from_triples(cls, triples: Iterable[ox.Triple], source: str) -> "GraphStore":
+        """Return the graph of some triples, in memory.
+
+        Args:
+            triples: the graph.
+            source: the file that it describes.
+        """
+        store = ox.Store()
+        store.bulk_extend(ox.Quad(t.subject, t.predicate, t.object) for t in triples)
+        return cls(Dataset(store), source)
 
     def __len__(self) -> int:
         """Return the number of triples."""

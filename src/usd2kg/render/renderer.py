@@ -1,6 +1,7 @@
 """Renderer: pictures of a stage that is opened once."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -16,11 +17,14 @@ from usd2kg.render.png import encode_png
 from usd2kg.render.settings import PICTURE, VIEWPOINT
 from usd2kg.render.triangle_soup import gather
 from usd2kg.scene.meshes import ObjectMesh, iterate_meshes
-from usd2kg.scene.model import Diagnostic
+from usd2kg.scene.model import Diagnostic, Vector
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.stage import captured_diagnostics, open_stage, time_code
 
-__all__ = ["Renderer", "render_object", "render_objects", "render_scene"]
+__all__ = ["ObjectColors", "Renderer", "render_object", "render_objects", "render_scene"]
+
+ObjectColors = Mapping[str, Vector]
+"""Prim path → linear RGB, from 0 to 1; `/` is for what is below no other path. Replaces the colours of materials."""
 
 
 def render_object(
@@ -73,20 +77,27 @@ class Renderer:
         self.diagnostics: list[Diagnostic] = list(self._opened.diagnostics)
         """Problems found on the stage so far."""
 
-    def render_object(self, prim_path: str, *, size: Size = PICTURE.thumbnail_size, in_context: bool = False) -> bytes:
-        """Return a PNG of one object; see `usd2kg.render.render_object`."""
+    def render_object(
+        self,
+        prim_path: str,
+        *,
+        size: Size = PICTURE.thumbnail_size,
+        in_context: bool = False,
+        colors: ObjectColors | None = None,
+    ) -> bytes:
+        """Return a PNG of one object, alone in given colours; see `usd2kg.render.render_object`."""
         _check_size(size)
         meshes = self.meshes_below(prim_path)
         if not meshes:
             raise SceneError(f"{self._opened.source}: {prim_path} has no visible geometry, so it cannot be drawn")
         if not in_context:
-            return encode_png(picture_of_object(gather(meshes), size))
+            return encode_png(picture_of_object(gather(_recolored(meshes, colors)), size))
         soup = gather([*meshes, *self._around(meshes)])
         return encode_png(picture_in_context(soup, len(meshes), size))
 
-    def render_scene(self, *, size: Size = PICTURE.scene_size) -> bytes:
+    def render_scene(self, *, size: Size = PICTURE.scene_size, colors: ObjectColors | None = None) -> bytes:
         """Return a PNG of the whole scene; see `usd2kg.render.render_scene`."""
-        return encode_png(picture_of_scene(gather(self._scene_meshes(size)), size))
+        return encode_png(picture_of_scene(gather(_recolored(self._scene_meshes(size), colors)), size))
 
     def project_scene(self, points: NDArray[np.floating], *, size: Size = PICTURE.scene_size) -> NDArray[np.float64]:
         """Return where world points (n, 3) appear in the picture that `render_scene` draws: (n, 2), pixels.
@@ -150,6 +161,20 @@ class Renderer:
         close = [paths[match[2]] for match in process.extract(wanted, names, scorer=fuzz.WRatio, limit=3)]
         hint = f"; did you mean {' or '.join(close)}?" if close else ""
         raise SceneError(f"{self._opened.source}: there is no prim {prim_path}; expected an absolute path{hint}")
+
+
+def _recolored(meshes: list[ObjectMesh], colors: ObjectColors | None) -> list[ObjectMesh]:
+    """Return the meshes, each in the colour of the nearest prim at or above it that has one."""
+    if colors is None:
+        return meshes
+    return [replace(mesh, color=_nearest(mesh.prim_path, colors, mesh.color)) for mesh in meshes]
+
+
+def _nearest(prim_path: str, colors: ObjectColors, default: Vector) -> Vector:
+    path = prim_path
+    while path not in colors and path:
+        path = path.rpartition("/")[0]
+    return colors.get(path or "/", default)
 
 
 def _check_size(size: Size) -> None:

@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from pxr import UsdGeom
 
 from usd2kg.scene.bounds import BoxReader, is_measurable
-from usd2kg.scene.meshes import points_to_metres, read_mesh
+from usd2kg.scene.meshes import points_to_metres
 from usd2kg.scene.model import Box, StageFrame
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.settings import LEVELS
+from usd2kg.scene.triangulation import read_mesh
 from usd2kg.shapes.box_pairs import overlapping_pairs
 
 __all__ = ["find_levels", "holds_others", "read_levels"]

@@ -12,10 +12,19 @@ from usd2kg.errors import SceneError
 from usd2kg.scene.metadata import BASE_COLOR_INPUTS
 from usd2kg.scene.model import Diagnostic, StageFrame, Vector
 from usd2kg.scene.settings import MAX_COORDINATE, MESHES
-from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.stage import OpenedStage
+from usd2kg.scene.textures import TextureMapping, find_texture, read_corner_uv
+from usd2kg.scene.triangulation import LocalMesh, as_array, tessellate, triangulate
 
-__all__ = ["NEUTRAL_GREY", "MeshPiece", "MeshReader", "ObjectMesh", "iterate_meshes", "points_to_metres", "read_mesh"]
+__all__ = [
+    "NEUTRAL_GREY",
+    "MeshPiece",
+    "MeshReader",
+    "ObjectMesh",
+    "determinant",
+    "iterate_meshes",
+    "points_to_metres",
+]
 
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -45,15 +54,13 @@ class ObjectMesh:
 class _Look(NamedTuple):
     color: Vector | None
     opacity: float
+    mapping: TextureMapping | None = None
+    """The base-colour texture; None if there is none, or if textures are not read."""
 
-
-class _LocalMesh(NamedTuple):
-    """The triangles of a gprim in its own frame and stage units."""
-
-    points: Points
-    triangles: Triangles
-    face_of: NDArray[np.int64]
-    """Index of the mesh face of each triangle."""
+    @property
+    def is_authored(self) -> bool:
+        """Whether a material says what it looks like."""
+        return self.color is not None or self.mapping is not None
 
 
 class MeshPiece(NamedTuple):
@@ -63,6 +70,8 @@ class MeshPiece(NamedTuple):
     points: Points
     triangles: Triangles
     look: _Look
+    uv: NDArray[np.float32] | None = None
+    """(m, 3, 2): texture coordinates at the corners of the triangles; None without a texture."""
 
 
 def iterate_meshes(
@@ -120,12 +129,15 @@ def points_to_metres(points: Points, frame: StageFrame) -> Points:
 class MeshReader:
     """Reads gprims one by one, with caches for transforms, shared meshes and materials."""
 
-    def __init__(self, stage: Any, time: Usd.TimeCode, notes: list[Diagnostic] | None) -> None:
+    def __init__(
+        self, stage: Any, time: Usd.TimeCode, notes: list[Diagnostic] | None, *, reads_textures: bool = False
+    ) -> None:
         self.stage = stage
+        self.reads_textures = reads_textures
         self.time = time
         self.notes = notes
         self.xforms = UsdGeom.XformCache(time)
-        self.shared: dict[Any, _LocalMesh | None] = {}
+        self.shared: dict[Any, LocalMesh | None] = {}
         self.looks: dict[Any, _Look] = {}
         self.copied_triangles_left = MESHES.max_copied_triangles
 
@@ -185,9 +197,19 @@ class MeshReader:
             return
         points = mesh.points @ matrix[:3, :3] + matrix[3, :3]
         # Mirroring inverts the winding.
-        triangles = mesh.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else mesh.triangles
+        order = slice(None, None, -1 if determinant(matrix) < 0 else 1)
         for look, chosen in self._looks_of(prim, mesh):
-            yield MeshPiece(str(prim.GetPath()), points, triangles if chosen is None else triangles[chosen], look)
+            which = slice(None) if chosen is None else chosen
+            uv = None
+            if look.mapping is not None and mesh.corners is not None:
+                uv = read_corner_uv(prim, look.mapping, mesh.triangles[which], mesh.corners[which], self.time)
+            yield MeshPiece(
+                str(prim.GetPath()),
+                points,
+                mesh.triangles[which][:, order],
+                look,
+                None if uv is None else uv[:, order],
+            )
 
     def matrix(self, prim: Any, space: Any = None) -> Points:
         """Return the transform of a prim (4, 4), for row vectors, to the frame of a prim above it, or to the world."""
@@ -200,7 +222,7 @@ class MeshReader:
             self._note(prim, f"point instancers are nested more than {MESHES.max_instancer_depth} deep")
             return
         instancer = UsdGeom.PointInstancer(prim)
-        prototype_of = _array(instancer.GetProtoIndicesAttr().Get(self.time), np.int64)
+        prototype_of = as_array(instancer.GetProtoIndicesAttr().Get(self.time), np.int64)
         placed = instancer.ComputeInstanceTransformsAtTime(
             self.time, self.time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
         )
@@ -210,9 +232,9 @@ class MeshReader:
         matrices = np.array(placed).reshape(-1, 4, 4) @ self.matrix(prim, space)
         is_shown = np.isfinite(matrices).all(axis=(1, 2))
         if mask := instancer.ComputeMaskAtTime(self.time):
-            is_shown &= _array(mask, np.bool_)
+            is_shown &= as_array(mask, np.bool_)
         if copy is not None:
-            ids = _array(instancer.GetIdsAttr().Get(self.time), np.int64)
+            ids = as_array(instancer.GetIdsAttr().Get(self.time), np.int64)
             is_shown &= (ids if len(ids) == len(placed) else np.arange(len(placed))) == copy
         for i, target in enumerate(instancer.GetPrototypesRel().GetForwardedTargets()):
             prototype = self.stage.GetPrimAtPath(target)
@@ -231,7 +253,7 @@ class MeshReader:
         self.copied_triangles_left -= len(matrices) * triangle_count
         return matrices
 
-    def _local_mesh(self, prim: Any) -> _LocalMesh | None:
+    def _local_mesh(self, prim: Any) -> LocalMesh | None:
         if not prim.IsInstanceProxy():
             return self._read_local_mesh(prim)
         shared = prim.GetPrimInPrototype().GetPath()
@@ -239,42 +261,49 @@ class MeshReader:
             self.shared[shared] = self._read_local_mesh(prim)
         return self.shared[shared]
 
-    def _read_local_mesh(self, prim: Any) -> _LocalMesh | None:
+    def _read_local_mesh(self, prim: Any) -> LocalMesh | None:
         if prim.IsA(UsdGeom.Mesh):
-            mesh, problem = _triangulate(UsdGeom.Mesh(prim), self.time)
+            mesh, problem = triangulate(UsdGeom.Mesh(prim), self.time)
         else:
-            mesh, problem = _tessellate(prim, self.time)
+            mesh, problem = tessellate(prim, self.time)
         if mesh is not None and not (np.abs(mesh.points) < MAX_COORDINATE).all():
             mesh, problem = None, "its points are not all finite"
         if problem:
             self._note(prim, problem)
         return mesh
 
-    def _looks_of(self, prim: Any, mesh: _LocalMesh) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
+    def _looks_of(self, prim: Any, mesh: LocalMesh) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
         """Yield the looks of a prim, each with a mask of its triangles, or None for all of them.
 
         A material colour overrides the display colour, as in a renderer; many exporters write both.
         """
         rest = np.ones(len(mesh.triangles), np.bool_)
-        for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)):
+        subsets = UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)) if prim.GetAllChildrenNames() else ()
+        for subset in subsets:
             look = self._material_look(subset.GetPrim())
-            chosen = rest & np.isin(mesh.face_of, _array(subset.GetIndicesAttr().Get(self.time), np.int64))
-            if look.color is not None and subset.GetElementTypeAttr().Get() == "face" and chosen.any():
-                yield look, chosen
+            chosen = rest & np.isin(mesh.face_of, as_array(subset.GetIndicesAttr().Get(self.time), np.int64))
+            if look.is_authored and subset.GetElementTypeAttr().Get() == "face" and chosen.any():
+                yield self._with_fallback(look, prim, mesh), chosen
                 rest &= ~chosen
         whole = self._material_look(prim)
         if whole.color is None:
             for color, faces in self._display_colors(prim, int(mesh.face_of[-1]) + 1):
                 chosen = rest if faces is None else rest & faces[mesh.face_of]
                 if chosen.any():
-                    yield _Look(color, whole.opacity), None if chosen.all() else chosen
+                    yield whole._replace(color=color), None if chosen.all() else chosen
         elif rest.any():
             yield whole, None if rest.all() else rest
+
+    def _with_fallback(self, look: _Look, prim: Any, mesh: LocalMesh) -> _Look:
+        """Return the look of some faces; where only its texture has a colour, with the display colour of the mesh."""
+        if look.color is not None:
+            return look
+        return look._replace(color=self._display_colors(prim, int(mesh.face_of[-1]) + 1)[0][0])
 
     def _display_colors(self, prim: Any, face_count: int) -> list[tuple[Vector | None, NDArray[np.bool_] | None]]:
         """Return the display colours, each with a mask of its faces, or None for all of them."""
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(UsdGeom.Tokens.primvarsDisplayColor)
-        colors = _array(primvar.ComputeFlattened(self.time), np.float64) if primvar and primvar.HasValue() else None
+        colors = as_array(primvar.ComputeFlattened(self.time), np.float64) if primvar and primvar.HasValue() else None
         if colors is None or not len(colors) or colors.shape[1:] != (3,) or not np.isfinite(colors).all():
             return [(None, None)]
         if primvar.GetInterpolation() == UsdGeom.Tokens.uniform and len(colors) >= face_count:
@@ -300,7 +329,8 @@ class MeshReader:
         color = next((value for value in colors if value is not None and hasattr(value, "__len__")), None)
         opacity = self._constant(shader, "opacity")
         is_number = isinstance(opacity, int | float) and 0 <= opacity <= 1
-        return _Look(_rgb(color) if color is not None else None, float(opacity) if is_number else 1.0)
+        mapping = find_texture(shader, BASE_COLOR_INPUTS, self.time) if self.reads_textures else None
+        return _Look(_rgb(color) if color is not None else None, float(opacity) if is_number else 1.0, mapping)
 
     def _constant(self, shader: Any, name: str) -> Any:
         """Return the value of a shader input; None without a value or if it is connected to a texture."""
@@ -322,19 +352,10 @@ class MeshReader:
 def _scatter(path: str, piece: MeshPiece, matrices: Points) -> MeshPiece:
     points = piece.points @ matrices[:, :3, :3] + matrices[:, 3, None, :3]
     offsets = np.arange(len(matrices), dtype=np.int32)[:, None, None] * len(piece.points)
-    triangles = np.where(
-        (np.linalg.det(matrices[:, :3, :3]) < 0)[:, None, None], piece.triangles[:, ::-1], piece.triangles
-    )
-    return MeshPiece(path, points.reshape(-1, 3), (triangles + offsets).reshape(-1, 3), piece.look)
-
-
-def _array(values: Any, dtype: Any) -> NDArray[Any]:
-    """Return values as an array; an empty array for None or for values that are not numbers (mistyped attributes)."""
-    try:
-        array = np.asarray(values if values is not None else (), dtype=dtype)
-    except (TypeError, ValueError):
-        array = np.zeros(0, dtype)
-    return array if array.ndim else np.zeros(0, dtype)
+    is_mirrored = (np.linalg.det(matrices[:, :3, :3]) < 0)[:, None, None]
+    triangles = np.where(is_mirrored, piece.triangles[:, ::-1], piece.triangles)
+    uv = None if piece.uv is None else np.where(is_mirrored[..., None], piece.uv[:, ::-1], piece.uv).reshape(-1, 3, 2)
+    return MeshPiece(path, points.reshape(-1, 3), (triangles + offsets).reshape(-1, 3), piece.look, uv)
 
 
 def _rgb(color: Any) -> Vector:
@@ -342,42 +363,8 @@ def _rgb(color: Any) -> Vector:
     return (red, green, blue)
 
 
-def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
-    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if empty or broken.
-
-    Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
-    """
-    mesh, _ = _triangulate(UsdGeom.Mesh(prim), time)
-    return (mesh.points, mesh.triangles) if mesh is not None and np.isfinite(mesh.points).all() else None
-
-
-def _tessellate(prim: Any, time: Usd.TimeCode) -> tuple[_LocalMesh | None, str]:
-    """Return the triangles of a solid, or None and the problem."""
-    surface = solid_surface(prim, time)
-    if surface is None:
-        return None, f"a {prim.GetTypeName() or 'prim without type'} has no triangles"
-    points, triangles = surface
-    return _LocalMesh(points, triangles, np.zeros(len(triangles), np.int64)), ""
-
-
-def _triangulate(mesh: Any, time: Usd.TimeCode) -> tuple[_LocalMesh | None, str]:
-    """Return the triangles of a mesh, or None and the problem."""
-    points = _array(mesh.GetPointsAttr().Get(time), np.float64)
-    counts = _array(mesh.GetFaceVertexCountsAttr().Get(time), np.int64)
-    indices = _array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64)
-    if not len(points) or not len(counts):
-        return None, ""
-    if points.shape[1:] != (3,) or counts.ndim != 1 or indices.ndim != 1:
-        return None, "its points or faces are not of the type that OpenUSD specifies"
-    if counts.min() < 0 or counts.sum() != len(indices):
-        return None, f"faceVertexCounts add up to {int(counts.sum())}, but faceVertexIndices has {len(indices)} values"
-    if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):
-        return None, f"faceVertexIndices has values outside 0 … {len(points) - 1}"
-    fan = np.maximum(counts - 2, 0)
-    face_of = np.repeat(np.arange(len(counts)), fan)
-    first = np.repeat(np.cumsum(counts) - counts, fan)
-    nth = np.arange(len(face_of)) - np.repeat(np.cumsum(fan) - fan, fan)
-    corners = np.stack([first, first + nth + 1, first + nth + 2], axis=1)
-    if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
-        corners = corners[:, ::-1]
-    return _LocalMesh(points, indices[corners].astype(np.int32), face_of), ""
+def determinant(matrix: Points) -> float:
+    """Return the determinant of the linear part of a transform (4, 4); negative if it inverts the winding."""
+    # That of numpy takes ten times as long for one small matrix.
+    (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
+    return float(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))

@@ -1,20 +1,25 @@
-"""read_geometry: the visible meshes of a stage by object, each shape once, with its placements."""
+"""GeometryReader: the visible meshes of a stage by object, each shape once, with its placements."""
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from usd2kg.scene.meshes import NEUTRAL_GREY, MeshPiece, MeshReader
+from usd2kg.scene.meshes import NEUTRAL_GREY, MeshPiece, MeshReader, determinant
 from usd2kg.scene.model import Diagnostic, Scene, StageFrame
 from usd2kg.scene.stage import OpenedStage, captured_diagnostics
+from usd2kg.scene.textures import Texture
+from usd2kg.scene.triangle_counter import TriangleCounter
 
-__all__ = ["ColoredMesh", "Placement", "SceneGeometry", "read_geometry"]
+__all__ = ["NO_TEXTURE", "ColoredMesh", "GeometryReader", "Placement", "join_meshes"]
 
 Array = NDArray[np.float64]
+
+NO_TEXTURE = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +31,15 @@ class ColoredMesh:
     triangles: NDArray[np.int32]
     """(m, 3), indices into `points`, counter-clockwise seen from outside."""
     colors: NDArray[np.uint8]
-    """(n, 4), linear RGB and opacity, 255 for 1."""
+    """(n, 4), linear RGB and opacity, 255 for 1; the colour counts where there is no texture."""
+    uv: NDArray[np.float32]
+    """(n, 2), texture coordinates; 0 where there is no texture."""
+    texture: NDArray[np.int32]
+    """(m,), index of the texture of each triangle in `GeometryReader.textures`, or `NO_TEXTURE`."""
+
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """Return all arrays; meshes are equal if these are."""
+        return self.points, self.triangles, self.colors, self.uv, self.texture
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,88 +49,90 @@ class Placement:
     prim_path: str | None
     """The object; None for geometry outside any object."""
     mesh: int
-    """Index into `SceneGeometry.meshes`."""
+    """Index into `GeometryReader.meshes`."""
     matrix: Array
     """(4, 4), for row vectors: to the z-up world in metres."""
 
 
-@dataclass(frozen=True)
-class SceneGeometry:
-    """All visible geometry of a scene."""
+class GeometryReader:
+    """Reads the visible meshes of a scene, one outermost object after the other.
 
-    meshes: tuple[ColoredMesh, ...]
-    placements: tuple[Placement, ...]
-    """In scene order; geometry outside any object comes last."""
-
-
-def read_geometry(
-    opened: OpenedStage, scene: Scene, time: Usd.TimeCode, *, diagnostics: list[Diagnostic] | None = None
-) -> SceneGeometry:
-    """Return the visible meshes by object. Instances of one prototype, and equal meshes, are stored once.
-
-    Args:
-        opened: the stage of the scene.
-        scene: its objects.
-        time: time code.
-        diagnostics: receives a note for each gprim that is left out because its data are broken.
+    Instances of one prototype, and equal meshes, are stored once.
     """
-    with captured_diagnostics() as notes:
-        geometry = _GeometryReader(opened, scene, MeshReader(opened.stage, time, diagnostics)).read()
-    if diagnostics is not None:
-        diagnostics.extend(notes)
-    return geometry
 
+    def __init__(
+        self, opened: OpenedStage, scene: Scene, time: Usd.TimeCode, diagnostics: list[Diagnostic] | None = None
+    ) -> None:
+        """Open nothing yet.
 
-class _GeometryReader:
-    """Reads the meshes of one outermost object after the other."""
-
-    def __init__(self, opened: OpenedStage, scene: Scene, reader: MeshReader) -> None:
+        Args:
+            opened: the stage of the scene.
+            scene: its objects.
+            time: time code.
+            diagnostics: receives a note for each gprim that is left out because its data are broken.
+        """
+        self.meshes: list[ColoredMesh] = []
+        """What has been read so far."""
+        self.outermost = tuple(obj.prim_path for obj in scene.objects if obj.parent_path is None)
+        """Prim paths of the objects in no other object, in scene order."""
         self._stage = opened.stage
         self._to_metres = _frame_matrix(opened.frame)
         self._scene = scene
-        self._reader = reader
-        self._meshes: list[ColoredMesh] = []
+        self._notes: list[Diagnostic] = [] if diagnostics is None else diagnostics
+        self._reader = MeshReader(opened.stage, time, self._notes, reads_textures=True)
+        self._triangles = TriangleCounter(opened.stage, time)
+        self._textures: dict[Texture, int] = {}
         self._by_digest: dict[bytes, int] = {}
         self._of_prototype: dict[str, list[tuple[str, int]]] = {}
         """Path of a prototype → (path below its instance, mesh) of each object in it."""
-        self._placements: list[Placement] = []
 
-    def read(self) -> SceneGeometry:
-        outermost = [obj.prim_path for obj in self._scene.objects if obj.parent_path is None]
-        for path in outermost:
-            self._read_object(path)
-        root = self._stage.GetPseudoRoot()
-        rest = list(self._reader.below(root, without=frozenset(outermost)))
-        if rest:
-            self._place(None, self._add(rest), self._to_metres)
-        order = {obj.prim_path: index for index, obj in enumerate(self._scene.objects)}
-        placements = sorted(self._placements, key=lambda p: order.get(p.prim_path or "", len(order)))
-        return SceneGeometry(tuple(self._meshes), tuple(placements))
+    @property
+    def textures(self) -> tuple[Texture, ...]:
+        """The textures of the meshes that have been read so far."""
+        return tuple(self._textures)
 
-    def _read_object(self, path: str) -> None:
+    def count(self, prim_path: str) -> int:
+        """Return about how many triangles an outermost object has, without reading its points."""
+        return self._triangles.count(prim_path.partition("[")[0])
+
+    def count_outside(self) -> int:
+        """Return about how many triangles are outside any object."""
+        return self._triangles.count("/", without=frozenset(self.outermost))
+
+    def read(self, prim_paths: Iterable[str]) -> list[Placement]:
+        """Return the meshes of outermost objects and of the objects in them."""
+        with captured_diagnostics() as notes:
+            found = [placement for path in prim_paths for placement in self._read_object(path)]
+        self._notes.extend(notes)
+        return found
+
+    def read_outside(self) -> list[Placement]:
+        """Return the mesh of the geometry outside any object; none if there is no such geometry."""
+        with captured_diagnostics() as notes:
+            root = self._stage.GetPseudoRoot()
+            rest = list(self._reader.below(root, without=frozenset(self.outermost)))
+        self._notes.extend(notes)
+        return [Placement(None, self._add(rest), self._to_metres)] if rest else []
+
+    def _read_object(self, path: str) -> list[Placement]:
         name, _, number = path.removesuffix("]").partition("[")
         prim = self._stage.GetPrimAtPath(name)
         if not prim:
-            return
+            return []
         matrix = self._reader.matrix(prim)
         # A mirrored frame would turn the triangles inside out, a broken one lose them: keep world points.
-        is_plain = bool(np.isfinite(matrix).all() and np.linalg.det(matrix[:3, :3]) > 0)
+        is_plain = bool(np.isfinite(matrix).all() and determinant(matrix) > 0)
         prototype = str(prim.GetPrototype().GetPath()) if prim.IsInstance() and is_plain else ""
         to_world = matrix @ self._to_metres if is_plain else self._to_metres
-        if prototype in self._of_prototype and all(
-            path + below in self._scene.by_path for below, _ in self._of_prototype[prototype]
-        ):
-            for below, mesh in self._of_prototype[prototype]:
-                self._place(path + below, mesh, to_world)
-            return
-        pieces = self._reader.below(prim, prim if is_plain else None, copy=int(number) if number.isdecimal() else None)
-        parts = []
-        for owner, own in self._by_owner(pieces, path).items():
-            mesh = self._add(own)
-            parts.append((owner.removeprefix(path), mesh))
-            self._place(owner, mesh, to_world)
-        if prototype:
-            self._of_prototype[prototype] = parts
+        parts = self._of_prototype.get(prototype)
+        if parts is None or not all(path + below in self._scene.by_path for below, _ in parts):
+            copy = int(number) if number.isdecimal() else None
+            pieces = self._reader.below(prim, prim if is_plain else None, copy=copy)
+            own = self._by_owner(pieces, path)
+            parts = [(owner.removeprefix(path), self._add(found)) for owner, found in own.items()]
+            if prototype:
+                self._of_prototype[prototype] = parts
+        return [Placement(path + below, mesh, to_world) for below, mesh in parts]
 
     def _by_owner(self, pieces: Iterator[MeshPiece], outermost: str) -> Mapping[str, list[MeshPiece]]:
         """Return prim path of an object → its pieces: those whose nearest object above it is."""
@@ -131,32 +146,42 @@ class _GeometryReader:
 
     def _add(self, pieces: Sequence[MeshPiece]) -> int:
         """Return the index of the mesh of some pieces; equal meshes are stored once."""
-        mesh = _join(pieces)
-        digest = hashlib.sha256(mesh.points.tobytes() + mesh.triangles.tobytes() + mesh.colors.tobytes()).digest()
+        mesh = join_meshes([self._split_at_seams(piece) for piece in pieces])
+        digest = hashlib.sha256(b"".join(part.tobytes() for part in mesh.arrays())).digest()
         if digest not in self._by_digest:
-            self._by_digest[digest] = len(self._meshes)
-            self._meshes.append(mesh)
+            self._by_digest[digest] = len(self.meshes)
+            self.meshes.append(mesh)
         return self._by_digest[digest]
 
-    def _place(self, path: str | None, mesh: int, matrix: Array) -> None:
-        self._placements.append(Placement(path, mesh, matrix))
-
-
-def _join(pieces: Sequence[MeshPiece]) -> ColoredMesh:
-    """Return the pieces as one mesh."""
-    starts = np.cumsum([0, *(len(piece.points) for piece in pieces)])
-    colors = [
-        np.tile(
-            np.round(255 * np.array([*(piece.look.color or NEUTRAL_GREY), piece.look.opacity])).astype(np.uint8),
-            (len(piece.points), 1),
+    def _split_at_seams(self, piece: MeshPiece) -> ColoredMesh:
+        """Return a piece as a mesh, with several points where the corners at a point differ in texture coordinates."""
+        points, triangles, texture = piece.points, piece.triangles, NO_TEXTURE
+        uv: NDArray[np.float32] | None = None
+        if piece.uv is not None and piece.look.mapping is not None:
+            corners, uv = triangles.reshape(-1).astype(np.int64), piece.uv.reshape(-1, 2)
+            key = np.column_stack([corners, uv.astype(np.float32).view(np.int32)])
+            _, first, which = np.unique(key, axis=0, return_index=True, return_inverse=True)
+            points, uv, triangles = points[corners[first]], uv[first], which.reshape(-1, 3).astype(np.int32)
+            texture = self._textures.setdefault(piece.look.mapping.texture, len(self._textures))
+        color = np.round(255 * np.array([*(piece.look.color or NEUTRAL_GREY), piece.look.opacity])).astype(np.uint8)
+        return ColoredMesh(
+            points.astype(np.float32),
+            triangles.astype(np.int32),
+            np.tile(color, (len(points), 1)),
+            np.zeros((len(points), 2), np.float32) if uv is None else uv,
+            np.full(len(triangles), texture, np.int32),
         )
-        for piece in pieces
-    ]
-    triangles = [piece.triangles + np.int32(start) for piece, start in zip(pieces, starts, strict=False)]
+
+
+def join_meshes(parts: Sequence[ColoredMesh]) -> ColoredMesh:
+    """Return several meshes as one."""
+    starts = np.cumsum([0, *(len(part.points) for part in parts)])
     return ColoredMesh(
-        points=np.concatenate([piece.points for piece in pieces]).astype(np.float32),
-        triangles=np.concatenate(triangles).astype(np.int32),
-        colors=np.concatenate(colors),
+        np.concatenate([part.points for part in parts]),
+        np.concatenate([part.triangles + np.int32(start) for part, start in zip(parts, starts, strict=False)]),
+        np.concatenate([part.colors for part in parts]),
+        np.concatenate([part.uv for part in parts]),
+        np.concatenate([part.texture for part in parts]),
     )
 
 

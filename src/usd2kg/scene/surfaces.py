@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from pxr import UsdGeom
 
 from usd2kg.scene.bounds import BoxReader, is_measurable
-from usd2kg.scene.meshes import read_mesh
 from usd2kg.scene.model import Box, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.settings import SURFACES
 from usd2kg.scene.solids import solid_surface
+from usd2kg.scene.triangulation import read_mesh
 from usd2kg.shapes.box_pairs import overlapping_pairs
 from usd2kg.shapes.shell import shell_boxes
 from usd2kg.shapes.surface import Surface, SurfacePiece, is_box, turned_outward

@@ -128,6 +128,7 @@ class _Api:
             ("GET", "/events", self._stream),
             ("GET", "/geometry", self._geometry),
             ("GET", "/geometry/{index:int}.glb", self._geometry_file),
+            ("GET", "/geometry/textures/{index:int}", self._texture),
             ("GET", "/thumbnail/{index:int}.png", self._thumbnail),
             ("GET", "/examples", self._examples),
             ("GET", "/export/{name}", self._export),
@@ -182,6 +183,8 @@ class _Api:
 
     async def _relations(self, request: Request) -> Response:
         kind = request.query_params.get("kind", "")
+        # The graph of the current decisions, which change what may hold and bear something.
+        await asyncio.to_thread(self._session.graph)
         found = [relation_json(r, self._catalog) for r in self._session.relations if r.kind == kind]
         return JSONResponse({"relations": found})
 
@@ -304,17 +307,25 @@ class _Api:
     # Pictures.
 
     async def _geometry(self, _: Request) -> Response:
-        manifest = (await _wait(self._pictures.geometry())).manifest()
-        # The first graph is built when the page has what it shows first.
-        self._outputs.notify()
-        return JSONResponse(manifest)
+        return JSONResponse(await _wait(self._pictures.manifest()))
 
     async def _geometry_file(self, request: Request) -> Response:
+        index = int(request.path_params["index"])
         try:
-            content = await _wait(self._pictures.file(int(request.path_params["index"])))
+            content = await _wait(self._pictures.file(index))
         except IndexError as error:
             raise BadRequestError("there is no such file", 404) from error
+        if index + 1 == len((await _wait(self._pictures.manifest()))["chunks"]):
+            # The first graph is built when the page has what it shows.
+            self._outputs.notify()
         return Response(content, media_type="model/gltf-binary")
+
+    async def _texture(self, request: Request) -> Response:
+        try:
+            image = await _wait(self._pictures.texture(int(request.path_params["index"])))
+        except IndexError as error:
+            raise BadRequestError("there is no such texture", 404) from error
+        return Response(status_code=204) if image is None else Response(image.content, media_type=image.media_type)
 
     async def _thumbnail(self, request: Request) -> Response:
         return Response(await _wait(self._pictures.thumbnail(self._index(request))), media_type="image/png")

@@ -4,15 +4,17 @@ from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from usd2kg.errors import SceneError
 from usd2kg.render import Renderer
-from usd2kg.scene.object_geometry import SceneGeometry, read_geometry
+from usd2kg.scene.object_geometry import GeometryReader
 from usd2kg.scene.stage import open_stage, time_code
 from usd2kg.studio.catalog import Catalog
-from usd2kg.studio.geometry import GeometryFiles
+from usd2kg.studio.geometry import NO_MESHES, GeometryFiles
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.settings import SERVER
+from usd2kg.studio.texture_images import TextureImage
 
 __all__ = ["Pictures"]
 
@@ -36,13 +38,17 @@ class Pictures:
         """
         return self._thread.submit(self._thumbnail, index)
 
-    def geometry(self) -> "Future[GeometryFiles]":
-        """Return the meshes."""
-        return self._thread.submit(lambda: self._geometry)
+    def manifest(self) -> "Future[dict[str, Any]]":
+        """Return the number of files with meshes, and of triangles."""
+        return self._thread.submit(lambda: NO_MESHES if self._session.stage is None else self._geometry.manifest())
 
     def file(self, index: int) -> "Future[bytes]":
         """Return one GLB file; the future raises IndexError if there is none."""
         return self._thread.submit(lambda: self._geometry.file(index))
+
+    def texture(self, index: int) -> "Future[TextureImage | None]":
+        """Return the image of a texture; None if it is not shown. The future raises IndexError if there is none."""
+        return self._thread.submit(lambda: self._geometry.texture(index))
 
     def close(self) -> None:
         """Stop; pictures that are waiting are dropped."""
@@ -54,14 +60,12 @@ class Pictures:
 
     @cached_property
     def _geometry(self) -> GeometryFiles:
-        if self._session.stage is None:
-            return GeometryFiles(SceneGeometry((), ()), self._catalog)
         reading = self._session.project.sources.reading
         opened = open_stage(self._stage, reading)
         if opened.content_hash != self._session.scene.content_hash:
             raise SceneError(f"{self._stage}: has changed since it was read; start the studio again")
-        geometry = read_geometry(opened, self._session.scene, time_code(reading.time))
-        return GeometryFiles(geometry, self._catalog)
+        reader = GeometryReader(opened, self._session.scene, time_code(reading.time))
+        return GeometryFiles(reader, self._session.scene, self._catalog)
 
     @property
     def _stage(self) -> Path:

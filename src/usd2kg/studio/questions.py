@@ -7,9 +7,9 @@ from typing import Any
 from usd2kg.assistant import ask_offline
 from usd2kg.endpoint import BoundedQueries, EndpointLimits
 from usd2kg.endpoint.example_queries import make_examples
-from usd2kg.graph.iris import prim_path_of
 from usd2kg.query import Answer, GraphStore
-from usd2kg.studio.catalog import NONE, Catalog
+from usd2kg.query.named_objects import prim_path_of_row
+from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["Questions"]
@@ -80,10 +80,4 @@ class Questions:
 
     def _object(self, row: tuple[str | None, ...]) -> int:
         """Return the object that a row names by its prim path or IRI, the first one if there are several."""
-        base = self._session.base
-        for cell in row:
-            if cell is not None:
-                path = prim_path_of(base, cell) if cell.startswith(base) else cell
-                if (index := self._catalog.object(path)) != NONE:
-                    return index
-        return NONE
+        return self._catalog.object(prim_path_of_row(row, self._session.base, self._session.scene.by_path))

@@ -37,7 +37,7 @@ def serve_studio(
     """
     try:
         import fast_simplification  # noqa: F401, PLC0415
-        import trimesh  # noqa: F401, PLC0415
+        import PIL  # noqa: F401, PLC0415
 
         from usd2kg.studio.access import choose_key, has_password  # noqa: PLC0415
         from usd2kg.studio.application import make_app  # noqa: PLC0415

@@ -8,8 +8,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import pyoxigraph as ox
-
 from usd2kg.errors import GroundingError
 from usd2kg.files import write_whole
 from usd2kg.graph import KnowledgeGraph, instantiate
@@ -18,7 +16,6 @@ from usd2kg.grounding import Grounding, Prediction, apply_decisions, ground, mak
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.query import GraphStore
-from usd2kg.query.dataset import Dataset
 from usd2kg.relations import Relation, find_relations
 from usd2kg.scene import ReadOptions, Scene, read_scene
 from usd2kg.scene.stage import open_stage
@@ -237,9 +234,7 @@ class StudioSession:
         graph = self.graph()
         with self._graph_lock:
             if self._answers is None or self._answers[0] is not graph:
-                store = ox.Store()
-                store.bulk_extend(ox.Quad(t.subject, t.predicate, t.object) for t in graph.triples)
-                self._answers = graph, GraphStore(Dataset(store), self.scene.source)
+                self._answers = graph, GraphStore.from_triples(graph.triples, self.scene.source)
             return self._answers[1]
 
     @cached_property

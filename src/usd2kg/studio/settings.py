@@ -9,10 +9,12 @@ __all__ = [
     "GEOMETRY",
     "QUEUE",
     "SERVER",
+    "TEXTURES",
     "AuditSettings",
     "GeometrySettings",
     "QueueSettings",
     "ServerSettings",
+    "TextureSettings",
 ]
 
 
@@ -41,6 +43,19 @@ class GeometrySettings:
     max_triangles: int
     min_mesh_triangles: int
     chunk_triangles: int
+    chunk_objects: int
+
+
+@dataclass(frozen=True)
+class TextureSettings:
+    """How images of textures are scaled down, and which are left out."""
+
+    max_side: int
+    max_lossless_side: int
+    jpeg_quality: int
+    max_file_bytes: int
+    max_pixels: int
+    max_scene_bytes: int
 
 
 @dataclass(frozen=True)
@@ -60,4 +75,5 @@ class ServerSettings:
 QUEUE = read_settings("studio", "queue", QueueSettings)
 AUDIT = read_settings("studio", "audit", AuditSettings)
 GEOMETRY = read_settings("studio", "geometry", GeometrySettings)
+TEXTURES = read_settings("studio", "textures", TextureSettings)
 SERVER = read_settings("studio", "server", ServerSettings)

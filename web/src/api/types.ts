@@ -208,7 +208,7 @@ export interface RelationRecord {
   rule: string;
 }
 
-/** `GET /api/relations?kind=on`: all relations of one kind. */
+/** `GET /api/relations?kind=on`: all relations of one kind, by the current decisions. */
 export interface RelationList {
   relations: RelationRecord[];
 }
@@ -425,8 +425,9 @@ export interface ExampleQuery {
   query: string;
 }
 
-/** `GET /api/geometry`: the parts of the scene's meshes; each is `GET /api/geometry/{index}.glb`. */
+/** `GET /api/geometry`: the parts of the scene's meshes, the largest first; each is `GET /api/geometry/{index}.glb`. */
 export interface GeometryManifest {
+  /** Numbers of triangles are estimates; the meshes are read when they are asked for. */
   chunks: { triangles: number }[];
   triangles: number;
   /** Triangles before decimation. */
@@ -434,7 +435,16 @@ export interface GeometryManifest {
 }
 // In a chunk, each node with `extras.object` (an ObjectIndex, or -1 for geometry outside any object) has a mesh with
 // positions, normals and vertex colours (linear RGBA); nodes of equal objects share one mesh. Coordinates are metres,
-// z-up, without a root rotation.
+// z-up, without a root rotation. A primitive whose `extras` are a TextureUse has texture coordinates, too.
+
+/** `GET /api/geometry/textures/{texture}` is the image, or nothing (204) where the vertex colours are shown instead. */
+export interface TextureUse {
+  texture: number;
+  /** How it goes on beyond its borders along u and v: repeat, mirror, clamp, or others, which are drawn as repeat. */
+  wrap: [string, string];
+  /** Factor of its linear RGB. */
+  scale: [number, number, number];
+}
 
 /** `POST /api/reground` with {reviewer, page}: ground the open objects again with what the decisions teach. */
 export interface RegroundReply {

@@ -2,20 +2,23 @@
 
 import { computed, effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { GeometryManifest, ObjectIndex } from "../api/types";
+import type { ObjectIndex } from "../api/types";
 import type { ViewCommands } from "../keys/bindings";
 import { pageOf } from "../state/candidates";
 import { colorObjects, cssColor, type LegendEntry } from "../state/colors";
 import { colorChanges, comparisonOf } from "../state/comparison";
 import { classLabel } from "../state/model";
 import type { Store } from "../state/store";
+import { followSupports } from "../state/supports";
 import { annotate } from "../viewer/annotations";
 import { appearanceOf, MAX_WATCHED, occluders } from "../viewer/appearance";
+import { loadGeometry } from "../viewer/loading";
 import { Viewer } from "../viewer/viewer";
 
 export function ViewerPanel({ store, view }: { store: Store; view: { current: ViewCommands | null } }) {
   const host = useRef<HTMLDivElement>(null);
   const [problem, setProblem] = useState("");
+  const [isLost, setLost] = useState(false);
   const [legend, setLegend] = useState<LegendEntry[]>([]);
   const [loading, setLoading] = useState<[number, number]>([0, 0]);
   useEffect(() => {
@@ -27,6 +30,7 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
         onHover: (object) => {
           store.hovered.value = object ?? -1;
         },
+        onContext: setLost,
       });
     } catch {
       setProblem("This browser has no WebGL 2, so there is no picture. Everything else works.");
@@ -47,8 +51,14 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
   }, [store, view]);
   return (
     <main class="viewer" aria-label="3D view">
-      <div class="canvas-host" ref={host} />
+      <div class="canvas-host" data-lost={isLost} ref={host} />
       {problem !== "" && <p class="empty">{problem}</p>}
+      {isLost && (
+        <p class="context-lost" role="alert">
+          The browser has taken the graphics memory away, so there is no picture. It comes back by itself; if it does
+          not, load the page again. Decisions are saved.
+        </p>
+      )}
       {loading[0] < loading[1] && (
         <p class="loading">
           Meshes {loading[0]} of {loading[1]}
@@ -76,13 +86,15 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
     const watched = store.selection.value.slice(0, MAX_WATCHED);
     return store.isCutAway.value ? occluders(store.model.data, watched, viewer.eye.value) : new Set();
   });
+  const { supports, stop } = followSupports(store);
   return [
+    stop,
     effect(() => {
       const mode = store.colorMode.value;
       const { colors, legend } =
         mode === "change"
           ? colorChanges(store.model.count, comparisonOf(store).rows.value)
-          : colorObjects(mode, store.model, store.states.value, store.answer.value);
+          : colorObjects(mode, store.model, store.states.value, store.answer.value, supports.value);
       setLegend(legend);
       viewer.setAppearance(appearanceOf(store, colors, viewer.eye, before.value), store.colorMode.value === "material");
     }),
@@ -116,12 +128,7 @@ function followComparison(store: Store, viewer: Viewer): (() => void)[] {
 
 async function load(store: Store, viewer: Viewer, setLoading: (loading: [number, number]) => void): Promise<void> {
   try {
-    const { chunks } = await store.client.get<GeometryManifest>("geometry");
-    for (const [index] of chunks.entries()) {
-      setLoading([index, chunks.length]);
-      await viewer.addFile(await (await store.client.blob(`geometry/${index}.glb`)).arrayBuffer());
-    }
-    setLoading([chunks.length, chunks.length]);
+    await loadGeometry(store.client, viewer, (done, count) => setLoading([done, count]));
     document.documentElement.dataset["geometry"] = "loaded";
   } catch (error) {
     setLoading([0, 0]);
@@ -208,7 +215,12 @@ function Legend({ store, entries }: { store: Store; entries: LegendEntry[] }) {
   return (
     <section class="legend" aria-label="Legend">
       {entries.slice(0, MAX_LEGEND).map(({ label, color, objects, count }) => (
-        <button key={`${label} ${objects[0]}`} type="button" title="Select" onClick={() => store.select(objects)}>
+        <button
+          key={`${label} ${objects[0]}`}
+          type="button"
+          title={`Select ${label}`}
+          onClick={() => store.select(objects)}
+        >
           <svg viewBox="0 0 10 10" aria-hidden="true">
             <rect width="10" height="10" rx="2" fill={cssColor(color)} />
           </svg>

@@ -2,8 +2,19 @@
 
 import type { ObjectIndex, ObjectState, ReviewState } from "../api/types";
 import { classLabel, conceptLabel, roomLabel, type SceneModel } from "./model";
+import { ANSWER, CATEGORIES, CONFIDENCE_BOUNDS, CONFIDENCE_COLORS, REST } from "./palette";
+import type { Supports } from "./supports";
 
-export type ColorMode = "material" | "class" | "concept" | "confidence" | "state" | "room" | "answer" | "change";
+export type ColorMode =
+  | "material"
+  | "class"
+  | "concept"
+  | "confidence"
+  | "state"
+  | "room"
+  | "support"
+  | "answer"
+  | "change";
 
 export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "material", label: "Material" },
@@ -12,6 +23,7 @@ export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "confidence", label: "Confidence" },
   { id: "state", label: "Review" },
   { id: "room", label: "Room" },
+  { id: "support", label: "Support" },
   { id: "answer", label: "Answer" },
   { id: "change", label: "Change" },
 ];
@@ -32,9 +44,6 @@ export interface Coloring {
   colors: (Rgb | null)[];
   legend: LegendEntry[];
 }
-
-export const GREY: Rgb = [0.62, 0.64, 0.67];
-const ANSWER: Rgb = [0.96, 0.62, 0.11];
 
 /** Also in styles/states.css. */
 export const STATE_COLORS: Record<ReviewState, Rgb> = {
@@ -59,20 +68,13 @@ export const STATE_LABELS: Record<ReviewState, string> = {
   failed: "Failed call",
 };
 
-const CONFIDENCE_STEPS: { from: number; label: string; color: Rgb }[] = [
-  { from: 0.95, label: "0.95 to 1", color: [0.13, 0.56, 0.55] },
-  { from: 0.8, label: "0.80 to 0.95", color: [0.37, 0.78, 0.38] },
-  { from: 0.5, label: "0.50 to 0.80", color: [0.99, 0.78, 0.14] },
-  { from: 0.2, label: "0.20 to 0.50", color: [0.95, 0.5, 0.2] },
-  { from: 0, label: "below 0.20", color: [0.82, 0.18, 0.24] },
-];
-
 /** Returns the colours and the legend of a mode. */
 export function colorObjects(
   mode: Exclude<ColorMode, "change">,
   model: SceneModel,
   states: readonly ObjectState[],
   answer: ReadonlySet<ObjectIndex>,
+  supports: Supports = new Map(),
 ): Coloring {
   switch (mode) {
     case "material":
@@ -82,6 +84,8 @@ export function colorObjects(
         states,
         (state) => state.class,
         (key) => classLabel(model, key),
+        // A correction changes the colour of one object, not of classes.
+        (state) => state.suggested,
       );
     case "concept":
       return byGroup(
@@ -95,6 +99,12 @@ export function colorObjects(
         (state) => model.data.objects.room[state.object] ?? -1,
         (_, first) => roomLabel(model, first),
       );
+    case "support":
+      return byGroup(
+        states,
+        (state) => supports.get(state.object) ?? -1,
+        (key) => (key < 0 ? "on and in nothing" : (model.shortNames[key] ?? "")),
+      );
     case "confidence":
       return byStep(states);
     case "state":
@@ -104,39 +114,57 @@ export function colorObjects(
   }
 }
 
-function byGroup(
+/** Gives the largest groups, by `rank`, a colour each; the others share one, with the objects in no group. */
+export function byGroup(
   states: readonly ObjectState[],
   key: (state: ObjectState) => number,
   label: (key: number, first: ObjectIndex) => string,
+  rank: (state: ObjectState) => number = key,
 ): Coloring {
   const groups = new Map<number, ObjectIndex[]>();
+  const sizes = new Map<number, number>();
   for (const state of states) {
     const found = groups.get(key(state));
     if (found === undefined) groups.set(key(state), [state.object]);
     else found.push(state.object);
+    sizes.set(rank(state), (sizes.get(rank(state)) ?? 0) + 1);
   }
+  const ranked = [...new Set([...groups.keys(), ...sizes.keys()])]
+    .filter((group) => group >= 0)
+    .sort((a, b) => (sizes.get(b) ?? 0) - (sizes.get(a) ?? 0) || a - b);
+  const colors = new Map(ranked.map((group, place) => [group, rgb(CATEGORIES[place] ?? REST)]));
   const legend = [...groups]
     .sort((a, b) => b[1].length - a[1].length || a[0] - b[0])
     .map(([group, objects]) => ({
       label: label(group, objects[0] ?? -1),
-      color: group < 0 ? GREY : categoryColor(group),
+      color: colors.get(group) ?? rgb(REST),
       objects,
     }));
   return fill(states.length, legend);
 }
 
 function byStep(states: readonly ObjectState[]): Coloring {
-  const legend = CONFIDENCE_STEPS.map(({ label, color }) => ({ label, color, objects: [] as ObjectIndex[] }));
-  const unknown: LegendEntry = { label: "not given", color: GREY, objects: [] };
+  const bounds: readonly number[] = CONFIDENCE_BOUNDS;
+  const legend = bounds.map((from, step) => ({
+    label: stepLabel(from, bounds[step - 1] ?? 1),
+    color: rgb(CONFIDENCE_COLORS[step] ?? REST),
+    objects: [] as ObjectIndex[],
+  }));
+  const unknown: LegendEntry = { label: "not given", color: rgb(REST), objects: [] };
   for (const state of states) {
     const { confidence } = state;
-    const step = confidence === null ? -1 : CONFIDENCE_STEPS.findIndex(({ from }) => confidence >= from);
+    const step = confidence === null ? -1 : bounds.findIndex((from) => confidence >= from);
     (legend[step] ?? unknown).objects.push(state.object);
   }
   return fill(
     states.length,
     [...legend, unknown].filter((entry) => entry.objects.length > 0),
   );
+}
+
+function stepLabel(from: number, to: number): string {
+  if (from === 0) return `below ${to.toFixed(2)}`;
+  return `${from.toFixed(2)} to ${to === 1 ? "1" : to.toFixed(2)}`;
 }
 
 function byState(states: readonly ObjectState[]): Coloring {
@@ -154,8 +182,8 @@ function byState(states: readonly ObjectState[]): Coloring {
 function byAnswer(states: readonly ObjectState[], answer: ReadonlySet<ObjectIndex>): Coloring {
   const rest = states.map((state) => state.object).filter((object) => !answer.has(object));
   return fill(states.length, [
-    { label: "in the answer", color: ANSWER, objects: [...answer] },
-    { label: "other", color: GREY, objects: rest },
+    { label: "in the answer", color: rgb(ANSWER), objects: [...answer] },
+    { label: "other", color: rgb(REST), objects: rest },
   ]);
 }
 
@@ -165,30 +193,10 @@ export function fill(count: number, legend: LegendEntry[]): Coloring {
   return { colors, legend };
 }
 
-/** Returns the colour of a category: hues a golden angle apart in OKLCH, so that neighbours in a list differ. */
-export function categoryColor(index: number): Rgb {
-  const hue = (index * 137.508 + 25) % 360;
-  const lightness = [0.7, 0.6, 0.78][index % 3] ?? 0.7;
-  return oklch(lightness, 0.13, hue);
-}
-
-/** Returns sRGB of an OKLCH colour (https://bottosson.github.io/posts/oklab), clipped to the gamut. */
-export function oklch(lightness: number, chroma: number, hue: number): Rgb {
-  const a = chroma * Math.cos((hue * Math.PI) / 180);
-  const b = chroma * Math.sin((hue * Math.PI) / 180);
-  const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
-  const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
-  const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;
-  return [
-    encode(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
-    encode(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
-    encode(-0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s),
-  ];
-}
-
-function encode(linear: number): number {
-  const value = Math.min(Math.max(linear, 0), 1);
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055;
+/** Returns the parts of `#rrggbb`. */
+export function rgb(color: string): Rgb {
+  const part = (at: number) => Number.parseInt(color.slice(at, at + 2), 16) / 255;
+  return [part(1), part(3), part(5)];
 }
 
 export function cssColor([red, green, blue]: Rgb): string {

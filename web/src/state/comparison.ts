@@ -3,7 +3,8 @@
 import { batch, computed, effect, type ReadonlySignal, signal } from "@preact/signals";
 import type { ChangeKind, ClassClaim, Comparison, SceneChange } from "../api/types";
 import type { Ghost } from "../viewer/ghosts";
-import { type Coloring, fill, GREY, type LegendEntry, type Rgb } from "./colors";
+import { type Coloring, fill, type LegendEntry, type Rgb, rgb } from "./colors";
+import { REST } from "./palette";
 import type { Store } from "./store";
 
 /** In the order of the list, with the colours of the 3D view, which are also in styles/compare.css. */
@@ -148,7 +149,7 @@ export function colorChanges(count: number, changes: readonly SceneChange[]): Co
     if (found.length > 0) legend.push({ label, color, objects, count: found.length });
   }
   const rest = Array.from({ length: count }, (_, object) => object).filter((object) => !changed.has(object));
-  return fill(count, [...legend, { label: "Unchanged", color: GREY, objects: rest }]);
+  return fill(count, [...legend, { label: "Unchanged", color: rgb(REST), objects: rest }]);
 }
 
 /** Returns a class with its confidence, such as `cup 0.93`, or who decided. */

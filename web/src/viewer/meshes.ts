@@ -1,4 +1,4 @@
-/** Meshes of the scene in a few draw calls: one opaque and one transparent batch for each GLB file. */
+/** Meshes of the scene in a few draw calls: an opaque and a transparent batch for each GLB file and texture. */
 
 import {
   BatchedMesh,
@@ -10,10 +10,11 @@ import {
   MeshLambertMaterial,
   type Object3D,
   type Raycaster,
+  type Texture,
   Vector4,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import type { ObjectIndex } from "../api/types";
+import type { ObjectIndex, TextureUse } from "../api/types";
 import type { Rgb } from "../state/colors";
 
 /** How one object is drawn. */
@@ -49,6 +50,7 @@ export function bestHit(hits: readonly (Hit | null)[]): Hit | null {
 
 interface Part {
   geometry: BufferGeometry;
+  texture: TextureUse | null;
   matrix: Matrix4;
   object: ObjectIndex;
 }
@@ -64,7 +66,9 @@ export async function readParts(data: ArrayBuffer): Promise<Part[]> {
     if (!(node instanceof Mesh)) return;
     // A node with one primitive is the mesh itself; the number of its object is on it or on the group above.
     const object = (node.userData["object"] ?? node.parent?.userData["object"] ?? -1) as number;
-    parts.push({ geometry: node.geometry as BufferGeometry, matrix: node.matrixWorld.clone(), object });
+    const geometry = node.geometry as BufferGeometry;
+    const texture = typeof geometry.userData["texture"] === "number" ? (geometry.userData as TextureUse) : null;
+    parts.push({ geometry, texture, matrix: node.matrixWorld.clone(), object });
   });
   return parts;
 }
@@ -74,17 +78,29 @@ export class MeshBatches {
   readonly batches: BatchedMesh[] = [];
   private readonly instances: Instance[] = [];
   private readonly ofObject = new Map<ObjectIndex, Instance[]>();
+  private textures: ReadonlyMap<number, Texture> = new Map();
   private readonly hit = new Map<BatchedMesh, Instance[]>();
 
   /** Adds the parts of one file; returns its batches, to be put into the scene. */
   add(parts: Part[]): BatchedMesh[] {
-    const clear = parts.filter((part) => isTransparent(part.geometry));
-    const solid = parts.filter((part) => !isTransparent(part.geometry));
-    return [this.addBatch(solid, false), this.addBatch(clear, true)].filter((batch) => batch !== null);
+    const groups = new Map<string, Part[]>();
+    for (const part of parts) {
+      const key = `${part.texture?.texture ?? -1} ${isTransparent(part.geometry)}`;
+      const known = groups.get(key);
+      if (known === undefined) groups.set(key, [part]);
+      else known.push(part);
+    }
+    return [...groups.values()].map((group) => this.addBatch(group));
   }
 
-  private addBatch(parts: Part[], isClear: boolean): BatchedMesh | null {
-    if (parts.length === 0) return null;
+  /** Shows the images of textures that have arrived where objects have the colours of their materials. */
+  setTextures(textures: ReadonlyMap<number, Texture>): void {
+    this.textures = textures;
+  }
+
+  private addBatch(parts: Part[]): BatchedMesh {
+    const texture = parts[0]?.texture ?? null;
+    const isClear = parts[0] !== undefined && isTransparent(parts[0].geometry);
     const geometries = [...new Set(parts.map((part) => part.geometry))];
     const vertices = sum(geometries.map((geometry) => geometry.attributes["position"]?.count ?? 0));
     const indices = sum(geometries.map((geometry) => geometry.index?.count ?? 0));
@@ -103,7 +119,7 @@ export class MeshBatches {
       if (known === undefined) this.ofObject.set(part.object, [instance]);
       else known.push(instance);
     }
-    batch.userData["isClear"] = isClear;
+    Object.assign(batch.userData, { isClear, texture });
     this.hit.set(batch, own);
     this.batches.push(batch);
     return batch;
@@ -131,8 +147,13 @@ export class MeshBatches {
       const isClear = batch.userData["isClear"] === true;
       // Ghosts by hashed transparency need no sorting.
       const alphaHash = hasGhosts && !isClear;
-      if (material.alphaHash === alphaHash && material.vertexColors === isPlain) continue;
-      Object.assign(material, { alphaHash, vertexColors: isPlain, needsUpdate: true });
+      const use = batch.userData["texture"] as TextureUse | null;
+      const map = (isPlain && use !== null && this.textures.get(use.texture)) || null;
+      const vertexColors = isPlain && map === null;
+      if (material.alphaHash === alphaHash && material.vertexColors === vertexColors && material.map === map) continue;
+      const [red, green, blue] = map === null || use === null ? [1, 1, 1] : use.scale;
+      material.color.setRGB(red, green, blue);
+      Object.assign(material, { alphaHash, vertexColors, map, needsUpdate: true });
     }
   }
 

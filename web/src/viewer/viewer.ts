@@ -9,11 +9,12 @@ import {
   Plane,
   Raycaster,
   Scene,
+  type Texture,
   Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
-import type { Box, ObjectIndex, SceneData } from "../api/types";
+import type { Box, ObjectIndex, SceneData, TextureUse } from "../api/types";
 import type { Eye } from "./appearance";
 import { BoxBatch } from "./boxes";
 import { Cameras, type ViewName } from "./cameras";
@@ -32,6 +33,8 @@ export interface RelationLine {
 export interface ViewerEvents {
   onPick(object: ObjectIndex | null, isAdding: boolean): void;
   onHover(object: ObjectIndex | null, x: number, y: number): void;
+  /** The browser has taken the graphics context away, or has given it back. */
+  onContext(isLost: boolean): void;
 }
 
 const HOVER_MS = 60;
@@ -54,6 +57,7 @@ export class Viewer {
   private readonly scene = new Scene();
   private readonly boxes: BoxBatch;
   private readonly meshes = new MeshBatches();
+  private readonly textures = new Map<number, Texture>();
   private readonly selection = new LineSet("#ff9d00");
   private readonly relations = new LineSet("#ff9d00");
   private readonly hidden = new LineSet("#8a93a0");
@@ -93,14 +97,24 @@ export class Viewer {
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(host);
     this.listen(canvas);
+    this.watchContext(canvas);
     this.resize();
     this.cameras.frame(this.boundsOf(null), "perspective", true);
     this.paint();
   }
 
-  /** Adds one GLB file; its objects replace their boxes. */
-  async addFile(data: ArrayBuffer): Promise<void> {
-    for (const batch of this.meshes.add(await readParts(data))) this.scene.add(batch);
+  /** Adds one GLB file; its objects replace their boxes. Returns the textures that it uses. */
+  async addFile(data: ArrayBuffer): Promise<TextureUse[]> {
+    const parts = await readParts(data);
+    for (const batch of this.meshes.add(parts)) this.scene.add(batch);
+    this.paint();
+    return parts.flatMap(({ texture }) => (texture === null ? [] : [texture]));
+  }
+
+  /** Adds the image of a texture. */
+  addTexture(index: number, texture: Texture): void {
+    this.textures.set(index, texture);
+    this.meshes.setTextures(this.textures);
     this.paint();
   }
 
@@ -215,6 +229,19 @@ export class Viewer {
     });
   }
 
+  /** The renderer uploads everything again with the first frame after the context is back. */
+  private watchContext(canvas: HTMLCanvasElement): void {
+    canvas.addEventListener("webglcontextlost", (event) => {
+      // Otherwise the browser does not give it back.
+      event.preventDefault();
+      this.events.onContext(true);
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.events.onContext(false);
+      this.paint();
+    });
+  }
+
   private pick(event: PointerEvent): ObjectIndex | null {
     const { width, height } = this.renderer.domElement.getBoundingClientRect();
     const point = new Vector2((2 * event.offsetX) / width - 1, 1 - (2 * event.offsetY) / height);
@@ -243,6 +270,10 @@ export class Viewer {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     return performance.now() - start;
+  }
+
+  get textureCount(): number {
+    return this.textures.size;
   }
 
   get drawCalls(): number {
@@ -276,6 +307,7 @@ export class Viewer {
     this.resizer.disconnect();
     this.cameras.dispose();
     this.meshes.dispose();
+    for (const texture of this.textures.values()) texture.dispose();
     this.boxes.dispose();
     this.selection.dispose();
     this.relations.dispose();

@@ -14,8 +14,16 @@ if TYPE_CHECKING:
     from usd2kg.grounding import Decision
     from usd2kg.ontology import TBox
 
-__all__ = ["CarryOverOptions", "ReviewOptions", "Reviewer"]
+__all__ = ["CarryOverOptions", "DecisionsFile", "ReviewOptions", "Reviewer"]
 
+DecisionsFile = Annotated[
+    Path | None,
+    Option(
+        "--decisions",
+        help="Classes that a person chose, used instead of the grounder's: CSV path,decision, or the curated and "
+        "reviewed rows of SSSOM (.tsv).",
+    ),
+]
 Reviewer = Annotated[
     str | None,
     Option("--reviewer", metavar="NAME", help="Name or ORCID iD of the reviewer of decisions that state none."),
@@ -28,14 +36,7 @@ class ReviewOptions(OptionBundle):
 
     output_options = frozenset({"queue"})
 
-    decisions: Annotated[
-        Path | None,
-        Option(
-            "--decisions",
-            help="Classes that a person chose, used instead of the grounder's: CSV path,decision, or the curated and "
-            "reviewed rows of SSSOM (.tsv).",
-        ),
-    ] = None
+    decisions: DecisionsFile = None
     person: Annotated[
         float, Option("--person", min=0, max=1, help="Confidence below which an object goes into the --queue.")
     ] = 0.5

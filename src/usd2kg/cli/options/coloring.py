@@ -1,0 +1,57 @@
+"""The options that colour the objects of a picture by a property."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from typer import Option
+
+from usd2kg.cli.options.bundles import OptionBundle
+from usd2kg.cli.options.common import OntologyFile
+from usd2kg.cli.options.review import DecisionsFile
+from usd2kg.errors import OutputError
+
+if TYPE_CHECKING:
+    from usd2kg.diagrams import ColorMode
+
+__all__ = ["ColorOptions"]
+
+
+@dataclass(frozen=True)
+class ColorOptions(OptionBundle):
+    """What colours show, and where classes come from."""
+
+    color_by: Annotated[
+        str,
+        Option(
+            "--color-by",
+            help="What colours show, with a legend: material, class, concept, confidence, room, support "
+            "(what an object is on or in), or answer, which needs --ask.",
+        ),
+    ] = "material"
+    ask: Annotated[
+        str | None,
+        Option("--ask", metavar="QUESTION", help="Highlight the answer to a question in plain English."),
+    ] = None
+    ontology: OntologyFile = None
+    decisions: DecisionsFile = None
+
+    def mode(self) -> "ColorMode":
+        """Return what colours show.
+
+        Raises:
+            OutputError: the mode is unknown, or does not fit the other options.
+        """
+        from usd2kg.diagrams import ColorMode  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+
+        modes = [mode.value for mode in ColorMode]
+        if self.color_by not in modes:
+            raise OutputError(f"--color-by {self.color_by}: expected {', '.join(modes[:-1])} or {modes[-1]}")
+        mode = ColorMode(self.color_by)
+        if self.ask is not None and mode is ColorMode.MATERIAL:
+            mode = ColorMode.ANSWER
+        if (mode is ColorMode.ANSWER) != (self.ask is not None):
+            problem = "needs a question" if self.ask is None else "shows no answer"
+            raise OutputError(f"--color-by {mode} {problem}; use --ask 'what is on the table?' with --color-by answer")
+        if mode is ColorMode.MATERIAL and (self.ontology or self.decisions):
+            raise OutputError("--ontology and --decisions change no colour of a material; choose another --color-by")
+        return mode

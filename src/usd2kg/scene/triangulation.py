@@ -1,0 +1,86 @@
+"""Triangles of meshes and solids in their own frame."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from usd2kg.scene.solids import solid_surface
+
+__all__ = ["LocalMesh", "as_array", "read_mesh", "tessellate", "triangulate"]
+
+Points = NDArray[np.float64]
+Triangles = NDArray[np.int32]
+
+
+class LocalMesh(NamedTuple):
+    """The triangles of a gprim in its own frame and stage units."""
+
+    points: Points
+    triangles: Triangles
+    face_of: NDArray[np.int64]
+    """Index of the mesh face of each triangle."""
+    corners: NDArray[np.int64] | None = None
+    """(m, 3): the face vertex at each corner of a triangle; None for a solid."""
+
+
+def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
+    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if empty or broken.
+
+    Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
+    """
+    mesh, _ = triangulate(UsdGeom.Mesh(prim), time)
+    return (mesh.points, mesh.triangles) if mesh is not None and np.isfinite(mesh.points).all() else None
+
+
+def tessellate(prim: Any, time: Usd.TimeCode) -> tuple[LocalMesh | None, str]:
+    """Return the triangles of a solid, or None and the problem."""
+    surface = solid_surface(prim, time)
+    if surface is None:
+        return None, f"a {prim.GetTypeName() or 'prim without type'} has no triangles"
+    points, triangles = surface
+    return LocalMesh(points, triangles, np.zeros(len(triangles), np.int64)), ""
+
+
+def triangulate(mesh: Any, time: Usd.TimeCode) -> tuple[LocalMesh | None, str]:
+    """Return the triangles of a mesh, or None and the problem."""
+    points = as_array(mesh.GetPointsAttr().Get(time), np.float64)
+    counts = as_array(mesh.GetFaceVertexCountsAttr().Get(time), np.int64)
+    indices = as_array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64)
+    if not len(points) or not len(counts):
+        return None, ""
+    if points.shape[1:] != (3,) or counts.ndim != 1 or indices.ndim != 1:
+        return None, "its points or faces are not of the type that OpenUSD specifies"
+    if counts.min() < 0 or counts.sum() != len(indices):
+        return None, f"faceVertexCounts add up to {int(counts.sum())}, but faceVertexIndices has {len(indices)} values"
+    if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):
+        return None, f"faceVertexIndices has values outside 0 … {len(points) - 1}"
+    corners, face_of = _fans(counts)
+    if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+        corners = corners[:, ::-1]
+    return LocalMesh(points, indices[corners].astype(np.int32), face_of, corners), ""
+
+
+def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the corners (m, 3) of the triangles of polygons with `counts` corners each, and the polygon of each."""
+    size = int(counts[0])
+    if size >= 3 and (counts == size).all():
+        nth = np.arange(size - 2)
+        fan = np.stack([np.zeros_like(nth), nth + 1, nth + 2], axis=1)
+        corners = (np.arange(len(counts)) * size)[:, None, None] + fan
+        return corners.reshape(-1, 3), np.repeat(np.arange(len(counts)), size - 2)
+    fans = np.maximum(counts - 2, 0)
+    face_of = np.repeat(np.arange(len(counts)), fans)
+    first = np.repeat(np.cumsum(counts) - counts, fans)
+    nth = np.arange(len(face_of)) - np.repeat(np.cumsum(fans) - fans, fans)
+    return np.stack([first, first + nth + 1, first + nth + 2], axis=1), face_of
+
+
+def as_array(values: Any, dtype: Any) -> NDArray[Any]:
+    """Return values as an array; an empty array for None or for values that are not numbers (mistyped attributes)."""
+    try:
+        array = np.asarray(values if values is not None else (), dtype=dtype)
+    except (TypeError, ValueError):
+        array = np.zeros(0, dtype)
+    return array if array.ndim else np.zeros(0, dtype)

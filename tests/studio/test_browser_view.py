@@ -1,0 +1,116 @@
+"""The 3D view in a real browser: what its pixels show."""
+
+import io
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from tests.studio.conftest import needs_page, running_studio
+from tests.studio.test_browser import CHROMIUM, SOFTWARE_GL, close_page, open_page
+from tests.studio.test_textures import poster
+
+Image = pytest.importorskip("PIL.Image")
+pytestmark = [
+    pytest.mark.studio,
+    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
+    needs_page,
+]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        found = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE_GL)
+        yield found
+        found.close()
+
+
+def view_of(page: Page) -> NDArray[np.int16]:
+    """Return the pixels (height, width, 3) of the 3D view."""
+    with Image.open(io.BytesIO(page.locator("canvas").first.screenshot())) as opened:
+        return np.asarray(opened.convert("RGB")).astype(np.int16)
+
+
+def share(pixels: NDArray[np.int16], channel: int) -> float:
+    """Return the share of pixels in which one channel is much brighter than the others."""
+    others = np.delete(pixels, channel, axis=2).max(axis=2)
+    return float((pixels[..., channel] > others + 60).mean())
+
+
+RED, GREEN, BLUE = 0, 1, 2
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Path:
+    """A board whose image is blue with a green quarter, and whose display colour is red."""
+    image = Image.new("RGB", (64, 64), (0, 0, 255))
+    image.paste((0, 255, 0), (0, 0, 32, 32))
+    image.save(tmp_path / "picture.png")
+    path = tmp_path / "poster.usda"
+    path.write_text(poster("picture.png"), "utf-8")
+    return path
+
+
+def test_textures_are_shown_with_the_colours_of_materials_only(browser: Browser, board: Path, tmp_path: Path) -> None:
+    with running_studio(board, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.wait_for_function("window.studioViewer.textureCount === 1")
+        page.wait_for_timeout(300)
+        pixels = view_of(page)
+        assert share(pixels, BLUE) > 2 * share(pixels, GREEN) > 0.01
+        assert share(pixels, RED) < 0.01
+        page.get_by_label("Color by").select_option("confidence")
+        page.wait_for_timeout(300)
+        assert share(view_of(page), GREEN) < 0.001
+        close_page(page)
+
+
+def test_colours_by_support(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.get_by_label("Color by").select_option("support")
+        legend = page.get_by_label("Legend")
+        expect(legend.get_by_text("Table")).to_be_visible()
+        # Both cups.
+        legend.get_by_text("Table").click()
+        expect(page.locator("[role=treeitem][aria-selected=true]")).to_have_count(2)
+        close_page(page)
+
+
+def test_the_picture_comes_back_after_the_context_is_lost(browser: Browser, board: Path, tmp_path: Path) -> None:
+    with running_studio(board, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.wait_for_function("window.studioViewer.textureCount === 1")
+        page.wait_for_timeout(300)
+        before = view_of(page)
+        page.evaluate(
+            "window.lose = document.querySelector('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');"
+            "window.lose.loseContext()"
+        )
+        message = page.get_by_role("alert").filter(has_text="graphics memory")
+        expect(message).to_be_visible()
+        page.get_by_label("Color by").select_option("confidence")
+        page.get_by_label("Color by").select_option("material")
+        page.evaluate("window.lose.restoreContext()")
+        expect(message).to_have_count(0)
+        page.wait_for_timeout(500)
+        after = view_of(page)
+        # The picture is the same, with its texture.
+        assert np.abs(after - before).mean() < 1
+        assert share(after, BLUE) > 0.01
+        close_page(page)
+
+
+def test_without_an_image_the_display_colour_is_shown(browser: Browser, board: Path, tmp_path: Path) -> None:
+    (tmp_path / "picture.png").write_bytes(b"no image")
+    with running_studio(board, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.wait_for_timeout(500)
+        pixels = view_of(page)
+        assert share(pixels, RED) > 0.02
+        assert share(pixels, BLUE) < 0.01
+        close_page(page)
