@@ -304,7 +304,10 @@ class _Api:
     # Pictures.
 
     async def _geometry(self, _: Request) -> Response:
-        manifest = (await _wait(self._pictures.geometry())).manifest()
+        if self._session.stage is None:
+            manifest: dict[str, Any] = {"chunks": [], "triangles": 0, "source_triangles": 0}
+        else:
+            manifest = (await _wait(self._pictures.geometry())).manifest()
         # The first graph is built when the page has what it shows first.
         self._outputs.notify()
         return JSONResponse(manifest)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from usd2kg.errors import SceneError
 from usd2kg.render import Renderer
-from usd2kg.scene.object_geometry import SceneGeometry, read_geometry
+from usd2kg.scene.object_geometry import read_geometry
 from usd2kg.scene.stage import open_stage, time_code
 from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.geometry import GeometryFiles
@@ -54,8 +54,6 @@ class Pictures:
 
     @cached_property
     def _geometry(self) -> GeometryFiles:
-        if self._session.stage is None:
-            return GeometryFiles(SceneGeometry((), ()), self._catalog)
         reading = self._session.project.sources.reading
         opened = open_stage(self._stage, reading)
         if opened.content_hash != self._session.scene.content_hash:
