@@ -307,7 +307,10 @@ class _Api:
     # Pictures.
 
     async def _geometry(self, _: Request) -> Response:
-        return JSONResponse(await _wait(self._pictures.manifest()))
+        manifest = await _wait(self._pictures.manifest())
+        if not manifest["chunks"]:
+            self._outputs.notify()
+        return JSONResponse(manifest)
 
     async def _geometry_file(self, request: Request) -> Response:
         index = int(request.path_params["index"])

@@ -24,6 +24,7 @@ def read_stated_grounding(index: GraphIndex, scene: Scene, stated: Sequence[Stat
     ontology = next((node for node, _ in index.subjects_of(U2K.ontologyIri)), None)
     software = next((node for node, _ in index.subjects_of(U2K.version)), None)
     grounder = index.text(run, U2K.grounder)
+    reader = _PredictionReader(index, grounder)
     settings = (text.partition("=") for text in index.texts(run, U2K.setting))
     return Grounding(
         scene=scene.source,
@@ -34,7 +35,7 @@ def read_stated_grounding(index: GraphIndex, scene: Scene, stated: Sequence[Stat
         settings={name: value for name, _, value in settings},
         is_calibrated=index.text(run, U2K.isCalibrated) in {"true", "1"},
         tool_version=index.text(software, U2K.version),
-        predictions=tuple(_PredictionReader(index, grounder).prediction(each) for each in stated),
+        predictions=tuple(map(reader.prediction, stated)),
         concepts={concept.iri: concept for concept in _concepts(index)},
     )
 

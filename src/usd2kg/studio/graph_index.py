@@ -9,23 +9,22 @@ from usd2kg.graph.vocabulary import OWL, RDF
 
 __all__ = ["GraphIndex"]
 
-_STATEMENT_PARTS = (OWL.annotatedSource, OWL.annotatedProperty, OWL.annotatedTarget)
-
 
 class GraphIndex:
     """Values in the order of the statements."""
 
     def __init__(self, statements: Iterable[ox.Triple]) -> None:
         self._values: dict[Any, dict[ox.NamedNode, list[Any]]] = {}
+        self._subjects: dict[ox.NamedNode, dict[Any, None]] = {}
         for subject, predicate, value in statements:
             self._values.setdefault(subject, {}).setdefault(predicate, []).append(value)
+            self._subjects.setdefault(predicate, {})[subject] = None
         self._annotating = dict(self._find_annotations())
 
     def subjects_of(self, name: ox.NamedNode) -> Iterator[tuple[Any, list[Any]]]:
         """Yield each subject that has a property, with the values."""
-        for subject, found in self._values.items():
-            if name in found:
-                yield subject, found[name]
+        for subject in self._subjects.get(name, ()):
+            yield subject, self._values[subject][name]
 
     def properties(self, node: Any) -> dict[ox.NamedNode, list[Any]]:
         """Return property → values of a node."""
@@ -49,10 +48,11 @@ class GraphIndex:
 
     def _find_annotations(self) -> Iterator[tuple[tuple[Any, Any, Any], Any]]:
         """Yield each annotated statement with its owl:Axiom (OWL 2) or reifier (RDF 1.2)."""
-        for node, found in self._values.items():
-            if all(name in found for name in _STATEMENT_PARTS):
-                source, predicate, target = (found[name][0] for name in _STATEMENT_PARTS)
-                yield (source, predicate, target), node
-            for statement in found.get(RDF.reifies, ()):
+        for node, sources in self.subjects_of(OWL.annotatedSource):
+            predicates, targets = (self.values(node, name) for name in (OWL.annotatedProperty, OWL.annotatedTarget))
+            if predicates and targets:
+                yield (sources[0], predicates[0], targets[0]), node
+        for node, reified in self.subjects_of(RDF.reifies):
+            for statement in reified:
                 if isinstance(statement, ox.Triple):
                     yield (statement.subject, statement.predicate, statement.object), node

@@ -11,6 +11,7 @@ from usd2kg.diff import GraphStyle, detect_graph_style, objects_of_graph, read_o
 from usd2kg.diff import ObjectState as StatedObject
 from usd2kg.diff.graph_states import parse_numbers, parse_vector
 from usd2kg.errors import GraphError
+from usd2kg.garbage import paused_collection
 from usd2kg.graph.iris import individual_iri
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, USD
 from usd2kg.grounding import Grounding
@@ -53,7 +54,11 @@ def read_graph_scene(path: Path) -> GraphScene:
     Raises:
         GraphError: the file cannot be read, or describes no scene, or several.
     """
-    statements = read_ordered_statements(path)
+    with paused_collection():
+        return _read(path, read_ordered_statements(path))
+
+
+def _read(path: Path, statements: tuple[ox.Triple, ...]) -> GraphScene:
     stated = objects_of_graph(statements, str(path))
     style = detect_graph_style(statements)
     index = GraphIndex(statements)

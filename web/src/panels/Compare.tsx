@@ -16,7 +16,7 @@ export function Compare({ store }: { store: Store }) {
     <div class="compare">
       <header>
         <p>
-          Changes since <strong title={data.other}>{data.other.replace(/^.*[/\\]/, "")}</strong>, a {data.source}:{" "}
+          Changes from <strong title={data.other}>{data.other.replace(/^.*[/\\]/, "")}</strong>, a {data.source}:{" "}
           {data.changes.length} of {data.changes.length + data.unchanged} objects
         </p>
         <Kinds comparison={comparison} data={data} />
