@@ -4,6 +4,7 @@ Each relation carries its measurements and the id of its rule. `knowledge/spatia
 docs/relations.md defines each kind.
 """
 
+from usd2kg.relations.derived_room import DerivedRoom
 from usd2kg.relations.find import find_relations
 from usd2kg.relations.model import (
     ALL_KINDS,
@@ -24,6 +25,7 @@ __all__ = [
     "DEFAULT_KINDS",
     "SYMMETRIC_KINDS",
     "VIEWPOINT_KINDS",
+    "DerivedRoom",
     "Relation",
     "RelationOptions",
     "RelationRules",

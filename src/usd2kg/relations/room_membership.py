@@ -14,7 +14,7 @@ from usd2kg.scene import Box, SceneObject
 from usd2kg.shapes import overlapping_pairs
 from usd2kg.words import words_of
 
-__all__ = ["RoomLinks", "find_rooms"]
+__all__ = ["RoomLinks", "find_rooms", "placed_in_rooms"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -27,6 +27,8 @@ class RoomLinks(NamedTuple):
     """Anchors beyond the last object are indices into `groups`."""
     groups: list[str]
     """Paths of the group prims that are rooms."""
+    has_rooms: bool
+    """Whether a prim is a room; else the floor plan may have some."""
 
 
 class _Room(NamedTuple):
@@ -51,9 +53,14 @@ def find_rooms(
         made = [_room(len(boxed) + place, box, rule) for place, box in enumerate(found.values())]
         rooms, groups = [room for room in made if room], list(found)
     rule_id = rule.group_rule if groups else rule.rule
+    links = _members(boxed, rooms, placed_in_rooms(boxed, classes), rule)
+    return RoomLinks(links._replace(rule=rule_id), groups, bool(rooms))
+
+
+def placed_in_rooms(boxed: BoxedObjects, classes: ClassMembership) -> Indices:
+    """Return the objects that may be in a room: not what bounds one."""
     is_placed = ~classes.are_in("not_neighbours") | classes.are_in("handles")
-    links = _members(boxed, rooms, np.flatnonzero(is_placed[boxed.scene_index]), rule)
-    return RoomLinks(links._replace(rule=rule_id), groups)
+    return np.flatnonzero(is_placed[boxed.scene_index])
 
 
 def _room(number: int, box: Box | None, rule: RoomRule) -> _Room | None:
