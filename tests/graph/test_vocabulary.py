@@ -18,8 +18,8 @@ from usd2kg.scene import Instances, Label, MaterialDetails, ObjectLabels
 
 SPATIAL = frozenset(
     """
-    Between DerivedRoom RoomGroup above anchor angle behind below betweenRatio distance floorArea floorHeight floorOutline
-    inFrontOf inRoom leftOf margin near nextTo partOf rightOf target touching
+    Between DerivedRoom RoomGroup above anchor angle behind below betweenRatio connects distance floorArea floorHeight
+    floorOutline inFrontOf inRoom leftOf margin near nextTo partOf rightOf target touching
     """.split()
 )
 """Terms of relations that depend on the scene."""

@@ -26,7 +26,7 @@ from usd2kg.graph.stage_metadata import describe_labels_and_texts, describe_meta
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
-from usd2kg.relations import Relation, find_relations
+from usd2kg.relations import ROOM_KINDS, Relation, find_relations
 from usd2kg.scene import Scene, SceneObject
 
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]
@@ -267,7 +267,7 @@ class _GraphBuilder:
 
     def _rooms(self) -> Iterator[Triple]:
         """Yield the rooms that are no objects: group prims, and rooms without a prim."""
-        anchors = (r.anchor for found in self.relations.values() for r in found if r.kind == "room")
+        anchors = (r.anchor for found in self.relations.values() for r in found if r.kind in ROOM_KINDS)
         for path in dict.fromkeys(anchors):
             if path not in self.scene.by_path and path not in self.rooms:
                 yield from describe_room(path, self.base)

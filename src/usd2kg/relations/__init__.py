@@ -9,6 +9,7 @@ from usd2kg.relations.find import find_relations
 from usd2kg.relations.model import (
     ALL_KINDS,
     DEFAULT_KINDS,
+    ROOM_KINDS,
     SYMMETRIC_KINDS,
     VIEWPOINT_KINDS,
     Relation,
@@ -23,6 +24,7 @@ from usd2kg.relations.thresholds import RelationRules
 __all__ = [
     "ALL_KINDS",
     "DEFAULT_KINDS",
+    "ROOM_KINDS",
     "SYMMETRIC_KINDS",
     "VIEWPOINT_KINDS",
     "DerivedRoom",

@@ -21,6 +21,12 @@ from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.attachment import find_attached
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.connections import (
+    find_connections,
+    locate_in_boxes,
+    locate_in_plans,
+    openings_in_walls,
+)
 from usd2kg.relations.containment import find_inside
 from usd2kg.relations.derived_room import DerivedRoom
 from usd2kg.relations.floor_plan import draw_floor_plans
@@ -90,8 +96,8 @@ class _Finder:
         yield self._attached(stronger, needs_mount=True)
         yield from stronger.add_support([find_hovering(self.boxed, support.near, stronger.is_free, self.rules)])
         yield self._attached(stronger, needs_mount=False)
-        if "room" in kinds:
-            yield from self._rooms()
+        if kinds & ROOM_KINDS:
+            yield from self._rooms(wholes)
         takes_part = ~self.classes.are_in("not_neighbours")[self.boxed.scene_index]
         if kinds & {"above", "below"}:
             above = find_above(self.boxed, takes_part, stronger.frame, stronger.supporter, self.rules.above)
@@ -100,17 +106,26 @@ class _Finder:
             yield reverse_links("below", above)
         yield from self._adjacent(kinds, takes_part, stronger)
 
-    def _rooms(self) -> Iterator[Links]:
+    def _rooms(self, wholes: Indices) -> Iterator[Links]:
         found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
-        self.groups = found.groups
-        yield found.links
-        if not found.has_rooms:
+        openings = find_openings(self.boxed, self.classes, self.rules.room_plan)
+        # The doors of furniture.
+        fixed = openings[wholes[openings] < 0]
+        if len(found.boxes.number):
+            self.groups = found.groups
+            yield found.links
+            walls = np.flatnonzero(self.classes.are_in("room_walls")[self.boxed.scene_index])
+            fixed = openings_in_walls(self.boxed, fixed, walls, self.rules.connects)
+            locate = locate_in_boxes(*found.boxes)
+        else:
             words = frozenset(self.rules.room.words)
-            openings = find_openings(self.boxed, self.classes, self.rules.room_plan)
             plans, self.derived = draw_floor_plans(self.boxed, self.classes, openings, self.rules.room_plan, words)
             self.groups = [room.name for room in self.derived]
             placed = np.setdiff1d(placed_in_rooms(self.boxed, self.classes), openings)
             yield from find_plan_members(self.boxed, plans, self.derived, placed, self.rules.room_plan)
+            locate = locate_in_plans(plans, len(self.boxed))
+        if len(fixed):
+            yield find_connections(self.boxed, fixed, locate, self.rules.connects)
 
     def _attached(self, stronger: StrongerRelations, *, needs_mount: bool) -> Links:
         rule = self.rules.attached

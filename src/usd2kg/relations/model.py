@@ -32,12 +32,14 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Vector = tuple[float, float, float]
 
-DEFAULT_KINDS = ("on", "inside", "attached-to", "above", "below", "touching", "next-to", "near", "room", "part-of")
+DEFAULT_KINDS = (
+    *("on", "inside", "attached-to", "above", "below", "touching", "next-to", "near", "room", "connects", "part-of"),
+)
 """Kinds that are found by default."""
 VIEWPOINT_KINDS = ("left", "right", "front", "behind")
 """Kinds that need a viewpoint; found by default if there is one."""
 ALL_KINDS = (*DEFAULT_KINDS, "between", *VIEWPOINT_KINDS)
-ROOM_KINDS = frozenset({"room"})
+ROOM_KINDS = frozenset({"room", "connects"})
 """Kinds whose anchor is a room, possibly one without a prim."""
 SYMMETRIC_KINDS = frozenset({"touching", "next-to", "near"})
 """Symmetric kinds; each relation is listed once, from the object that comes first in the scene."""

@@ -8,6 +8,7 @@ __all__ = [
     "BetweenRule",
     "BlockingRule",
     "ClassLists",
+    "ConnectsRule",
     "HoveringRule",
     "InsideRule",
     "NearRule",
@@ -231,6 +232,17 @@ class RoomPlanRule:
 
 
 @dataclass(frozen=True, slots=True)
+class ConnectsRule:
+    """`connects`."""
+
+    rule: str
+    reach: float
+    samples: int
+    min_share: float
+    max_gap: float
+
+
+@dataclass(frozen=True, slots=True)
 class PartOfRule:
     """`part-of`."""
 
@@ -292,5 +304,6 @@ class RelationRules:
     side: SideRule
     room: RoomRule
     room_plan: RoomPlanRule
+    connects: ConnectsRule
     part_of: PartOfRule
     classes: ClassLists = field(repr=False)

@@ -48,13 +48,14 @@ def draw_walls(boxed: BoxedObjects, storey: Storey, openings: Indices, rule: Roo
         np.minimum(boxed.upper[storey.walls, 2], storey.top) - rule.top_margin,
     ]
     crossing = [_section(boxed, storey.walls, at, rule) for at in heights]
-    grid = _grid(boxed, storey, solid, rule, max_cells)
+    here = _on_storey(boxed, openings, storey)
+    grid = _grid(boxed, np.concatenate([storey.floors, here]), solid, rule, max_cells)
     is_wall, is_crossed = np.zeros(grid.shape, np.bool_), np.zeros(grid.shape, np.bool_)
     _draw(grid, is_wall, solid)
     for section in crossing:
         _draw(grid, is_crossed, section)
     is_opening = np.zeros(grid.shape, np.bool_)
-    shapes, here = boxed.footprints, _on_storey(boxed, openings, storey)
+    shapes = boxed.footprints
     grid.mark_rectangles(is_opening, boxed.middle[here, :2], shapes.half_sides[here], shapes.direction[here])
     is_closed = _closed_below_lintels(is_crossed & ~is_wall, is_opening, grid.cell, rule)
     is_wall |= is_opening
@@ -95,11 +96,10 @@ def _draw(grid: PlanGrid, mask: Mask, section: _Section) -> None:
     grid.mark_rectangles(mask, section.lower + half, half, np.tile([1.0, 0.0], (len(half), 1)))
 
 
-def _grid(boxed: BoxedObjects, storey: Storey, solid: _Section, rule: RoomPlanRule, max_cells: int) -> PlanGrid:
-    """Return a grid along the walls, around walls and floors."""
+def _grid(boxed: BoxedObjects, others: Indices, solid: _Section, rule: RoomPlanRule, max_cells: int) -> PlanGrid:
+    """Return a grid along the walls, around walls and other objects."""
     turn = _turn(solid.segments)
-    floors = storey.floors
-    boxes = [(solid.lower, solid.upper), (boxed.lower[floors, :2], boxed.upper[floors, :2])]
+    boxes = [(solid.lower, solid.upper), (boxed.lower[others, :2], boxed.upper[others, :2])]
     corners = [np.stack([a[:, 0], b[:, 1]], axis=1) for low, high in boxes for a in (low, high) for b in (low, high)]
     points = np.concatenate([solid.segments.reshape(-1, 2), *corners]) @ turn
     low, high = points.min(axis=0), points.max(axis=0)

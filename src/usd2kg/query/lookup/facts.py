@@ -35,7 +35,7 @@ _RELATIONS = {
     "part": (_Link(SOMA.hasPhysicalComponent, is_inverse=True), _Link(U2K.partOf)),
 }
 """Relation → the properties that state it, in both profiles."""
-_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object, U2K.DerivedRoom}
 
 
 class Named(NamedTuple):
@@ -44,6 +44,7 @@ class Named(NamedTuple):
     iri: str
     label: str
     path: str
+    """Prim path; the label of a room without a prim."""
 
 
 class SceneFacts:
@@ -59,17 +60,20 @@ class SceneFacts:
 
     @cached_property
     def objects(self) -> dict[str, Named]:
-        """IRI → object, in the order of prim paths; groups that are rooms by name are included."""
+        """IRI → object, in the order of prim paths; rooms that are groups, or have no prim but a name, are included."""
         labels: dict[str, str] = {}
         for subject, label in self._pairs("?s rdfs:label ?v"):
             labels[subject] = min(label, labels.get(subject, label))
-        paths = sorted((path, iri) for iri, path in self._pairs("?s u2k:primPath ?v"))
+        placed = [*self._pairs("?s u2k:primPath ?v"), *self._pairs("?s a u2k:DerivedRoom ; rdfs:label ?v")]
+        paths = sorted((path, iri) for iri, path in placed)
         return {iri: Named(iri, labels.get(iri, _last_name(path)), path) for path, iri in paths}
 
     def find(self, iri: str) -> Named | None:
         """Return an object; None for anything else, such as a class."""
         if iri not in self._named:
             paths = self._values(iri, U2K.primPath)
+            if not paths and U2K.DerivedRoom in self.dataset.objects(ox.NamedNode(iri), RDF.type):
+                paths = self._values(iri, RDFS.label)
             labels = self._values(iri, RDFS.label) or [_last_name(path) for path in paths]
             self._named[iri] = Named(iri, labels[0], paths[0]) if paths else None
         return self._named[iri]
@@ -104,8 +108,9 @@ class SceneFacts:
     @cached_property
     def things(self) -> list[str]:
         """The IRIs of objects that are not rooms, floors of rooms by name, or other places."""
-        groups = {node.value for node in self.dataset.subjects(RDF.type, U2K.RoomGroup)}
-        return [iri for iri in self.objects if iri not in groups]
+        kinds = (U2K.RoomGroup, U2K.DerivedRoom)
+        rooms = {node.value for kind in kinds for node in self.dataset.subjects(RDF.type, kind)}
+        return [iri for iri in self.objects if iri not in rooms]
 
     def sorted(self, iris: Iterable[str]) -> list[str]:
         """Return the objects among some IRIs, by prim path."""
