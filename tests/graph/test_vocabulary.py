@@ -18,8 +18,8 @@ from usd2kg.scene import Instances, Label, MaterialDetails, ObjectLabels
 
 SPATIAL = frozenset(
     """
-    Between RoomGroup above anchor angle behind below betweenRatio distance inFrontOf inRoom leftOf margin near nextTo
-    partOf rightOf target touching
+    Between DerivedRoom RoomGroup above anchor angle behind below betweenRatio connects distance floorArea floorHeight
+    floorOutline inFrontOf inRoom leftOf margin near nextTo partOf rightOf target touching
     """.split()
 )
 """Terms of relations that depend on the scene."""
@@ -167,7 +167,7 @@ def test_lengths_and_masses_have_a_unit():
     metres, kilograms = "http://qudt.org/vocab/unit/M", "http://qudt.org/vocab/unit/KiloGM"
     assert {name for name, unit in units.items() if unit == kilograms} == {"mass"}
     assert {"width", "depth", "height", "position", "boxCenter", "centerOfMass", "gap", "distance"} <= set(units)
-    assert {name for name, unit in units.items() if unit not in {metres, kilograms}} == {"angle"}
+    assert {name for name, unit in units.items() if unit not in {metres, kilograms}} == {"angle", "floorArea"}
     for triple in vocabulary_triples():
         if triple.predicate == RDFS.comment and "metres" in triple.object.value and _is_ours(triple.subject):
             name = triple.subject.value.removeprefix(U2K.iri)

@@ -167,7 +167,7 @@ class TestPage:
     def test_every_kind_and_rule_is_described(self):
         rules = load_rules()
         assert not [kind for kind in ALL_KINDS if f"`{kind}`" not in self.PAGE]
-        names = ("rule", "group_rule", "surrounded_rule", "stated_rule", "tree_rule", "fitted_rule")
+        names = ("rule", "group_rule", "floor_rule", "surrounded_rule", "stated_rule", "tree_rule", "fitted_rule")
         ids = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]
         assert not [rule for rule in ids if isinstance(rule, str) and f"`{rule}`" not in self.PAGE]
 
@@ -211,7 +211,7 @@ def test_rejects_a_missing_file(tmp_path: Path):
 
 def test_every_kind_has_a_distinct_rule():
     rules = load_rules()
-    names = ("rule", "group_rule", "surrounded_rule", "stated_rule", "tree_rule", "fitted_rule")
+    names = ("rule", "group_rule", "floor_rule", "surrounded_rule", "stated_rule", "tree_rule", "fitted_rule")
     found = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]
     ids = [rule for rule in found if isinstance(rule, str)]
     assert len(ids) == len(set(ids))

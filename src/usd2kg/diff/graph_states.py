@@ -129,6 +129,13 @@ class _StateReader:
             if predicate in _READ_PROPERTIES:
                 self._values[predicate].setdefault(subject, []).append(value)
         self._paths = {node: str(values[0].value) for node, values in self._values[U2K.primPath].items()}
+        # Rooms without a prim are known by their names.
+        self._rooms = {
+            node: str(self._values[RDFS.label][node][0].value)
+            for node, types in self._values[RDF.type].items()
+            if U2K.DerivedRoom in types and node in self._values[RDFS.label]
+        }
+        self._paths |= self._rooms
         self._links: dict[Any, set[Link]] = {}
         for node, link in self._all_links():
             self._links.setdefault(node, set()).add(link)
@@ -136,7 +143,7 @@ class _StateReader:
     def states(self) -> Iterator[ObjectState]:
         for node, path in self._paths.items():
             types = self._values[RDF.type].get(node, [])
-            if isinstance(node, ox.NamedNode) and U2K.RoomGroup not in types:
+            if isinstance(node, ox.NamedNode) and U2K.RoomGroup not in types and node not in self._rooms:
                 yield self._state(node, path, types)
 
     def _state(self, node: ox.NamedNode, path: str, types: list[Any]) -> ObjectState:

@@ -12,6 +12,7 @@ from usd2kg.garbage import paused_collection
 from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
 from usd2kg.graph.concept_hierarchy import describe_concepts, state_concept
 from usd2kg.graph.declarations import declare_terms
+from usd2kg.graph.derived_rooms import derived_room_iri, describe_derived_room, room_classes
 from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.joint_patterns import resolve_joints
@@ -25,7 +26,7 @@ from usd2kg.graph.stage_metadata import describe_labels_and_texts, describe_meta
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
-from usd2kg.relations import Relation, find_relations
+from usd2kg.relations import ROOM_KINDS, Relation, find_relations
 from usd2kg.scene import Scene, SceneObject
 
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]
@@ -156,7 +157,9 @@ class _GraphBuilder:
         for linked in self.joints:
             if linked.whole is not None:
                 self.joints_of.setdefault(linked.whole, []).append(linked.node)
-        self.nodes: dict[str, ox.NamedNode] = {}
+        self.rooms = {relation.anchor: relation.room for relation in relations if relation.room is not None}
+        self.room_classes = room_classes(self.rooms, tbox)
+        self.nodes = {name: ox.NamedNode(derived_room_iri(base, name)) for name in self.rooms}
         self.properties: set[ox.NamedNode] = set()
         self.classes: set[ox.NamedNode] = set()
 
@@ -197,7 +200,7 @@ class _GraphBuilder:
 
     def _class_hierarchy(self) -> Iterator[Triple]:
         """Yield the superclass closure of the used classes, so that class queries need no ontology."""
-        used = {p.class_iri for p in self.grounding.predictions if p.class_iri}
+        used = {p.class_iri for p in self.grounding.predictions if p.class_iri} | set(self.room_classes.values())
         closure = {iri for cls in used for iri in self.tbox.closure(cls)}
         for iri in sorted(closure):
             node = ox.NamedNode(iri)
@@ -263,9 +266,13 @@ class _GraphBuilder:
             about.extend(self.annotate(triples[0], relation_annotations(relation)))
 
     def _rooms(self) -> Iterator[Triple]:
-        """Yield the rooms that are group prims, not objects."""
-        anchors = (r.anchor for found in self.relations.values() for r in found if r.kind == "room")
+        """Yield the rooms that are no objects: group prims, and rooms without a prim."""
+        anchors = (r.anchor for found in self.relations.values() for r in found if r.kind in ROOM_KINDS)
         for path in dict.fromkeys(anchors):
-            if path not in self.scene.by_path:
+            if path not in self.scene.by_path and path not in self.rooms:
                 yield from describe_room(path, self.base)
                 yield self.stage, self.profile.membership, self._node(path)
+        for name, room in sorted(self.rooms.items()):
+            node = self._node(name)
+            yield from describe_derived_room(room, node, self.room_classes.get(name), self.stage, self.run)
+            yield self.stage, self.profile.membership, node

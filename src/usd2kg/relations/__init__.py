@@ -4,10 +4,12 @@ Each relation carries its measurements and the id of its rule. `knowledge/spatia
 docs/relations.md defines each kind.
 """
 
+from usd2kg.relations.derived_room import DerivedRoom
 from usd2kg.relations.find import find_relations
 from usd2kg.relations.model import (
     ALL_KINDS,
     DEFAULT_KINDS,
+    ROOM_KINDS,
     SYMMETRIC_KINDS,
     VIEWPOINT_KINDS,
     Relation,
@@ -22,8 +24,10 @@ from usd2kg.relations.thresholds import RelationRules
 __all__ = [
     "ALL_KINDS",
     "DEFAULT_KINDS",
+    "ROOM_KINDS",
     "SYMMETRIC_KINDS",
     "VIEWPOINT_KINDS",
+    "DerivedRoom",
     "Relation",
     "RelationOptions",
     "RelationRules",

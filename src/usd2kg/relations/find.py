@@ -1,6 +1,6 @@
 """Find the spatial relations of a scene, kind by kind."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,12 +21,22 @@ from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.attachment import find_attached
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.connections import (
+    find_connections,
+    locate_in_boxes,
+    locate_in_plans,
+    openings_in_walls,
+)
 from usd2kg.relations.containment import find_inside
-from usd2kg.relations.model import ALL_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
+from usd2kg.relations.derived_room import DerivedRoom
+from usd2kg.relations.floor_plan import draw_floor_plans
+from usd2kg.relations.model import ALL_KINDS, ROOM_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
 from usd2kg.relations.object_kinds import find_kinds
+from usd2kg.relations.openings import find_openings
 from usd2kg.relations.options import RelationOptions
 from usd2kg.relations.part_of import PartLinks, find_parts, wholes_of
-from usd2kg.relations.room_membership import find_rooms
+from usd2kg.relations.plan_membership import find_plan_members
+from usd2kg.relations.room_membership import find_rooms, placed_in_rooms
 from usd2kg.relations.sides import find_sides
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.support import find_hovering, find_support
@@ -50,7 +60,8 @@ def find_relations(
     finder = _Finder(scene, tbox, grounding, options)
     with paused_collection():
         links = [found for found in finder.find(kinds) if found.kind in kinds]
-        return _sorted_relations([*(obj.prim_path for obj in scene.objects), *finder.groups], links)
+        paths = [*(obj.prim_path for obj in scene.objects), *finder.groups]
+        return _sorted_relations(paths, links, {room.name: room for room in finder.derived})
 
 
 class _Finder:
@@ -63,7 +74,8 @@ class _Finder:
         self.classes = ClassMembership(self.rules.classes, find_kinds(scene, tbox, grounding))
         self.boxed = BoxedObjects(scene.objects, self.rules.geometry, scene.surfaces)
         self.groups: list[str] = []
-        """Paths of the group prims that are rooms."""
+        """Paths of the group prims that are rooms, or names of the derived rooms."""
+        self.derived: list[DerivedRoom] = []
 
     def find(self, kinds: frozenset[str]) -> Iterator[Links]:
         """Yield the links of the kinds, and possibly of others; indices count all objects, then the groups."""
@@ -84,10 +96,8 @@ class _Finder:
         yield self._attached(stronger, needs_mount=True)
         yield from stronger.add_support([find_hovering(self.boxed, support.near, stronger.is_free, self.rules)])
         yield self._attached(stronger, needs_mount=False)
-        if "room" in kinds:
-            found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
-            self.groups = found.groups
-            yield found.links
+        if kinds & ROOM_KINDS:
+            yield from self._rooms(wholes)
         takes_part = ~self.classes.are_in("not_neighbours")[self.boxed.scene_index]
         if kinds & {"above", "below"}:
             above = find_above(self.boxed, takes_part, stronger.frame, stronger.supporter, self.rules.above)
@@ -95,6 +105,27 @@ class _Finder:
             yield above
             yield reverse_links("below", above)
         yield from self._adjacent(kinds, takes_part, stronger)
+
+    def _rooms(self, wholes: Indices) -> Iterator[Links]:
+        found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
+        openings = find_openings(self.boxed, self.classes, self.rules.room_plan)
+        # The doors of furniture.
+        fixed = openings[wholes[openings] < 0]
+        if len(found.boxes.number):
+            self.groups = found.groups
+            yield found.links
+            walls = np.flatnonzero(self.classes.are_in("room_walls")[self.boxed.scene_index])
+            fixed = openings_in_walls(self.boxed, fixed, walls, self.rules.connects)
+            locate = locate_in_boxes(*found.boxes)
+        else:
+            words = frozenset(self.rules.room.words)
+            plans, self.derived = draw_floor_plans(self.boxed, self.classes, openings, self.rules.room_plan, words)
+            self.groups = [room.name for room in self.derived]
+            placed = np.setdiff1d(placed_in_rooms(self.boxed, self.classes), openings)
+            yield from find_plan_members(self.boxed, plans, self.derived, placed, self.rules.room_plan)
+            locate = locate_in_plans(plans, len(self.boxed))
+        if len(fixed):
+            yield find_connections(self.boxed, fixed, locate, self.rules.connects)
 
     def _attached(self, stronger: StrongerRelations, *, needs_mount: bool) -> Links:
         rule = self.rules.attached
@@ -134,11 +165,13 @@ class _Finder:
         return links._replace(target=number[links.target], anchor=number[links.anchor], other=other)
 
 
-def _sorted_relations(paths: Sequence[str], links: list[Links]) -> tuple[Relation, ...]:
+def _sorted_relations(
+    paths: Sequence[str], links: list[Links], derived: Mapping[str, DerivedRoom]
+) -> tuple[Relation, ...]:
     """Return the links as relations, sorted by target, kind and anchor."""
     if not links:
         return ()
-    relations = [relation for found in links for relation in _relations(paths, found)]
+    relations = [relation for found in links for relation in _relations(paths, found, derived)]
     rank = {kind: place for place, kind in enumerate(ALL_KINDS)}
     kinds = np.concatenate([np.full(len(found.target), rank[found.kind]) for found in links])
     target = np.concatenate([found.target for found in links])
@@ -146,7 +179,7 @@ def _sorted_relations(paths: Sequence[str], links: list[Links]) -> tuple[Relatio
     return tuple([relations[index] for index in np.lexsort((anchor, kinds, target)).tolist()])
 
 
-def _relations(paths: Sequence[str], links: Links) -> Iterator[Relation]:
+def _relations(paths: Sequence[str], links: Links, derived: Mapping[str, DerivedRoom]) -> Iterator[Relation]:
     names = list(links.numbers)
     columns = [links.numbers[name].tolist() for name in names]
     count = len(links.target)
@@ -157,6 +190,9 @@ def _relations(paths: Sequence[str], links: Links) -> Iterator[Relation]:
     )
     confidence = [None] * count if links.confidence is None else links.confidence.tolist()
     others = [None] * count if links.other is None else [paths[index] for index in links.other.tolist()]
+    # Only these kinds have anchors without a prim.
+    rooms = derived if links.kind in ROOM_KINDS else {}
     rows = zip(links.target.tolist(), links.anchor.tolist(), numbers, confidence, others, strict=True)
     for target, anchor, known, clear, other in rows:
-        yield Relation(links.kind, paths[target], paths[anchor], links.rule, known, clear, other)
+        to = paths[anchor]
+        yield Relation(links.kind, paths[target], to, links.rule, known, clear, other, rooms.get(to))

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.errors import GraphError
+from usd2kg.relations.derived_room import DerivedRoom
 
 __all__ = [
     "ALL_KINDS",
     "DEFAULT_KINDS",
+    "ROOM_KINDS",
     "SYMMETRIC_KINDS",
     "VIEWPOINT_KINDS",
     "Links",
@@ -30,11 +32,15 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Vector = tuple[float, float, float]
 
-DEFAULT_KINDS = ("on", "inside", "attached-to", "above", "below", "touching", "next-to", "near", "room", "part-of")
+DEFAULT_KINDS = (
+    *("on", "inside", "attached-to", "above", "below", "touching", "next-to", "near", "room", "connects", "part-of"),
+)
 """Kinds that are found by default."""
 VIEWPOINT_KINDS = ("left", "right", "front", "behind")
 """Kinds that need a viewpoint; found by default if there is one."""
 ALL_KINDS = (*DEFAULT_KINDS, "between", *VIEWPOINT_KINDS)
+ROOM_KINDS = frozenset({"room", "connects"})
+"""Kinds whose anchor is a room, possibly one without a prim."""
 SYMMETRIC_KINDS = frozenset({"touching", "next-to", "near"})
 """Symmetric kinds; each relation is listed once, from the object that comes first in the scene."""
 
@@ -57,6 +63,8 @@ class Relation(NamedTuple):
     None for relations that the stage states, which have no measurement."""
     other_anchor: str | None = None
     """Second anchor of `between`."""
+    room: DerivedRoom | None = None
+    """The room that the anchor names if it has no prim; the anchor is its name then."""
 
 
 class Links(NamedTuple):

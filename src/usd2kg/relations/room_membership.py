@@ -14,10 +14,20 @@ from usd2kg.scene import Box, SceneObject
 from usd2kg.shapes import overlapping_pairs
 from usd2kg.words import words_of
 
-__all__ = ["RoomLinks", "find_rooms"]
+__all__ = ["RoomBoxes", "RoomLinks", "find_rooms", "placed_in_rooms"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+
+class RoomBoxes(NamedTuple):
+    """The boxes of rooms."""
+
+    number: Indices
+    """Index of the object; beyond the last object, of the group."""
+    lower: Array
+    """(n, 3), metres, world frame."""
+    upper: Array
 
 
 class RoomLinks(NamedTuple):
@@ -27,6 +37,8 @@ class RoomLinks(NamedTuple):
     """Anchors beyond the last object are indices into `groups`."""
     groups: list[str]
     """Paths of the group prims that are rooms."""
+    boxes: RoomBoxes
+    """The boxes of the rooms; none if no prim is a room."""
 
 
 class _Room(NamedTuple):
@@ -47,13 +59,23 @@ def find_rooms(
     rooms = [room for index in named if (room := _room(index, boxes[index], rule))]
     groups: list[str] = []
     if not rooms:
-        found = _group_boxes(objects, rule)
-        made = [_room(len(boxed) + place, box, rule) for place, box in enumerate(found.values())]
-        rooms, groups = [room for room in made if room], list(found)
+        grouped = _group_boxes(objects, rule)
+        made = [_room(len(boxed) + place, box, rule) for place, box in enumerate(grouped.values())]
+        rooms, groups = [room for room in made if room], list(grouped)
     rule_id = rule.group_rule if groups else rule.rule
+    found = RoomBoxes(
+        np.array([room.number for room in rooms], np.int64),
+        np.array([room.lower for room in rooms]).reshape(-1, 3),
+        np.array([room.upper for room in rooms]).reshape(-1, 3),
+    )
+    links = _members(boxed, found, placed_in_rooms(boxed, classes), rule)
+    return RoomLinks(links._replace(rule=rule_id), groups, found)
+
+
+def placed_in_rooms(boxed: BoxedObjects, classes: ClassMembership) -> Indices:
+    """Return the objects that may be in a room: not what bounds one."""
     is_placed = ~classes.are_in("not_neighbours") | classes.are_in("handles")
-    links = _members(boxed, rooms, np.flatnonzero(is_placed[boxed.scene_index]), rule)
-    return RoomLinks(links._replace(rule=rule_id), groups)
+    return np.flatnonzero(is_placed[boxed.scene_index])
 
 
 def _room(number: int, box: Box | None, rule: RoomRule) -> _Room | None:
@@ -86,10 +108,8 @@ def _union(boxes: list[Box]) -> Box:
     return Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
 
 
-def _members(boxed: BoxedObjects, rooms: list[_Room], placed: Indices, rule: RoomRule) -> Links:
-    number = np.array([room.number for room in rooms], np.int64)
-    lower = np.array([room.lower for room in rooms]).reshape(-1, 3)
-    upper = np.array([room.upper for room in rooms]).reshape(-1, 3)
+def _members(boxed: BoxedObjects, rooms: RoomBoxes, placed: Indices, rule: RoomRule) -> Links:
+    number, lower, upper = rooms
     volume = (upper - lower).prod(axis=1)
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
     at = boxed.middle[placed, :2]

@@ -8,6 +8,7 @@ __all__ = [
     "BetweenRule",
     "BlockingRule",
     "ClassLists",
+    "ConnectsRule",
     "HoveringRule",
     "InsideRule",
     "NearRule",
@@ -17,6 +18,7 @@ __all__ = [
     "OnSeveralRule",
     "PartOfRule",
     "RelationRules",
+    "RoomPlanRule",
     "RoomRule",
     "SideRule",
     "StandingInRule",
@@ -204,6 +206,43 @@ class RoomRule:
 
 
 @dataclass(frozen=True, slots=True)
+class RoomPlanRule:
+    """Rooms where no prim is a room, from walls and floors."""
+
+    rule: str
+    floor_rule: str
+    cell: float
+    max_cells: int
+    cut_height: float
+    sill_height: float
+    lintel_height: float
+    top_margin: float
+    max_thickness: float
+    max_opening: float
+    max_gap: float
+    min_jamb_wall: float
+    min_storey: float
+    min_side: float
+    min_area: float
+    min_door_height: float
+    min_window_height: float
+    samples: int
+    reach: float
+    min_share: float
+
+
+@dataclass(frozen=True, slots=True)
+class ConnectsRule:
+    """`connects`."""
+
+    rule: str
+    reach: float
+    samples: int
+    min_share: float
+    max_gap: float
+
+
+@dataclass(frozen=True, slots=True)
 class PartOfRule:
     """`part-of`."""
 
@@ -234,6 +273,9 @@ class ClassLists:
     closed: tuple[str, ...]
     not_neighbours: tuple[str, ...]
     rooms: tuple[str, ...]
+    room_walls: tuple[str, ...]
+    doors: tuple[str, ...]
+    windows: tuple[str, ...]
     components: tuple[str, ...]
     not_wholes: tuple[str, ...]
     fronts: tuple[str, ...]
@@ -261,5 +303,7 @@ class RelationRules:
     between: BetweenRule
     side: SideRule
     room: RoomRule
+    room_plan: RoomPlanRule
+    connects: ConnectsRule
     part_of: PartOfRule
     classes: ClassLists = field(repr=False)

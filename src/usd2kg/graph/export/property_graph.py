@@ -32,6 +32,8 @@ Value = str | float | int | bool
 _Resource = ox.NamedNode | ox.BlankNode
 _Term = _Resource | ox.Literal | ox.Triple
 
+_FLOOR = {U2K.floorArea: "floorArea", U2K.floorHeight: "floorHeight", SSSOM.confidence: "confidence"}
+"""RDF property → number property of a room without a prim."""
 _LIST_SEPARATOR = " | "
 
 
@@ -130,6 +132,10 @@ class _NodeReader:
                 continue
             if U2K.definingPrim in known:
                 yield PropertyNode(node.value, ("Thing", "Joint", *self._joint_labels(node)), self._joint(node))
+            elif U2K.DerivedRoom in known.get(RDF.type, ()):
+                yield PropertyNode(
+                    node.value, ("Thing", "Room"), self._named(node, RDFS.label) | _numbers(known, _FLOOR)
+                )
             elif U2K.primPath in known and U2K.RoomGroup in known.get(RDF.type, ()):
                 yield PropertyNode(node.value, ("Thing", "Room"), self._named(node, U2K.primPath))
             elif U2K.primPath in known:

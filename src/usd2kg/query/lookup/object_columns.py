@@ -17,7 +17,7 @@ from usd2kg.words import split_identifier
 __all__ = ["ObjectColumns", "RowPairs", "load_object_columns"]
 
 _FILE = "objects.npz"
-_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object, U2K.DerivedRoom}
 _CLASSES_IN_USE = "SELECT DISTINCT ?c WHERE { ?o a ?c }"
 
 
@@ -71,11 +71,12 @@ class RowPairs:
 
 @dataclass(frozen=True)
 class ObjectColumns:
-    """The n objects of a graph, by prim path; groups that are rooms by name are included."""
+    """The n objects of a graph, by prim path; groups that are rooms by name, and rooms without a prim, are included."""
 
     iris: list[str]
     labels: list[str]
     paths: list[str]
+    """Prim path; the label of a room without a prim."""
     kinds: list[str]
     """IRIs of the classes and concepts of objects, without classes that every object has."""
     assets: list[str]
@@ -116,16 +117,21 @@ class _ColumnReader:
 
     def __init__(self, dataset: Dataset) -> None:
         self._dataset = dataset
-        paths = _smallest(dataset.pairs(U2K.primPath))
+        self._labels = _smallest(dataset.pairs(RDFS.label))
+        self._derived_rooms = {node.value for node in dataset.subjects(RDF.type, U2K.DerivedRoom)}
+        # A room without a prim is found by its name.
+        paths = {iri: self._labels[iri] for iri in self._derived_rooms if iri in self._labels}
+        paths.update(_smallest(dataset.pairs(U2K.primPath)))
         ordered = sorted((path, iri) for iri, path in paths.items())
         self._iris = [iri for _, iri in ordered]
         self._paths = [path for path, _ in ordered]
         self._rows = {iri: row for row, iri in enumerate(self._iris)}
 
     def table(self) -> ObjectColumns:
-        labels = _smallest(self._dataset.pairs(RDFS.label))
-        named = [labels.get(iri, path.rpartition("/")[2]) for iri, path in zip(self._iris, self._paths, strict=True)]
-        groups = {node.value for node in self._dataset.subjects(RDF.type, U2K.RoomGroup)}
+        named = [
+            self._labels.get(iri, path.rpartition("/")[2]) for iri, path in zip(self._iris, self._paths, strict=True)
+        ]
+        groups = {node.value for node in self._dataset.subjects(RDF.type, U2K.RoomGroup)} | self._derived_rooms
         classes, concepts, assets = (
             [pair for pair in pairs if pair[0] in self._rows]
             for pairs in (self._typed(), self._dataset.pairs(U2K.concept), self._dataset.pairs(U2K.asset))
