@@ -6,6 +6,7 @@ Only this package, `labels` and `render` import OpenUSD.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from usd2kg.scene.coincidence import find_surplus
 from usd2kg.scene.model import (
     Box,
     Diagnostic,
@@ -58,6 +59,7 @@ __all__ = [
     "class_words",
     "describe_shapes",
     "explain_choice",
+    "find_surplus",
     "read_scene",
 ]
 
