@@ -154,13 +154,14 @@ class SceneFacts:
         for axiom in self.dataset.subjects(OWL.annotatedSource, ox.NamedNode(iri)):
             if RDF.type in self.dataset.objects(axiom, OWL.annotatedProperty):
                 for value in self.dataset.objects(axiom, SSSOM.confidence):
-                    return float(value.value)
+                    return _number(value.value) if isinstance(value, ox.Literal) else None
         return None
 
     @cached_property
     def _all_confidences(self) -> dict[str, float]:
         pattern = "?x owl:annotatedProperty rdf:type ; owl:annotatedSource ?s ; sssom:confidence ?v"
-        return {iri: float(value) for iri, value in self._pairs(pattern)}
+        numbers = ((iri, _number(value)) for iri, value in self._pairs(pattern))
+        return {iri: number for iri, number in numbers if number is not None}
 
     # Looks.
 
@@ -247,21 +248,34 @@ class SceneFacts:
 
     def _values(self, iri: str, predicate: ox.NamedNode) -> list[str]:
         """Return the values of a property as text, sorted."""
-        return sorted(term.value for term in self._objects(ox.NamedNode(iri), predicate))
+        return sorted(term.value for term in self._objects(ox.NamedNode(iri), predicate) if _is_value(term))
 
     def _objects(self, node: Any, predicate: ox.NamedNode) -> list[Any]:
         return self.dataset.objects(node, predicate)
 
     def _subjects(self, predicate: ox.NamedNode, value: ox.NamedNode | ox.Literal) -> list[str]:
-        return sorted(node.value for node in self.dataset.subjects(predicate, value))
+        return sorted(node.value for node in self.dataset.subjects(predicate, value) if isinstance(node, ox.NamedNode))
 
     def _pairs(self, pattern: str) -> list[tuple[str, str]]:
         rows = self.dataset.select(f"SELECT DISTINCT ?s ?v WHERE {{ {pattern} }}")
-        return [(str(row["s"].value), str(row["v"].value)) for row in rows]
+        named = ((row["s"], row["v"]) for row in rows if isinstance(row["s"], ox.NamedNode))
+        return [(str(subject.value), str(value.value)) for subject, value in named if _is_value(value)]
+
+
+def _is_value(term: Any) -> bool:
+    """Return whether a term has a text that denotes it in any graph: no blank node, no triple term."""
+    return isinstance(term, ox.NamedNode | ox.Literal)
 
 
 def _last_name(path: str) -> str:
     return path.rpartition("/")[2]
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
 
 
 def _text(cell: Any) -> str:
