@@ -37,6 +37,8 @@ def lock_exclusive(folder: Path, seconds: float) -> Iterator[None]:
     except sqlite3.OperationalError as error:
         raise StoreError(f"{folder}: is not writable ({error}); change its permissions") from error
     with closing(lock):
+        # Without a journal file, a folder on a full disk can be locked.
+        _take(lock, "PRAGMA journal_mode = MEMORY", folder, seconds)
         _take(lock, "BEGIN EXCLUSIVE", folder, seconds)
         yield
 

@@ -1,10 +1,14 @@
 """Untrusted queries are stopped at the limits, and the next query is answered."""
 
+from collections.abc import Callable
+
 import pytest
 
 from tests.graph.records import build_graph, open_store, thing
+from usd2kg.assistant.describe import describe_objects
+from usd2kg.assistant.offline import ask_offline
 from usd2kg.endpoint import BoundedQueries, EndpointLimits
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, StoreError
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore
 
@@ -45,3 +49,26 @@ def test_stops_an_endless_query_and_answers_the_next(graph: GraphStore):
 def test_reports_why_a_query_is_refused(graph: GraphStore, query: str, message: str):
     with BoundedQueries(graph) as run, pytest.raises(GraphError, match=message):
         run(query)
+
+
+def test_an_answer_with_a_text_that_is_too_long_is_an_error(graph: GraphStore):
+    doubled = "SELECT (STRLEN(?x) AS ?n) ?x { BIND('0123456789abcdef' AS ?x0) "
+    doubled += " ".join(f"BIND(CONCAT(?x{i}, ?x{i}) AS ?x{i + 1})" for i in range(20)) + " BIND(?x20 AS ?x) }"
+    with BoundedQueries(graph) as run:
+        with pytest.raises(StoreError, match=r"the answer holds a text that is too long .*; ask for less of it"):
+            run(doubled + "  LIMIT 2")
+        assert run("ASK { ?o a soma:Cup }").values == ((True,),)
+
+
+@pytest.mark.parametrize("query", ["SELECT ?x { BIND('\ud800' AS ?x) }", "ASK {} # \udfff"])
+def test_a_query_with_half_a_character_is_an_error(graph: GraphStore, query: str):
+    with BoundedQueries(graph) as run:
+        for ask in (run, graph.sparql):
+            with pytest.raises(GraphError, match="half of a character; expected text in Unicode"):
+                ask(query)
+
+
+@pytest.mark.parametrize("ask", [ask_offline, describe_objects])
+def test_a_name_with_half_a_character_is_an_error(graph: GraphStore, ask: Callable[[GraphStore, str], object]):
+    with pytest.raises(GraphError, match="half of a character; expected text in Unicode"):
+        ask(graph, "where is the mug\ud83d?")

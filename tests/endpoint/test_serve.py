@@ -188,6 +188,16 @@ def test_stops_a_query_that_exceeds_its_memory(port: int):
     assert ask(port, ASK).status == 200
 
 
+def test_refuses_what_other_sites_embed_but_not_links_to_the_page(port: int):
+    cross = {"Sec_Fetch_Site": "cross-site", "Sec_Fetch_Mode": "no-cors"}
+    assert ask(port, ASK, **cross).status == 403
+    assert request(port, "GET", "/about", **cross).status == 403
+    assert ask(port, ASK, **{**cross, "Sec_Fetch_Mode": "navigate"}).status == 403
+    assert ask(port, ASK, Sec_Fetch_Site="same-origin").status == 200
+    assert ask(port, ASK, Sec_Fetch_Site="none").status == 200
+    assert request(port, "GET", "/", **{**cross, "Sec_Fetch_Mode": "navigate"}).status == 200
+
+
 def test_refuses_unknown_hosts_and_other_origins(port: int):
     assert ask(port, ASK, Host="evil.example").status == 403
     assert ask(port, ASK, Host="127.0.0.1.evil.example").status == 403

@@ -7,6 +7,8 @@ import pytest
 from tests.scene.fuzz.corpus import as_crate
 from tests.scene.usda import METRES, component, cube, header, prim, rigid, xform
 from usd2kg.errors import SceneError
+from usd2kg.pipeline import build
+from usd2kg.render import render_scene
 from usd2kg.scene import ReadOptions, explain_choice, read_scene
 from usd2kg.scene.stage import error_text, translated_errors
 
@@ -290,3 +292,23 @@ def test_errors_of_openusd_are_translated_with_their_cause():
 def test_errors_of_our_own_pass_through():
     with pytest.raises(KeyError), translated_errors("a.usdc"):
         {}["a"]
+
+
+ROUND = ("Sphere", "Cylinder", "Cone", "Capsule", "Cylinder_1", "Capsule_1")
+
+
+@pytest.mark.parametrize("radius", ["0", "-0", "-1", "1e300"])
+def test_round_solids_of_any_radius_are_read_and_drawn(write_stage, home_tbox, radius):
+    def solid(kind):
+        names = ("radiusTop", "radiusBottom") if kind.endswith("_1") else ("radius",)
+        return component(f"Round_{kind}", prim(kind, "g", *(f"double {name} = {radius}" for name in names)))
+
+    line = (
+        "point3f[] points = [(0, 0, 0), (1, 1, 1)]",
+        "int[] faceVertexCounts = [2]",
+        "int[] faceVertexIndices = [0, 1]",
+    )
+    others = component("Line", prim("Mesh", "g", *line)), component("Box", cube("g"))
+    stage = write_stage(METRES + xform("World", *map(solid, ROUND), *others))
+    assert build(stage, home_tbox).graph.triples
+    assert render_scene(stage, size=(32, 32)).startswith(b"\x89PNG")

@@ -15,6 +15,7 @@ from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
 from usd2kg.query.questions import list_questions
+from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
 
@@ -44,6 +45,7 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
     Raises:
         GraphError: the question or one of its words is not understood.
     """
+    check_text(text, "question")
     phrase = match_phrase(text)
     return _Answerer(graph, phrase is None or phrase.is_english, since).answer(text, phrase)
 

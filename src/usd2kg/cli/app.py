@@ -41,6 +41,12 @@ from usd2kg.errors import Usd2kgError
 
 __all__ = ["app", "main"]
 
+_EXHAUSTED = {
+    MemoryError: "the input needs more memory than there is; try a part of it (--include, --objects)",
+    RecursionError: "the input is nested too deeply to be read; flatten it (--verbose shows where)",
+}
+"""Exception → message; whatever the input is, the user gets one line."""
+
 app = typer.Typer(
     name="usd2kg",
     no_args_is_help=True,
@@ -97,7 +103,7 @@ def _options(
 
 
 def main() -> None:
-    """Run the command line; a `Usd2kgError` becomes one line on stderr and exit code 2."""
+    """Run the command line; a `Usd2kgError`, or an end of memory or stack, becomes one line and exit code 2."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             # Escape characters that the terminal's encoding lacks instead of failing.
@@ -114,6 +120,11 @@ def main() -> None:
         if is_verbose:
             traceback.print_exc()
         notify(f"usd2kg: {to_single_line(str(error))}")
+        sys.exit(2)
+    except (MemoryError, RecursionError) as error:
+        if is_verbose:
+            traceback.print_exc()
+        notify(f"usd2kg: {_EXHAUSTED[MemoryError if isinstance(error, MemoryError) else RecursionError]}")
         sys.exit(2)
 
 

@@ -16,7 +16,6 @@ from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 from usd2kg.ontology import local_name
-from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
 from usd2kg.relations import SYMMETRIC_KINDS
 
 __all__ = [
@@ -62,12 +61,8 @@ def read_ordered_statements(path: Path) -> tuple[ox.Triple, ...]:
     syntax = rdf_format(path)
     try:
         # Not through a store, which normalizes numbers: an update must quote literals exactly.
-        with paused_collection():
-            if syntax == ox.RdfFormat.RDF_XML:
-                with open_rdf(path) as file:
-                    refuse_entity_bomb_in_file(file)
-            with open_rdf(path) as file:
-                return tuple(dict.fromkeys(quad.triple for quad in ox.parse(file, format=syntax)))
+        with paused_collection(), open_rdf(path) as file:
+            return tuple(dict.fromkeys(quad.triple for quad in ox.parse(file, format=syntax)))
     except MemoryError as error:
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
@@ -128,12 +123,12 @@ class _StateReader:
         for subject, predicate, value in statements:
             if predicate in _READ_PROPERTIES:
                 self._values[predicate].setdefault(subject, []).append(value)
-        self._paths = {node: str(values[0].value) for node, values in self._values[U2K.primPath].items()}
+        self._paths = {node: path for node in self._values[U2K.primPath] if (path := self._text(node, U2K.primPath))}
         # Rooms without a prim are known by their names.
         self._rooms = {
-            node: str(self._values[RDFS.label][node][0].value)
+            node: name
             for node, types in self._values[RDF.type].items()
-            if U2K.DerivedRoom in types and node in self._values[RDFS.label]
+            if U2K.DerivedRoom in types and (name := self._text(node, RDFS.label))
         }
         self._paths |= self._rooms
         self._links: dict[Any, set[Link]] = {}
@@ -165,7 +160,7 @@ class _StateReader:
             position=parse_vector(pose[:3] or self._numbers(node, U2K.position)),
             orientation=_quaternion(pose[3:] or self._numbers(node, U2K.orientation)),
             mass_kg=masses[0] if masses else None,
-            assets=frozenset(str(value.value) for value in self._values[U2K.asset].get(node, ())),
+            assets=frozenset(str(getattr(value, "value", "")) for value in self._values[U2K.asset].get(node, ())),
             links=frozenset(self._links.get(node, ())),
         )
 
@@ -197,8 +192,8 @@ class _StateReader:
         return nodes
 
     def _text(self, node: Any, name: ox.NamedNode) -> str:
-        values = self._values[name].get(node)
-        return "" if not values else str(getattr(min(values, key=str), "value", ""))
+        values = [value for value in self._values[name].get(node, ()) if isinstance(value, ox.NamedNode | ox.Literal)]
+        return str(min(values, key=str).value) if values else ""
 
     def _numbers(self, node: Any, *names: ox.NamedNode) -> tuple[float, ...]:
         """Return the numbers of the first of these properties that the node has."""

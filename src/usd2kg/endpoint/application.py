@@ -18,6 +18,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
+from usd2kg.endpoint.connections import Connections
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.example_queries import ExampleQuery
 from usd2kg.endpoint.formats import GRAPH_TYPES, render
@@ -53,6 +54,7 @@ class RefusedRequestError(Exception):
 def make_app(
     pool: WorkerPool,
     limits: EndpointLimits,
+    connections: Connections,
     *,
     title: str,
     graphs: Iterable[str],
@@ -66,6 +68,7 @@ def make_app(
     Args:
         pool: the workers that answer queries.
         limits: limits on each request.
+        connections: the open connections, for the budget of answers that wait for clients.
         title: heading of the page.
         graphs: IRIs of the named graphs.
         examples: queries that the page offers.
@@ -89,7 +92,7 @@ def make_app(
         return JSONResponse(about)
 
     async def handle(request: Request) -> Response:
-        return await _handle(request, pool, limits)
+        return await _handle(request, pool, limits, connections)
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
@@ -125,7 +128,7 @@ def _page_policy(page: str) -> str:
     )
 
 
-async def _handle(request: Request, pool: WorkerPool, limits: EndpointLimits) -> Response:
+async def _handle(request: Request, pool: WorkerPool, limits: EndpointLimits, connections: Connections) -> Response:
     """Return the response to one request of the SPARQL 1.1 Protocol (section 2.1)."""
     if request.method == "OPTIONS":
         return Response(status_code=204, headers={"Allow": "GET, POST, OPTIONS"})
@@ -133,12 +136,14 @@ async def _handle(request: Request, pool: WorkerPool, limits: EndpointLimits) ->
         query = await _read_request(request, limits)
         if query is None:
             return _describe(request)
-        return await _answer(query, pool, limits)
+        return await _answer(query, pool, limits, connections)
     except RefusedRequestError as error:
         return _refusal(request, error)
 
 
-async def _answer(query: dict[str, Any], pool: WorkerPool, limits: EndpointLimits) -> Response:
+async def _answer(
+    query: dict[str, Any], pool: WorkerPool, limits: EndpointLimits, connections: Connections
+) -> Response:
     start = time.perf_counter()
     try:
         header, body = await pool.run(query)
@@ -154,6 +159,8 @@ async def _answer(query: dict[str, Any], pool: WorkerPool, limits: EndpointLimit
         ) from error
     if header["status"] != 200:
         raise RefusedRequestError(header["status"], body.decode())
+    if not connections.can_hold(len(body)):
+        raise RefusedRequestError(503, "too many answers wait for clients that read slowly; try again in a moment")
     milliseconds = 1000 * (time.perf_counter() - start)
     charset = "; charset=utf-8" if header["type"].startswith("text/") else ""
     headers = {

@@ -22,7 +22,7 @@ _STRICT = "default-src 'none'; frame-ancestors 'none'"
 
 
 class Guard:
-    """Checks Host and Origin of each request, and adds security headers to each response.
+    """Checks Host, Origin and Sec-Fetch-Site of each request, and adds security headers to each response.
 
     In DNS rebinding, another site makes its own host name resolve to this machine, so that browsers treat its requests
     as same-origin. Therefore only known host names are served. IP addresses are not resolved and cannot be rebound.
@@ -39,7 +39,7 @@ class Guard:
             await self._app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        refusal = self._refusal(headers)
+        refusal = self._refusal(headers, scope["path"])
         origin = headers.get("origin")
         is_shared = origin in self._origins or "*" in self._origins
 
@@ -61,14 +61,18 @@ class Guard:
         app = self._app if refusal is None else PlainTextResponse(refusal + "\n", 403)
         await app(scope, receive, send_guarded)
 
-    def _refusal(self, headers: Headers) -> str | None:
+    def _refusal(self, headers: Headers, path: str) -> str | None:
         """Return why a request is refused; None if it is allowed."""
         host = host_of(headers.get("host", ""))
         if not (host in self._hosts or _is_address(host)):
             return "this host name is not served; add it with --allow-host"
         origin = headers.get("origin")
         is_own = origin is not None and urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
-        if origin is None or is_own or origin in self._origins or "*" in self._origins:
+        if is_own or "*" in self._origins or (origin is not None and origin in self._origins):
+            return None
+        # Browsers send no Origin for images, scripts and links of other sites. A link to the page itself does no harm.
+        is_link = path == "/" and headers.get("sec-fetch-mode") == "navigate"
+        if origin is None and (headers.get("sec-fetch-site") != "cross-site" or is_link):
             return None
         return "cross-site requests are not allowed; usd2kg serve --cors allows an origin to query"
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
+from usd2kg.endpoint.connections import Connections
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.endpoint.pool import WorkerPool
@@ -44,9 +45,8 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         OutputError: the port is in use.
     """
     try:
-        import uvicorn  # noqa: PLC0415
-
         from usd2kg.endpoint.application import make_app  # noqa: PLC0415
+        from usd2kg.endpoint.http_server import BoundedServer  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise GraphError(f"serve: {error.name} is not installed; run: pip install 'usd2kg[serve]'") from error
     from usd2kg.endpoint.example_queries import make_examples  # noqa: PLC0415
@@ -57,9 +57,11 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
     ):
         folder, tables, _keeper = _prepare(place, Path(temporary) / "store")
         store = ox.Store.read_only(str(folder))
+        connections = Connections()
         app = make_app(
             WorkerPool(folder, options.limits, tables),
             options.limits,
+            connections,
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
             examples=make_examples(store),
@@ -68,9 +70,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
             origins=options.origins,
         )
         del store
-        seconds = options.limits.shutdown_s
-        config = uvicorn.Config(app, log_level="warning", server_header=False, timeout_graceful_shutdown=seconds)
-        uvicorn.Server(config).run(sockets=[socket])
+        BoundedServer(app, connections, options.limits.shutdown_s).run(sockets=[socket])
 
 
 class _Served(NamedTuple):

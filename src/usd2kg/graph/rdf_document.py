@@ -12,6 +12,7 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, one_line
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
+from usd2kg.ontology.nesting import refuse_deep_nesting_in_file
 from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
 
 if TYPE_CHECKING:
@@ -100,12 +101,15 @@ def open_rdf(path: Path) -> BinaryIO:
     """Return a file opened for reading, decompressed if its name ends in .gz.
 
     Raises:
-        SyntaxError: the file is RDF/XML with an entity expansion attack.
+        SyntaxError: the file is RDF/XML with an entity expansion attack, or nested too deeply.
         OSError, EOFError, zlib.error: the file cannot be read.
     """
-    if rdf_format(path) == ox.RdfFormat.RDF_XML:
-        with _open_binary(path) as file:
+    syntax = rdf_format(path)
+    with _open_binary(path) as file:
+        if syntax == ox.RdfFormat.RDF_XML:
             refuse_entity_bomb_in_file(file)
+        else:
+            refuse_deep_nesting_in_file(file, "jsonld" if syntax == ox.RdfFormat.JSON_LD else "ttl")
     return _open_binary(path)
 
 

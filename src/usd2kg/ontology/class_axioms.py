@@ -108,9 +108,12 @@ class ClassAxioms:
         # Equivalence to owl:Thing or owl:Nothing would merge unrelated classes.
         same = set(names) - TOP_CLASSES - {_NOTHING}
         self.classes |= same
-        for name in same:
-            if len(same) > 1:
-                self.equivalents[name] |= same - {name}
+        if len(same) > 1:
+            # Pairs with one of them are enough: equivalence is transitive, and all pairs would be quadratic.
+            first = min(same)
+            for name in same - {first}:
+                self.equivalents[first].add(name)
+                self.equivalents[name].add(first)
 
     def linked(self) -> set[str]:
         """Return the classes that occur in a subclass axiom."""

@@ -3,18 +3,30 @@
 The representative takes over the labels and synonyms of the others, and their IRIs resolve to it.
 """
 
+from collections.abc import Mapping
+
 from usd2kg.ontology.class_axioms import LABELS, ClassAxioms
-from usd2kg.ontology.scope import ancestors
+from usd2kg.ontology.components import find_components
 
-__all__ = ["all_equivalents", "choose_representatives"]
-
-
-def all_equivalents(iri: str, closure: ClassAxioms) -> set[str]:
-    """Return the other named classes that are equivalent to a class, transitively."""
-    return ancestors(closure.equivalents, iri)
+__all__ = ["choose_representatives", "equivalence_groups"]
 
 
-def choose_representatives(scope: set[str], ontology_iri: str, own: ClassAxioms, closure: ClassAxioms) -> set[str]:
+def equivalence_groups(closure: ClassAxioms) -> dict[str, frozenset[str]]:
+    """Return class → the named classes equivalent to it, transitively, itself included; only for classes with others.
+
+    All members of a group have the same set, so that a long chain of equivalences stays linear.
+    """
+    groups = (frozenset(members) for members in find_components(closure.equivalents).members)
+    return {iri: group for group in groups if len(group) > 1 for iri in group}
+
+
+def choose_representatives(
+    scope: set[str],
+    ontology_iri: str,
+    own: ClassAxioms,
+    closure: ClassAxioms,
+    groups: Mapping[str, frozenset[str]],
+) -> set[str]:
     """Return `scope` with one representative per group of equivalent classes.
 
     The first criterion that distinguishes them decides: in the namespace of the ontology, declared in the file, used in
@@ -25,6 +37,7 @@ def choose_representatives(scope: set[str], ontology_iri: str, own: ClassAxioms,
         ontology_iri: IRI of the ontology; followed by `#` or `/`, it is the namespace.
         own: axioms of the file.
         closure: axioms of the file with its imports.
+        groups: its `equivalence_groups`.
     """
     stem = ontology_iri.rstrip("#/")
     namespaces = (f"{stem}#", f"{stem}/")
@@ -34,4 +47,5 @@ def choose_representatives(scope: set[str], ontology_iri: str, own: ClassAxioms,
         has_label = bool(closure.annotations[iri].preferred_text(LABELS))
         return (not iri.startswith(namespaces), iri not in own.declared, iri not in linked, not has_label, iri)
 
-    return {min({iri, *all_equivalents(iri, closure)} & scope, key=rank) for iri in scope}
+    distinct = {groups.get(iri, frozenset({iri})) for iri in scope}
+    return {min(group & scope, key=rank) for group in distinct}

@@ -13,7 +13,7 @@ from usd2kg.knowledge import data_file
 from usd2kg.ontology.class_axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.components import Components, find_components, reachable
 from usd2kg.ontology.documents import Document, close_imports, parse_document
-from usd2kg.ontology.equivalence import all_equivalents, choose_representatives
+from usd2kg.ontology.equivalence import choose_representatives, equivalence_groups
 from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
 from usd2kg.ontology.scope import default_scope, isolated_classes, nearest_parents, rooted_scope
@@ -24,6 +24,7 @@ __all__ = ["HOME", "load_home_tbox", "load_tbox"]
 HOME = "built-in home TBox"
 """`TBox.source` of the built-in TBox."""
 _PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
+_NO_OTHER: frozenset[str] = frozenset()
 _SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
 
 
@@ -64,7 +65,8 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
     documents, notes = close_imports(document)
     own = document.axioms
     closure = merge_axioms(doc.axioms for doc in documents)
-    scope = choose_representatives(_scope(name, own, closure, roots, classes), document.iri, own, closure)
+    groups = equivalence_groups(closure)
+    scope = choose_representatives(_scope(name, own, closure, roots, classes), document.iri, own, closure, groups)
     superclasses = closure.superclasses()
     parents = nearest_parents(scope, superclasses)
     components = find_components({**dict.fromkeys(scope, ()), **superclasses})
@@ -75,10 +77,11 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
         version_iri=document.version_iri,
         content_hash=_hash(documents),
         classes=tuple(
-            _class(iri, parents[iri], dispositions[components.component_of[iri]], closure) for iri in sorted(scope)
+            _class(iri, groups.get(iri, _NO_OTHER), parents[iri], dispositions[components.component_of[iri]], closure)
+            for iri in sorted(scope)
         ),
         imports=tuple(doc.iri for doc in documents[1:]),
-        notes=(*notes, *_cycle_notes(scope, components, closure)),
+        notes=(*notes, *_cycle_notes(scope, components, closure, groups)),
         prefixes=_prefixes(own, scope),
         isolated=tuple(sorted(isolated_classes(own, closure))) if roots is None and classes is None else (),
     )
@@ -124,8 +127,10 @@ def _hash(documents: Iterable[Document]) -> str:
     return "sha256:" + hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
-def _class(iri: str, parents: tuple[str, ...], dispositions: tuple[str, ...], closure: ClassAxioms) -> OntologyClass:
-    equivalents = sorted(all_equivalents(iri, closure))
+def _class(
+    iri: str, group: frozenset[str], parents: tuple[str, ...], dispositions: tuple[str, ...], closure: ClassAxioms
+) -> OntologyClass:
+    equivalents = sorted(group - {iri})
     annotations = [closure.annotations[same] for same in (iri, *equivalents)]
     label = _label(iri, closure)
     others = {text for each in annotations for text in each.all_texts((*LABELS, *ALT_LABELS))}
@@ -170,17 +175,19 @@ def _dispositions(
     return [inherited[some] for some in stated]
 
 
-def _cycle_notes(scope: set[str], components: Components, closure: ClassAxioms) -> list[OntologyNote]:
+def _cycle_notes(
+    scope: set[str], components: Components, closure: ClassAxioms, groups: Mapping[str, frozenset[str]]
+) -> list[OntologyNote]:
     return [
         OntologyNote("cycle", f"<{iri}> is a subclass of itself; the edges of that cycle are ignored")
         for iri in sorted(scope)
         if any(
-            components.component_of[iri] == components.component_of[parent] for parent in _other_parents(iri, closure)
+            components.component_of[iri] == components.component_of[parent]
+            for parent in _other_parents(groups.get(iri, frozenset({iri})), closure)
         )
     ]
 
 
-def _other_parents(iri: str, closure: ClassAxioms) -> set[str]:
-    """Return the stated superclasses of a class and its equivalents, without those classes themselves."""
-    group = {iri, *all_equivalents(iri, closure)}
+def _other_parents(group: frozenset[str], closure: ClassAxioms) -> set[str]:
+    """Return the stated superclasses of equivalent classes, without those classes themselves."""
     return {parent for same in group for parent in closure.parents.get(same, ())} - group

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import pyhornedowl
 
 from usd2kg.ontology.class_axioms import HAS_DISPOSITION, ClassAxioms
+from usd2kg.ontology.nesting import refuse_deep_nesting
 from usd2kg.ontology.xml_entities import refuse_entity_bomb
 
 __all__ = ["owl_as_rdf", "read_owl_axioms"]
@@ -40,6 +41,8 @@ def owl_as_rdf(text: str, syntax: Literal["ofn", "omn", "owx"]) -> str:
 def _open(text: str, syntax: Literal["ofn", "omn", "owx"]) -> Any:
     if syntax == "owx":
         refuse_entity_bomb(text)
+    refuse_deep_nesting(text, syntax)
+    if syntax == "owx":
         # py-horned-owl does not return from a document that ends inside a literal.
         ElementTree.fromstring(text)
     return pyhornedowl.open_ontology_from_string(text, serialization=syntax)
@@ -83,11 +86,13 @@ def _add_superclass(child: str, expression: Any, axioms: ClassAxioms) -> None:
 
 
 def _conjuncts(expression: Any) -> Iterator[Any]:
-    if type(expression).__name__ == "ObjectIntersectionOf":
-        for part in expression.first:
-            yield from _conjuncts(part)
-    else:
-        yield expression
+    pending = [expression]
+    while pending:
+        part = pending.pop()
+        if type(part).__name__ == "ObjectIntersectionOf":
+            pending.extend(reversed(part.first))
+        else:
+            yield part
 
 
 def _named(expression: Any) -> str | None:

@@ -6,13 +6,14 @@ undeclared annotation properties, SHACL shapes as classes), but has a usable hie
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import pyoxigraph as ox
 
 from usd2kg.ontology.class_axioms import HAS_DISPOSITION, ClassAxioms
 from usd2kg.ontology.namespaces import OWL, RDF, RDFS, XSD
+from usd2kg.ontology.nesting import refuse_deep_nesting
 from usd2kg.ontology.xml_entities import refuse_entity_bomb
 
 __all__ = ["parse_rdf", "read_rdf_axioms"]
@@ -34,10 +35,12 @@ def parse_rdf(text: str, syntax: str) -> ox.QuadParser:
     """Return the statements of a document; `syntax` is `rdf`, `ttl` or `jsonld`.
 
     Raises:
-        SyntaxError: the text does not parse (raised while the quads are consumed), or its XML entities expand too far.
+        SyntaxError: the text does not parse (raised while the quads are consumed), its XML entities expand too far, or
+            it is nested too deeply.
     """
     if syntax == "rdf":
         refuse_entity_bomb(text)
+    refuse_deep_nesting(text, syntax)
     # Some documents use relative IRIs without declaring a base.
     return ox.parse(text, format=_FORMATS[syntax], base_iri="http://example.org/")
 
@@ -62,11 +65,11 @@ def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
 
 
 def _read_subject(iri: str, statements: dict[str, list[Any]], triples: _Triples, axioms: ClassAxioms) -> None:
-    types = {node.value for node in statements.get(f"{RDF}type", ()) if isinstance(node, ox.NamedNode)}
+    types = set(_iris(statements.get(f"{RDF}type", ())))
     if f"{OWL}Ontology" in types:
         axioms.ontology_iri = iri
-        axioms.version_iri = next((node.value for node in statements.get(f"{OWL}versionIRI", ())), None)
-        axioms.imports |= {node.value for node in statements.get(f"{OWL}imports", ())}
+        axioms.version_iri = next(iter(_iris(statements.get(f"{OWL}versionIRI", ()))), None)
+        axioms.imports.update(_iris(statements.get(f"{OWL}imports", ())))
         return
     if not types.isdisjoint(_CLASS_TYPES):
         axioms.declare(iri)
@@ -85,16 +88,20 @@ def _read_subject(iri: str, statements: dict[str, list[Any]], triples: _Triples,
                 axioms.link(iri, predicate, node.value)
 
 
+def _iris(nodes: Iterable[Any]) -> list[str]:
+    """Return the IRIs among nodes; literals, blank nodes and triple terms are left out."""
+    return [node.value for node in nodes if isinstance(node, ox.NamedNode)]
+
+
 def _add_superclass(child: str, expression: Any, triples: _Triples, axioms: ClassAxioms) -> None:
     for part in _conjuncts(expression, triples):
         if isinstance(part, ox.NamedNode):
             axioms.add_parent(child, part.value)
             continue
         restriction = triples.get(part, {})
-        on_property = [node.value for node in restriction.get(f"{OWL}onProperty", ()) if isinstance(node, ox.NamedNode)]
-        if on_property == [HAS_DISPOSITION]:
+        if _iris(restriction.get(f"{OWL}onProperty", ())) == [HAS_DISPOSITION]:
             fillers = [f for node in restriction.get(f"{OWL}someValuesFrom", ()) for f in _conjuncts(node, triples)]
-            axioms.dispositions[child].update(node.value for node in fillers if isinstance(node, ox.NamedNode))
+            axioms.dispositions[child].update(_iris(fillers))
 
 
 def _is_datatype(types: set[str], other: ox.NamedNode, triples: _Triples) -> bool:
@@ -109,12 +116,17 @@ def _is_intersection(node: Any, triples: _Triples) -> bool:
 
 
 def _conjuncts(node: Any, triples: _Triples) -> Iterator[Any]:
-    if not _is_intersection(node, triples):
-        yield node
-        return
-    for head in triples[node][f"{OWL}intersectionOf"]:
-        for part in _list(head, triples):
-            yield from _conjuncts(part, triples)
+    """Yield the parts of an intersection, those of intersections in it included; any other node is its only part."""
+    pending, seen = [node], set()
+    while pending:
+        part = pending.pop()
+        if not _is_intersection(part, triples):
+            yield part
+        elif part not in seen:
+            # Blank nodes may form a cycle.
+            seen.add(part)
+            inside = [item for head in triples[part][f"{OWL}intersectionOf"] for item in _list(head, triples)]
+            pending.extend(reversed(inside))
 
 
 def _list(head: Any, triples: _Triples) -> Iterator[Any]:

@@ -5,6 +5,7 @@ from collections import Counter
 
 from usd2kg.errors import GraphError
 from usd2kg.query.settings import COMPLEXITY
+from usd2kg.query.unicode_text import check_text
 
 __all__ = ["check_complexity"]
 
@@ -31,12 +32,14 @@ def check_complexity(sparql: str, *, is_update: bool = False) -> None:
     no closing ones, so that no bracket can be hidden.
 
     Raises:
-        GraphError: brackets are nested too deep; or a query has too many operators and clauses, or triple patterns.
+        GraphError: it is no Unicode text; brackets are nested too deep; or a query has too many operators and clauses,
+            or triple patterns.
 
     >>> check_complexity("SELECT * " + "{" * 501 + "}" * 501)
     Traceback (most recent call last):
     usd2kg.errors.GraphError: SPARQL: brackets are nested 501 deep; expected at most 500, write it flatter
     """
+    check_text(sparql, "query")
     counts = _count(sparql)
     # The engine joins adjacent groups one by one, as it does conditions of HAVING, which no keyword separates.
     counts["chain"] += counts["{"] + (counts["("] if re.search("HAVING", sparql, re.IGNORECASE) else 0)

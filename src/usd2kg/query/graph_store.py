@@ -21,6 +21,7 @@ from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 from usd2kg.query.settings import LOOKUP
 from usd2kg.query.sparql_errors import describe_syntax_error, unknown_graphs, unknown_names
 from usd2kg.query.staging import list_found_first
+from usd2kg.query.unicode_text import check_text
 
 __all__ = ["GraphStore"]
 
@@ -111,6 +112,8 @@ class GraphStore:
             GraphError: the question, a parameter or the object is unknown, or a value does not parse.
         """
         question = find_question(question_id)
+        for name, value in (given or {}).items():
+            check_text(value, name)
         filled = question.fill(given or {})
         choices = [self._terms(parameter, value) for parameter, value in filled.items()]
         ambiguous = [p for p, terms in zip(filled, choices, strict=True) if p.kind == "object" and len(terms) > 1]
@@ -214,6 +217,7 @@ class GraphStore:
         Raises:
             GraphError: a word is not understood, or there is no such object.
         """
+        check_text(thing, "name")
         expected = "expected a label, a class, a noun or a prim path; usd2kg query GRAPH all of KIND lists objects"
         try:
             things = Nouns(self._facts).find(thing)

@@ -12,7 +12,7 @@ from usd2kg.relations.feet import find_feet, find_undersides, grid_feet
 from usd2kg.relations.object_kinds import ObjectKind
 from usd2kg.relations.settings import FOOTPRINT
 from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
-from usd2kg.scene import Box, SceneObject
+from usd2kg.scene import Box, SceneObject, find_surplus
 from usd2kg.shapes.surface import Surface, SurfaceCache
 
 __all__ = ["BoxedObjects", "ClassMembership", "Footprints", "corners_of", "overlap_areas"]
@@ -59,15 +59,20 @@ class Footprints(NamedTuple):
 
 
 class BoxedObjects:
-    """Objects with a box of their own as arrays, one row each; metres, world frame, z-up."""
+    """Objects with a box of their own as arrays, one row each; metres, world frame, z-up.
+
+    Those that `scene.find_surplus` returns are left out.
+    """
 
     def __init__(
         self, objects: Sequence[SceneObject], geometry: ObjectGeometry, surfaces: Mapping[str, Surface]
     ) -> None:
         self.geometry = geometry
-        self.scene_index = np.array([index for index, obj in enumerate(objects) if obj.own_box is not None], np.int64)
+        surplus = find_surplus(objects)
+        known_boxes = [obj.own_box is not None and obj.prim_path not in surplus for obj in objects]
+        self.scene_index = np.flatnonzero(np.array(known_boxes, np.bool_)).astype(np.int64)
         """Index among all objects of the scene."""
-        self.objects = [obj for obj in objects if obj.own_box is not None]
+        self.objects = [objects[index] for index in self.scene_index.tolist()]
         cache = SurfaceCache()
         known = [surfaces.get(obj.prim_path) for obj in self.objects]
         self.surfaces = [None if surface is None else Surface(surface.pieces, cache) for surface in known]

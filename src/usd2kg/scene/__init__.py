@@ -6,6 +6,7 @@ Only this package, `labels` and `render` import OpenUSD.
 from typing import TYPE_CHECKING
 
 from usd2kg.lazy_names import lazy_names
+from usd2kg.scene.coincidence import find_surplus
 from usd2kg.scene.model import (
     Box,
     Diagnostic,
@@ -58,6 +59,7 @@ __all__ = [
     "class_words",
     "describe_shapes",
     "explain_choice",
+    "find_surplus",
     "read_scene",
 ]
 

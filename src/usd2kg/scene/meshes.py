@@ -268,6 +268,8 @@ class MeshReader:
             mesh, problem = tessellate(prim, self.time)
         if mesh is not None and not (np.abs(mesh.points) < MAX_COORDINATE).all():
             mesh, problem = None, "its points are not all finite"
+        if mesh is not None and not len(mesh.triangles):
+            return None
         if problem:
             self._note(prim, problem)
         return mesh

@@ -1,10 +1,11 @@
-"""Sanity checks of a scene: its units, outliers and unnamed objects."""
+"""Sanity checks of a scene: its units, outliers, unnamed and coincident objects."""
 
 import math
 from statistics import median
 
+from usd2kg.scene.coincidence import find_surplus
 from usd2kg.scene.model import Diagnostic, Scene, SceneObject
-from usd2kg.scene.settings import SANITY
+from usd2kg.scene.settings import LIMITS, SANITY
 from usd2kg.scene.unnamed_pieces import is_unnamed
 
 __all__ = ["check_sanity", "find_outliers"]
@@ -40,8 +41,20 @@ def _extent(obj: SceneObject) -> float:
 
 
 def check_sanity(scene: Scene) -> list[Diagnostic]:
-    """Return diagnostics for outliers, an implausible extent and many unnamed objects."""
-    return [*_check_extent(scene), *_check_names(scene)]
+    """Return diagnostics for outliers, an implausible extent, many unnamed objects and many in one place."""
+    return [*_check_extent(scene), *_check_names(scene), *_check_places(scene)]
+
+
+def _check_places(scene: Scene) -> list[Diagnostic]:
+    surplus = find_surplus(scene.objects)
+    if not surplus:
+        return []
+    first = next(obj.prim_path for obj in scene.objects if obj.prim_path in surplus)
+    message = (
+        f"{len(surplus)} objects have the box of more than {LIMITS.max_coincident} others; they have no spatial "
+        "relations; move the copies apart, or deactivate them"
+    )
+    return [Diagnostic("coincident", message, first)]
 
 
 def _check_names(scene: Scene) -> list[Diagnostic]:

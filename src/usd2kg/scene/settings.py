@@ -36,8 +36,11 @@ MAX_COORDINATE = 1e30
 
 @dataclass(frozen=True)
 class LimitSettings:
-    """Limits on evidence, messages and stage units."""
+    """Limits on evidence, messages, stage units and the number of prims."""
 
+    max_prims: int
+    max_coincident: int
+    coincident_distance: float
     max_part_boxes: int
     max_part_labels: int
     max_texts: int

@@ -16,6 +16,7 @@ from typing import Any
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from usd2kg.errors import SceneError
+from usd2kg.scene.expansion import check_expansion
 from usd2kg.scene.model import Diagnostic, StageFrame
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.settings import LIMITS
@@ -63,7 +64,7 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
     """Return the stage of a file with all payloads loaded; an already open stage is used as it is.
 
     Raises:
-        SceneError: the file is missing, corrupt, or not a USD file.
+        SceneError: the file is missing, corrupt, or not a USD file; or its instances stand for too many prims.
     """
     if isinstance(source, Usd.Stage):
         identifier = source.GetRootLayer().identifier
@@ -80,6 +81,7 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
 
 
 def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptions) -> OpenedStage:
+    check_expansion(stage, source)
     composition = [_composition_diagnostic(error, stage) for error in stage.GetCompositionErrors()]
     frame, frame_notes = _read_frame(stage, options)
     return OpenedStage(

@@ -10,7 +10,7 @@ from pxr import UsdGeom
 from usd2kg.scene.bounds import BoxReader, is_measurable
 from usd2kg.scene.model import Box, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
-from usd2kg.scene.settings import SURFACES
+from usd2kg.scene.settings import MAX_COORDINATE, SURFACES
 from usd2kg.scene.solids import solid_surface
 from usd2kg.scene.triangulation import read_mesh
 from usd2kg.shapes.box_pairs import overlapping_pairs
@@ -140,6 +140,6 @@ def _joined(pieces: Sequence[SurfacePiece]) -> SurfacePiece:
 
 def _read_triangles(prim: Any, time: Any) -> _Triangles | None:
     found = read_mesh(prim, time) if prim.IsA(UsdGeom.Mesh) else solid_surface(prim, time)
-    if found is None or not len(found[1]) or not np.isfinite(found[0]).all():
+    if found is None or not len(found[1]) or not (np.abs(found[0]) < MAX_COORDINATE).all():
         return None
     return found[0].astype(np.float32), found[1].astype(np.int32)

@@ -3,7 +3,8 @@
 import logging
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -21,6 +22,7 @@ from usd2kg.query.settings import CACHE
 from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
 from usd2kg.stores.named_graphs import StoredGraph, list_graphs
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
+from usd2kg.stores.reserve import keep_reserve, release_reserve
 from usd2kg.stores.store_limits import FolderLimits
 
 __all__ = ["EmbeddedStore"]
@@ -29,12 +31,18 @@ logger = logging.getLogger(__name__)
 
 _ROCKSDB_FILE = "CURRENT"
 """A file in every Oxigraph folder."""
+_LEFTOVERS = (f"{PENDING_NAME}.*", "LOG.old.*", "bulk-*.sst")
+"""Files that nothing reads any more: of a killed load, old logs of the engine, and of an aborted bulk load."""
 _STORE_FILES = re.compile(
-    r"usd2kg\.(lock|pending|damaged).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
+    r"usd2kg\.(lock|pending|damaged|reserve).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
 )
 """Names of files in an incompletely created store."""
 _DATA_FILES = re.compile(r"CURRENT|MANIFEST-\d+|\d+\.(log|sst)")
 """Names of the files that change with the content of a store."""
+
+
+class _UnwritableError(StoreError):
+    """The folder cannot be written, as on a full disk; it may still be readable."""
 
 
 class EmbeddedStore:
@@ -68,21 +76,29 @@ class EmbeddedStore:
             StoreError: as for `check`, or the disk is full.
         """
         with self._writing() as store:
-            try:
-                write_pending(self._folder, graph.iri, relabel_blank_nodes(graph))
-                self._finish(store)
-            except OSError as error:
-                raise StoreError(f"{self._folder}: cannot be written ({one_line(error)}); free disk space") from error
+            write_pending(self._folder, graph.iri, relabel_blank_nodes(graph))
+            self._finish(store)
+            keep_reserve(self._folder)
 
     def remove(self, iri: str) -> None:
         """Remove a graph.
 
+        On a full disk, the reserve of the folder is used, then an interrupted load is given up.
+
         Raises:
             StoreError: as for `check`.
         """
+        for free_space in (partial(release_reserve, self._folder), self._give_up_pending):
+            with suppress(_UnwritableError):
+                return self._remove(iri)
+            free_space()
+        return self._remove(iri)
+
+    def _remove(self, iri: str) -> None:
         with self._writing() as store:
             store.remove_graph(ox.NamedNode(iri))
             store.flush()
+            keep_reserve(self._folder)
 
     def update(self, sparql: str) -> None:
         """Run a SPARQL 1.1 update atomically; the package's prefixes are predefined.
@@ -184,14 +200,13 @@ class EmbeddedStore:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise StoreError(f"{self._folder}: cannot be created ({error.strerror}); choose another folder") from error
-        with lock_exclusive(self._folder, self._wait_s):
-            for temporary in self._folder.glob(f"{PENDING_NAME}.*"):
-                temporary.unlink()
-            with self._damage_reported():
-                store = self._open_store()
-                if (self._folder / PENDING_NAME).exists() and not set_aside_damaged(self._folder):
-                    self._finish(store)
-                yield store
+        with self._damage_reported(_UnwritableError), lock_exclusive(self._folder, self._wait_s):
+            for leftover in [path for pattern in _LEFTOVERS for path in self._folder.glob(pattern)]:
+                leftover.unlink()
+            store = self._open_store()
+            if (self._folder / PENDING_NAME).exists() and not set_aside_damaged(self._folder):
+                self._finish(store)
+            yield store
 
     @contextmanager
     def _reading(self) -> Iterator[ox.Store]:
@@ -202,19 +217,36 @@ class EmbeddedStore:
             )
         if (self._folder / PENDING_NAME).exists():
             # Another process died while loading, or is still loading; the lock distinguishes the two.
-            self.check()
+            self._finish_if_possible()
         with lock_shared(self._folder, self._wait_s), self._damage_reported():
-            try:
-                store = ox.Store.read_only(str(self._folder))
-            except OSError as error:
-                raise StoreError(f"{self._folder}: cannot be read as a store ({one_line(error)})") from error
-            yield store
+            yield ox.Store.read_only(str(self._folder))
+
+    def _finish_if_possible(self) -> None:
+        try:
+            self.check()
+        except _UnwritableError as error:
+            # Not the exception itself, whose traceback keeps the store open while the record is kept.
+            logger.warning("%s; the scene whose load was interrupted is missing until then", str(error))
+
+    def _give_up_pending(self) -> None:
+        """Delete the graph of an interrupted load."""
+        path = self._folder / PENDING_NAME
+        with self._damage_reported(_UnwritableError), lock_exclusive(self._folder, self._wait_s):
+            if path.is_file():
+                with path.open("rb") as file:
+                    logger.warning("%s: gives up an interrupted load; load %s again", self._folder, read_name(file))
+                path.unlink()
 
     @contextmanager
-    def _damage_reported(self) -> Iterator[None]:
-        """Translate the engine's error for damaged files, which any read can raise."""
+    def _damage_reported(self, unusable: type[StoreError] = StoreError) -> Iterator[None]:
+        """Translate the engine's error for damaged files, which any read can raise, and those of the system."""
         try:
             yield
+        except OSError as error:
+            raise unusable(
+                f"{self._folder}: cannot be read or written ({one_line(error)}); free disk space, or check the "
+                "permissions of the folder"
+            ) from error
         except RuntimeError as error:
             raise StoreError(
                 f"{self._folder}: the store is damaged ({one_line(error)}); restore the folder from a backup, or load "
@@ -230,7 +262,7 @@ class EmbeddedStore:
                     f"{self._folder}: is in use by another program, such as an Oxigraph server; stop it, or give its "
                     "address with --store http://…"
                 ) from error
-            raise StoreError(f"{self._folder}: cannot be opened as a store ({one_line(error)})") from error
+            raise
 
     def _is_store(self) -> bool:
         return (self._folder / _ROCKSDB_FILE).is_file()

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import timedelta
 
-__all__ = ["FolderLimits", "HttpLimits", "UploadLimits"]
+__all__ = ["RESERVE_BYTES", "FolderLimits", "HttpLimits", "UploadLimits"]
 
 
 @dataclass(frozen=True)
@@ -40,3 +40,7 @@ class FolderLimits:
 
     lock_wait_s: float = 10.0
     """Time to wait for another process."""
+
+
+RESERVE_BYTES = 4 << 20
+"""Space that a folder keeps for removing graphs on a full disk; the engine was measured to write 1 to 2 MiB."""

@@ -1,9 +1,11 @@
-"""StudioServer: uvicorn, which ends the streams of changes before it waits for open requests."""
+"""StudioServer: the server of the endpoint, which ends the streams of changes before it waits for open requests."""
 
 import socket
 
-import uvicorn
 from starlette.applications import Starlette
+
+from usd2kg.endpoint.connections import Connections
+from usd2kg.endpoint.http_server import BoundedServer
 
 __all__ = ["StudioServer"]
 
@@ -11,12 +13,11 @@ _SHUTDOWN_S = 3
 """Seconds that requests have to finish when the server stops."""
 
 
-class StudioServer(uvicorn.Server):
+class StudioServer(BoundedServer):
     """An HTTP server of the application that `make_app` returns."""
 
     def __init__(self, app: Starlette) -> None:
-        config = uvicorn.Config(app, log_level="warning", server_header=False, timeout_graceful_shutdown=_SHUTDOWN_S)
-        super().__init__(config)
+        super().__init__(app, Connections(), _SHUTDOWN_S)
         self._end_streams = app.state.end_streams
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:

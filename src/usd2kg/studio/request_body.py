@@ -35,6 +35,8 @@ async def read_body(request: Request) -> dict[str, Any]:
             if len(data) > SERVER.max_body_bytes:
                 raise BadRequestError(f"the request is larger than {SERVER.max_body_bytes} bytes", 413)
         body = json.loads(data)
+        # An escape may be half of a character, which cannot be stored or sent.
+        json.dumps(body, ensure_ascii=False).encode()
     except ClientDisconnect as error:
         raise BadRequestError("the request is incomplete") from error
     except (ValueError, RecursionError) as error:

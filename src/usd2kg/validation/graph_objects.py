@@ -79,8 +79,13 @@ def read_graph_objects(store: ox.Store) -> list[GraphObject]:
     """Return the objects of a graph in the order of their prim paths."""
     reader = _Reader(store)
     rooms = {quad.subject for quad in store.quads_for_pattern(None, RDF.type, U2K.RoomGroup)}
-    paths = values_of(store, U2K.primPath)
-    objects = [reader.read(node, own[0]) for node, own in paths.items() if node not in rooms]
+    paths = {
+        node: [path for path in own if isinstance(path, ox.Literal)]
+        for node, own in values_of(store, U2K.primPath).items()
+        # A blank node is no object that a finding could name.
+        if isinstance(node, ox.NamedNode) and node not in rooms
+    }
+    objects = [reader.read(node, own[0]) for node, own in paths.items() if own]
     return sorted(objects, key=lambda obj: (obj.prim_path, obj.iri))
 
 
@@ -142,8 +147,8 @@ class _Reader:
         return nodes[0] if nodes else None
 
     def _text(self, node: Any, name: ox.NamedNode) -> str:
-        values = self._values(node, name)
-        return str(values[0].value) if values else ""
+        values = (value for value in self._values(node, name) if isinstance(value, ox.NamedNode | ox.Literal))
+        return next((str(value.value) for value in values), "")
 
     def _number(self, node: Any, *names: ox.NamedNode) -> float | None:
         numbers = numbers_in(" ".join(self._text(node, name) for name in names))

@@ -57,6 +57,10 @@ class PropertyEdge(NamedTuple):
     properties: Mapping[str, Value]
 
 
+_MAX_CLASSES = 100
+"""Most superclasses of a node. Real hierarchies have fewer; all those of a chain of thousands would be quadratic."""
+
+
 @dataclass(frozen=True)
 class PropertyGraph:
     """Nodes in file order; edges in the order of their start nodes."""
@@ -148,15 +152,25 @@ class _NodeReader:
         return tuple(name for name in names if name and name not in {"Thing", "Object"})
 
     def _closure(self, cls: _Term) -> list[_Term]:
-        """Return a class and its superclasses, most general first."""
-        if cls not in self._above:
-            self._above[cls] = []
-            found: dict[_Term, None] = {}
-            for parent in sorted(self._graph.values(cls, RDFS.subClassOf), key=str):
-                if isinstance(parent, ox.NamedNode):
-                    found.update(dict.fromkeys(self._closure(parent)))
-            self._above[cls] = [*(iri for iri in found if iri != cls), cls]
+        """Return a class and its superclasses, most general first; the nearest ones of very many."""
+        # Iterative, since a chain of classes may be longer than the stack; a class in a circle is met again while open.
+        pending = [cls]
+        while pending:
+            below = pending[-1]
+            parents = self._parents(below)
+            if below not in self._above:
+                self._above[below] = []
+                pending.extend(parent for parent in reversed(parents) if parent not in self._above)
+                continue
+            pending.pop()
+            if not self._above[below]:
+                found = dict.fromkeys(iri for parent in parents for iri in self._above[parent])
+                self._above[below] = [*(iri for iri in found if iri != below), below][-_MAX_CLASSES:]
         return self._above[cls]
+
+    def _parents(self, cls: _Term) -> list[_Term]:
+        parents = sorted(self._graph.values(cls, RDFS.subClassOf), key=str)
+        return [parent for parent in parents if isinstance(parent, ox.NamedNode)]
 
     def _object(self, node: ox.NamedNode, cls: _Term | None) -> dict[str, Value]:
         properties = self._named(node, U2K.primPath)

@@ -230,17 +230,23 @@ class SceneFacts:
 
     def _values(self, iri: str, predicate: ox.NamedNode) -> list[str]:
         """Return the values of a property as text, sorted."""
-        return sorted(term.value for term in self._objects(ox.NamedNode(iri), predicate))
+        return sorted(term.value for term in self._objects(ox.NamedNode(iri), predicate) if _is_value(term))
 
     def _objects(self, node: Any, predicate: ox.NamedNode) -> list[Any]:
         return self.dataset.objects(node, predicate)
 
     def _subjects(self, predicate: ox.NamedNode, value: ox.NamedNode | ox.Literal) -> list[str]:
-        return sorted(node.value for node in self.dataset.subjects(predicate, value))
+        return sorted(node.value for node in self.dataset.subjects(predicate, value) if isinstance(node, ox.NamedNode))
 
     def _pairs(self, pattern: str) -> list[tuple[str, str]]:
         rows = self.dataset.select(f"SELECT DISTINCT ?s ?v WHERE {{ {pattern} }}")
-        return [(str(row["s"].value), str(row["v"].value)) for row in rows]
+        named = ((row["s"], row["v"]) for row in rows if isinstance(row["s"], ox.NamedNode))
+        return [(str(subject.value), str(value.value)) for subject, value in named if _is_value(value)]
+
+
+def _is_value(term: Any) -> bool:
+    """Return whether a term has a text that denotes it in any graph: no blank node, no triple term."""
+    return isinstance(term, ox.NamedNode | ox.Literal)
 
 
 def _text(cell: Any) -> str:

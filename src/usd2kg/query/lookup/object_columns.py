@@ -1,5 +1,6 @@
 """Names, kinds and relations of all objects of a graph as columns, kept beside the index of a large graph."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -168,7 +169,7 @@ class _ColumnReader:
                 for source in self._dataset.objects(axiom, OWL.annotatedSource):
                     row = self._rows.get(getattr(source, "value", ""))
                     if row is not None:
-                        found[row] = float(value.value)
+                        found[row] = _number(value)
         return found
 
     def _to_values(self, pairs: Iterable[tuple[str, str]], values: Sequence[str]) -> RowPairs:
@@ -184,6 +185,14 @@ class _ColumnReader:
             for iri, anchor in self._dataset.pairs(link.predicate)
         )
         return _sorted_pairs((rows[iri], rows[anchor]) for iri, anchor in stated if iri in rows and anchor in rows)
+
+
+def _number(term: object) -> float:
+    """Return the number of a literal; NaN for anything else."""
+    try:
+        return float(term.value) if isinstance(term, ox.Literal) else math.nan
+    except ValueError:
+        return math.nan
 
 
 def _smallest(pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
