@@ -104,10 +104,16 @@ class SceneFacts:
         """Return the concept of an object."""
         return next(iter(self._kinds_of(iri, self.columns.of_concept)), None)
 
-    def members(self, kinds: Iterable[str]) -> set[str]:
-        """Return the objects with one of some classes or concepts."""
+    def members(self, kinds: Iterable[str]) -> dict[str, float]:
+        """Return the objects with one of some classes or concepts, and the confidence in it; 1 if none is stated."""
+        columns, found = self.columns, dict[str, float]()
         rows = [self._kind_rows[kind] for kind in kinds if kind in self._kind_rows]
-        return set(self._iris(row for kind in rows for of in self.columns.of_kind for row in of.of_second(kind)))
+        for pairs, stated in ((columns.of_class, columns.confidence), (columns.of_concept, columns.concept_confidence)):
+            for row in (row for kind in rows for row in pairs.of_second(kind)):
+                sure = 1.0 if math.isnan(stated[row]) else float(stated[row])
+                iri = columns.iris[row]
+                found[iri] = max(sure, found.get(iri, 0.0))
+        return found
 
     @cached_property
     def _kind_rows(self) -> dict[str, int]:

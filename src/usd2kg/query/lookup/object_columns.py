@@ -37,6 +37,10 @@ _RELATIONS = {
     "near": tuple(map(_Link, _NEAR)),
     "above": (_Link(KNOWROB.isAboveOf), _Link(U2K.above)),
     "attached": (_Link(U2K.attachedTo),),
+    "left": (_Link(KNOWROB.isLeftOf), _Link(U2K.leftOf)),
+    "right": (_Link(KNOWROB.isRightOf), _Link(U2K.rightOf)),
+    "front": (_Link(KNOWROB.isInFrontOf), _Link(U2K.inFrontOf)),
+    "behind": (_Link(KNOWROB.isBehindOf), _Link(U2K.behind)),
     "part": (_Link(SOMA.hasPhysicalComponent, is_inverse=True), _Link(U2K.partOf)),
 }
 """Relation → the properties that state it, in both profiles."""
@@ -85,6 +89,8 @@ class ObjectColumns:
     """(n,)"""
     confidence: NDArray[np.float64]
     """(n,): confidence in the class; NaN where none is stated."""
+    concept_confidence: NDArray[np.float64]
+    """(n,): confidence in the concept; NaN where none is stated."""
     of_class: RowPairs
     """Object, class."""
     of_concept: RowPairs
@@ -93,11 +99,6 @@ class ObjectColumns:
     """Object, asset."""
     relations: Mapping[str, RowPairs]
     """Relation → object, anchor."""
-
-    @property
-    def of_kind(self) -> tuple[RowPairs, RowPairs]:
-        """Object, class or concept."""
-        return self.of_class, self.of_concept
 
     @cached_property
     def rows(self) -> dict[str, int]:
@@ -143,6 +144,7 @@ class _ColumnReader:
             words=sorted({word.lower() for label in named for word in split_identifier(label)}),
             is_group=np.array([iri in groups for iri in self._iris], dtype=bool),
             confidence=self._confidences(),
+            concept_confidence=self._numbers(U2K.conceptConfidence),
             relations={name: self._related(links) for name, links in _RELATIONS.items()},
         )
 
@@ -153,6 +155,13 @@ class _ColumnReader:
             is_named = self._dataset.objects(node, RDFS.label) or self._dataset.objects(node, SKOS.prefLabel)
             if node not in _GENERIC_CLASSES and is_named:
                 yield from ((subject.value, node.value) for subject in self._dataset.subjects(RDF.type, node))
+
+    def _numbers(self, predicate: ox.NamedNode) -> NDArray[np.float64]:
+        found = np.full(len(self._iris), np.nan)
+        for iri, value in self._dataset.pairs(predicate):
+            if iri in self._rows:
+                found[self._rows[iri]] = float(value)
+        return found
 
     def _confidences(self) -> NDArray[np.float64]:
         found = np.full(len(self._iris), np.nan)
@@ -201,6 +210,7 @@ def _to_columns(table: ObjectColumns) -> Columns:
         **{f"relation {name}": pairs.pairs for name, pairs in table.relations.items()},
         "is_group": table.is_group,
         "confidence": table.confidence,
+        "concept_confidence": table.concept_confidence,
     }
 
 
@@ -216,5 +226,6 @@ def _from_columns(columns: Columns) -> ObjectColumns:
         of_asset=RowPairs(columns["of_asset"]),
         is_group=columns["is_group"],
         confidence=columns["confidence"],
+        concept_confidence=columns["concept_confidence"],
         relations={name: RowPairs(columns[f"relation {name}"]) for name in _RELATIONS},
     )
