@@ -75,3 +75,7 @@ def test_between_needs_one_pair(room: GraphStore):
 def test_a_remark_that_nothing_is_left_out_changes_nothing(room: GraphStore):
     for remark in (", all of them together", ", folding chairs included", ", including stools"):
         assert ask_offline(room, f"how many chairs are there{remark}?").number == 1
+
+
+def test_what_is_inside_a_rack_is_on_it(room: GraphStore):
+    assert found(room, "what's on the Rack?") == ["Shoe"]
