@@ -1,6 +1,5 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
@@ -134,7 +133,7 @@ class _Answerer:
 
     def _count(self) -> InterpretedAnswer:
         facts = self._facts
-        counts = Counter(label for iri in facts.things for label in facts.class_labels(iri))
+        counts = facts.class_counts()
         rows = tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
         table = Answer(("class", "count"), tuple((label, str(count)) for label, count in rows), rows, "")
         sentence = f"There are {len(facts.things)} objects of {len(counts)} classes."

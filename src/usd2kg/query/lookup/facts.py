@@ -1,6 +1,7 @@
 """SceneFacts: what a graph states about its objects, read when it is needed."""
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
@@ -134,6 +135,15 @@ class SceneFacts:
         """Return the labels of the classes of objects, sorted."""
         used = np.unique(self.columns.of_class.pairs[:, 1]).tolist()
         return sorted({self.label_of(self.columns.kinds[kind]) for kind in used})
+
+    def class_counts(self) -> Counter[str]:
+        """Return label of a class → number of things of it, without those of its subclasses."""
+        objects, kinds = self.columns.of_class.pairs.T
+        used, counts = np.unique(kinds[~self.columns.is_group[objects]], return_counts=True)
+        found: Counter[str] = Counter()
+        for kind, count in zip(used.tolist(), counts.tolist(), strict=True):
+            found[self.label_of(self.columns.kinds[kind])] += count
+        return found
 
     def class_labels(self, iri: str) -> list[str]:
         """Return the labels of the classes of an object, sorted."""

@@ -48,6 +48,14 @@ _TEXTS = ("iris", "labels", "paths", "kinds", "assets", "words")
 _PAIRS = ("of_class", "of_concept", "of_asset")
 
 
+class _Groups(NamedTuple):
+    """Row numbers by row."""
+
+    starts: list[int]
+    """Row → index of its first value; the last is the number of values."""
+    values: list[int]
+
+
 class RowPairs:
     """RowPairs of row numbers, for lookups in both directions."""
 
@@ -57,20 +65,32 @@ class RowPairs:
 
     def of_first(self, row: int) -> list[int]:
         """Return the second rows of a first row, ascending."""
-        start, end = np.searchsorted(self.pairs[:, 0], (row, row + 1))
-        found: list[int] = self.pairs[start:end, 1].tolist()
-        return found
+        return _slice(self._forward, row)
 
     def of_second(self, row: int) -> list[int]:
         """Return the first rows of a second row, ascending."""
-        start, end = np.searchsorted(self._inverse[:, 1], (row, row + 1))
-        found: list[int] = self._inverse[start:end, 0].tolist()
-        return found
+        return _slice(self._backward, row)
 
     @cached_property
-    def _inverse(self) -> NDArray[np.int32]:
-        inverse: NDArray[np.int32] = self.pairs[np.lexsort((self.pairs[:, 0], self.pairs[:, 1]))]
-        return inverse
+    def _forward(self) -> _Groups:
+        return _group(self.pairs[:, 0], self.pairs[:, 1])
+
+    @cached_property
+    def _backward(self) -> _Groups:
+        inverse = self.pairs[np.lexsort((self.pairs[:, 0], self.pairs[:, 1]))]
+        return _group(inverse[:, 1], inverse[:, 0])
+
+
+def _group(keys: NDArray[np.int32], values: NDArray[np.int32]) -> _Groups:
+    """Return the values by their keys, which ascend."""
+    most = int(keys[-1]) if len(keys) else -1
+    # Lists: one row is looked up at a time, which takes arrays a hundred times as long.
+    starts: list[int] = np.searchsorted(np.ascontiguousarray(keys), np.arange(most + 2)).tolist()
+    return _Groups(starts, values.tolist())
+
+
+def _slice(groups: _Groups, row: int) -> list[int]:
+    return groups.values[groups.starts[row] : groups.starts[row + 1]] if row < len(groups.starts) - 1 else []
 
 
 @dataclass(frozen=True)
