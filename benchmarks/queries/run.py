@@ -21,6 +21,21 @@ from stage import write_place
 
 COMMAND = (sys.executable, "-m", "usd2kg")
 GIVEN = {"class": "cup", "position": "1 1 1"}
+ASKED = (
+    "how many objects are there?",
+    "how many cups are there?",
+    "where is X?",
+    "what is on X?",
+    "what is on the table?",
+    "list all kettles",
+    "is there a piano?",
+)
+FLOOR = """
+import sys, pyoxigraph as ox
+store = ox.Store.read_only(sys.argv[1])
+print(len(list(store.query("SELECT ?s { ?s <https://w3id.org/usd2kg#primPath> '" + sys.argv[2] + "' }"))))
+"""
+"""What no question can do without: Python, the engine, and one lookup in the index."""
 THING = "SELECT ?p { ?x u2k:on|soma:isOntopOf ?o . ?o u2k:primPath ?p } ORDER BY ?p LIMIT 1"
 
 
@@ -50,9 +65,28 @@ def measure(folder: Path, count: int) -> None:
         given = [f"{name}={GIVEN.get(name, thing)}" for name in parameters]
         options = [option for value in given for option in ("--with", value)]
         report(f"--question {question}", run("query", graph, "--question", question, *options)[0])
+    report("floor: start Python", time_python("pass"))
+    (index,) = (folder / "cache").glob("*/index")
+    report("floor: open the index and look X up", time_python(FLOOR, str(index), thing))
+    report_asked(graph, thing, "")
     report("serve, until it answers", time_serving(graph))
     report("store load", run("store", "load", graph, "--store", store)[0])
     report("on X, in the store", run("query", store, "on", thing)[0])
+    report_asked(store, thing, ", in the store")
+    report("serve the store, until it answers", time_serving(store))
+
+
+def report_asked(place: Path, thing: str, where: str) -> None:
+    """Print a row for each question in words; the first of each place makes the tables, the second finds them."""
+    for question in (ASKED[0], *ASKED):
+        report(f"ask “{question}”{where}", run("ask", place, question.replace("X", thing))[0])
+
+
+def time_python(script: str, *arguments: str) -> float:
+    """Return the seconds of a script."""
+    start = time.perf_counter()
+    subprocess.run([sys.executable, "-c", script, *arguments], check=True, capture_output=True)
+    return time.perf_counter() - start
 
 
 def list_questions() -> list[tuple[str, list[str]]]:

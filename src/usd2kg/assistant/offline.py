@@ -1,16 +1,17 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from usd2kg.assistant.describe import description_answer
+from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
+from usd2kg.assistant.openings import find_in_the_way
 from usd2kg.assistant.phrases import RELATIONS, Phrase, match_phrase, normalize
 from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
 from usd2kg.errors import GraphError
-from usd2kg.knowledge import word_map
+from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
@@ -28,8 +29,14 @@ _SAID = {
     "above": "above",
     "below": "below",
     "attached": "attached to",
+    "left": "left of",
+    "right": "right of",
+    "front": "in front of",
+    "behind": "behind",
 }
 """Relation → preposition."""
+_BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
+"""Relations that the boxes tell where the graph states none."""
 
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
@@ -66,6 +73,7 @@ class _Answerer:
         return {
             "about": self._about,
             "all": self._all,
+            "between": self._between,
             "changed": self._changed,
             "count": self._count,
             "how-many": self._how_many,
@@ -78,6 +86,8 @@ class _Answerer:
             "rel-some": self._rel_some,
             "rel-what": self._rel_what,
             "stands-on": self._stands_on,
+            "to-open": self._to_open,
+            "to-open-from": self._to_open,
             "where": self._where,
         }
 
@@ -129,7 +139,7 @@ class _Answerer:
 
     def _count(self) -> InterpretedAnswer:
         facts = self._facts
-        counts = Counter(label for iri in facts.things for label in facts.class_labels(iri))
+        counts = facts.class_counts()
         rows = tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
         table = Answer(("class", "count"), tuple((label, str(count)) for label, count in rows), rows, "")
         sentence = f"There are {len(facts.things)} objects of {len(counts)} classes."
@@ -188,12 +198,11 @@ class _Answerer:
         what = None if kind is None else self._nouns.find(kind)
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {_SAID[name]} {anchors.text}"
-        if name == "below":
-            found = self._below(anchors.iris)
-        else:
-            found = self._nouns.around(name, thing, is_direct=what is None)
+        found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
+        if not found and name in _BY_BOXES:
+            found, note = self._by_boxes(name, anchors)
         chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors.iris]
-        notes = f"{what.suffix if what else ''}{anchors.suffix}"
+        notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
         place = f"{_SAID[name]} {self._the(anchors)}"
         if chosen:
             verb = "is" if len(chosen) == 1 else "are"
@@ -220,6 +229,48 @@ class _Answerer:
         if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
             raise GraphError(self._absent(things).removesuffix("."))
         return things
+
+    def _by_relation(self, name: str, text: str, anchors: Things, *, is_direct: bool) -> set[str]:
+        if name == "below":
+            return self._below(anchors.iris)
+        found = self._nouns.around(name, text, is_direct=is_direct)
+        if name == "on" and self._is_open_storage(anchors):
+            found |= self._nouns.around("inside", text, is_direct=is_direct)
+        return found
+
+    def _by_boxes(self, name: str, anchors: Things) -> tuple[set[str], str]:
+        """Return what is above or beside things by their boxes, and the note that says so.
+
+        Raises:
+            GraphError: the boxes do not say what is beside them.
+        """
+        if name == "above":
+            answers = [self._graph.answer("above", {"thing": self._facts.path(iri)}) for iri in anchors.iris]
+            return {iri for one in answers for path in _column(one, "path") for iri in self._facts.at_path(path)}, ""
+        found = [find_beside(self._facts, name, iri) for iri in anchors.iris]
+        if any(one is None for one in found):
+            raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
+        note = " (by boxes, seen from amid the things around)"
+        return {iri for one in found for iri in one or ()}, note
+
+    def _between(self, thing: str, other: str) -> InterpretedAnswer:
+        first, second = self._found(thing), self._found(other)
+        pairs = [(one, two) for one in first.iris for two in second.iris if one != two]
+        if len(pairs) != 1:
+            raise GraphError(f"{thing!r} and {other!r} are {len(pairs)} pairs of things; expected the name of one each")
+        between = find_between(self._facts, *pairs[0])
+        if between is None:
+            raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
+        verb = "is" if len(between) < 2 else "are"
+        named = name_things(self._facts, between) or "nothing"
+        sentence = f"{named} {verb} between {self._the(first)} and {self._the(second)}."
+        understood = f"things between {first.text} and {second.text}"
+        return InterpretedAnswer(understood, self._located(between), sentence=begin_sentence(sentence))
+
+    def _is_open_storage(self, things: Things) -> bool:
+        """Return whether things have boards above each other, so that what is on a board is inside them."""
+        nouns = word_set("assistant", "open_storage")
+        return bool(things.iris) and all(self._facts.kind(iri).split()[-1] in nouns for iri in things.iris)
 
     def _below(self, anchors: Sequence[str]) -> set[str]:
         answers = [self._graph.answer("below", {"thing": self._facts.path(iri)}) for iri in anchors]
@@ -315,14 +366,28 @@ class _Answerer:
         paths = [self._facts.path(iri) for iri in self._found(values["thing"]).iris]
         answers = [self._graph.answer(question, {**values, "thing": path}) for path in paths]
         found = join_answers(answers)
-        if question == "to-open" and not found.rows:
-            self._check_joints(self._found(values["thing"]))
         return InterpretedAnswer(understood, found)
 
-    def _check_joints(self, things: Things) -> None:
-        """Raise GraphError if no joint of the things is known, so that nobody knows how they open."""
-        if self._facts.opened_by_joint.isdisjoint(things.iris):
+    def _to_open(self, thing: str, other: str = "") -> InterpretedAnswer:
+        """Return what is in the way of a thing that opens: by its joint, else by the boxes in front of it."""
+        things = self._found(thing)
+        found = self._ready_question("to-open", {"thing": thing})
+        if found.answer.rows or not self._facts.opened_by_joint.isdisjoint(things.iris):
+            return found
+        parts = self._nouns.related("part", things.iris, is_direct=True)
+        swept = [find_in_the_way(self._facts, iri, parts) for iri in things.iris]
+        if any(one is None for one in swept):
             raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
+        chosen = self._facts.sorted({iri for one in swept for iri in one or ()})
+        if other:
+            carried = self._nouns.around("on", other, is_direct=False)
+            chosen = [iri for iri in chosen if iri in carried]
+        named = name_things(self._facts, chosen) or "nothing"
+        sentence = begin_sentence(
+            f"{named} {'is' if len(chosen) < 2 else 'are'} in the way of {self._the(things)}, by boxes: the stage has "
+            f"no joint for it, and it may open to either side{things.suffix}."
+        )
+        return InterpretedAnswer(f"what is in the way of {things.text}", self._located(chosen), sentence=sentence)
 
     def _nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
         what, anchors, facts = self._nouns.find(values["class"]), self._found(values["thing"]), self._facts
@@ -337,10 +402,11 @@ class _Answerer:
         return InterpretedAnswer(understood, facts.table([nearest], gap_m=gaps), sentence=sentence)
 
     def _is_blocked(self, thing: str) -> InterpretedAnswer:
-        found = self._ready_question("to-open", {"thing": thing})
+        found = self._to_open(thing)
         labels = list(dict.fromkeys(filter(None, _column(found.answer, "object"))))
         said = f"Yes: {join_words(labels)}." if labels else "No: nothing is in the way."
-        return InterpretedAnswer(f"what blocks {thing}", found.answer, bool(labels), sentence=said)
+        reason = f" {found.sentence}" if found.sentence else ""
+        return InterpretedAnswer(f"what blocks {thing}", found.answer, bool(labels), sentence=f"{said}{reason}")
 
 
 def _relation(text: str) -> str:

@@ -20,6 +20,12 @@ class Phrase(NamedTuple):
 
 
 RELATIONS = {
+    "left": "to the left of|on the left of|on the left side of|left of|links von|à gauche de|"
+    "a la izquierda de|a sinistra di",
+    "right": "to the right of|on the right of|on the right side of|right of|rechts von|à droite de|"
+    "a la derecha de|a destra di",
+    "front": "in front of|vor|devant|delante de|davanti a",
+    "behind": "behind|hinter|derrière|detrás de|dietro a",
     "on": "on top of|on|upon|atop|auf|sur|sobre|encima de|en|su|sul|sulla|sullo|sui|sopra",
     "inside": "inside of|inside|in|within|contained in|im|in der|in dem|dans|dentro de|nel|nella|nello",
     "below": "below|beneath|underneath|under|undr|unter|sous|debajo de|bajo|sotto",
@@ -28,7 +34,7 @@ RELATIONS = {
     "cerca de|accanto a|vicino a",
     "attached": "attached to|fixed to|fastened to|mounted on|mounted to|hanging from|hanging on",
 }
-"""Relation → how people say it, in five languages."""
+"""Relation → how people say it, in five languages; longer ways come before their beginnings, such as in and on."""
 _PARAMETERS = {
     "thing": "[^?]+?",
     "other": "[^?]+?",
@@ -44,6 +50,11 @@ _POLITE = re.compile(
     re.IGNORECASE,
 )
 _TRAILING = re.compile(r",?\s+(please|thanks|thank you|bitte)$", re.IGNORECASE)
+_COMMENT = re.compile(
+    r",\s+(?:[^,]+ (?:together|altogether|included|combined|counted|in total)|(?:including|counting) [^,]+)$",
+    re.IGNORECASE,
+)
+"""A remark that nothing is left out, which changes no question: `doors, folding doors included`."""
 _HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of frames → whether they are English."""
 _APOSTROPHE = "\u2019"
@@ -91,6 +102,6 @@ def normalize(text: str) -> str:
     asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,¿¡")
     while polite := _POLITE.match(asked):
         asked = asked[polite.end() :]
-    asked = _TRAILING.sub("", asked).strip(" ?!.,")
+    asked = _COMMENT.sub("", _TRAILING.sub("", asked)).strip(" ?!.,")
     asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
     return re.sub(r"^(what|where)(?:'s|s)\b", r"\1 is", asked, flags=re.IGNORECASE)

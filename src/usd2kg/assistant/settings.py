@@ -5,9 +5,13 @@ from dataclasses import dataclass
 from usd2kg.knowledge import read_settings
 
 __all__ = [
+    "DIRECTIONS",
+    "OPENING",
     "PLACING",
     "PROMPT",
     "RESULTS",
+    "DirectionSettings",
+    "OpeningSettings",
     "PlacingSettings",
     "PromptSettings",
     "ResultSettings",
@@ -48,6 +52,26 @@ class PlacingSettings:
     max_height: float
 
 
+@dataclass(frozen=True)
+class DirectionSettings:
+    """Where a viewer stands, and what is beside a thing; lengths are metres, the angle is degrees."""
+
+    surroundings: float
+    min_offset: float
+    reach: float
+    tolerance: float
+
+
+@dataclass(frozen=True)
+class OpeningSettings:
+    """Which space a door or window without a joint sweeps."""
+
+    max_thickness: float
+    margin: float
+
+
 RESULTS = read_settings("assistant", "results", ResultSettings)
 PROMPT = read_settings("assistant", "prompt", PromptSettings)
+DIRECTIONS = read_settings("assistant", "directions", DirectionSettings)
+OPENING = read_settings("assistant", "opening", OpeningSettings)
 PLACING = read_settings("assistant", "placing", PlacingSettings)

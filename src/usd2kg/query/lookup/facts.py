@@ -1,6 +1,7 @@
 """SceneFacts: what a graph states about its objects, read when it is needed."""
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
@@ -104,10 +105,16 @@ class SceneFacts:
         """Return the concept of an object."""
         return next(iter(self._kinds_of(iri, self.columns.of_concept)), None)
 
-    def members(self, kinds: Iterable[str]) -> set[str]:
-        """Return the objects with one of some classes or concepts."""
+    def members(self, kinds: Iterable[str]) -> dict[str, float]:
+        """Return the objects with one of some classes or concepts, and the confidence in it; 1 if none is stated."""
+        columns, found = self.columns, dict[str, float]()
         rows = [self._kind_rows[kind] for kind in kinds if kind in self._kind_rows]
-        return set(self._iris(row for kind in rows for of in self.columns.of_kind for row in of.of_second(kind)))
+        for pairs, stated in ((columns.of_class, columns.confidence), (columns.of_concept, columns.concept_confidence)):
+            for row in (row for kind in rows for row in pairs.of_second(kind)):
+                sure = 1.0 if math.isnan(stated[row]) else float(stated[row])
+                iri = columns.iris[row]
+                found[iri] = max(sure, found.get(iri, 0.0))
+        return found
 
     @cached_property
     def _kind_rows(self) -> dict[str, int]:
@@ -128,6 +135,15 @@ class SceneFacts:
         """Return the labels of the classes of objects, sorted."""
         used = np.unique(self.columns.of_class.pairs[:, 1]).tolist()
         return sorted({self.label_of(self.columns.kinds[kind]) for kind in used})
+
+    def class_counts(self) -> Counter[str]:
+        """Return label of a class → number of things of it, without those of its subclasses."""
+        objects, kinds = self.columns.of_class.pairs.T
+        used, counts = np.unique(kinds[~self.columns.is_group[objects]], return_counts=True)
+        found: Counter[str] = Counter()
+        for kind, count in zip(used.tolist(), counts.tolist(), strict=True):
+            found[self.label_of(self.columns.kinds[kind])] += count
+        return found
 
     def class_labels(self, iri: str) -> list[str]:
         """Return the labels of the classes of an object, sorted."""

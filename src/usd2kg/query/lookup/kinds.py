@@ -9,6 +9,7 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import RDFS, SKOS
 from usd2kg.grounding import concepts_named
 from usd2kg.ontology import expand_curie
+from usd2kg.query.lookup.copies import find_copies
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.word_forms import name_words, singular
 from usd2kg.query.settings import WORDS
@@ -30,10 +31,13 @@ class Kinds:
         return sorted({*self._classes_named(name), *self._concepts_named(name)}, key=lambda node: str(node.value))
 
     def objects(self, name: str) -> set[str]:
-        """Return the objects of a kind and of all kinds below it. A confident object wins over a doubtful one."""
+        """Return the objects of a kind and of all kinds below it, and their copies without a concept.
+
+        A confident object wins over a doubtful one.
+        """
         found = self._facts.members(str(kind.value) for kind in self._below(self.find(name)))
-        sure = self._facts.confidences(found)
-        return {iri for iri in found if sure.get(iri, 1.0) >= WORDS.min_confidence} or found
+        chosen = {iri for iri, sure in found.items() if sure >= WORDS.min_confidence} or set(found)
+        return chosen | find_copies(self._facts, {iri for iri in chosen if self._facts.concept(iri)})
 
     @cached_property
     def used_labels(self) -> list[str]:

@@ -25,6 +25,7 @@ _DETERMINERS = word_set("query", "determiners")
 _EVERYTHING = word_set("query", "general_nouns")
 _QUESTION_WORDS = word_set("query", "question_words")
 _AREAS = word_set("query", "area_nouns")
+_FRAMES = word_set("query", "framing_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
 _RELATIONS = {
@@ -115,6 +116,8 @@ class Nouns:
                 translated = self._find(" ".join(english))
                 if translated is not None and translated.iris:
                     return replace(translated, note=f"“{' '.join(words)}” was read as “{' '.join(english)}”")
+        if len(words) > 1 and words[-1] in _FRAMES and (framed := self._find(" ".join(words[:-1]))) and framed.iris:
+            return replace(framed, note=f"“{' '.join(words)}” was read as “{framed.text}”")
         return found or self._correct(words)
 
     def _find(self, text: str) -> Things | None:

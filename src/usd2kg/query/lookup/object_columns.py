@@ -38,11 +38,23 @@ _RELATIONS = {
     "near": tuple(map(_Link, _NEAR)),
     "above": (_Link(KNOWROB.isAboveOf), _Link(U2K.above)),
     "attached": (_Link(U2K.attachedTo),),
+    "left": (_Link(KNOWROB.isLeftOf), _Link(U2K.leftOf)),
+    "right": (_Link(KNOWROB.isRightOf), _Link(U2K.rightOf)),
+    "front": (_Link(KNOWROB.isInFrontOf), _Link(U2K.inFrontOf)),
+    "behind": (_Link(KNOWROB.isBehindOf), _Link(U2K.behind)),
     "part": (_Link(SOMA.hasPhysicalComponent, is_inverse=True), _Link(U2K.partOf)),
 }
 """Relation → the properties that state it, in both profiles."""
 _TEXTS = ("iris", "labels", "paths", "kinds", "assets", "words")
 _PAIRS = ("of_class", "of_concept", "of_asset")
+
+
+class _Groups(NamedTuple):
+    """Row numbers by row."""
+
+    starts: list[int]
+    """Row → index of its first value; the last is the number of values."""
+    values: list[int]
 
 
 class RowPairs:
@@ -54,20 +66,32 @@ class RowPairs:
 
     def of_first(self, row: int) -> list[int]:
         """Return the second rows of a first row, ascending."""
-        start, end = np.searchsorted(self.pairs[:, 0], (row, row + 1))
-        found: list[int] = self.pairs[start:end, 1].tolist()
-        return found
+        return _slice(self._forward, row)
 
     def of_second(self, row: int) -> list[int]:
         """Return the first rows of a second row, ascending."""
-        start, end = np.searchsorted(self._inverse[:, 1], (row, row + 1))
-        found: list[int] = self._inverse[start:end, 0].tolist()
-        return found
+        return _slice(self._backward, row)
 
     @cached_property
-    def _inverse(self) -> NDArray[np.int32]:
-        inverse: NDArray[np.int32] = self.pairs[np.lexsort((self.pairs[:, 0], self.pairs[:, 1]))]
-        return inverse
+    def _forward(self) -> _Groups:
+        return _group(self.pairs[:, 0], self.pairs[:, 1])
+
+    @cached_property
+    def _backward(self) -> _Groups:
+        inverse = self.pairs[np.lexsort((self.pairs[:, 0], self.pairs[:, 1]))]
+        return _group(inverse[:, 1], inverse[:, 0])
+
+
+def _group(keys: NDArray[np.int32], values: NDArray[np.int32]) -> _Groups:
+    """Return the values by their keys, which ascend."""
+    most = int(keys[-1]) if len(keys) else -1
+    # Lists: one row is looked up at a time, which takes arrays a hundred times as long.
+    starts: list[int] = np.searchsorted(np.ascontiguousarray(keys), np.arange(most + 2)).tolist()
+    return _Groups(starts, values.tolist())
+
+
+def _slice(groups: _Groups, row: int) -> list[int]:
+    return groups.values[groups.starts[row] : groups.starts[row + 1]] if row < len(groups.starts) - 1 else []
 
 
 @dataclass(frozen=True)
@@ -87,6 +111,8 @@ class ObjectColumns:
     """(n,)"""
     confidence: NDArray[np.float64]
     """(n,): confidence in the class; NaN where none is stated."""
+    concept_confidence: NDArray[np.float64]
+    """(n,): confidence in the concept; NaN where none is stated."""
     of_class: RowPairs
     """Object, class."""
     of_concept: RowPairs
@@ -95,11 +121,6 @@ class ObjectColumns:
     """Object, asset."""
     relations: Mapping[str, RowPairs]
     """Relation → object, anchor."""
-
-    @property
-    def of_kind(self) -> tuple[RowPairs, RowPairs]:
-        """Object, class or concept."""
-        return self.of_class, self.of_concept
 
     @cached_property
     def rows(self) -> dict[str, int]:
@@ -150,6 +171,7 @@ class _ColumnReader:
             words=sorted({word.lower() for label in named for word in split_identifier(label)}),
             is_group=np.array([iri in groups for iri in self._iris], dtype=bool),
             confidence=self._confidences(),
+            concept_confidence=self._numbers(U2K.conceptConfidence),
             relations={name: self._related(links) for name, links in _RELATIONS.items()},
         )
 
@@ -160,6 +182,13 @@ class _ColumnReader:
             is_named = self._dataset.objects(node, RDFS.label) or self._dataset.objects(node, SKOS.prefLabel)
             if node not in _GENERIC_CLASSES and is_named:
                 yield from ((subject.value, node.value) for subject in self._dataset.subjects(RDF.type, node))
+
+    def _numbers(self, predicate: ox.NamedNode) -> NDArray[np.float64]:
+        found = np.full(len(self._iris), np.nan)
+        for iri, value in self._dataset.pairs(predicate):
+            if iri in self._rows:
+                found[self._rows[iri]] = float(value)
+        return found
 
     def _confidences(self) -> NDArray[np.float64]:
         found = np.full(len(self._iris), np.nan)
@@ -216,6 +245,7 @@ def _to_columns(table: ObjectColumns) -> Columns:
         **{f"relation {name}": pairs.pairs for name, pairs in table.relations.items()},
         "is_group": table.is_group,
         "confidence": table.confidence,
+        "concept_confidence": table.concept_confidence,
     }
 
 
@@ -231,5 +261,6 @@ def _from_columns(columns: Columns) -> ObjectColumns:
         of_asset=RowPairs(columns["of_asset"]),
         is_group=columns["is_group"],
         confidence=columns["confidence"],
+        concept_confidence=columns["concept_confidence"],
         relations={name: RowPairs(columns[f"relation {name}"]) for name in _RELATIONS},
     )

@@ -1,0 +1,76 @@
+"""find_beside and find_between: what is left of, right of, in front of, behind or between things, by boxes."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.assistant.settings import DIRECTIONS
+from usd2kg.query.lookup import SceneFacts
+
+__all__ = ["find_beside", "find_between"]
+
+Vector = NDArray[np.float64]
+
+_TURNS = {"behind": 0.0, "left": 90.0, "front": 180.0, "right": -90.0}
+"""Degrees from the gaze to the direction from anchor to target, counter-clockwise from above."""
+
+
+def find_beside(facts: SceneFacts, side: str, anchor: str) -> list[str] | None:
+    """Return the objects on a side of a thing, the nearest first.
+
+    The viewer stands amid the things around and looks at the anchor: an object in front is nearer to the viewer
+    (relative frame of reference, Levinson 2003).
+
+    Args:
+        facts: the graph.
+        side: left, right, front or behind.
+        anchor: the thing.
+
+    Returns:
+        None if the anchor has no box, or nothing around it says where people look from.
+    """
+    body, table = facts.body(anchor), facts.bodies.table
+    if body.lower is None or body.upper is None:
+        return None
+    gaps = np.maximum(np.maximum(table.lower - body.upper, body.lower - table.upper), 0)
+    distance = np.linalg.norm(gaps, axis=1)
+    middle, own = (table.lower + table.upper)[:, :2] / 2, (body.lower + body.upper)[:2] / 2
+    around = middle[distance <= DIRECTIONS.surroundings]
+    gaze = own - around.mean(axis=0)
+    if float(np.hypot(*gaze)) < DIRECTIONS.min_offset:
+        return None
+    away = middle - own
+    turn = np.degrees(np.arctan2(gaze[0] * away[:, 1] - gaze[1] * away[:, 0], away @ gaze))
+    off = np.abs((turn - _TURNS[side] + 180) % 360 - 180)
+    overlap = np.minimum(table.upper[:, 2], body.upper[2]) - np.maximum(table.lower[:, 2], body.lower[2])
+    # The anchor itself and what is around or within it have no direction.
+    is_apart = np.any(gaps[:, :2] > 0, axis=1)
+    chosen = (distance <= DIRECTIONS.reach) & (off <= DIRECTIONS.tolerance) & (overlap > 0) & is_apart
+    rows = sorted(np.flatnonzero(chosen).tolist(), key=lambda row: (float(distance[row]), table.iris[row]))
+    return [table.iris[row] for row in rows]
+
+
+def find_between(facts: SceneFacts, one: str, other: str) -> list[str] | None:
+    """Return the objects between two things, by prim path; None if one of them has no box.
+
+    The middle of such an object is over the strip from middle to middle, as wide as the narrower thing, and outside
+    both boxes; their heights overlap.
+    """
+    first, second, table = facts.body(one), facts.body(other), facts.bodies.table
+    if first.lower is None or first.upper is None or second.lower is None or second.upper is None:
+        return None
+    start, end = (first.lower + first.upper)[:2] / 2, (second.lower + second.upper)[:2] / 2
+    length = float(np.hypot(*(end - start)))
+    if length < DIRECTIONS.min_offset:
+        return []
+    along = (end - start) / length
+    middle = (table.lower + table.upper)[:, :2] / 2
+    way = (middle - start) @ along
+    aside = np.abs((middle - start) @ np.array([-along[1], along[0]]))
+    boxes = ((first.lower, first.upper), (second.lower, second.upper))
+    half = min(float(np.min((upper - lower)[:2])) for lower, upper in boxes) / 2
+    lowest, highest = max(first.lower[2], second.lower[2]), min(first.upper[2], second.upper[2])
+    is_level = (table.lower[:, 2] < highest) & (table.upper[:, 2] > lowest)
+    is_between = (way > 0) & (way < length) & (aside <= half) & is_level
+    for lower, upper in boxes:
+        is_between &= ~((middle > lower[:2]) & (middle < upper[:2])).all(axis=1)
+    return facts.sorted(table.iris[row] for row in np.flatnonzero(is_between).tolist())

@@ -1,0 +1,81 @@
+"""Questions that boxes answer where the graph states no relation, and kinds that size and class show."""
+
+import pytest
+
+from tests.graph.records import build_graph, open_store, thing
+from usd2kg.assistant import ask_offline
+from usd2kg.errors import GraphError
+from usd2kg.ontology import TBox
+from usd2kg.query import GraphStore
+
+# A room of 6 × 6 m, seen from above: x to the right, y away. A sideboard stands at the far wall (y = 3), with a vase on
+# its left and a chair on its right as seen from the middle of the room; a lamp hangs above it.
+ROOM = [
+    (thing("/R/Floor", (-3, -3, -0.1), (6, 6, 0.1)), "Floor"),
+    (thing("/R/Sideboard", (-0.5, 2.5, 0), (1, 0.4, 0.8)), "Cupboard"),
+    (thing("/R/Vase", (-1.2, 2.6, 0), (0.2, 0.2, 0.6)), "DesignedArtifact"),
+    (thing("/R/Chair", (1.0, 2.5, 0), (0.4, 0.4, 0.9)), "DesignedChair"),
+    (thing("/R/Lamp", (-0.1, 2.6, 1.6), (0.2, 0.2, 0.2)), "DesignedArtifact"),
+    (thing("/R/Table", (-0.4, 0, 0), (0.8, 0.8, 0.7)), "Table"),
+    # A door in the near wall, with its lever, and a bin 0.5 m in front of it.
+    (thing("/R/Door", (-2.5, -3.05, 0), (0.9, 0.05, 2)), "DesignedArtifact"),
+    (thing("/R/Door_lever", (-1.8, -3.0, 1), (0.1, 0.05, 0.05)), "DesignedArtifact"),
+    (thing("/R/Bin", (-2.2, -2.5, 0), (0.3, 0.3, 0.4)), "DesignedArtifact"),
+    (thing("/R/Window", (1, -3.05, 1), (0.9, 0.05, 1)), "DesignedArtifact"),
+    (thing("/R/Crate", (-3, 1, 0), (0.5, 0.5, 0.5)), "DesignedArtifact"),
+    # Between the boards of a rack.
+    (thing("/R/Rack", (2.2, 0, 0), (0.4, 1, 1.5)), "Rack"),
+    (thing("/R/Shoe", (2.3, 0.4, 0.7), (0.1, 0.25, 0.1)), "DesignedArtifact"),
+]
+
+
+@pytest.fixture(scope="module", params=["soma", "plain"])
+def room(home_tbox: TBox, request: pytest.FixtureRequest) -> GraphStore:
+    return open_store(build_graph(home_tbox, ROOM, profile=request.param))
+
+
+def found(graph: GraphStore, question: str) -> list[str | None]:
+    return sorted(row[0] or "" for row in ask_offline(graph, question).answer.rows)
+
+
+@pytest.mark.parametrize(
+    ("question", "expected"),
+    [
+        ("what is to the left of the sideboard?", ["Vase"]),
+        ("what is on the right of the Sideboard?", ["Chair"]),
+        ("what stands right of the sideboard", ["Chair"]),
+        ("was ist links von Sideboard?", ["Vase"]),
+        ("what is between the Vase and the Chair?", ["Sideboard"]),
+        ("what is between the table and the chair?", []),
+        ("what is above the sideboard?", ["Lamp"]),
+    ],
+)
+def test_places_beside_between_and_above(room: GraphStore, question: str, expected: list[str]):
+    assert found(room, question) == expected
+
+
+def test_the_sentence_says_where_one_looks_from(room: GraphStore):
+    assert "seen from amid the things around" in ask_offline(room, "what is left of the sideboard?").sentence
+
+
+def test_what_is_in_the_way_of_a_door_without_a_joint(room: GraphStore):
+    asked = ask_offline(room, "is anything blocking Door?")
+    assert (asked.verdict, [row[0] for row in asked.answer.rows]) == (True, ["Bin"])
+    assert "by boxes: the stage has no joint" in asked.sentence
+    assert ask_offline(room, "is anything blocking Window?").verdict is False
+    with pytest.raises(GraphError, match="not known: the stage has no joint for crate"):
+        ask_offline(room, "is anything blocking the Crate?")
+
+
+def test_between_needs_one_pair(room: GraphStore):
+    with pytest.raises(GraphError, match="expected the name of one each"):
+        ask_offline(room, "what is between the Chair and the Chair?")
+
+
+def test_a_remark_that_nothing_is_left_out_changes_nothing(room: GraphStore):
+    for remark in (", all of them together", ", folding chairs included", ", including stools"):
+        assert ask_offline(room, f"how many chairs are there{remark}?").number == 1
+
+
+def test_what_is_inside_a_rack_is_on_it(room: GraphStore):
+    assert found(room, "what's on the Rack?") == ["Shoe"]
