@@ -21,7 +21,12 @@ __all__ = ["studio_command"]
 
 @expand_bundles
 def studio_command(
-    target: Annotated[Path, Argument(metavar="SCENE|FOLDER", help="A USD stage, or the folder of a project.")],
+    target: Annotated[
+        Path,
+        Argument(
+            metavar="SCENE|FOLDER", help="USD stage, a file that usd2kg convert reads, or the folder of a project."
+        ),
+    ],
     reading: StageOptions,
     where: AddressOptions,
     ontology: OntologyFile = None,

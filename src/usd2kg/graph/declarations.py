@@ -51,7 +51,7 @@ _EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
         """,
         KNOWROB: "isAboveOf isBehindOf isBelowOf isInFrontOf isLeftOf isNextTo isRightOf",
         USD: "hasColor",
-        PROV: "used wasAssociatedWith",
+        PROV: "used wasAssociatedWith wasDerivedFrom",
     },
     OWL.DatatypeProperty: {
         SOMA: """

@@ -98,6 +98,7 @@ def read_scene(
         left_out=dict(sorted(selection.left_out.items())),
         missing_paths=selection.missing,
         joints=joints.joints,
+        origin=opened.origin,
         surfaces=reader.surfaces,
     )
     notes = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))
