@@ -244,7 +244,9 @@ BROKEN = {
 def test_a_broken_file_is_one_clear_error(tmp_path: Path, name: str):
     path = tmp_path / name
     path.write_bytes(BROKEN[name])
-    with pytest.raises(SceneError, match=r"cannot be converted \(.+\), expected .+; export it again") as caught:
+    with pytest.raises(
+        SceneError, match=r"cannot be converted \(.+\), expected .+; correct it or export it again"
+    ) as caught:
         read_scene(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)

@@ -12,7 +12,7 @@ __all__ = ["convert_command"]
 
 
 def convert_command(
-    source: Annotated[Path, Argument(metavar="FILE", help="File to convert: glTF (.glb, .gltf) or OBJ.")],
+    source: Annotated[Path, Argument(metavar="FILE", help="File to convert: .glb, .gltf, .obj, .urdf, .xml (MJCF).")],
     output: Annotated[
         Path | None,
         Option(

@@ -28,4 +28,4 @@ def parse_error(path: Path, found: object, expected: str) -> SceneError:
     """Return the error of a file that its parser rejects."""
     reason = one_line(found) or type(found).__name__
     reason = reason if len(reason) <= _MAX_REASON else reason[: _MAX_REASON - 1] + "…"
-    return SceneError(f"{path}: cannot be converted ({reason}), expected {expected}; export it again")
+    return SceneError(f"{path}: cannot be converted ({reason}), expected {expected}; correct it or export it again")

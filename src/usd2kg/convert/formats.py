@@ -23,6 +23,8 @@ _EXTRA = "pip install 'usd2kg[convert]'"
 FORMATS = (
     SourceFormat("glTF", (".glb", ".gltf"), "gltf", _EXTRA),
     SourceFormat("OBJ", (".obj",), "obj", _EXTRA),
+    SourceFormat("URDF", (".urdf",), "urdf", "pipx install urdf-usd-converter"),
+    SourceFormat("MJCF", (".xml",), "mjcf", "pipx install mujoco-usd-converter"),
 )
 
 
