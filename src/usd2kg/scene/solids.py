@@ -87,7 +87,8 @@ def _revolve(profile: list[tuple[float, float]], segments: int) -> tuple[Points,
     rings = [np.column_stack([circle * distance, np.full(segments, height)]) for distance, height in profile]
     here = np.arange(segments, dtype=np.int32)
     after = (here + 1) % segments
-    triangles = []
+    # A radius of 0 leaves no triangles.
+    triangles = [np.empty((0, 3), np.int32)]
     for i, ((low, _), (high, _)) in enumerate(pairwise(profile)):
         below, above = i * segments, (i + 1) * segments
         if low != 0:
