@@ -52,7 +52,7 @@ def test_labels_need_a_stage_on_disk(run: Run, cup: Path):
         (["cup.obj", "--up-axis", "X"], "expected Y or Z"),
         (["missing.obj"], "no such file"),
         (["cup.usda"], "USD stages need no conversion"),
-        (["cup.fbx"], "no known format (ending '.fbx'), expected one of .glb, .gltf, .obj, .urdf, .xml"),
+        (["cup.fbx"], "no known format (ending '.fbx'), expected one of .glb, .gltf, .obj, .urdf, .xml, .ifc, .ifczip"),
     ],
 )
 def test_refuses_what_cannot_be_converted(run: Run, arguments: list[str], message: str):

@@ -12,7 +12,9 @@ __all__ = ["convert_command"]
 
 
 def convert_command(
-    source: Annotated[Path, Argument(metavar="FILE", help="File to convert: .glb, .gltf, .obj, .urdf, .xml (MJCF).")],
+    source: Annotated[
+        Path, Argument(metavar="FILE", help="File to convert: .glb, .gltf, .obj, .urdf, .xml (MJCF), .ifc or .ifczip.")
+    ],
     output: Annotated[
         Path | None,
         Option(

@@ -25,6 +25,7 @@ FORMATS = (
     SourceFormat("OBJ", (".obj",), "obj", _EXTRA),
     SourceFormat("URDF", (".urdf",), "urdf", "pipx install urdf-usd-converter"),
     SourceFormat("MJCF", (".xml",), "mjcf", "pipx install mujoco-usd-converter"),
+    SourceFormat("IFC", (".ifc", ".ifczip"), "ifc", "pip install 'usd2kg[ifc]'"),
 )
 
 
