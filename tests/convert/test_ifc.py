@@ -139,6 +139,17 @@ def test_spaces_are_rooms_and_things_are_in_them(house: House, tmp_path: Path):
     assert [row[0].rpartition(".")[2] for row in found.rows if row[0]] == ["Bread_box", "F_01"]
 
 
+def test_things_are_found_by_their_global_id(house: House, tmp_path: Path):
+    (wall,) = house.model.by_type("IfcWall")
+    result = build(house.save(tmp_path / "house.ifc"))
+    assert result.scene.by_path[f"{STOREY}/Wall_A"].source_id == wall.GlobalId
+    found = open_store(result.graph).sparql(
+        f"SELECT ?path WHERE {{ ?thing dcterms:identifier '{wall.GlobalId}' ; u2k:primPath ?path }}"
+    )
+    assert found.rows == ((f"{STOREY}/Wall_A",),)
+    assert not any(wall.GlobalId == text for obj in result.scene.objects for _, text in obj.texts)
+
+
 def test_identifiers_properties_and_containers_are_custom_data(house: House, tmp_path: Path):
     (wall,) = house.model.by_type("IfcWall")
     properties = pset.add_pset(house.model, product=wall, name="Pset_WallCommon")

@@ -6,8 +6,10 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Origin", "hash_file", "read_origin", "write_origin"]
+__all__ = ["SOURCE_ID", "Origin", "hash_file", "read_origin", "write_origin"]
 
+SOURCE_ID = "usd2kgSourceId"
+"""Key in `customData` of a prim: its identifier in the file that the stage was converted from."""
 _KEY = "usd2kgOrigin"
 
 

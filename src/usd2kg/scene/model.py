@@ -245,6 +245,8 @@ class SceneObject:
     geometry_file: str = ""
     """The referenced file of its geometry: relative to the stage's folder if it is in it, else as authored; empty if
     none."""
+    source_id: str = ""
+    """Identifier in the file that the stage was converted from, such as the GlobalId of IFC; empty if none."""
     labels: ObjectLabels = NO_LABELS
     """Semantic labels in all encodings; evidence, not truth."""
     variants: tuple[tuple[str, str], ...] = ()

@@ -13,6 +13,7 @@ from usd2kg.convert.converted import Converted, parse_error
 from usd2kg.convert.ifc.facts import entity_data, kind_word, material_names, name_of
 from usd2kg.convert.ifc.tessellation import Shape, tessellate
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
+from usd2kg.convert.origin import SOURCE_ID
 from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage
 
 __all__ = ["read_prims"]
@@ -116,6 +117,7 @@ class _BuildingWriter:
     def _write_entity(self, entity: Any, container: Any, parent: str, in_element: bool) -> str:
         prim = self._author.define(parent, name_of(entity))
         prim.SetCustomDataByKey("ifc", custom_data(entity_data(entity, self._metres, container)))
+        prim.SetCustomDataByKey(SOURCE_ID, entity.GlobalId)
         path = str(prim.GetPath())
         shape = self._shapes.get(entity.id())
         if entity.is_a("IfcSpace"):

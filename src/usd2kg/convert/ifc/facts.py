@@ -74,4 +74,7 @@ def entity_data(entity: Any, metres: float, container: Any = None) -> dict[str, 
 
 def _without_ids(sets: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
     """Return property sets and quantities without the STEP ids that IfcOpenShell adds."""
-    return {name: {key: value for key, value in found.items() if key != "id"} for name, found in sets.items()}
+    # The properties of doors and windows often have no name.
+    return {
+        name or "unnamed": {key: value for key, value in found.items() if key != "id"} for name, found in sets.items()
+    }
