@@ -256,3 +256,40 @@ def test_a_missing_library_names_its_extra(kitchen: Path, monkeypatch: pytest.Mo
     monkeypatch.setitem(sys.modules, "trimesh", None)
     with pytest.raises(SceneError, match=r"glTF needs trimesh.*pip install 'usd2kg\[convert\]'"):
         read_scene(kitchen)
+
+
+def test_colours_of_the_points_of_a_tetrahedron(tmp_path: Path):
+    # It has as many faces as points.
+    mesh = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    mesh.visual.vertex_colors = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [0, 0, 0, 255]]
+    path = tmp_path / "thing.glb"
+    path.write_bytes(trimesh.Scene({"Thing": mesh}).export(file_type="glb"))
+    stage = stage_of(path)
+    (prim,) = (prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh))
+    color = UsdGeom.Mesh(prim).GetDisplayColorPrimvar()
+    assert color.GetInterpolation() == UsdGeom.Tokens.vertex
+    assert [tuple(value) for value in color.Get()] == [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]
+
+
+def test_the_colour_of_a_texture_is_its_mean(tmp_path: Path):
+    image = pytest.importorskip("PIL.Image", reason="needs the extra convert")
+    material = trimesh.visual.material.PBRMaterial(
+        name="cloth", baseColorTexture=image.new("RGB", (4, 4), (188, 0, 255))
+    )
+    mesh = trimesh.creation.box((1, 1, 1))
+    mesh.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+    path = tmp_path / "thing.glb"
+    path.write_bytes(trimesh.Scene({"Thing": mesh}).export(file_type="glb"))
+    (thing,) = read_scene(path).objects
+    # sRGB 188 is linear 0.503.
+    assert thing.display_color == pytest.approx((0.503, 0, 1), abs=0.002)
+    assert thing.material_details[0].base_color is None
+
+
+def test_nodes_in_a_circle_end(tmp_path: Path):
+    nodes = [{"name": "A", "mesh": 0, "children": [1]}, {"name": "B", "mesh": 0, "children": [0]}]
+    path = write_gltf(tmp_path / "file.gltf", nodes, [{"primitives": [ONE]}], [0])
+    try:
+        assert len(read_scene(path).objects) >= 1
+    except SceneError as error:
+        assert "expected" in str(error)

@@ -16,13 +16,19 @@ _INT64 = range(-(2**63), 2**63)
 
 
 class TriangleMesh:
-    """Triangles in the frame of a prim, with an optional colour."""
+    """Triangles in the frame of a prim, with optional colours."""
 
-    def __init__(self, points: ArrayLike, triangles: ArrayLike, colors: ArrayLike | None = None) -> None:
-        """Keep `points` (n, 3), `triangles` (m, 3) indices, and `colors` linear RGB (1, 3), (m, 3), (n, 3) or None."""
+    def __init__(
+        self, points: ArrayLike, triangles: ArrayLike, colors: ArrayLike | None = None, *, is_per_point: bool = False
+    ) -> None:
+        """Keep points (n, 3), triangles (m, 3) as indices, and colours as linear RGB.
+
+        There is one colour (1, 3), or one for each triangle (m, 3) or, with `is_per_point`, for each point (n, 3).
+        """
         self.points = np.asarray(points, np.float32).reshape(-1, 3)
         self.triangles = np.asarray(triangles, np.int32).reshape(-1, 3)
         self.colors = None if colors is None else np.asarray(colors, np.float32).reshape(-1, 3)
+        self.is_per_point = is_per_point
 
 
 def new_stage(up_axis: str, metres_per_unit: float) -> Usd.Stage:
@@ -70,16 +76,16 @@ class PrimAuthor:
         extent = UsdGeom.PointBased.ComputeExtent(points) if len(points) else None
         if extent:
             geometry.CreateExtentAttr(extent)
-        if mesh.colors is not None:
+        if mesh.colors is not None and len(mesh.colors):
             self._color(geometry, mesh, mesh.colors)
         return prim
 
     def _color(self, geometry: Any, mesh: TriangleMesh, colors: NDArray[np.float32]) -> None:
-        if len(colors) > 1 and (colors == colors[0]).all():
-            colors = colors[:1]
         tokens = UsdGeom.Tokens
-        counted = {len(mesh.points): tokens.vertex, len(mesh.triangles): tokens.uniform, 1: tokens.constant}
-        primvar = geometry.CreateDisplayColorPrimvar(counted[len(colors)])
+        interpolation = tokens.vertex if mesh.is_per_point else tokens.uniform
+        if len(colors) == 1 or (colors == colors[0]).all():
+            colors, interpolation = colors[:1], tokens.constant
+        primvar = geometry.CreateDisplayColorPrimvar(interpolation)
         primvar.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(colors)))
 
     def move(self, prim: Usd.Prim, matrix: NDArray[np.float64]) -> None:

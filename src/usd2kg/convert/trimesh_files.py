@@ -61,7 +61,10 @@ class MeshAuthor:
         """Return the prim of a mesh below the path `parent`."""
         mesh = self._read.get(id(geometry))
         if mesh is None:
-            mesh = self._read[id(geometry)] = TriangleMesh(geometry.vertices, geometry.faces, _colors(geometry))
+            is_per_point = getattr(geometry.visual, "kind", None) == "vertex"
+            colors = _colors(geometry)
+            mesh = TriangleMesh(geometry.vertices, geometry.faces, colors, is_per_point=is_per_point)
+            self._read[id(geometry)] = mesh
         prim = self._author.define_mesh(parent, name, mesh)
         material = _material(geometry)
         if material is not None:
