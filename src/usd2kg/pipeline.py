@@ -45,7 +45,7 @@ def build(
     """Return the knowledge graph of a USD scene, with the results of all steps.
 
     Args:
-        scene: root layer of a stage, or a scene that is already read.
+        scene: root layer of a stage, a file that is converted to one, or a scene that is already read.
         ontology: an OWL file, or a loaded TBox; default: the built-in home TBox.
         grounder: a grounder or its name.
         regime: naming regime, for evaluation.

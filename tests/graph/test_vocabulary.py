@@ -9,6 +9,7 @@ import pytest
 from tests.graph.records import BASE, box_at, ground_as
 from tests.graph.test_joint_patterns import make_joint
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
+from usd2kg.convert import Origin
 from usd2kg.graph import VOCABULARY_IRI, GraphOptions, KnowledgeGraph, instantiate, vocabulary_text
 from usd2kg.graph.declarations import declare_terms, vocabulary_triples
 from usd2kg.graph.vocabulary import OWL, QUDT, RDF, RDFS, SKOS, SOMA, U2K
@@ -86,6 +87,7 @@ def rich_graph(profile: str) -> KnowledgeGraph:
         documentation="of porcelain",
         asset=("cup",),
         geometry_file="cup.usda",
+        source_id="2O2Fr$t4X7Zf8NOew3FNr2",
         materials=("Enamel",),
         material_details=(MaterialDetails("Enamel", "/Looks/Enamel", base_color=(1.0, 0.0, 0.0)),),
         variants=(("color", "red"),),
@@ -102,6 +104,7 @@ def rich_graph(profile: str) -> KnowledgeGraph:
     joints.append(make_joint(prim_path="/Cup/x", is_enabled=False, is_excluded_from_articulation=True))
     joints.append(make_joint(prim_path="/Cup/slide", type="prismatic", lower=None))
     scene = replace(make_scene(cup, make_object("/Table"), make_object("/Ghost")), joints=tuple(joints), time=1.0)
+    scene = replace(scene, origin=Origin("room.ifc", "sha256:17", "IFC", "ifcopenshell 0.8"))
     grounding = ground_as(TBOX, scene, {"/Cup": "Cup", "/Table": "Table"})
     first, *others = grounding.predictions
     first = replace(first, candidates=(Candidate(TBOX.resolve("Glass"), 0.1), *first.candidates))

@@ -305,3 +305,8 @@ def test_a_solid_with_a_mistyped_size_has_no_box(read):
     solid_of_text = prim("Sphere", "ball", 'string radius = "large"', ops(("double", "rotateX", 30)))
     [thing] = [obj for obj in read(xform("World", solid_of_text, cube("box"))).objects if obj.name == "ball"]
     assert thing.box is None
+
+
+def test_a_sphere_of_radius_0_is_read(read):
+    scene = read(xform("World", component("Dot", prim("Sphere", "m", "double radius = 0"), cube("c")), cube("box")))
+    assert "/World/Dot" in scene.by_path

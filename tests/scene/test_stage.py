@@ -54,7 +54,7 @@ def test_empty_file_is_refused(tmp_path):
     assert refusal(path) == "the file is empty, expected a USD stage; export it again"
 
 
-@pytest.mark.parametrize(("name", "ending"), [("scene.txt", "'.txt'"), ("scene.gltf", "'.gltf'"), ("scene", "missing")])
+@pytest.mark.parametrize(("name", "ending"), [("scene.txt", "'.txt'"), ("scene.fbx", "'.fbx'"), ("scene", "missing")])
 def test_unknown_suffixes_are_refused(tmp_path, name, ending):
     path = tmp_path / name
     path.write_text("#usda 1.0\n" + CUBE)

@@ -18,6 +18,7 @@ from usd2kg.cli import (
     assistant,
     build,
     completions,
+    convert,
     demo,
     diff,
     doctor,
@@ -58,6 +59,7 @@ app = typer.Typer(
 )
 app.command("build")(build.build_command)
 app.command("inspect")(inspect.inspect_command)
+app.command("convert")(convert.convert_command)
 app.command("ground")(ground.ground_command)
 app.command("query")(query.query_command)
 app.command("ask")(assistant.ask_command)

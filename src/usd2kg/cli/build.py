@@ -30,7 +30,7 @@ __all__ = ["build_command"]
 
 @expand_bundles
 def build_command(
-    scenes: Annotated[list[Path], Argument(metavar="SCENE...", help="One or more USD stages.")],
+    scenes: Annotated[list[Path], Argument(metavar="SCENE...", help="USD stages, or files that usd2kg convert reads.")],
     grounding: GroundingOptions,
     carry_over: CarryOverOptions,
     reading: StageOptions,

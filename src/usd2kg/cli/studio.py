@@ -25,7 +25,7 @@ def studio_command(
         Path,
         Argument(
             metavar="SCENE|GRAPH|FOLDER",
-            help="A USD stage, a graph written by usd2kg build, or the folder of a project.",
+            help="USD stage, a file that usd2kg convert reads, a graph of usd2kg build, or the folder of a project.",
         ),
     ],
     reading: StageOptions,

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
+from usd2kg.convert import find_format
 from usd2kg.diff.graph_states import GraphStyle, detect_graph_style, objects_of_graph, read_statements
 from usd2kg.diff.object_state import ObjectState, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
@@ -40,8 +41,8 @@ class VersionOptions(NamedTuple):
 
 
 def is_stage(path: Path) -> bool:
-    """Return whether a file is a USD stage, by its suffix."""
-    return path.suffix.lower() in _STAGE_SUFFIXES
+    """Return whether a file is a USD stage, or is converted to one, by its suffix."""
+    return path.suffix.lower() in _STAGE_SUFFIXES or find_format(path) is not None
 
 
 def read_objects(path: Path, options: ReadOptions) -> tuple[ObjectState, ...]:

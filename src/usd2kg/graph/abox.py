@@ -20,7 +20,13 @@ from usd2kg.graph.justification import justify_class, justify_refusal
 from usd2kg.graph.options import GraphOptions
 from usd2kg.graph.physical_properties import declare_individual
 from usd2kg.graph.profiles import Profile, plain_profile, soma_profile, uses_soma
-from usd2kg.graph.provenance import describe_ontology, describe_run, describe_scene, describe_software
+from usd2kg.graph.provenance import (
+    describe_ontology,
+    describe_origin,
+    describe_run,
+    describe_scene,
+    describe_software,
+)
 from usd2kg.graph.relation_patterns import describe_between, describe_room, relation_annotations
 from usd2kg.graph.stage_metadata import describe_labels_and_texts, describe_metadata
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, Triple, text
@@ -146,8 +152,8 @@ class _GraphBuilder:
         self.time = options.time
         self.annotate = annotate_rdf12 if options.annotations == "rdf12" else annotate_owl
         self.graph = ox.NamedNode(base.rstrip("#/"))
-        self.stage, self.run, self.ontology, self.software = (
-            ox.NamedNode(individual_iri(base, "/", part)) for part in ("stage", "run", "ontology", "software")
+        self.stage, self.source, self.run, self.ontology, self.software = (
+            ox.NamedNode(individual_iri(base, "/", part)) for part in ("stage", "source", "run", "ontology", "software")
         )
         self.relations: dict[str, list[Relation]] = {}
         for relation in relations:
@@ -218,6 +224,8 @@ class _GraphBuilder:
     def _members(self) -> Iterator[Triple]:
         yield from declare_individual(self.stage, self.profile.stage_class)
         yield from describe_scene(self.stage, self.scene)
+        if self.scene.origin is not None:
+            yield from describe_origin(self.stage, self.source, self.scene.origin)
         for obj in self.scene.objects:
             yield self.stage, self.profile.membership, self._node(obj.prim_path)
 

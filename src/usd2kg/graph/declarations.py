@@ -64,7 +64,7 @@ _EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
     OWL.AnnotationProperty: {
         SSSOM: "confidence mapping_justification reviewer_id reviewer_label",
         SKOS: "altLabel broader prefLabel",
-        DCTERMS: "source",
+        DCTERMS: "identifier source",
     },
 }
 """Entity type → namespace → local names of the external terms that graphs use."""

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
+from usd2kg.convert import Origin
 from usd2kg.graph.physical_properties import declare_individual
 from usd2kg.graph.vocabulary import PROV, RDF, RDFS, U2K, XSD, Triple, named_node, number, text
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox
 from usd2kg.scene import Scene
 
-__all__ = ["describe_ontology", "describe_run", "describe_scene", "describe_software"]
+__all__ = ["describe_ontology", "describe_origin", "describe_run", "describe_scene", "describe_software"]
 
 
 def describe_run(
@@ -64,6 +65,15 @@ def describe_scene(stage: ox.NamedNode, scene: Scene) -> Iterator[Triple]:
     yield stage, U2K.metresPerUnit, number(scene.frame.metres_per_unit)
     if scene.time is not None:
         yield stage, U2K.timeCode, number(scene.time)
+
+
+def describe_origin(stage: ox.NamedNode, source: ox.NamedNode, origin: Origin) -> Iterator[Triple]:
+    """Yield the prov:Entity of the file that the stage was converted from, and the converter."""
+    yield from declare_individual(source, PROV.Entity)
+    yield source, RDFS.label, text(origin.source)
+    yield source, U2K.contentHash, text(origin.hash)
+    yield stage, PROV.wasDerivedFrom, source
+    yield stage, U2K.converter, text(origin.converter)
 
 
 def _boolean(value: bool) -> ox.Literal:

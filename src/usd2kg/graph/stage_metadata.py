@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 import pyoxigraph as ox
 
 from usd2kg.graph.axiom_annotation import Annotate
-from usd2kg.graph.vocabulary import RDFS, SKOS, U2K, Triple, named_node, text
+from usd2kg.graph.vocabulary import DCTERMS, RDFS, SKOS, U2K, Triple, named_node, text
 from usd2kg.scene import Label, SceneObject
 
 __all__ = ["describe_labels_and_texts", "describe_metadata"]
@@ -23,6 +23,8 @@ def describe_metadata(obj: SceneObject, node: ox.NamedNode) -> Iterator[Triple]:
     yield node, U2K.primPath, text(obj.prim_path)
     if obj.documentation:
         yield node, RDFS.comment, text(obj.documentation)
+    if obj.source_id:
+        yield node, DCTERMS.identifier, text(obj.source_id)
     for name in obj.asset:
         yield node, U2K.asset, text(name)
     for name in obj.materials:

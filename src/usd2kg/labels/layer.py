@@ -96,7 +96,10 @@ def _is_label_layer(path: Path) -> bool:
 def _place_over(layer: Any, source: Any, target: Path) -> None:
     """Make `layer`, to be saved at `target`, a root layer over `source`."""
     if source.anonymous:
-        raise OutputError(f"{target}: the stage is only in memory, so no layer can refer to it; save it, or write bare")
+        raise OutputError(
+            f"{target}: the stage is only in memory, so no layer can refer to it; save it (a file of another format "
+            "with usd2kg convert), or write bare"
+        )
     folder = target.resolve().parent
     root = layer.pseudoRoot
     for key in source.pseudoRoot.ListInfoKeys():

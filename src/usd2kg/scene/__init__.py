@@ -1,6 +1,6 @@
 """USD stage → Scene: objects with boxes, poses, masses and evidence, in metres and z-up.
 
-Only this package, `labels` and `render` import OpenUSD.
+Only this package, `convert`, `labels` and `render` import OpenUSD.
 """
 
 from typing import TYPE_CHECKING

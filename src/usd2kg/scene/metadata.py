@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 
+from usd2kg.convert import SOURCE_ID
 from usd2kg.knowledge import word_set
 from usd2kg.scene.model import MaterialDetails, Vector
 from usd2kg.scene.outline import PrimRecord
@@ -20,6 +21,7 @@ __all__ = [
     "BASE_COLOR_INPUTS",
     "MaterialReader",
     "clean_text",
+    "source_id",
     "text_attributes",
     "text_names",
     "texts_of",
@@ -59,6 +61,12 @@ def variant_selections(prim: Any) -> tuple[tuple[str, str], ...]:
     sets = prim.GetVariantSets()
     pairs = ((str(name), str(sets.GetVariantSelection(name))) for name in sorted(sets.GetNames()))
     return tuple((name, selection) for name, selection in pairs if selection)
+
+
+def source_id(prim: Any) -> str:
+    """Return the identifier of a prim in the file that the stage was converted from; empty if none."""
+    value = prim.GetCustomDataByKey(SOURCE_ID)
+    return clean_text(value) if isinstance(value, str) else ""
 
 
 def text_attributes(prim: Any, time: Any = None) -> tuple[tuple[str, str], ...]:

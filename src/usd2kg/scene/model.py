@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, NamedTuple
 
+from usd2kg.convert.origin import Origin
 from usd2kg.languages import split_compound
 from usd2kg.shapes.surface import Surface
 from usd2kg.words import words_of
@@ -244,6 +245,8 @@ class SceneObject:
     geometry_file: str = ""
     """The referenced file of its geometry: relative to the stage's folder if it is in it, else as authored; empty if
     none."""
+    source_id: str = ""
+    """Identifier in the file that the stage was converted from, such as the GlobalId of IFC; empty if none."""
     labels: ObjectLabels = NO_LABELS
     """Semantic labels in all encodings; evidence, not truth."""
     variants: tuple[tuple[str, str], ...] = ()
@@ -289,6 +292,8 @@ class Scene:
     """Requested paths that are not on the stage."""
     joints: tuple[Joint, ...] = ()
     """In traversal order."""
+    origin: Origin | None = None
+    """What the stage was converted from; None if it is no conversion."""
     surfaces: Mapping[str, Surface] = field(default_factory=dict, compare=False, repr=False)
     """Prim path → triangles, for objects near others whose box does not say it all; not for axis-aligned boxes."""
 

@@ -19,7 +19,7 @@ from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
 from usd2kg.scene.label_reader import LabelReader
 from usd2kg.scene.levels import holds_others, read_levels
-from usd2kg.scene.metadata import MaterialReader, clean_text, text_attributes, variant_selections
+from usd2kg.scene.metadata import MaterialReader, clean_text, source_id, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.object_selection import ASKED_FOR, Selection, explain, select_objects
 from usd2kg.scene.options import ReadOptions
@@ -57,8 +57,8 @@ def read_scene(
     """Return the objects of a USD stage with everything the stage states about them.
 
     Args:
-        source: the root layer (.usd, .usda, .usdc, .usdz), or an open stage, which is read with its session layer and
-            current variants.
+        source: the root layer (.usd, .usda, .usdc, .usdz), a file of a format that `usd2kg.convert` knows, or an open
+            stage, which is read with its session layer and current variants.
         paths: prim paths that are objects in addition to those that the rules select. Paths that are not on the stage
             are listed in `Scene.missing_paths`.
         options: overrides of what is authored.
@@ -98,6 +98,7 @@ def read_scene(
         left_out=dict(sorted(selection.left_out.items())),
         missing_paths=selection.missing,
         joints=joints.joints,
+        origin=opened.origin,
         surfaces=reader.surfaces,
     )
     notes = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))
@@ -349,6 +350,7 @@ class _ObjectReader:
             "instances": count_copies(records, self.time),
             "labels": self.labels.read(records) if self.has_labels else NO_LABELS,
             "variants": variant_selections(prim),
+            "source_id": source_id(prim) if "customData" in record.metadata else "",
             "texts": text_attributes(prim, self.time) if record.may_have_texts else (),
         }
 

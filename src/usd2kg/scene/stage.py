@@ -15,6 +15,7 @@ from typing import Any
 
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
+from usd2kg.convert import FORMATS, Origin, SourceFormat, find_format, read_origin
 from usd2kg.errors import SceneError
 from usd2kg.scene.expansion import check_expansion
 from usd2kg.scene.model import Diagnostic, StageFrame
@@ -38,6 +39,7 @@ UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
 """Exceptions that any call of OpenUSD may raise if a file is corrupt."""
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
+_CONVERTED_SUFFIXES = tuple(ending for entry in FORMATS for ending in entry.endings)
 _USD_FALLBACK_METRES = 0.01
 _NOT_UTF8 = "it holds text that is not UTF-8"
 
@@ -53,6 +55,8 @@ class OpenedStage:
     diagnostics: tuple[Diagnostic, ...]
     unresolved: frozenset[str]
     """Paths of prims with a missing reference or payload at or below them."""
+    origin: Origin | None
+    """What the stage was converted from; None if it is no conversion."""
 
     @cached_property
     def content_hash(self) -> str:
@@ -63,8 +67,11 @@ class OpenedStage:
 def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedStage:
     """Return the stage of a file with all payloads loaded; an already open stage is used as it is.
 
+    A file of another format is converted to a stage in memory.
+
     Raises:
-        SceneError: the file is missing, corrupt, or not a USD file; or its instances stand for too many prims.
+        SceneError: the file is missing, corrupt, or neither a USD file nor of a format with an installed converter;
+            or its instances stand for too many prims.
     """
     if isinstance(source, Usd.Stage):
         identifier = source.GetRootLayer().identifier
@@ -72,12 +79,25 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
             return _opened(source, identifier, [], options)
     source = Path(source)
     _check_file(source)
+    source_format = find_format(source)
+    if source_format is not None:
+        return _convert(source, source_format, options)
     with translated_errors(str(source)):
         with captured_diagnostics() as notes:
             stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
         if stage is None:
             raise SceneError(_cannot_open(str(source), _shorten("; ".join(note.message for note in notes))))
         return _opened(stage, str(source), notes, options)
+
+
+def _convert(source: Path, source_format: SourceFormat, options: ReadOptions) -> OpenedStage:
+    from usd2kg.convert.read import convert_stage  # noqa: PLC0415 - only for files of other formats
+
+    with translated_errors(str(source)):
+        with captured_diagnostics() as notes:
+            converted = convert_stage(source, source_format)
+        found = [*(Diagnostic("conversion", note) for note in converted.notes), *notes]
+        return _opened(converted.stage, str(source), found, options)
 
 
 def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptions) -> OpenedStage:
@@ -90,6 +110,7 @@ def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptio
         frame=frame,
         diagnostics=tuple(dict.fromkeys([*composition, *frame_notes, *_other_notes(notes, composition)])),
         unresolved=frozenset(note.prim_path for note in composition if note.prim_path not in {None, "/"}),
+        origin=read_origin(stage.GetLayerStack()),
     )
 
 
@@ -165,10 +186,10 @@ def _check_file(source: Path) -> None:
         raise SceneError(f"{source}: is a folder, expected a USD stage; name the root layer inside it")
     if source.stat().st_size == 0:
         raise SceneError(f"{source}: the file is empty, expected a USD stage; export it again")
-    if not Sdf.FileFormat.FindByExtension(str(source)):
+    if not Sdf.FileFormat.FindByExtension(str(source)) and find_format(source) is None:
         raise SceneError(
-            f"{source}: not a USD file (ending {source.suffix or 'missing'!r}), "
-            f"expected one of {', '.join(_SUFFIXES)}; convert the scene to USD first"
+            f"{source}: not a USD file (ending {source.suffix or 'missing'!r}), expected one of "
+            f"{', '.join((*_SUFFIXES, *_CONVERTED_SUFFIXES))}; convert the scene to USD first"
         )
 
 

@@ -9,7 +9,7 @@ from usd2kg.cli.limits import FINDINGS_PER_RULE
 
 __all__ = ["AllFindings", "BaseIri", "JsonOutput", "OntologyFile", "ReportFolder", "SceneFile", "TextFile"]
 
-SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage: .usd, .usda, .usdc or .usdz.")]
+SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage, or a file that usd2kg convert reads.")]
 OntologyFile = Annotated[
     Path | None, Option("--ontology", help="OWL file with the candidate classes; default: the built-in home ontology.")
 ]

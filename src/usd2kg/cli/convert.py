@@ -1,0 +1,40 @@
+"""usd2kg convert: a USD file from a file of another format."""
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from usd2kg.cli.options.stage import MetresPerUnit, UpAxis
+from usd2kg.cli.output import notify
+
+__all__ = ["convert_command"]
+
+
+def convert_command(
+    source: Annotated[
+        Path, Argument(metavar="FILE", help="File to convert: .glb, .gltf, .obj, .urdf, .xml (MJCF), .ifc or .ifczip.")
+    ],
+    output: Annotated[
+        Path | None,
+        Option(
+            "--output", "-o", help="Layer to write: .usdc, .usda or .usd; default: FILE.usdc in the current folder."
+        ),
+    ] = None,
+    metres_per_unit: MetresPerUnit = None,
+    up_axis: UpAxis = None,
+) -> None:
+    """Convert a file of another format to USD, with its names, hierarchy, units, colours and metadata.
+
+    Commands that read a scene convert such files themselves; this one keeps the result.
+    """
+    from usd2kg.convert.write import convert_file  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.scene import ReadOptions  # noqa: PLC0415
+
+    target = output or Path(f"{source.stem}.usdc")
+    # Checks the units.
+    reading = ReadOptions(metres_per_unit=metres_per_unit, up_axis=up_axis)
+    converted = convert_file(source, target, metres_per_unit=reading.metres_per_unit, up_axis=reading.up_axis)
+    for note in converted.notes:
+        notify(note)
+    notify(f"converted by {converted.converter}, written to {target}")

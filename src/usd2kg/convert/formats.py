@@ -1,0 +1,35 @@
+"""The formats beyond USD that are converted at reading, by the ending of the file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+__all__ = ["FORMATS", "SourceFormat", "find_format"]
+
+
+@dataclass(frozen=True)
+class SourceFormat:
+    """A file format with its converter."""
+
+    name: str
+    endings: tuple[str, ...]
+    """In lower case, with the dot."""
+    module: str
+    """Module of this package with a function `read_prims`; imported only for files of this format."""
+    install: str
+    """Command that installs the converter."""
+
+
+_EXTRA = "pip install 'usd2kg[convert]'"
+FORMATS = (
+    SourceFormat("glTF", (".glb", ".gltf"), "gltf", _EXTRA),
+    SourceFormat("OBJ", (".obj",), "obj", _EXTRA),
+    SourceFormat("URDF", (".urdf",), "urdf", "pipx install urdf-usd-converter"),
+    SourceFormat("MJCF", (".xml",), "mjcf", "pipx install mujoco-usd-converter"),
+    SourceFormat("IFC", (".ifc", ".ifczip"), "ifc", "pip install 'usd2kg[ifc]'"),
+)
+
+
+def find_format(path: Path) -> SourceFormat | None:
+    """Return the format of a file that needs conversion, by its ending; None for USD files and unknown endings."""
+    ending = path.suffix.lower()
+    return next((entry for entry in FORMATS if ending in entry.endings), None)

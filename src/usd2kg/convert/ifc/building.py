@@ -1,0 +1,200 @@
+"""The spatial structure of an IFC file → prims: project, site, building and storey are groups, elements components."""
+
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Kind, Usd, UsdGeom, UsdSemantics, Vt
+
+from usd2kg.convert.converted import Converted, parse_error
+from usd2kg.convert.ifc.facts import entity_data, kind_word, material_names, name_of
+from usd2kg.convert.ifc.tessellation import Shape, tessellate
+from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
+from usd2kg.convert.origin import SOURCE_ID
+from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage
+
+__all__ = ["read_prims"]
+
+_EXPECTED = "an IFC file (2x3, 4 or 4.3) in the STEP format"
+_NOT_WRITTEN = ("IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement", "IfcPort")
+"""Classes without a physical thing of their own."""
+_SPATIAL = ("IfcSpatialElement", "IfcSpatialStructureElement")
+"""Spatial elements: since IFC 4, and in IFC 2x3."""
+
+
+def read_prims(path: Path) -> Converted:
+    """Return the stage of an IFC file, in metres and z-up.
+
+    Raises:
+        SceneError: IfcOpenShell cannot read the file, or it has no project or no geometry.
+    """
+    model = _open(path)
+    project = next(iter(model.by_type("IfcProject")), None)
+    if project is None:
+        raise parse_error(path, "it has no IfcProject", _EXPECTED)
+    shapes = dict(tessellate(model))
+    if not shapes:
+        raise parse_error(path, "no product has a body that can be tessellated", _EXPECTED)
+    stage = new_stage("Z", 1.0)
+    _BuildingWriter(stage, shapes, model).write(project, path.stem)
+    return Converted(stage, f"ifcopenshell {version('ifcopenshell')}", tuple(_notes(model, shapes)))
+
+
+def _open(path: Path) -> Any:
+    import ifcopenshell  # noqa: PLC0415
+
+    try:
+        return ifcopenshell.open(path)
+    except (ifcopenshell.Error, OSError, RuntimeError, UnicodeDecodeError) as error:
+        raise parse_error(path, error, _EXPECTED) from error
+
+
+def _notes(model: Any, shapes: dict[int, Shape]) -> Iterator[str]:
+    lost = [
+        entity
+        for entity in model.by_type("IfcElement")
+        if entity.Representation is not None and entity.id() not in shapes and not _is_any(entity, _NOT_WRITTEN)
+    ]
+    if lost:
+        first = ", ".join(f"{entity.is_a()} {entity.GlobalId}" for entity in lost[:3])
+        yield f"{len(lost)} elements have a representation without a surface; they have no geometry: {first}"
+
+
+def _is_any(entity: Any, classes: tuple[str, ...]) -> bool:
+    return any(entity.is_a(name) for name in classes)
+
+
+class _BuildingWriter:
+    """Writes entities as prims, each once, without recursion."""
+
+    def __init__(self, stage: Usd.Stage, shapes: dict[int, Shape], model: Any) -> None:
+        from ifcopenshell.util.unit import calculate_unit_scale  # noqa: PLC0415
+
+        self._model = model
+        self._metres = float(calculate_unit_scale(model))
+        self._shapes = shapes
+        self._stage = stage
+        self._author = PrimAuthor(stage)
+        self._written: set[int] = set()
+        self._worlds: dict[str, NDArray[np.float64]] = {}
+        """Path of a prim with a transform → its matrix to the world."""
+        self._materials: MaterialAuthor | None = None
+
+    def write(self, project: Any, file_name: str) -> None:
+        """Write the structure below the project, then the elements that are in no structure."""
+        root = self._author.define("/", name_of(project))
+        self._stage.SetDefaultPrim(root)
+        root.SetAssetInfo({"name": file_name})
+        Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
+        facts = {**entity_data(project, self._metres), "schema": self._model.schema, "metresPerUnit": self._metres}
+        root.SetCustomDataByKey("ifc", custom_data(facts))
+        path = str(root.GetPath())
+        self._materials = MaterialAuthor(self._author, path)
+        self._written.add(project.id())
+        self._write_all(_parts(project), path)
+        self._write_all([entity for entity in self._model.by_type("IfcElement") if not _has_whole(entity)], path)
+
+    def _write_all(self, entities: list[Any], parent: str) -> None:
+        # (entity, the room that it is in, path above, whether an element is above)
+        pending: list[tuple[Any, Any, str, bool]] = [(entity, None, parent, False) for entity in reversed(entities)]
+        while pending:
+            entity, container, above, in_element = pending.pop()
+            if entity.id() in self._written or _is_any(entity, _NOT_WRITTEN):
+                continue
+            self._written.add(entity.id())
+            is_group = _is_any(entity, _SPATIAL) and not entity.is_a("IfcSpace")
+            path = self._write_entity(entity, container, above, in_element)
+            if entity.is_a("IfcSpace"):
+                # A component contains no components: what is in a room is beside it.
+                below = [(part, entity, above, False) for part in (*_parts(entity), *_contained(entity))]
+            else:
+                below = [(part, None, path, not is_group) for part in (*_parts(entity), *_contained(entity))]
+            pending.extend(reversed(below))
+
+    def _write_entity(self, entity: Any, container: Any, parent: str, in_element: bool) -> str:
+        prim = self._author.define(parent, name_of(entity))
+        prim.SetCustomDataByKey("ifc", custom_data(entity_data(entity, self._metres, container)))
+        prim.SetCustomDataByKey(SOURCE_ID, entity.GlobalId)
+        path = str(prim.GetPath())
+        shape = self._shapes.get(entity.id())
+        if entity.is_a("IfcSpace"):
+            _describe(prim, entity, Kind.Tokens.component)
+            self._write_room(prim, shape)
+        elif _is_any(entity, _SPATIAL):
+            _describe(prim, entity, Kind.Tokens.group)
+            if shape is not None:
+                body = self._author.define(path, kind_word(entity) or "body")
+                Usd.ModelAPI(body).SetKind(Kind.Tokens.component)
+                self._write_mesh(body, shape)
+        else:
+            kind = Kind.Tokens.subcomponent if in_element else Kind.Tokens.component
+            _describe(prim, entity, kind if self._has_geometry(entity) else None)
+            if shape is not None:
+                self._bind(self._write_mesh(prim, shape), entity)
+        return path
+
+    def _has_geometry(self, entity: Any) -> bool:
+        pending, seen = [entity], set()
+        while pending:
+            part = pending.pop()
+            if part.id() in self._shapes:
+                return True
+            if part.id() not in seen:
+                seen.add(part.id())
+                pending.extend(_parts(part))
+        return False
+
+    def _write_mesh(self, prim: Usd.Prim, shape: Shape) -> Usd.Prim:
+        path = str(prim.GetPath())
+        above = path.rpartition("/")[0]
+        while above and above not in self._worlds:
+            above = above.rpartition("/")[0]
+        world = self._worlds[path] = shape.matrix
+        outer = self._worlds.get(above)
+        self._author.move(prim, world if outer is None else np.linalg.inv(outer) @ world)
+        return self._author.define_mesh(path, "body", shape.mesh)
+
+    def _write_room(self, prim: Usd.Prim, shape: Shape | None) -> None:
+        """Write the box of a room, and its solid as a guide: it would hide and touch what is in the room."""
+        if shape is None:
+            return
+        mesh = self._write_mesh(prim, shape)
+        UsdGeom.Imageable(mesh).CreatePurposeAttr(UsdGeom.Tokens.guide)
+        points = shape.mesh.points
+        hint = Vt.Vec3fArray([tuple(points.min(axis=0).tolist()), tuple(points.max(axis=0).tolist())])
+        UsdGeom.ModelAPI.Apply(prim).SetExtentsHint(hint)
+
+    def _bind(self, mesh: Usd.Prim, entity: Any) -> None:
+        names = material_names(entity)
+        if names and self._materials is not None:
+            self._materials.bind(mesh, SurfaceMaterial(names[0]))
+
+
+def _describe(prim: Usd.Prim, entity: Any, kind: str | None) -> None:
+    """Author kind and label of an entity."""
+    if kind is not None:
+        Usd.ModelAPI(prim).SetKind(kind)
+    word = kind_word(entity)
+    if word is not None and kind in {Kind.Tokens.component, Kind.Tokens.subcomponent}:
+        labels = UsdSemantics.LabelsAPI.Apply(prim, "class")
+        labels.CreateLabelsAttr().Set(Vt.TokenArray([word]))
+
+
+def _parts(entity: Any) -> list[Any]:
+    """Return the entities that an entity consists of, in the order of the file."""
+    relations = [*getattr(entity, "IsDecomposedBy", ()), *getattr(entity, "IsNestedBy", ())]
+    return sorted((part for relation in relations for part in relation.RelatedObjects), key=lambda part: part.id())
+
+
+def _contained(entity: Any) -> list[Any]:
+    """Return the elements in a spatial element, in the order of the file."""
+    relations = getattr(entity, "ContainsElements", ())
+    return sorted((part for relation in relations for part in relation.RelatedElements), key=lambda part: part.id())
+
+
+def _has_whole(entity: Any) -> bool:
+    """Return whether an element is a part of another, which is written with its parts."""
+    return any(getattr(entity, "Decomposes", ())) or any(getattr(entity, "Nests", ()))

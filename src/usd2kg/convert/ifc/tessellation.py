@@ -1,0 +1,65 @@
+"""Tessellate the products of an IFC file with IfcOpenShell, in metres."""
+
+import os
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.convert.prims import TriangleMesh
+
+__all__ = ["Shape", "tessellate"]
+
+_WITHOUT_SURFACE = ["IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement"]
+"""Classes that are not tessellated: openings are cut out of walls, the others are no solids."""
+
+
+class Shape(NamedTuple):
+    """The triangles of a product."""
+
+    mesh: TriangleMesh
+    """In the frame of the product, metres."""
+    matrix: NDArray[np.float64]
+    """(4, 4), from that frame to the world, for column vectors."""
+
+
+def tessellate(model: Any) -> Iterator[tuple[int, Shape]]:
+    """Yield (STEP id, shape) of each product with a surface, in no particular order."""
+    import ifcopenshell.geom  # noqa: PLC0415
+
+    classes = {entry for entry in _WITHOUT_SURFACE if _is_known(model, entry)}
+    settings = ifcopenshell.geom.settings()
+    # Only colours that the file states.
+    settings.set("apply-default-materials", False)
+    iterator = ifcopenshell.geom.iterator(settings, model, os.cpu_count() or 1, exclude=sorted(classes))
+    is_open = iterator.initialize()
+    while is_open:
+        found = iterator.get()
+        mesh = _mesh(found.geometry)
+        if len(mesh.triangles):
+            yield found.id, Shape(mesh, np.array(found.transformation.matrix, np.float64).reshape(4, 4).T)
+        is_open = bool(iterator.next())
+
+
+def _is_known(model: Any, name: str) -> bool:
+    """Return whether the schema of a file has a class; other names are an error of IfcOpenShell."""
+    try:
+        model.by_type(name)
+    except RuntimeError:
+        return False
+    return True
+
+
+def _mesh(geometry: Any) -> TriangleMesh:
+    styles = [_color(style) for style in geometry.materials]
+    # Triangles without a style have the id -1.
+    ids = np.array(geometry.material_ids, np.int64)
+    colors = np.array(styles)[ids] if styles and (ids >= 0).all() else None
+    return TriangleMesh(geometry.verts, geometry.faces, colors)
+
+
+def _color(style: Any) -> tuple[float, float, float]:
+    """Return the diffuse colour of a style, RGB."""
+    diffuse = style.diffuse
+    return float(diffuse.r()), float(diffuse.g()), float(diffuse.b())

@@ -1,0 +1,47 @@
+"""Origin: what a converted stage was made from, kept in `customLayerData` of its root layer."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+__all__ = ["SOURCE_ID", "Origin", "hash_file", "read_origin", "write_origin"]
+
+SOURCE_ID = "usd2kgSourceId"
+"""Key in `customData` of a prim: its identifier in the file that the stage was converted from."""
+_KEY = "usd2kgOrigin"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """The file that a stage was converted from, and the converter."""
+
+    source: str
+    """Name of the file, without folder."""
+    hash: str
+    """`sha256:` and the digest of that file, without the files it refers to."""
+    format: str
+    converter: str
+    """Name and version, such as `trimesh 5.2.0`."""
+
+
+def hash_file(path: Path) -> str:
+    """Return `sha256:` and the digest of a file."""
+    with path.open("rb") as file:
+        return "sha256:" + hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def write_origin(layer: Any, origin: Origin) -> None:
+    """Author the origin on a layer."""
+    layer.customLayerData = {**layer.customLayerData, _KEY: asdict(origin)}
+
+
+def read_origin(layers: list[Any]) -> Origin | None:
+    """Return the origin that the strongest of the layers states; None if none does."""
+    names = [entry.name for entry in fields(Origin)]
+    for layer in layers:
+        found = layer.customLayerData.get(_KEY)
+        if isinstance(found, Mapping) and all(isinstance(found.get(name), str) for name in names):
+            return Origin(**{name: found[name] for name in names})
+    return None

@@ -1,0 +1,28 @@
+"""convert_stage: a stage in memory from a file of another format."""
+
+from importlib import import_module
+from pathlib import Path
+
+from usd2kg.convert.converted import Converted
+from usd2kg.convert.formats import SourceFormat
+from usd2kg.convert.origin import Origin, hash_file, write_origin
+from usd2kg.errors import SceneError
+
+__all__ = ["convert_stage"]
+
+
+def convert_stage(path: Path, source_format: SourceFormat) -> Converted:
+    """Return the stage of a file, with the origin in its root layer.
+
+    Raises:
+        SceneError: the converter is not installed, or cannot read the file.
+    """
+    try:
+        converted: Converted = import_module(f"usd2kg.convert.{source_format.module}").read_prims(path)
+    except ModuleNotFoundError as error:
+        raise SceneError(
+            f"{path}: {source_format.name} needs {error.name}, which is not installed; run: {source_format.install}"
+        ) from error
+    origin = Origin(path.name, hash_file(path), source_format.name, converted.converter)
+    write_origin(converted.stage.GetRootLayer(), origin)
+    return converted
