@@ -1,12 +1,13 @@
 """Time the spatial relations on synthetic rooms: tables, shelves, nested boxes, and small objects on and in them.
 
-Usage: python benchmarks/relations/run.py [--meshes | --pile] [OBJECTS...] (default 1000 10000 100000)
+Usage: python benchmarks/relations/run.py [--meshes | --pile | --tower] [OBJECTS...] (default 1000 10000 100000)
 
 Scenes are built in memory, without a stage. For each size, times each kind alone and the default set, as the minimum of
 a few runs, in processor time. All kinds except part-of include `inside` and `on`, on which they depend.
 
 --meshes gives each table, chair, shelf, bowl, cup and plate a mesh instead of a box of 60
-to 240 triangles. --pile puts all objects in one heap, in whose boxes they overlap.
+to 240 triangles. --pile puts all objects in one heap, in whose boxes they overlap. --tower makes it 30 cm wide and
+as high as it gets. `python -m benchmarks.relations.growth` times the default set only, on all of these.
 """
 
 import gc
@@ -64,8 +65,9 @@ class Maker:
 
     def fill(self, layout: str) -> None:
         """Add room after room, in rows, or a heap."""
-        if layout == "pile":
-            self.pile()
+        if layout in {"pile", "tower"}:
+            side = 0.1 * self.wanted ** (1 / 3)
+            self.pile((side, side, side) if layout == "pile" else (0.3, 0.3, 0.01 * self.wanted))
             return
         rooms = 0
         per_row = max(1, math.isqrt(self.wanted // 150))
@@ -74,11 +76,10 @@ class Maker:
             rooms += 1
         del self.objects[self.wanted :], self.classes[self.wanted :]
 
-    def pile(self) -> None:
-        """Add a heap of boxes 10 cm long, one per cubic decimetre, seven of which overlap each box."""
-        side = 0.1 * self.wanted ** (1 / 3)
+    def pile(self, space: Corner) -> None:
+        """Add a heap of boxes 10 cm long; with one per cubic decimetre, seven overlap each box."""
         for _ in range(self.wanted):
-            x, y, z = (self.random.uniform(0, side) for _ in range(3))
+            x, y, z = (self.random.uniform(0, side) for side in space)
             self.add("thing", "DesignedArtifact", (x, y, z), (0.1, 0.1, 0.1))
 
     def room(self, x: float, y: float) -> None:

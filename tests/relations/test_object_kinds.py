@@ -72,6 +72,28 @@ def test_public_ontologies_give_the_relations_of_the_home_tbox(path: str):
     assert links(demo(), load_tbox(shared_file(f"ontologies/{path}"))) == home_links()
 
 
+@cache
+def house() -> Scene:
+    return read_scene(shared_file("scenes/aws_robomaker/small_house.usdc"))
+
+
+@cache
+def house_links() -> set[tuple[str, str, str]]:
+    return links(house(), load_home_tbox())
+
+
+@pytest.mark.parametrize("path", SHARED)
+def test_a_real_house_has_the_same_relations_and_rooms(path: str):
+    found = links(house(), load_tbox(shared_file(f"ontologies/{path}")))
+    assert found == house_links()
+    assert {anchor for _, kind, anchor in found if kind == "room"} == {"room 1", "room 2", "room 3"}
+
+
+@pytest.mark.parametrize("tbox", [OWN, LABELS], ids=["twelve classes", "labels"])
+def test_a_real_house_has_the_same_relations_under_small_ontologies(tbox: TBox):
+    assert links(house(), tbox) == house_links()
+
+
 def test_not_everything_is_a_container():
     assert links(ROOM, OWN) >= {
         ("/Room/apple", "inside", "/Room/salad_bowl"),

@@ -24,6 +24,10 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
+_MAX_PAIRS = 64
+"""Pairs per object in one column above which they are found layer by layer; affects speed only."""
+_FIRST_REACH = 0.25
+"""Metres below an object that are searched first in a heap; affects speed only."""
 _PREFIX = 4
 """Candidate anchors tested per anchor kept; intermediate objects are among the nearest candidates."""
 
@@ -50,8 +54,10 @@ def find_above(boxed: BoxedObjects, is_chosen: Mask, frame: Indices, supporter: 
         supporter: index of the supporter of each object, -1 for none.
         rule: the thresholds.
     """
-    pairs = _candidates(boxed, np.flatnonzero(is_chosen), frame, rule)
-    pairs = select_rows(pairs, ~_is_supported(pairs, supporter))
+    chosen = np.flatnonzero(is_chosen)
+    pairs = _candidates(boxed, chosen, frame, supporter, rule)
+    if pairs is None:
+        pairs = _candidates_in_heap(boxed, chosen, frame, supporter, rule)
     pairs = _nearest(boxed, pairs, _PREFIX * rule.most)
     pairs = _nearest(boxed, select_rows(pairs, ~_has_intermediate(boxed, pairs, supporter, rule)), rule.most)
     clear = margin_above(pairs.ratio, rule.min_overlap_ratio)
@@ -64,9 +70,16 @@ def reverse_links(kind: str, links: Links) -> Links:
     return links._replace(kind=kind, target=links.anchor, anchor=links.target)
 
 
-def _candidates(boxed: BoxedObjects, chosen: Indices, frame: Indices, rule: AboveRule) -> _StackedPairs:
+def _candidates(
+    boxed: BoxedObjects, chosen: Indices, frame: Indices, supporter: Indices, rule: AboveRule
+) -> _StackedPairs | None:
+    """Return the pairs of which one object is above the other; None for a heap, with too many in one column."""
     found = [_StackedPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))]
+    count = 0
     for i, j in overlapping_pairs(boxed.lower[chosen, :2], boxed.upper[chosen, :2]):
+        count += len(i)
+        if count > _MAX_PAIRS * len(chosen):
+            return None
         one, other = chosen[i], chosen[j]
         is_upper = boxed.lower[one, 2] >= boxed.upper[other, 2] + rule.min_gap
         is_lower = boxed.lower[other, 2] >= boxed.upper[one, 2] + rule.min_gap
@@ -75,7 +88,41 @@ def _candidates(boxed: BoxedObjects, chosen: Indices, frame: Indices, rule: Abov
         target, anchor = np.where(is_upper, one, other)[is_good], np.where(is_upper, other, one)[is_good]
         gap, ratio = boxed.lower[target, 2] - boxed.upper[anchor, 2], _overlap_ratio(boxed, target, anchor)
         found.append(select_rows(_StackedPairs(target, anchor, gap, ratio), ratio > rule.min_overlap_ratio))
-    return concatenate_rows(found)
+    pairs = concatenate_rows(found)
+    return select_rows(pairs, ~_is_supported(pairs, supporter))
+
+
+def _candidates_in_heap(
+    boxed: BoxedObjects, chosen: Indices, frame: Indices, supporter: Indices, rule: AboveRule
+) -> _StackedPairs:
+    """Return at least the nearest pairs of each target, which are looked for farther and farther below it."""
+    left, reach = chosen, _FIRST_REACH
+    bottom, top = boxed.lower[chosen].copy(), boxed.upper[chosen].copy()
+    bottom[:, 2] = top[:, 2]
+    deepest = float(np.ptp(boxed.lower[chosen, 2])) + float(boxed.size[chosen, 2].max())
+    kept = []
+    while len(left):
+        lower, upper = boxed.lower[left].copy(), boxed.upper[left].copy()
+        # A quarter of the reach more, so that rounding loses no pair.
+        upper[:, 2] = lower[:, 2] - rule.min_gap + reach / 4
+        lower[:, 2] -= reach
+        found = [_StackedPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))]
+        for i, j in overlapping_pairs(lower, upper, (bottom, top)):
+            target, anchor = left[i], chosen[j]
+            gap = boxed.lower[target, 2] - boxed.upper[anchor, 2]
+            is_upper = boxed.lower[target, 2] >= boxed.upper[anchor, 2] + rule.min_gap
+            is_lower = boxed.lower[anchor, 2] >= boxed.upper[target, 2] + rule.min_gap
+            is_good = is_upper & ~is_lower & (frame[target] == frame[anchor]) & (target != anchor)
+            target, anchor, gap = target[is_good], anchor[is_good], gap[is_good]
+            ratio = _overlap_ratio(boxed, target, anchor)
+            found.append(select_rows(_StackedPairs(target, anchor, gap, ratio), ratio > rule.min_overlap_ratio))
+        pairs = concatenate_rows(found)
+        pairs = select_rows(pairs, ~_is_supported(pairs, supporter))
+        is_done = np.bincount(pairs.target, minlength=len(boxed)) >= _PREFIX * rule.most
+        is_done |= reach > deepest
+        kept.append(select_rows(pairs, is_done[pairs.target]))
+        left, reach = left[~is_done[left]], 2 * reach
+    return concatenate_rows(kept)
 
 
 def _overlap_ratio(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:

@@ -50,7 +50,7 @@ def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules
     chosen = np.flatnonzero(is_chosen)
     found = [NearbyPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
     grown = reach[chosen, None] / 2
-    lower, upper = boxed.lower[chosen, :2] - grown, boxed.upper[chosen, :2] + grown
+    lower, upper = boxed.lower[chosen] - grown, boxed.upper[chosen] + grown
     for i, j in overlapping_pairs(lower, upper):
         one, other = chosen[i], chosen[j]
         limit = np.minimum(reach[one], reach[other])

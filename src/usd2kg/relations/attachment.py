@@ -111,8 +111,8 @@ def _near_pairs(
     lower, upper = boxed.lower - widest, boxed.upper + widest
     none = np.zeros(0, np.int64)
     found = [_Mounts(none, none, np.zeros(0), np.zeros(0), np.zeros(0, np.bool_))]
-    others = boxed.lower[holders, :2], boxed.upper[holders, :2]
-    for i, j in overlapping_pairs(lower[targets, :2], upper[targets, :2], others):
+    others = boxed.lower[holders], boxed.upper[holders]
+    for i, j in overlapping_pairs(lower[targets], upper[targets], others):
         target, anchor = targets[i], holders[j]
         hangs = boxed.lower[anchor, 2] >= boxed.middle[target, 2]
         limit = np.where(is_mount[anchor], reach[target], rule.max_contact)

@@ -62,7 +62,7 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
     is_room_sized &= boxed.size[:, 2] >= rules.room.min_height
     may_surround = boxed.has_surface & ~(can_contain | never[boxed.scene_index] | is_room_sized)
     found = [_no_pairs()]
-    for i, j in overlapping_pairs(boxed.lower[:, :2], boxed.upper[:, :2]):
+    for i, j in overlapping_pairs(boxed.lower, boxed.upper):
         for target, anchor in ((i, j), (j, i)):
             may = may_be_in[target] & can_contain[anchor]
             if has_parts:

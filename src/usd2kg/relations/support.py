@@ -174,8 +174,8 @@ def _box_tops(boxed: BoxedObjects, can_support: Mask, rules: RelationRules) -> _
 def _on_boxes(boxed: BoxedObjects, targets: Indices, tops: _Tops, limits: _Limits) -> Iterator[_Contacts]:
     highest = np.maximum(limits.tolerance, limits.rules.hovering.max_gap)
     lower, upper = boxed.feet
-    feet = lower[targets, :2], upper[targets, :2]
-    for chosen, number in overlapping_pairs(*feet, (tops.lower[:, :2], tops.upper[:, :2])):
+    top = np.stack([tops.lower[:, 0], tops.lower[:, 1], tops.upper[:, 2]], axis=1)
+    for chosen, number in overlapping_pairs(*_foot_space(boxed, targets, highest, limits), (top, tops.upper)):
         target = targets[chosen]
         gap = boxed.lower[target, 2] - tops.upper[number, 2]
         sinks = limits.sinks(boxed, target, tops.owner[number], tops.thickness[number])
@@ -185,6 +185,24 @@ def _on_boxes(boxed: BoxedObjects, targets: Indices, tops: _Tops, limits: _Limit
         ratio = np.minimum(ratios(shared, boxed.foot_area[target]), 1.0)
         allowed = np.where(gap < 0, sinks, limits.tolerance[target])
         yield _Contacts(target, tops.owner[number], gap, ratio, shared, allowed, tops.lower[number], tops.upper[number])
+
+
+def _foot_space(boxed: BoxedObjects, targets: Indices, highest: Array, limits: _Limits) -> tuple[Array, Array]:
+    """Return the corners (n, 3) of the space in which the surface that bears an object is: around its feet.
+
+    Args:
+        boxed: the objects.
+        targets: their indices.
+        highest: metres that each object may be above the surface.
+        limits: how far it may sink into it.
+    """
+    lower, upper = (corners[targets].copy() for corners in boxed.feet)
+    bottom = boxed.lower[targets, 2]
+    lower[:, 2] = bottom - highest[targets] - _ROUNDING
+    # Half its height in the ground.
+    deepest = np.maximum(limits.tolerance[targets], limits.rules.on.max_sink)
+    upper[:, 2] = bottom + np.maximum(deepest, boxed.size[targets, 2] / 2) + _ROUNDING
+    return lower, upper
 
 
 def _on_surfaces(boxed: BoxedObjects, targets: Indices, anchors: Indices, limits: _Limits) -> Iterator[_Contacts]:
@@ -247,10 +265,9 @@ def _feet_over(boxed: BoxedObjects, targets: Indices, anchors: Indices, limits: 
     """Return the pairs for which the feet of the target are over the anchor's box, at a height within it."""
     rules = limits.rules
     highest = max(rules.on.max_gap, rules.hovering.max_gap)
-    lower, upper = boxed.feet
-    feet = lower[targets, :2], upper[targets, :2]
+    space = _foot_space(boxed, targets, np.full(len(boxed), highest), limits)
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
-    for i, j in overlapping_pairs(*feet, (boxed.lower[anchors, :2], boxed.upper[anchors, :2])):
+    for i, j in overlapping_pairs(*space, (boxed.lower[anchors], boxed.upper[anchors])):
         target, anchor = targets[i], anchors[j]
         bottom = boxed.lower[target, 2]
         sinks = np.where(limits.is_ground[anchor], boxed.size[target, 2] / 2, rules.on.max_sink)

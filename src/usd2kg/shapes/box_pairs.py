@@ -26,15 +26,15 @@ _CHUNK = 1 << 20
 def overlapping_pairs(
     lower: Array, upper: Array, others: tuple[Array, Array] | None = None
 ) -> Iterator[tuple[Indices, Indices]]:
-    """Yield pairs (i, j) of boxes whose footprints overlap or touch, each pair once, in chunks.
+    """Yield pairs (i, j) of boxes that overlap or touch along all given axes, each pair once, in chunks.
 
     Each box is stored in one square cell by its lower corner; the size of the cells depends on the size of the box
     (hierarchical grid, Ericson 2005, section 7.2). The smaller box of a pair searches for the larger one, so that each
     box searches few cells whatever the range of sizes. The time is linear in the number of boxes and pairs.
 
     Args:
-        lower: (n, 2), smallest x and y of each box, finite, metres.
-        upper: (n, 2), largest x and y.
+        lower: (n, 2), smallest x and y of each box, finite, metres, for pairs whose footprints overlap; (n, 3) with z.
+        upper: (n, 2), largest x and y; (n, 3) with z.
         others: corners of other boxes, indexed by j; by default pairs among the boxes themselves with i < j.
     """
     if len(lower) * len(lower if others is None else others[0]) <= _BRUTE_FORCE_PAIRS:
@@ -57,7 +57,7 @@ def _compare_all(
     lower: Array, upper: Array, others_lower: Array, others_upper: Array, *, is_symmetric: bool
 ) -> tuple[Indices, Indices]:
     overlaps = np.ones((len(lower), len(others_lower)), np.bool_)
-    for axis in range(2):
+    for axis in range(lower.shape[1]):
         overlaps &= lower[:, axis, None] <= others_upper[None, :, axis]
         overlaps &= upper[:, axis, None] >= others_lower[None, :, axis]
     i, j = np.nonzero(np.triu(overlaps, 1) if is_symmetric else overlaps)
@@ -89,7 +89,7 @@ def _search(
         chosen = np.flatnonzero(queries.level <= level if searches_own_level else queries.level < level)
         boxes = np.flatnonzero(stored.level == level)
         for query, box in _candidate_pairs(queries, stored, chosen, boxes, origin):
-            for axis in range(2):
+            for axis in range(queries.lower.shape[1]):
                 overlaps = queries.lower[:, axis][query] <= stored.upper[:, axis][box]
                 overlaps &= queries.upper[:, axis][query] >= stored.lower[:, axis][box]
                 query, box = query[overlaps], box[overlaps]  # noqa: PLW2901
@@ -103,21 +103,25 @@ def _candidate_pairs(
     # Slightly more than the longest box, so that rounding moves no corner by two cells.
     side = max(_SMALLEST_CELL, float((stored.upper - stored.lower)[boxes].max())) * (1 + 1e-9)
     cell = ((stored.lower[boxes] - origin) // side).astype(np.int64)
-    width = int(cell[:, 0].max()) + 1
+    width, rows = (cell[:, :2].max(axis=0) + 1).tolist()
     key = cell[:, 1] * width + cell[:, 0]
+    if cell.shape[1] > 2:
+        key += cell[:, 2] * width * rows
     order = np.argsort(key, kind="stable")
     boxes, key = boxes[order], key[order]
     first = ((queries.lower[chosen] - origin) // side).astype(np.int64) - 1
     last = ((queries.upper[chosen] - origin) // side).astype(np.int64)
     left, right = np.maximum(first[:, 0], 0), np.minimum(last[:, 0], width - 1)
-    for nth in range(int((last - first)[:, 1].max(initial=-1)) + 1):
-        row = first[:, 1] + nth
-        some = np.flatnonzero((row >= 0) & (row <= last[:, 1]) & (left <= right))
+    for nth in np.ndindex(*((last - first)[:, 1:].max(axis=0, initial=-1) + 1).tolist()):
+        row = first[:, 1:] + nth
+        is_in = (row >= 0).all(axis=1) & (row <= last[:, 1:]).all(axis=1) & (row[:, 0] < rows) & (left <= right)
+        some = np.flatnonzero(is_in)
         # Adjacent cells of a row have consecutive keys.
-        start = np.searchsorted(key, row[some] * width + left[some], side="left")
-        end = np.searchsorted(key, row[some] * width + right[some], side="right")
-        for query, place in _expand_ranges(chosen[some], start, end):
-            yield query, boxes[place]
+        place = row[some, 0] + (row[some, 1] * rows if row.shape[1] > 1 else 0)
+        start = np.searchsorted(key, place * width + left[some], side="left")
+        end = np.searchsorted(key, place * width + right[some], side="right")
+        for query, found in _expand_ranges(chosen[some], start, end):
+            yield query, boxes[found]
 
 
 def _expand_ranges(owner: Indices, start: Indices, end: Indices) -> Iterator[tuple[Indices, Indices]]:
