@@ -145,6 +145,8 @@ class _Api:
     # The scene.
 
     async def _scene(self, _: Request) -> Response:
+        # The page asks for meshes next; the stage is opened meanwhile.
+        self._pictures.geometry()
         return JSONResponse(scene_json(self._session, self._catalog, self._reviewer))
 
     async def _states(self, request: Request) -> Response:

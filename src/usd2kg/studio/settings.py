@@ -33,6 +33,7 @@ class GeometrySettings:
     max_triangles: int
     min_mesh_triangles: int
     chunk_triangles: int
+    first_chunk_objects: int
     chunk_objects: int
 
 
