@@ -14,6 +14,9 @@ from usd2kg.scene import Scene, read_scene
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
 
+os.environ["USD2KG_TABLE_CACHE"] = "off"
+"""Tests that change a setting of the grounder must not read tables that were computed without the change."""
+
 signal.signal(signal.SIGINT, signal.default_int_handler)
 """A shell has what it runs in the background ignore interruptions, and so would all that the tests start."""
 

@@ -91,7 +91,7 @@ def test_lazy_names_are_typed():
     assert typed == set(usd2kg.__all__)
 
 
-@pytest.mark.parametrize("name", ["usd2kg", "usd2kg.scene"])
+@pytest.mark.parametrize("name", ["usd2kg", "usd2kg.scene", "usd2kg.graph", "usd2kg.ontology", "usd2kg.assistant"])
 def test_unknown_name_is_an_attribute_error(name: str):
     with pytest.raises(AttributeError, match=f"module '{name}' has no attribute 'biuld'"):
         importlib.import_module(name).biuld  # noqa: B018

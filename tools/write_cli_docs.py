@@ -15,11 +15,12 @@ INTRODUCTION = """\
 # Command line
 
 Written by `tools/write_cli_docs.py` from the help texts. Data goes to stdout, messages and progress go to stderr.
+[usd2kg.toml](project_file.md) sets options once for a project.
 
 | exit code | meaning |
 | --- | --- |
 | 0 | success |
-| 1 | `validate`, `label lint` or `ontology check` has findings, or `diff` has differences |
+| 1 | `validate`, `label lint` or `ontology check` has findings, `diff` has differences, or `doctor` misses a package |
 | 2 | wrong usage, or an input or output cannot be used; one line on stderr states what to do |
 | 130 | `ground` was interrupted; the mapping has the objects that were grounded before |
 """

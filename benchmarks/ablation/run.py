@@ -24,6 +24,7 @@ from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.scene import Scene
+from usd2kg.table_cache import TABLE_CACHE_VARIABLE
 
 HERE = Path(__file__).parent
 SEPARATOR = "<!-- table -->"
@@ -96,8 +97,9 @@ def sample_of(column: str, scene: Scene, regime: NamingRegime, tbox: TBox, targe
 def answers(names: Sequence[str]) -> list[tuple[str, bool]]:
     """Return (column, whether the answer is exact) for each object without the named rules.
 
-    Runs in a child process, since grounders are cached by TBox.
+    Runs in a child process, since grounders are cached by TBox, without the tables of other processes.
     """
+    os.environ[TABLE_CACHE_VARIABLE] = "off"
     with switched_off([rule for rule in RULES if rule.name in names]):
         return [
             (sample.column, prediction.class_iri == target)

@@ -5,31 +5,21 @@ Usage: python -m benchmarks.studio.run [--objects 1000 10000] [--gold SCENE GOLD
 
 import argparse
 import csv
-import json
 import os
 import shutil
 import statistics
 import tempfile
-import threading
 import time
-import urllib.request
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from benchmarks.scale.stage import write_place
+from benchmarks.studio.server import KEY, ask, studio
 from usd2kg.demo import demo_scene
-from usd2kg.endpoint.listening import Address, open_socket, url_of
-from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.app_files import read_app_files
-from usd2kg.studio.application import make_app
-from usd2kg.studio.http_server import StudioServer
-from usd2kg.studio.session import open_session
 
-KEY = "benchmark-of-the-studio"
 SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--no-sandbox"]
 FRAMES = 30
 HAS_MESHES = """() => document.documentElement.dataset.geometry === "loaded"
@@ -48,27 +38,6 @@ ORBIT = """frames => {
   }
   return times;
 }"""
-
-
-@contextmanager
-def studio(scene: Path) -> Iterator[str]:
-    """Serve a scene from this process; yields the address of the page."""
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        open_project(Path(folder) / "project", ProjectSources(scene)) as project,
-        open_socket(Address()) as socket,
-    ):
-        socket.listen()
-        session = open_session(project)
-        server = StudioServer(make_app(session, read_app_files(), key=KEY, reviewer="benchmark"))
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
-        thread.start()
-        try:
-            yield url_of(socket)
-        finally:
-            server.should_exit = True
-            thread.join()
-            session.close()
 
 
 def open_page(browser: Browser, address: str) -> Page:
@@ -112,15 +81,6 @@ def measure_decisions(scene: Path) -> None:
             times.append(1000 * (time.perf_counter() - start))
     times.sort()
     print(f"Decision on disk: median {statistics.median(times):.1f} ms, 99 % {times[int(0.99 * len(times))]:.1f} ms")
-
-
-def ask(address: str, path: str, body: Any = None) -> Any:
-    """Return the JSON answer to a request."""
-    request = urllib.request.Request(f"{address}api/{path}", data=None if body is None else json.dumps(body).encode())
-    request.add_header("Authorization", f"Bearer {KEY}")
-    request.add_header("Content-Type", "application/json")
-    with urllib.request.urlopen(request, timeout=60) as response:
-        return json.load(response)
 
 
 def count_keystrokes(scene: Path, gold: Path) -> None:

@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-__all__ = ["cache_folder"]
+__all__ = ["cache_folder", "chosen_cache_folder"]
 
 
 def cache_folder() -> Path:
@@ -21,3 +21,18 @@ def cache_folder() -> Path:
     if not folder.is_absolute():
         folder = Path.home() / ("AppData/Local" if is_windows else ".cache")
     return folder / "usd2kg"
+
+
+def chosen_cache_folder(variable: str, name: str) -> Path | None:
+    """Return the folder of one cache: that of an environment variable, else `name` in `cache_folder`.
+
+    Returns:
+        None if the variable is `off`, or there is no home folder.
+    """
+    chosen = os.environ.get(variable, "")
+    if chosen.lower() == "off":
+        return None
+    try:
+        return Path(chosen) if chosen else cache_folder() / name
+    except RuntimeError:
+        return None

@@ -84,5 +84,7 @@ def test_scene_and_its_graph_give_the_same_objects(home_tbox: TBox) -> None:
 
 
 def _rounded(state: ObjectState) -> ObjectState:
-    size, center = (value and tuple(round(side, 6) for side in value) for value in (state.size, state.center))
-    return replace(state, size=size, center=center)
+    size, box_size, center = (
+        value and tuple(round(side, 6) for side in value) for value in (state.size, state.box_size, state.center)
+    )
+    return replace(state, size=size, box_size=box_size, center=center)

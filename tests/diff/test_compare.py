@@ -91,6 +91,8 @@ def test_classes_are_compared_if_both_sides_have_any() -> None:
     assert counts([item("/Cup_1")], [item("/Cup_1", classes=("https://e.org/Bowl",))]) == {"reclassified": 1}
     assert counts([item("/Cup_1")], [TABLE, ungrounded]) == {"added": 1, "reclassified": 1}
     assert counts([item("/Cup_1")], [ungrounded]) == {}
+    grounded = compare_objects([item("/Cup_1")], [ungrounded], is_grounded=True)
+    assert nonzero_counts(grounded) == {"reclassified": 1}
 
 
 def test_reports_other_mass_and_asset() -> None:

@@ -276,3 +276,10 @@ def test_a_signal_stops_it_and_removes_the_copy(tmp_path: Path, sent: signal.Sig
         assert process.wait(60) == 0
         assert process.stderr.read() == "stopped\n"
     assert list(temporary.iterdir()) == []
+
+
+def test_from_is_honoured_unless_the_request_has_a_dataset(port: int):
+    query = "SELECT ?l FROM <https://my.lab/a> { ?o u2k:primPath ?p ; rdfs:label ?l } ORDER BY ?l"
+    assert ask(port, query, Accept="text/csv").body.splitlines() == ["l", "Mug", "Table"]
+    other = ask(port, query, ("default-graph-uri", "https://my.lab/b"), Accept="text/csv")
+    assert "Mug" not in other.body

@@ -27,7 +27,21 @@ SPATIAL = frozenset(
 ALIGNMENT = frozenset({"categorySize", "defaultClass", "termKind"})
 """Terms of alignment files."""
 
-JOURNAL = frozenset({"action", "event", "revertedEvent", "seenEvent", "verdict", "verdictBefore"})
+JOURNAL = frozenset(
+    {
+        "action",
+        "decidedConcept",
+        "event",
+        "isAudit",
+        "proposedSubclass",
+        "revertedEvent",
+        "seenEvent",
+        "suggestedClass",
+        "suggestedConfidence",
+        "verdict",
+        "verdictBefore",
+    }
+)
 """Terms of journals of decisions."""
 
 KINDS = {OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty}

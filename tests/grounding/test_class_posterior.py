@@ -13,6 +13,7 @@ from usd2kg.grounding.lexical.class_posterior import (
     ClassPosterior,
     PosteriorModel,
     log_likelihoods_of_appearance,
+    match_everyday_nouns,
     neighbour_weights,
 )
 from usd2kg.grounding.lexical.concepts.places import PLACES, log_stance_likelihoods, place_probabilities, stance_of
@@ -29,7 +30,7 @@ def classify(noun: str, parents: tuple[str, ...], size: Size | None) -> list[Mat
     return [Match(CLASSES[noun], 1, str)] if noun in CLASSES else []
 
 
-MODEL = PosteriorModel(classify)
+MODEL = PosteriorModel(match_everyday_nouns(classify))
 
 
 def ask(look: Appearance, places: np.ndarray) -> ClassPosterior:
@@ -103,7 +104,7 @@ def test_the_place_is_given_where_it_is_clear():
 
 def test_an_ontology_without_known_objects_gives_the_general_class():
     abstract = parse_outline("Qualia\n  Zorg")
-    empty = PosteriorModel(lambda noun, parents, size: [])
+    empty = PosteriorModel(match_everyday_nouns(lambda noun, parents, size: []))
     look = Appearance((1, 1, 1), 1, 0, False)
     assert empty.posterior(log_likelihoods_of_appearance(look), ANYWHERE).ranked() == {}
     assert local(ground_view(nameless("Kitchen", (0.6, 0.65, 1.8), 0.0), abstract)) == "Qualia"

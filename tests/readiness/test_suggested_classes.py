@@ -21,7 +21,7 @@ def suggest(names: str, tbox: TBox = SHOP) -> list[SuggestedClass]:
 
 
 def summary(suggested: list[SuggestedClass]) -> list[tuple[str, str, int]]:
-    return [(one.concept.label, one.parent.removeprefix(LAB), len(one.objects)) for one in suggested]
+    return [(one.label, one.parent.removeprefix(LAB), len(one.objects)) for one in suggested]
 
 
 def test_concepts_are_counted_the_most_frequent_first():
@@ -79,4 +79,4 @@ def test_decisions_of_people_count():
 def test_the_books_of_a_real_scene(home_tbox: TBox):
     scene = read_scene(shared_file("scenes/aws_robomaker/bookstore.usdc"))
     first = suggest_classes([ground(scene, home_tbox)], home_tbox)[0]
-    assert (first.concept.label, len(first.objects)) == ("book", 39)
+    assert (first.label, len(first.objects)) == ("book", 39)

@@ -208,3 +208,13 @@ def test_accepts_an_incomplete_store_but_no_other_files(tmp_path: Path, small: N
     (tmp_path / "thesis.tex").rename(tmp_path / "OPTIONS-000007")
     EmbeddedStore(tmp_path).load(small)
     assert len(held(tmp_path)) == triples(small)
+
+
+def test_from_chooses_a_scene_of_the_store(tmp_path: Path, large: NamedGraph, other: NamedGraph):
+    store = EmbeddedStore(tmp_path)
+    store.load(large)
+    store.load(other)
+    everything = select_graphs(store, None)
+    for graph in (large, other):
+        query = f"SELECT (COUNT(*) AS ?n) FROM <{graph.iri}> WHERE {{ ?s ?p ?o }}"
+        assert store.query(query, everything).values == ((triples(graph),),)

@@ -228,3 +228,10 @@ def test_authenticates_at_a_real_server(
         assert [graph.name for graph in open_store(address).graphs()] == ["k"]
     assert "wrong-one" not in str(refused.value) + str(wrong.value)
     assert "s3cret" not in caplog.text
+
+
+def test_from_chooses_a_scene_of_the_server(store: RemoteStore, large: NamedGraph, other: NamedGraph):
+    store.load(large)
+    store.load(other)
+    query = f"SELECT (COUNT(*) AS ?n) FROM <{other.iri}> WHERE {{ ?s ?p ?o }}"
+    assert store.query(query, [large.iri, other.iri]).values == ((len(other.triples),),)

@@ -20,7 +20,8 @@ from usd2kg.studio import ProjectSources, open_project
 from usd2kg.studio.app_files import AppFile, read_app_files
 from usd2kg.studio.application import make_app
 from usd2kg.studio.http_server import StudioServer
-from usd2kg.studio.session import open_session
+from usd2kg.studio.opening import open_session
+from usd2kg.studio.other_version import read_other_version
 
 IS_BUILT = (files("usd2kg.studio") / "app" / "index.html").is_file()
 """Whether `make web` has built the page; the server is tested without it, too."""
@@ -139,12 +140,16 @@ class Studio(Client):
 
 
 @contextmanager
-def running_studio(stage: Path, folder: Path) -> Iterator[Client]:
+def running_studio(
+    stage: Path, folder: Path, *, compared: Path | None = None, second: Path | None = None
+) -> Iterator[Client]:
     """A studio in this process, which starts at once since the grounder is loaded."""
-    with open_project(folder, ProjectSources(stage)) as project, open_socket(Address()) as socket:
+    sources = ProjectSources(stage, second_mapping=second)
+    with open_project(folder, sources) as project, open_socket(Address()) as socket:
         socket.listen()
         session = open_session(project)
-        app = make_app(session, APP_FILES, key=KEY, reviewer="Ann")
+        other = None if compared is None else read_other_version(compared, project.sources, session.tbox)
+        app = make_app(session, APP_FILES, key=KEY, reviewer="Ann", other=other)
         server = StudioServer(app)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
         thread.start()

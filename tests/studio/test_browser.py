@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-from tests.studio.conftest import HOSTILE, KEY, Client, needs_page, running_studio
+from tests.studio.conftest import HOSTILE, KEY, STAGE, Client, needs_page, running_studio
 from usd2kg.demo import demo_scene
+from usd2kg.graph import write_graph
 from usd2kg.grounding import read_decisions
 from usd2kg.ontology import load_home_tbox
 from usd2kg.pipeline import build
@@ -202,3 +203,47 @@ def test_a_wrong_key_is_asked_for_again(browser: Browser, stage: Path, tmp_path:
         expect(page.locator(".queue-row").first).to_be_visible()
         assert KEY not in page.url
         page.close()
+
+
+def test_a_graph_is_shown_as_boxes_and_says_why(browser: Browser, stage: Path, tmp_path: Path):
+    graph = tmp_path / "kitchen.ttl"
+    write_graph(build(stage).graph, graph)
+    with running_studio(graph, tmp_path / "project") as client:
+        page = open_page(browser, client)
+        expect(page.locator(".boxes-only")).to_contain_text("kitchen.usda is not beside the graph")
+        expect(page.get_by_role("button", name="Ground again")).to_be_disabled()
+        page.locator("summary[aria-label=Export]").click()
+        expect(page.get_by_role("button", name="Labels (USD layer)")).to_be_disabled()
+        expect(page.get_by_role("button", name="Knowledge graph (Turtle)")).to_be_enabled()
+        page.keyboard.press("r")
+        expect(page.locator(".notice")).to_contain_text("open the stage")
+        press_and_wait(page, "n")
+        expect(page.locator(".saving")).to_have_text("Saved")
+        close_page(page)
+    assert len(read_decisions(tmp_path / "project" / "decisions.sssom.tsv", load_home_tbox())) == 1
+
+
+def test_changes_are_listed_filtered_and_looked_at_with_the_keyboard(browser: Browser, tmp_path: Path):
+    now, before = tmp_path / "kitchen.usda", tmp_path / "before.usda"
+    now.write_text(STAGE)
+    # Before, Cup_2 was 0.3 m farther, there was a plate, and no Zxqv.
+    earlier = STAGE.replace("(-0.2, 0, 0.75)", "(-0.2, 0.3, 0.75)").replace('"Zxqv"', '"Plate"')
+    before.write_text(earlier.replace("(1.5, 1.5, 0.15)", "(-1.5, -1.5, 0.15)").replace("size = 0.3", "size = 0.4"))
+    with running_studio(now, tmp_path / "project", compared=before) as client:
+        page = open_page(browser, client)
+        changes = page.get_by_role("listbox", name="Changes")
+        rows = changes.get_by_role("option")
+        expect(rows).to_have_count(3)
+        expect(page.locator(".legend")).to_contain_text("Disappeared1")
+        changes.focus()
+        for _ in range(3):
+            page.keyboard.press("ArrowDown")
+        expect(changes.get_by_role("option", selected=True)).to_contain_text("moved 0.30 m")
+        expect(page.locator(".object-panel h2")).to_have_text("Cup_2")
+        page.keyboard.press("ArrowUp")
+        expect(changes.get_by_role("option", selected=True)).to_contain_text("gone: plate")
+        moved = page.get_by_role("group", name="Kinds of change").get_by_role("button", name="Moved")
+        moved.press("Space")
+        expect(moved).to_have_attribute("aria-pressed", "false")
+        expect(rows).to_have_count(2)
+        close_page(page)

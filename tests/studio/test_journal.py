@@ -13,7 +13,7 @@ from usd2kg.grounding import Decision, read_decisions
 from usd2kg.ontology import TBox
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.review_state import ReviewState
-from usd2kg.studio.verdicts import OPEN, Verdict, VerdictKind
+from usd2kg.studio.verdicts import OPEN, Suggestion, Verdict, VerdictKind
 
 BASE = "https://my.lab/k/"
 TIME = "2026-11-27T10:00:00.000+00:00"
@@ -25,7 +25,8 @@ def open_journal(folder: Path, tbox: TBox) -> tuple[Journal, ReviewState]:
 
 
 def decide(journal: Journal, review: ReviewState, paths: list[str], verdict: Verdict, reviewer: str = "Ann") -> None:
-    event = review.decide(dict.fromkeys(paths, verdict), reviewer, TIME, review.version)
+    suggested = dict.fromkeys(paths[:1], Suggestion(None, 0.1 + 0.2))
+    event = review.decide(dict.fromkeys(paths, verdict), reviewer, TIME, review.version, suggested=suggested)
     journal.append(event, review.before(event))
     review.apply(event)
 
@@ -39,13 +40,28 @@ def test_a_journal_is_read_back_as_it_was(tmp_path: Path, home_tbox: TBox):
     decide(journal, review, ["/A", "/B"], cup(home_tbox))
     decide(journal, review, ["/A"], Verdict(VerdictKind.NO_CLASS), "https://orcid.org/0000-0002-1825-0097")
     decide(journal, review, ["/B"], Verdict(VerdictKind.UNSURE))
+    bowl = home_tbox.resolve("Bowl")
+    about_cups = review.decide(
+        {"/C": Verdict(VerdictKind.CLASS, bowl, proposal='Bowl "of" cups')},
+        "Bob",
+        TIME,
+        0,
+        suggested={"/C": Suggestion(bowl, None)},
+        concept="http://wordnet-rdf.princeton.edu/id/03152175-n",
+        is_audit=True,
+    )
+    journal.append(about_cups, review.before(about_cups))
+    review.apply(about_cups)
     undone = review.undo("Ann", TIME)
     journal.append(undone, review.before(undone))
     review.apply(undone)
     journal.close()
     again, found = open_journal(tmp_path, home_tbox)
     assert again.events == journal.events
-    assert [found.verdict(path) for path in ("/A", "/B", "/C")] == [review.verdict("/A"), review.verdict("/B"), OPEN]
+    assert [found.verdict(path) for path in ("/A", "/B", "/C", "/D")] == [
+        *(review.verdict(path) for path in ("/A", "/B", "/C")),
+        OPEN,
+    ]
     again.close()
 
 

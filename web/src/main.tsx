@@ -6,6 +6,7 @@ import { listen } from "./api/events";
 import type { ChangeEvent, SceneData, States, SuggestionsEvent } from "./api/types";
 import { App } from "./panels/App";
 import { KeyForm } from "./panels/KeyForm";
+import { startWithComparison } from "./state/comparison";
 import { Store } from "./state/store";
 
 const host = document.getElementById("app") as HTMLElement;
@@ -22,6 +23,7 @@ async function start(): Promise<void> {
     const [data, states] = await Promise.all([client.get<SceneData>("scene"), client.get<States>("states")]);
     const store = new Store(client, data, states, localStorage);
     document.title = `${data.title} · usd2kg studio`;
+    startWithComparison(store);
     render(<App store={store} />, host);
     void store.reload();
     const handlers = {

@@ -1,59 +1,16 @@
 import { Vector3 } from "three";
 import { describe, expect, it, vi } from "vitest";
-import { ApiFailure, type Client } from "../src/api/client";
-import type { DecisionReply, ObjectPage, Queue } from "../src/api/types";
+import { ApiFailure } from "../src/api/client";
 import { BINDINGS, findBinding, keyName } from "../src/keys/bindings";
 import { focusOf } from "../src/state/candidates";
 import { findAgain, groupAfter, withoutObjects } from "../src/state/queue";
 import { applyStates, durationText, isOpen, predictStates, superclass } from "../src/state/review";
 import { Store } from "../src/state/store";
-import { cutAway, occluders } from "../src/viewer/appearance";
+import { cutAway, findHolders, occluders } from "../src/viewer/appearance";
+import { makeStore, QUEUE, reply } from "./fakeStore";
 import { makeScene, makeState, makeStates } from "./scene";
 
-const QUEUE: Queue = {
-  groups: [
-    { id: "/K/Table/Cup_1", title: "cup", objects: [2, 1], suggested: 1, concept: 0, confidence: 0.65, gain: 0.7 },
-    { id: "/K/wall", title: "wall", objects: [3], suggested: 0, concept: -1, confidence: null, gain: 1 },
-  ],
-  open: 4,
-  decided: 0,
-  agreement: [],
-  seconds_left: null,
-};
 const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };
-
-function makeStore(post: Client["post"]): Store {
-  const page = {
-    object: 2,
-    candidates: [
-      { class: 1, share: 0.6, taxonomy: [] },
-      { class: 3, share: 0.4, taxonomy: [] },
-    ],
-  };
-  const client: Client = {
-    get: async <T>(path: string) => (path.startsWith("queue") ? QUEUE : { ...(page as Partial<ObjectPage>) }) as T,
-    post,
-    blob: async () => new Blob(),
-    stream: async () => new ReadableStream(),
-  };
-  const kept = new Map<string, string>();
-  const storage = {
-    getItem: (name: string) => kept.get(name) ?? null,
-    setItem: (n: string, v: string) => void kept.set(n, v),
-  };
-  return new Store(client, makeScene(), makeStates(), storage);
-}
-
-function reply(objects: number[], state: Partial<ReturnType<typeof makeState>>): DecisionReply {
-  return {
-    version: 1,
-    states: objects.map((object) => makeState(object, state)),
-    can_undo: true,
-    can_redo: false,
-    outputs: { folder: "", problem: "" },
-    message: "",
-  };
-}
 
 describe("states", () => {
   it("predicts what the server answers", () => {
@@ -351,6 +308,15 @@ describe("view", () => {
   it("hides the wall between the viewer and the scene", () => {
     expect([...cutAway(scene, { x: 0, y: -1 })]).toEqual([3]);
     expect([...cutAway(scene, { x: 0, y: 1 })]).toEqual([]);
+  });
+
+  it("finds boxes that hold others: a large one around three middles, not a small one, and parents", () => {
+    const small = (x: number): [number, number, number, number, number, number] => [x, 1, 0, x + 0.2, 1.2, 0.2];
+    const walls: [number, number, number, number, number, number] = [0, 0, 0, 5, 5, 3];
+    const crate: [number, number, number, number, number, number] = [0.9, 0.9, 0, 3.5, 1.3, 0.3];
+    const boxes = [walls, small(1), small(2), small(3), crate, null];
+    const objects = { ...scene.objects, box: boxes, parent: [-1, -1, 5, -1, -1, -1] };
+    expect([...findHolders({ ...scene, objects })].filter((found) => found >= 0).sort()).toEqual([0, 5]);
   });
 
   it("finds what hides an object: what is before it, not what is behind", () => {

@@ -8,8 +8,11 @@ export function makeScene(): SceneData {
     source: "kitchen.usda",
     ontology: { iri: "https://x.org/onto", label: "onto" },
     grounder: "lexical",
+    second_grounder: "",
     is_calibrated: true,
-    is_read_only: false,
+    is_graph: false,
+    has_comparison: false,
+    limits: {},
     reviewer: "Ann",
     objects: {
       path: ["/K/Table", "/K/Table/Cup_1", "/K/Table/Cup_2", "/K/wall"],
@@ -21,6 +24,7 @@ export function makeScene(): SceneData {
         [0.6, 0.4, 0.7, 0.7, 0.5, 0.8],
         [-2, -2, 0, 2, -1.9, 2.5],
       ],
+      turned: [null, null, null, null],
       room: [0, 0, 0, -1],
       rooms: ["K"],
       asset: [0, 1, 1, 0],
@@ -58,6 +62,7 @@ export function makeState(object: number, given: Partial<ObjectState> = {}): Obj
     reviewer: "",
     time: "",
     comment: "",
+    proposal: "",
     is_conflict: false,
     ...given,
   };

@@ -2,7 +2,7 @@ import { Raycaster, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { ApiFailure, type Client } from "../src/api/client";
 import { ThumbnailCache } from "../src/panels/Thumbnail";
-import { BoxBatch } from "../src/viewer/boxes";
+import { BoxBatch, boxMatrix } from "../src/viewer/boxes";
 import type { Appearance } from "../src/viewer/meshes";
 
 const PLAIN: Appearance = { isVisible: true, color: null, opacity: 1 };
@@ -68,5 +68,15 @@ describe("thumbnails", () => {
     expect(await cache.get(2)).toEqual({ problem: "not loaded" });
     expect(await cache.get(2)).toHaveProperty("url");
     expect(count()).toBe(3);
+  });
+});
+
+describe("boxes without meshes", () => {
+  it("stand along the object's own axes", () => {
+    // A board of 2 × 0.2 × 0.1 m, turned by 90° about z: its long side lies along y.
+    const half = Math.SQRT1_2;
+    const matrix = boxMatrix([-0.1, -1, 0, 0.1, 1, 0.1], [0, 0, half, half, 2, 0.2, 0.1]);
+    const corner = new Vector3(0.5, 0.5, 0.5).applyMatrix4(matrix);
+    expect(corner.toArray().map((value) => Math.round(1000 * value) / 1000)).toEqual([-0.1, 1, 0.1]);
   });
 });

@@ -3,35 +3,47 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+import pyoxigraph as ox
+from numpy.typing import NDArray
+
 from usd2kg.assistant.settings import RESULTS
 from usd2kg.query import Answer, GraphStore
-from usd2kg.validation import read_graph_objects
+from usd2kg.query.body_table import Body
+from usd2kg.query.dataset import term_list
 
 __all__ = ["describe_objects", "description_answer", "list_objects"]
 
+# The engine evaluates a group below OPTIONAL before what is around it. {found} limits each to the objects asked about.
 _CLASSES = """
-SELECT DISTINCT ?object ?path ?class ?iri ?confidence ?why WHERE {
-  VALUES ?kind { usd:Prim u2k:Object }
+SELECT DISTINCT ?object ?path ?class ?iri ?confidence ?why WHERE {{
+  {found}
+  VALUES ?kind {{ usd:Prim u2k:Object }}
   ?o a ?kind ; u2k:primPath ?path ; rdfs:label ?object .
-  OPTIONAL {
+  OPTIONAL {{
+    {found}
     ?o a ?iri . ?iri rdfs:label ?class .
     FILTER(?iri NOT IN (u2k:Object, usd:Prim))
-    OPTIONAL {
+    OPTIONAL {{
+      {found}
       ?x owl:annotatedSource ?o ; owl:annotatedProperty rdf:type ; owl:annotatedTarget ?iri .
       ?x sssom:confidence ?confidence .
-      OPTIONAL { ?x u2k:explanation ?why }
-    }
-  }
-} ORDER BY ?path"""
+      OPTIONAL {{ ?x u2k:explanation ?why }}
+    }}
+  }}
+}} ORDER BY ?path"""
 
 _WORDS = """
-SELECT DISTINCT ?path ?material ?asset ?room WHERE {
+SELECT DISTINCT ?path ?material ?asset ?room WHERE {{
+  {found}
   ?o u2k:primPath ?path .
-  OPTIONAL { ?o u2k:material ?material }
-  OPTIONAL { ?o u2k:asset ?asset }
-  OPTIONAL { ?o u2k:inRoom/rdfs:label ?room }
-}"""
+  OPTIONAL {{ {found} ?o u2k:material ?material }}
+  OPTIONAL {{ {found} ?o u2k:asset ?asset }}
+  OPTIONAL {{ {found} ?o u2k:inRoom/rdfs:label ?room }}
+}}"""
 
+_DECIMALS = 6
+"""Of metres, as in the graph."""
 _Row = Mapping[str, Any]
 
 
@@ -51,7 +63,7 @@ def list_objects(
     Raises:
         GraphError: the class is unknown.
     """
-    answer = graph.sparql(_CLASSES) if class_name is None else graph.all_of(class_name)
+    answer = graph.sparql(_CLASSES.format(found="")) if class_name is None else graph.all_of(class_name)
     kept = [i for i, column in enumerate(answer.columns) if column in {"object", "class", "path", "confidence"}]
     rows = [{answer.columns[i]: row[i] for i in kept} for row in answer.values]
     return {"count": len(rows), "start": start, "objects": rows[start : start + limit]}
@@ -70,33 +82,45 @@ def describe_objects(graph: GraphStore, thing: str, *, limit: int = RESULTS.max_
     Raises:
         GraphError: no object matches.
     """
-    found = {node.value for node in graph.find(thing)}
-    objects = [obj for obj in read_graph_objects(graph.store) if obj.iri in found]
-    classes = _rows_by_path(graph.sparql(_CLASSES))
-    words = _rows_by_path(graph.sparql(_WORDS))
+    facts = graph.facts
+    iris = facts.sorted(node.value for node in graph.find(thing))
+    shown = f"VALUES ?o {{ {term_list(map(ox.NamedNode, iris[:limit]))} }}"
+    classes, words = (_rows_by_path(graph.sparql(query.format(found=shown))) for query in (_CLASSES, _WORDS))
     described = []
-    for obj in objects[:limit]:
-        rows = words.get(obj.prim_path, [])
+    for iri in iris[:limit]:
+        path, body = facts.path(iri), facts.body(iri)
+        rows = words.get(path, [])
         described.append(
             {
-                "object": obj.label,
-                "path": obj.prim_path,
-                "iri": obj.iri,
+                "object": facts.label(iri),
+                "path": path,
+                "iri": iri,
                 "classes": [
                     {key: row[key] for key in ("class", "iri", "confidence", "why")}
-                    for row in classes.get(obj.prim_path, [])
+                    for row in classes.get(path, [])
                     if row["iri"]
                 ],
-                "center_m": obj.center,
-                "size_m": obj.size,
-                "mass_kg": obj.mass_kg,
+                **_box(body),
+                "mass_kg": body.mass,
                 "room": next((row["room"] for row in rows if row["room"]), None),
                 "materials": sorted({row["material"] for row in rows if row["material"]}),
                 "assets": sorted({row["asset"] for row in rows if row["asset"]}),
-                **_related_objects(graph, obj.prim_path),
+                **_related_objects(graph, path),
             }
         )
-    return {"count": len(objects), "objects": described}
+    return {"count": len(iris), "objects": described}
+
+
+def _box(body: Body) -> dict[str, tuple[float, ...] | None]:
+    """Return the centre and the sides of a box, in metres; None for an object without one."""
+    if body.lower is None or body.upper is None:
+        return {"center_m": None, "size_m": None}
+    center, size = (body.lower + body.upper) / 2, body.upper - body.lower
+    return {"center_m": _rounded(center), "size_m": _rounded(size)}
+
+
+def _rounded(vector: NDArray[np.float64]) -> tuple[float, ...]:
+    return tuple(round(float(value), _DECIMALS) for value in vector)
 
 
 def _related_objects(graph: GraphStore, path: str) -> dict[str, Any]:

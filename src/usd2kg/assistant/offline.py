@@ -1,6 +1,8 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
@@ -8,6 +10,7 @@ from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.phrases import RELATIONS, Phrase, match_phrase, normalize
 from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
 from usd2kg.errors import GraphError
+from usd2kg.knowledge import word_map
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
@@ -28,29 +31,41 @@ _SAID = {
 """Relation → preposition."""
 
 
-def ask_offline(graph: GraphStore, text: str) -> InterpretedAnswer:
+def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
     """Return the answer to a question in English; frequent questions in German, French, Spanish and Italian too.
 
     A word that is not understood is an error, never the answer "no".
+
+    Args:
+        graph: the graph.
+        text: the question.
+        since: an older version of the scene, a graph or a stage, for questions about changes.
 
     Raises:
         GraphError: the question or one of its words is not understood.
     """
     phrase = match_phrase(text)
-    return _Answerer(graph, is_english=phrase is None or phrase.is_english).answer(text, phrase)
+    return _Answerer(graph, phrase is None or phrase.is_english, since).answer(text, phrase)
 
 
 class _Answerer:
     """Answers questions about one graph."""
 
-    def __init__(self, graph: GraphStore, is_english: bool) -> None:
+    def __init__(self, graph: GraphStore, is_english: bool, since: Path | None) -> None:
         self._graph = graph
+        self._since = since
         self._facts = graph.facts
         self._nouns = Nouns(self._facts, is_english=is_english)
         self._measures = MeasureAnswers(self._facts, self._nouns)
-        self._handlers: Mapping[str, Callable[..., InterpretedAnswer]] = {
+
+    @property
+    def _handlers(self) -> Mapping[str, Callable[..., InterpretedAnswer]]:
+        # An attribute would be a reference cycle, which keeps the graph until the next full garbage collection.
+        return {
             "about": self._about,
             "all": self._all,
+            "changed": self._changed,
+            "count": self._count,
             "how-many": self._how_many,
             "is-blocked": self._is_blocked,
             "is-there": self._is_there,
@@ -109,6 +124,14 @@ class _Answerer:
         return InterpretedAnswer(
             f"number of {things.text}", self._located(things.iris), number=count, sentence=sentence
         )
+
+    def _count(self) -> InterpretedAnswer:
+        facts = self._facts
+        counts = Counter(label for iri in facts.things for label in facts.class_labels(iri))
+        rows = tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
+        table = Answer(("class", "count"), tuple((label, str(count)) for label, count in rows), rows, "")
+        sentence = f"There are {len(facts.things)} objects of {len(counts)} classes."
+        return InterpretedAnswer("number of objects of each class", table, number=len(facts.things), sentence=sentence)
 
     def _is_there(self, kind: str) -> InterpretedAnswer:
         things = self._nouns.find(kind)
@@ -266,6 +289,16 @@ class _Answerer:
         if not things.iris:
             raise GraphError(self._absent(things).removesuffix("."))
         return things
+
+    def _changed(self, change: str = "changed", thing: str | None = None) -> InterpretedAnswer:
+        # Loads OpenUSD, which no other question needs.
+        from usd2kg.assistant.changes import NEEDS_OLDER_VERSION, answer_changes, changes_since  # noqa: PLC0415
+
+        if self._since is None:
+            raise GraphError(NEEDS_OLDER_VERSION)
+        kind = word_map("assistant", "change_words").get(change.lower(), "changed")
+        paths = None if thing is None else frozenset(map(self._facts.path, self._found(thing).iris))
+        return answer_changes(changes_since(self._since, self._graph), kind, paths)
 
     def _ready_question(self, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
         """Return the answer to one of the questions that `usd2kg query --list` lists, for each object that is meant."""

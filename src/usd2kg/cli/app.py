@@ -1,6 +1,7 @@
 """The command `usd2kg`.
 
-Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, or `diff` has differences; 2 wrong
+Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, `diff` has differences, or `doctor`
+misses a package; 2 wrong
 usage, or an input or output cannot be used; 130 `ground` was interrupted and wrote a partial mapping.
 """
 
@@ -19,9 +20,11 @@ from usd2kg.cli import (
     completions,
     demo,
     diff,
+    doctor,
     evaluate,
     graph,
     ground,
+    init,
     inspect,
     label,
     ontology,
@@ -33,6 +36,7 @@ from usd2kg.cli import (
     validate,
 )
 from usd2kg.cli.output import emit, notify, to_single_line
+from usd2kg.cli.project_file import read_project_options
 from usd2kg.errors import Usd2kgError
 
 __all__ = ["app", "main"]
@@ -56,6 +60,8 @@ app.command("diff")(diff.diff_command)
 app.command("render")(render.render_command)
 app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)
+app.command("doctor")(doctor.doctor_command)
+app.command("init")(init.make_init_command(app))
 app.add_typer(graph.app, name="graph")
 app.add_typer(label.app, name="label")
 app.command("serve")(serve.serve_command)
@@ -82,6 +88,9 @@ def _options(
     verbose: Annotated[
         bool, Option("--verbose", help="Log each step, and show the traceback of an error. Accepted anywhere.")
     ] = False,
+    no_project_file: Annotated[
+        bool, Option("--no-project-file", help="Ignore the options of usd2kg.toml. Accepted anywhere.")
+    ] = False,
 ) -> None:
     level = logging.INFO if verbose else logging.WARNING
     logging.basicConfig(level=level, stream=sys.stderr, format="%(message)s")
@@ -93,15 +102,25 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             # Escape characters that the terminal's encoding lacks instead of failing.
             stream.reconfigure(errors="backslashreplace")
-    arguments = sys.argv[1:]
-    is_verbose = "--verbose" in arguments
-    if is_verbose:
-        # Click takes a global option only before the command; users append it to the command that failed.
-        arguments = ["--verbose", *(argument for argument in arguments if argument != "--verbose")]
+    # Click takes a global option only before the command; users append it to the command that failed.
+    global_options = [argument for argument in sys.argv[1:] if argument in {"--verbose", "--no-project-file"}]
+    arguments = [argument for argument in sys.argv[1:] if argument not in global_options]
+    is_verbose = "--verbose" in global_options
     try:
-        app(args=arguments, prog_name="usd2kg")
+        if "--no-project-file" not in global_options:
+            arguments = _with_project_options(arguments)
+        app(args=[*global_options, *arguments], prog_name="usd2kg")
     except Usd2kgError as error:
         if is_verbose:
             traceback.print_exc()
         notify(f"usd2kg: {to_single_line(str(error))}")
         sys.exit(2)
+
+
+def _with_project_options(arguments: list[str]) -> list[str]:
+    """Return the arguments with the options of `usd2kg.toml`, which are announced on stderr."""
+    found = read_project_options(app, arguments)
+    if found is None:
+        return arguments
+    notify(f"{found.file}: sets {', '.join(found.keys)}")
+    return [*found.arguments]

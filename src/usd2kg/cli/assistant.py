@@ -29,13 +29,19 @@ def ask_command(
     model: ModelName = None,
     completions: CompletionCacheFile = None,
     scene: SceneName = None,
+    since: Annotated[
+        Path | None,
+        Option("--since", metavar="OLD", help="Older version, a graph or a stage, for questions like 'what changed?'."),
+    ] = None,
     json: JsonOutput = False,
 ) -> None:
     """Answer a question in people's words: 'what is on the table?', 'how heavy is the fridge?'."""
     text = " ".join(words)
     if model is None:
-        _ask_scenes(graph, scene, text, json)
+        _ask_scenes(graph, scene, text, since, json)
         return
+    if since is not None:
+        raise GraphError("ask: --since is for questions without --model; leave one of them out")
     from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     asked = _ask_model(open_graph(graph, scene), text, model, completions)
@@ -47,7 +53,7 @@ def ask_command(
         emit(asked.summary() + answer_text(asked.answer))
 
 
-def _ask_scenes(place: str, scene: str | None, text: str, is_json: bool) -> None:
+def _ask_scenes(place: str, scene: str | None, text: str, since: Path | None, is_json: bool) -> None:
     """Print the answer about each scene of a store, or about one graph; scenes without an answer are left out."""
     from usd2kg.assistant import ask_offline  # noqa: PLC0415
     from usd2kg.stores import view_scenes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
@@ -57,7 +63,7 @@ def _ask_scenes(place: str, scene: str | None, text: str, is_json: bool) -> None
     graphs = view_scenes(place, scene)
     for name, graph in graphs.items():
         try:
-            answers[name] = ask_offline(graph, text)
+            answers[name] = ask_offline(graph, text, since)
         except GraphError as error:
             problems.append(error)
     if not answers:

@@ -184,7 +184,7 @@ def _suggest_classes(tbox: "TBox", grounder: "Grounder", scenes: list[Path], tar
     emit(format_suggestions(suggested, tbox), target)
     for one in suggested[:SUGGESTIONS]:
         parent = tbox.by_iri[one.parent].readable_name
-        notify(f"  {count_noun(len(one.objects), 'object')}: {one.concept.label} ⊑ {parent}, like {one.objects[0]}")
+        notify(f"  {count_noun(len(one.objects), 'object')}: {one.label} ⊑ {parent}, like {one.objects[0]}")
     notify(f"{count_noun(len(suggested), 'suggested class')} written to {target}")
 
 

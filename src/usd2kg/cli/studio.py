@@ -21,7 +21,13 @@ __all__ = ["studio_command"]
 
 @expand_bundles
 def studio_command(
-    target: Annotated[Path, Argument(metavar="SCENE|FOLDER", help="A USD stage, or the folder of a project.")],
+    target: Annotated[
+        Path,
+        Argument(
+            metavar="SCENE|GRAPH|FOLDER",
+            help="A USD stage, a graph written by usd2kg build, or the folder of a project.",
+        ),
+    ],
     reading: StageOptions,
     where: AddressOptions,
     ontology: OntologyFile = None,
@@ -32,22 +38,41 @@ def studio_command(
             help="Mapping to review, by any grounder: usd2kg ground -o MAPPING.json; default: by the lexical grounder.",
         ),
     ] = None,
+    second_mapping: Annotated[
+        Path | None,
+        Option(
+            "--second-mapping",
+            help="Mapping by another grounder; the queue can begin with the objects about which the two disagree.",
+        ),
+    ] = None,
     alignment: AlignmentFile = None,
     base: BaseIri = None,
     project: Annotated[
         Path | None,
-        Option("--project", help="Folder of decisions and outputs; default: SCENE.studio in the current folder."),
+        Option(
+            "--project",
+            help="Folder of decisions and outputs; default: SCENE.studio or GRAPH.ttl.studio in the current folder.",
+        ),
+    ] = None,
+    compare: Annotated[
+        Path | None,
+        Option(
+            "--compare",
+            metavar="OTHER",
+            help="Show the changes from OTHER: another version as a stage or graph, or a mapping of another run or "
+            "grounder (grounding.json, SSSOM).",
+        ),
     ] = None,
     reviewer: Reviewer = None,
     port: Port = 7879,
     no_browser: Annotated[bool, Option("--no-browser", help="Do not open the browser; print the address.")] = False,
 ) -> None:
-    """Open a scene in the browser to look at it, review classes, ask and export, until Ctrl+C.
+    """Open a scene or its graph in the browser to look at it, review classes, ask and export, until Ctrl+C.
 
     The page suggests --reviewer, or else the login name, and can change it.
     With a --host other than this machine, a password in USD2KG_STUDIO_PASSWORD is needed.
     """
-    from usd2kg.studio import ProjectSources, serve_studio  # noqa: PLC0415 - OpenUSD
+    from usd2kg.studio import ProjectSources, is_graph, serve_studio  # noqa: PLC0415 - OpenUSD
 
     sources = None
     if target.is_dir():
@@ -55,8 +80,9 @@ def studio_command(
             raise OutputError(f"--project {project}: {target} is a project already; name one of them")
         folder = target
     else:
-        folder = project or Path(f"{target.stem}.studio")
-        sources = ProjectSources(target, ontology, mapping, alignment, base, reading.read_options())
+        # A graph often has the name of its stage, which may have a project of its own.
+        folder = project or Path(f"{target.name if is_graph(target) else target.stem}.studio")
+        sources = ProjectSources(target, ontology, mapping, second_mapping, alignment, base, reading.read_options())
 
     def report(url: str) -> None:
         notify(f"studio at {url}")
@@ -67,6 +93,6 @@ def studio_command(
     # Service managers stop it with SIGTERM. As after Ctrl+C, the outputs are written first.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        serve_studio(folder, sources, where.address(port), reviewer=reviewer, when_ready=report)
+        serve_studio(folder, sources, where.address(port), reviewer=reviewer, compared=compare, when_ready=report)
     except KeyboardInterrupt:
         notify("stopped")

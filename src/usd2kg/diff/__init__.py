@@ -2,7 +2,13 @@
 
 from usd2kg.diff.carry import CarriedDecisions, UnplacedDecision, carry_decisions
 from usd2kg.diff.compare import USUAL_KINDS, Change, Changes, Move, compare_objects
-from usd2kg.diff.graph_states import GraphStyle, detect_graph_style, objects_of_graph, read_statements
+from usd2kg.diff.graph_states import (
+    GraphStyle,
+    detect_graph_style,
+    objects_of_graph,
+    read_ordered_statements,
+    read_statements,
+)
 from usd2kg.diff.match import Matching, ObjectMatch, match_objects
 from usd2kg.diff.match_description import describe_match
 from usd2kg.diff.object_state import Link, ObjectState, objects_of_scene
@@ -32,5 +38,6 @@ __all__ = [
     "match_objects",
     "objects_of_graph",
     "objects_of_scene",
+    "read_ordered_statements",
     "read_statements",
 ]

@@ -109,6 +109,8 @@ def compare_objects(
     new: Sequence[ObjectState],
     tolerances: Tolerances = DEFAULT_TOLERANCES,
     kinds: Iterable[str] = USUAL_KINDS,
+    *,
+    is_grounded: bool | None = None,
 ) -> Changes:
     """Return the differences between two scenes; swapping old and new gives the mirror image.
 
@@ -117,11 +119,14 @@ def compare_objects(
         new: the objects of the other scene, likewise.
         tolerances: differences that do not count.
         kinds: the kinds of relations to compare.
+        is_grounded: whether both scenes were grounded, so that no class is a statement, too; None to compare classes
+            only if each scene has one.
     """
     wanted = frozenset(kinds)
     matching = match_objects(old, new, tolerances)
-    has_classes = any(state.classes for state in old) and any(state.classes for state in new)
-    changed = _Comparison(matching, tolerances, wanted, has_classes).changes()
+    if is_grounded is None:
+        is_grounded = any(state.classes for state in old) and any(state.classes for state in new)
+    changed = _Comparison(matching, tolerances, wanted, is_grounded).changes()
     added, removed = (
         tuple(_select_links(state, wanted) for state in states) for states in (matching.added, matching.removed)
     )

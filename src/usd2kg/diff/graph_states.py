@@ -19,7 +19,15 @@ from usd2kg.ontology import local_name
 from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
 from usd2kg.relations import SYMMETRIC_KINDS
 
-__all__ = ["GraphStyle", "detect_graph_style", "objects_of_graph", "read_statements"]
+__all__ = [
+    "GraphStyle",
+    "detect_graph_style",
+    "objects_of_graph",
+    "parse_numbers",
+    "parse_vector",
+    "read_ordered_statements",
+    "read_statements",
+]
 
 _GENERAL_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
 """Types of all objects, which are not grounded classes."""
@@ -42,6 +50,15 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
     Raises:
         GraphError: the file cannot be read, its extension is not that of an RDF format, or its syntax is wrong.
     """
+    return frozenset(read_ordered_statements(path))
+
+
+def read_ordered_statements(path: Path) -> tuple[ox.Triple, ...]:
+    """Return the same statements in the order of the file, each once.
+
+    Raises:
+        GraphError: as `read_statements`.
+    """
     syntax = rdf_format(path)
     try:
         # Not through a store, which normalizes numbers: an update must quote literals exactly.
@@ -50,7 +67,7 @@ def read_statements(path: Path) -> frozenset[ox.Triple]:
                 with open_rdf(path) as file:
                     refuse_entity_bomb_in_file(file)
             with open_rdf(path) as file:
-                return frozenset(quad.triple for quad in ox.parse(file, format=syntax))
+                return tuple(dict.fromkeys(quad.triple for quad in ox.parse(file, format=syntax)))
     except MemoryError as error:
         raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
     except (SyntaxError, OSError, EOFError, zlib.error) as error:
@@ -135,9 +152,10 @@ class _StateReader:
             node.value,
             tuple(classes),
             " and ".join(self._text(ox.NamedNode(cls), RDFS.label) or local_name(cls) for cls in classes),
-            size=_vector(self._numbers(node, U2K.orientedSize) or self._sides(box)),
-            center=_vector(self._numbers(box, U2K.boxCenter)),
-            position=_vector(pose[:3] or self._numbers(node, U2K.position)),
+            size=parse_vector(self._numbers(node, U2K.orientedSize) or self._sides(box)),
+            box_size=parse_vector(self._sides(box)),
+            center=parse_vector(self._numbers(box, U2K.boxCenter)),
+            position=parse_vector(pose[:3] or self._numbers(node, U2K.position)),
             orientation=_quaternion(pose[3:] or self._numbers(node, U2K.orientation)),
             mass_kg=masses[0] if masses else None,
             assets=frozenset(str(value.value) for value in self._values[U2K.asset].get(node, ())),
@@ -177,14 +195,14 @@ class _StateReader:
 
     def _numbers(self, node: Any, *names: ox.NamedNode) -> tuple[float, ...]:
         """Return the numbers of the first of these properties that the node has."""
-        return _parse_numbers(next(filter(None, (self._text(node, name) for name in names)), ""))
+        return parse_numbers(next(filter(None, (self._text(node, name) for name in names)), ""))
 
     def _sides(self, box: Any) -> list[float]:
         extents = ((SOMA.hasDepth, U2K.width), (SOMA.hasWidth, U2K.depth), (SOMA.hasHeight, U2K.height))
         return [side for names in extents for side in self._numbers(box, *names)]
 
 
-def _parse_numbers(text: str) -> tuple[float, ...]:
+def parse_numbers(text: str) -> tuple[float, ...]:
     """Return the numbers of a text; empty if one of them is malformed or not finite."""
     try:
         numbers = tuple(float(word) for word in text.split())
@@ -193,7 +211,8 @@ def _parse_numbers(text: str) -> tuple[float, ...]:
     return numbers if all(map(math.isfinite, numbers)) else ()
 
 
-def _vector(values: Iterable[float]) -> Vector | None:
+def parse_vector(values: Iterable[float]) -> Vector | None:
+    """Return three numbers as a vector; None if there are not three."""
     match tuple(values):
         case x, y, z:
             return x, y, z

@@ -34,6 +34,8 @@ class ObjectState:
     """Labels of the classes."""
     size: Vector | None = None
     """Extents along the object's axes if they are known, else of the world box."""
+    box_size: Vector | None = None
+    """Extents of the world box, nested objects included."""
     center: Vector | None = None
     """Centre of the world box, nested objects included."""
     position: Vector | None = None
@@ -68,6 +70,7 @@ def objects_of_scene(scene: Scene) -> tuple[ObjectState, ...]:
         ObjectState(
             obj.prim_path,
             size=obj.oriented_size or (obj.box.size if obj.box else None),
+            box_size=obj.box.size if obj.box else None,
             center=obj.box.center if obj.box else None,
             position=obj.position,
             orientation=obj.orientation,

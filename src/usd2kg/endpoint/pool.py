@@ -39,8 +39,10 @@ class WorkerAnswer(NamedTuple):
 class WorkerPool:
     """Workers over one store folder. A killed worker is replaced when it is next needed."""
 
-    def __init__(self, folder: Path, limits: EndpointLimits) -> None:
+    def __init__(self, folder: Path, limits: EndpointLimits, tables: Path | None = None) -> None:
+        """Wrap a store folder; `tables` is where tables that are computed from it are kept."""
         self._folder = folder
+        self._tables = tables
         self._limits = limits
         self._free = asyncio.Semaphore(limits.workers)
         self._idle: list[Process] = []
@@ -82,8 +84,10 @@ class WorkerPool:
         return answer
 
     async def _start(self) -> Process:
+        tables = () if self._tables is None else (str(self._tables),)
         worker = await asyncio.create_subprocess_exec(
             *(sys.executable, "-m", "usd2kg.endpoint.worker", str(self._folder), json.dumps(asdict(self._limits))),
+            *tables,
             stdin=PIPE,
             stdout=PIPE,
             stderr=DEVNULL,

@@ -4,6 +4,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import pyoxigraph as ox
 
@@ -54,10 +55,10 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary,
         open_socket(options.address) as socket,
     ):
-        folder, _keeper = _prepare(place, Path(temporary) / "store")
+        folder, tables, _keeper = _prepare(place, Path(temporary) / "store")
         store = ox.Store.read_only(str(folder))
         app = make_app(
-            WorkerPool(folder, options.limits),
+            WorkerPool(folder, options.limits, tables),
             options.limits,
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
@@ -72,17 +73,28 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         uvicorn.Server(config).run(sockets=[socket])
 
 
-def _prepare(place: str, folder: Path) -> tuple[Path, object]:
-    """Return the folder with the graphs to serve, and what keeps it: the index of a large file, or a copy."""
+class _Served(NamedTuple):
+    """What the workers read."""
+
+    folder: Path
+    tables: Path | None
+    """Folder for tables that are computed from the graphs."""
+    keeper: object = None
+    """What has to exist as long as the index of a large file is read."""
+
+
+def _prepare(place: str, folder: Path) -> _Served:
+    """Return the graphs to serve: the index of a large file, or a copy in a folder."""
     if Path(place).is_dir():
-        EmbeddedStore(place).snapshot(folder)
-        return folder, None
+        store = EmbeddedStore(place)
+        store.snapshot(folder)
+        return _Served(folder, store.tables())
     if "://" in place:
         raise GraphError(f"{place}: is already a server; expected a graph file or a store folder")
     graph = load_graph(place, is_indexed=True)
     if (indexed := graph.dataset.index) is not None:
-        return indexed, graph
-    store = ox.Store(str(folder))
-    store.bulk_extend(graph.store)
-    store.flush()
-    return folder, None
+        return _Served(indexed, graph.dataset.folder, graph)
+    copy = ox.Store(str(folder))
+    copy.bulk_extend(graph.store)
+    copy.flush()
+    return _Served(folder, None)

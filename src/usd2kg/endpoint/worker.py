@@ -1,9 +1,9 @@
 """Worker process: answers one query at a time over a read-only store; can be killed at any moment.
 
-Usage: python -m usd2kg.endpoint.worker FOLDER LIMITS
+Usage: python -m usd2kg.endpoint.worker FOLDER LIMITS [TABLES]
 
-LIMITS is `EndpointLimits` as JSON. Each line on stdin is a request as a JSON object. Each answer on stdout is one line
-of JSON, whose `length` is the number of bytes that follow.
+LIMITS is `EndpointLimits` as JSON, TABLES a folder for tables that are computed from the store. Each line on stdin is
+a request as a JSON object. Each answer on stdout is one line of JSON, whose `length` is the number of bytes after it.
 """
 
 import json
@@ -21,6 +21,7 @@ from usd2kg.errors import GraphError, one_line
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.dataset import QUERY_PREFIXES, Dataset
+from usd2kg.query.dataset_clause import names_dataset
 from usd2kg.query.functions import make_functions
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 from usd2kg.query.sparql_errors import describe_syntax_error
@@ -34,21 +35,22 @@ class NotAcceptableError(Exception):
 
 def main(arguments: list[str]) -> None:
     """Answer requests until stdin ends."""
-    folder, settings = arguments
+    folder, settings, *tables = arguments
     limits = EndpointLimits(**json.loads(settings))
     store = ox.Store.read_only(folder)
     _limit_memory(limits.memory_mib)
-    serve_requests(store, limits, sys.stdin.buffer, sys.stdout.buffer)
+    dataset = Dataset(store, folder=Path(tables[0]) if tables else None)
+    serve_requests(dataset, limits, sys.stdin.buffer, sys.stdout.buffer)
 
 
-def serve_requests(store: ox.Store, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
+def serve_requests(dataset: Dataset, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer each request; the first line written reports that the process is ready."""
-    functions = make_functions(BodyIndex(Dataset(store)))
+    functions = make_functions(BodyIndex(dataset))
     _write(answers, {"ready": True}, b"")
     for line in requests:
         _terminate_after(limits.seconds + limits.orphan_grace_s)
         try:
-            media_type, rendered = answer(store, functions, json.loads(line), limits)
+            media_type, rendered = answer(dataset.store, functions, json.loads(line), limits)
         except NotAcceptableError as error:
             _write(answers, {"status": 406}, str(error).encode())
         except GraphError as error:
@@ -85,10 +87,13 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: End
 
 
 def _dataset(request: dict[str, Any]) -> dict[str, Any]:
-    """Return the dataset of a request (SPARQL 1.1 Protocol, section 2.1.4); by default the union of all graphs."""
+    """Return the dataset of a request: its own (SPARQL 1.1 Protocol, section 2.1.4), else that of the query.
+
+    Without either, it is the union of all graphs.
+    """
     default, named = request["default_graphs"], request["named_graphs"]
     if not default and not named:
-        return {"use_default_graph_as_union": True}
+        return {} if names_dataset(request["query"]) else {"use_default_graph_as_union": True}
     return {
         "default_graph": [ox.NamedNode(iri) for iri in default],
         "named_graphs": [ox.NamedNode(iri) for iri in named],

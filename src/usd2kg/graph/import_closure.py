@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pyoxigraph as ox
 
+from usd2kg.graph.abox import KnowledgeGraph
 from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
-from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF
 from usd2kg.ontology import Closure, without_header
 

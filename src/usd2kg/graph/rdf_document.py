@@ -6,14 +6,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import BinaryIO, NamedTuple, cast
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple, cast
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, one_line
-from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
 from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
+
+if TYPE_CHECKING:
+    from usd2kg.graph.abox import KnowledgeGraph
 
 __all__ = [
     "RDF_FORMATS",
@@ -73,7 +75,7 @@ class GraphDocument:
         return tuple(dict.fromkeys(triple for part in self.parts for triple in part.triples))
 
 
-def document_of(graph: KnowledgeGraph) -> GraphDocument:
+def document_of(graph: "KnowledgeGraph") -> GraphDocument:
     """Return the document of a graph: one named graph with the ontology IRI as its name."""
     return GraphDocument((GraphPart(graph.iri, graph.triples),), graph.prefixes, graph.iri)
 

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from pxr import Usd
+
 from usd2kg.labels.class_labels import label_maker
 from usd2kg.labels.layer import write_labels
 from usd2kg.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelReport
@@ -14,7 +16,7 @@ __all__ = ["label_stage"]
 
 
 def label_stage(
-    scene: Path,
+    scene: Path | Usd.Stage,
     classes: PrimClasses,
     tbox: TBox,
     output: Path,
@@ -27,7 +29,7 @@ def label_stage(
     """Write a layer over a scene that labels its prims with their classes; return the outcome for each prim.
 
     Args:
-        scene: the stage's root layer.
+        scene: the stage's root layer, or the open stage.
         classes: the class of each prim.
         tbox: the ontology of the classes.
         output: the layer to write, `.usda`, `.usdc` or `.usd`.

@@ -1,14 +1,19 @@
 """OWL files → TBox: the classes in scope with labels, comments and hierarchy."""
 
-from usd2kg.ontology.class_axioms import LABELS
-from usd2kg.ontology.closure import Closure, read_closure, without_header
-from usd2kg.ontology.fetch import fetch_ontology
-from usd2kg.ontology.known_ontologies import KnownOntology, read_registry
-from usd2kg.ontology.linearize import linearize_flat, linearize_tree
-from usd2kg.ontology.load import load_home_tbox, load_tbox
-from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
-from usd2kg.ontology.owl_write import write_functional_syntax
-from usd2kg.ontology.prefixes import compact_iri, expand_curie
+from typing import TYPE_CHECKING
+
+from usd2kg.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from usd2kg.ontology.class_axioms import LABELS
+    from usd2kg.ontology.closure import Closure, read_closure, without_header
+    from usd2kg.ontology.fetch import fetch_ontology
+    from usd2kg.ontology.known_ontologies import KnownOntology, read_registry
+    from usd2kg.ontology.linearize import linearize_flat, linearize_tree
+    from usd2kg.ontology.load import load_home_tbox, load_tbox
+    from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
+    from usd2kg.ontology.owl_write import write_functional_syntax
+    from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
     "LABELS",
@@ -31,3 +36,28 @@ __all__ = [
     "without_header",
     "write_functional_syntax",
 ]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "LABELS": "class_axioms",
+        "ClassIRI": "model",
+        "Closure": "closure",
+        "KnownOntology": "known_ontologies",
+        "OntologyClass": "model",
+        "OntologyNote": "model",
+        "TBox": "model",
+        "compact_iri": "prefixes",
+        "expand_curie": "prefixes",
+        "fetch_ontology": "fetch",
+        "linearize_flat": "linearize",
+        "linearize_tree": "linearize",
+        "load_home_tbox": "load",
+        "load_tbox": "load",
+        "local_name": "model",
+        "read_closure": "closure",
+        "read_registry": "known_ontologies",
+        "without_header": "closure",
+        "write_functional_syntax": "owl_write",
+    },
+)

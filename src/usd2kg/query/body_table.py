@@ -1,46 +1,40 @@
 """Boxes, extents and masses of all objects of a graph as arrays, kept beside the index of a large graph."""
 
-import logging
 import math
-import os
-import tempfile
-import zipfile
-from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyoxigraph as ox
 from numpy.typing import NDArray
 
+from usd2kg.graph.vocabulary import DUL, SOMA, U2K
+from usd2kg.query.column_file import Columns, keep_columns, pack_texts, unpack_texts
 from usd2kg.query.dataset import Dataset
 
 __all__ = ["NO_BODY", "Body", "BodyTable", "load_table", "parse_number_term", "parse_vector"]
 
-logger = logging.getLogger(__name__)
-
 Vector = NDArray[np.float64]
 
-_FILE = "bodies.npz"
+_FILE = "boxes.npz"
 _NUMBERS = ("lower", "upper", "extents", "mass")
 _SHELLS = ("shell_rows", "shells")
 
-# Simple patterns, joined here: the engine takes ten times as long for one query with all of them.
-_PATHS = {
-    "object": "?s u2k:primPath ?v",
-    "shape": "?s soma:hasShape ?v",
-    "region": "?s dul:hasRegion ?v",
-    "mass attribute": "?s soma:hasMassAttribute ?v",
-    "center": "?s u2k:boxCenter ?v",
-    "width": "?s soma:hasDepth|u2k:width ?v",
-    "depth": "?s soma:hasWidth|u2k:depth ?v",
-    "height": "?s soma:hasHeight|u2k:height ?v",
-    "oriented": "?s u2k:orientedSize ?v",
-    "shell": "?s u2k:shellBoxes ?v",
-    "mass": "?s soma:hasMassValue|u2k:mass ?v",
+_PROPERTIES = {
+    "object": (U2K.primPath,),
+    "shape": (SOMA.hasShape,),
+    "region": (DUL.hasRegion,),
+    "mass attribute": (SOMA.hasMassAttribute,),
+    "center": (U2K.boxCenter,),
+    "width": (SOMA.hasDepth, U2K.width),
+    "depth": (SOMA.hasWidth, U2K.depth),
+    "height": (SOMA.hasHeight, U2K.height),
+    "oriented": (U2K.orientedSize,),
+    "shell": (U2K.shellBoxes,),
+    "mass": (SOMA.hasMassValue, U2K.mass),
 }
+"""What is read → properties that state it. They are joined here, which is ten times as fast as one query."""
 
 
 @dataclass(frozen=True)
@@ -120,20 +114,11 @@ def parse_number_term(term: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 def load_table(dataset: Dataset) -> BodyTable:
     """Return the table of a dataset: from its folder, if it has one, where the first call leaves it."""
     path = None if dataset.folder is None else dataset.folder / _FILE
-    if path is not None and path.is_file():
-        try:
-            return _load(path)
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
-            logger.warning("%s: is damaged and is made again (%s)", path, error)
-    table = _read(dataset)
-    if path is not None:
-        with suppress(OSError):
-            _save(table, path)
-    return table
+    return keep_columns(path, _from_columns, lambda: _read(dataset), _to_columns)
 
 
 def _read(dataset: Dataset) -> BodyTable:
-    values = {name: _values(dataset, pattern) for name, pattern in _PATHS.items()}
+    values = {name: _values(dataset, properties) for name, properties in _PROPERTIES.items()}
     owners = {region: obj for obj, shape in values["shape"].items() if (region := values["region"].get(shape))}
     owners.update({attribute: obj for obj, attribute in values["mass attribute"].items()})
 
@@ -171,11 +156,10 @@ def _boxes(term: Any) -> Iterator[Vector]:
     yield from (box for part in parts if (box := parse_vector(part, 6)) is not None)
 
 
-def _values(dataset: Dataset, pattern: str) -> dict[Any, Any]:
-    """Return subject → value of a property; of several values, the first in the order of their text."""
+def _values(dataset: Dataset, properties: Iterable[ox.NamedNode]) -> dict[Any, Any]:
+    """Return subject → value of some properties; of several values, the first in the order of their text."""
     found: dict[Any, Any] = {}
-    for row in dataset.select(f"SELECT ?s ?v WHERE {{ {pattern} }}"):
-        subject, value = row
+    for subject, value in (pair for one in properties for pair in dataset.quads(one)):
         known = found.setdefault(subject, value)
         if known is not value and str(value) < str(known):
             found[subject] = value
@@ -186,25 +170,15 @@ def _vector(term: Any) -> Vector | None:
     return parse_vector(term.value) if isinstance(term, ox.Literal) else None
 
 
-def _load(path: Path) -> BodyTable:
-    with np.load(path, allow_pickle=False) as file:
-        iris = file["iris"].tobytes().decode().split("\n")
-        numbers = [file[name] for name in _NUMBERS]
-        shells = [file[name] for name in _SHELLS]
+def _from_columns(columns: Columns) -> BodyTable:
+    iris = unpack_texts(columns["iris"])
+    numbers = [columns[name] for name in _NUMBERS]
     if any(len(iris) != len(column) for column in numbers):
         raise ValueError(f"{len(iris)} objects, other numbers of values")
-    return BodyTable(iris, *numbers, *shells)
+    return BodyTable(iris, *numbers, *(columns[name] for name in _SHELLS))
 
 
-def _save(table: BodyTable, path: Path) -> None:
+def _to_columns(table: BodyTable) -> Columns:
     if not table.iris:
-        return
-    iris = np.frombuffer("\n".join(table.iris).encode(), dtype=np.uint8)
-    # Two processes may write at the same time.
-    handle, name = tempfile.mkstemp(suffix=".npz", dir=path.parent)
-    os.close(handle)
-    try:
-        np.savez(name, iris=iris, **{column: getattr(table, column) for column in (*_NUMBERS, *_SHELLS)})
-        Path(name).replace(path)
-    finally:
-        Path(name).unlink(missing_ok=True)
+        return {}
+    return {"iris": pack_texts(table.iris), **{name: getattr(table, name) for name in (*_NUMBERS, *_SHELLS)}}

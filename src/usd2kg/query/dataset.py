@@ -9,6 +9,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.query.dataset_clause import names_dataset
 
 __all__ = ["FUNCTION_NAMESPACE", "INDEX_NAME", "QUERY_PREFIXES", "Dataset", "term_list", "with_prefixes"]
 
@@ -43,18 +44,19 @@ def term_list(nodes: Iterable[ox.NamedNode]) -> str:
 
 @dataclass(frozen=True)
 class Dataset:
-    """Graphs of a store, queried as their union."""
+    """Graphs of a store, queried as their union unless a query names others with FROM or FROM NAMED."""
 
     store: ox.Store
     graphs: tuple[ox.NamedNode, ...] | None = None
     """None for all graphs."""
     folder: Path | None = None
-    """Folder of the index of a file, where tables that are computed from the graphs may be kept."""
+    """Folder in the cache, where tables that are computed from the graphs are kept; has the index of a large file."""
 
     @property
     def index(self) -> Path | None:
         """The files of the engine; None in memory and for a store of the user."""
-        return None if self.folder is None else self.folder / INDEX_NAME
+        index = None if self.folder is None else self.folder / INDEX_NAME
+        return index if index is not None and index.is_dir() else None
 
     def __len__(self) -> int:
         """Return the number of triples; those of several graphs count each time."""
@@ -70,6 +72,23 @@ class Dataset:
         """Return the nodes that have a value of a property, each once."""
         return list(dict.fromkeys(quad.subject for quad in self._quads(None, predicate, value)))
 
+    def triples(self) -> Iterator[ox.Triple]:
+        """Yield all triples; one of several graphs occurs each time."""
+        for graph in (None,) if self.graphs is None else self.graphs:
+            yield from (quad.triple for quad in self.store.quads_for_pattern(None, None, None, graph))
+
+    def quads(self, predicate: ox.NamedNode) -> Iterator[tuple[Any, Any]]:
+        """Yield the subjects and values of a property; a pair of several graphs occurs each time."""
+        return ((quad.subject, quad.object) for quad in self._quads(None, predicate, None))
+
+    def pairs(self, predicate: ox.NamedNode) -> Iterator[tuple[str, str]]:
+        """Yield the named subjects and the values of a property as text."""
+        return (
+            (subject.value, value.value)
+            for subject, value in self.quads(predicate)
+            if isinstance(subject, ox.NamedNode) and not isinstance(value, ox.Triple)
+        )
+
     def _quads(self, subject: Any, predicate: ox.NamedNode, value: Any) -> Iterator[ox.Quad]:
         # A pattern takes microseconds, a query that is parsed and planned for it some hundred.
         for graph in (None,) if self.graphs is None else self.graphs:
@@ -78,14 +97,19 @@ class Dataset:
     def query(self, sparql: str, **options: Any) -> ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples:
         """Return the result of a query; the package's prefixes are predefined.
 
+        FROM and FROM NAMED choose among all graphs of the store.
+
         Args:
             sparql: the query.
             options: further arguments of `pyoxigraph.Store.query`.
         """
-        graphs: Mapping[str, Any] = (
-            {"use_default_graph_as_union": True} if self.graphs is None else {"default_graph": [*self.graphs]}
-        )
-        return self.store.query(sparql, prefixes=QUERY_PREFIXES, **graphs, **options)
+        return self.store.query(sparql, prefixes=QUERY_PREFIXES, **self._graphs_of(sparql), **options)
+
+    def _graphs_of(self, sparql: str) -> Mapping[str, Any]:
+        # The engine ignores FROM and FROM NAMED where a dataset is passed beside the query.
+        if names_dataset(sparql):
+            return {}
+        return {"use_default_graph_as_union": True} if self.graphs is None else {"default_graph": [*self.graphs]}
 
     def select(self, sparql: str, **options: Any) -> list[Any]:
         """Return the rows of a SELECT query."""

@@ -7,19 +7,19 @@ import shutil
 import sqlite3
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
 import pyoxigraph as ox
 
-from usd2kg.cache_folder import cache_folder
+from usd2kg.cache_folder import chosen_cache_folder
 from usd2kg.errors import StoreError
 from usd2kg.folder_lock import LOCK_NAME, lock_exclusive, lock_shared, release_when_unused
 from usd2kg.query.dataset import INDEX_NAME
 from usd2kg.query.settings import CACHE
 
-__all__ = ["GRAPH_CACHE_VARIABLE", "open_cached"]
+__all__ = ["GRAPH_CACHE_VARIABLE", "open_cached", "open_tables"]
 
 logger = logging.getLogger(__name__)
 
@@ -35,7 +35,7 @@ _FAILURES = (OSError, RuntimeError, StoreError, sqlite3.Error)
 def open_cached(path: Path, load: Callable[[ox.Store], None]) -> tuple[ox.Store, Path, object] | None:
     """Return the read-only index of a graph file, made by `load` if it is missing; its folder; and what keeps it.
 
-    An entry belongs to a path, size and time of change, as in a build tool. It is made aside and renamed, so that
+    An entry belongs to a path, size and times of change, as in a build tool. It is made aside and renamed, so that
     processes never see half of one, and readers lock it against removal as long as the object that keeps it exists.
     The least recently used entries are removed beyond `CACHE.max_mib`.
 
@@ -45,7 +45,7 @@ def open_cached(path: Path, load: Callable[[ox.Store], None]) -> tuple[ox.Store,
     Raises:
         SyntaxError: the file does not parse; so do other errors of `load`, except those of the disk.
     """
-    folder = _folder()
+    folder = chosen_cache_folder(GRAPH_CACHE_VARIABLE, "graphs")
     if folder is None or path.stat().st_size < CACHE.min_mib * _MIB:
         return None
     entry = folder / _key(path)
@@ -60,21 +60,39 @@ def open_cached(path: Path, load: Callable[[ox.Store], None]) -> tuple[ox.Store,
     return found or _make(entry, path, load)
 
 
-def _folder() -> Path | None:
-    chosen = os.environ.get(GRAPH_CACHE_VARIABLE, "")
-    if chosen.lower() == "off":
+def open_tables(state: Sequence[object]) -> Path | None:
+    """Return a folder for tables that are computed from a graph elsewhere; None where the cache is off or unusable.
+
+    Args:
+        state: what the tables depend on; equal states share a folder.
+    """
+    folder = chosen_cache_folder(GRAPH_CACHE_VARIABLE, "graphs")
+    if folder is None:
         return None
+    entry = folder / _digest(state)
     try:
-        return Path(chosen) if chosen else cache_folder() / "graphs"
-    except RuntimeError:
+        entry.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if not (entry / LOCK_NAME).exists():
+            with lock_exclusive(entry, CACHE.lock_wait_s):
+                pass
+            _remove_old(entry)
+        os.utime(entry)
+    except _FAILURES as error:
+        logger.info("%s: tables are not cached (%s)", folder, error)
         return None
+    return entry
 
 
 def _key(path: Path) -> str:
     """Return the name of the entry of a file as it is now."""
     state = path.stat()
-    parts = (str(path.resolve()), state.st_size, state.st_mtime_ns, state.st_ino, ox.__version__)
-    return hashlib.blake2b(repr(parts).encode(), digest_size=16).hexdigest()
+    # A program can set the time of modification back, but not that of the last change of the file.
+    times = (state.st_mtime_ns, state.st_ctime_ns)
+    return _digest((str(path.resolve()), state.st_size, *times, state.st_ino))
+
+
+def _digest(state: Sequence[object]) -> str:
+    return hashlib.blake2b(repr((*state, ox.__version__)).encode(), digest_size=16).hexdigest()
 
 
 def _open(entry: Path) -> tuple[ox.Store, Path, object] | None:
@@ -145,7 +163,7 @@ def _remove_unused(entry: Path) -> None:
     with suppress(*_FAILURES):
         with lock_exclusive(entry, 0):
             # Without its index, the entry is no longer opened.
-            shutil.rmtree(entry / INDEX_NAME)
+            shutil.rmtree(entry / INDEX_NAME, ignore_errors=True)
         shutil.rmtree(entry)
 
 

@@ -19,7 +19,7 @@ from usd2kg.query.lookup import Nouns, SceneFacts
 from usd2kg.query.questions import Parameter, Question, find_question, parse_number
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 from usd2kg.query.settings import LOOKUP
-from usd2kg.query.sparql_errors import describe_syntax_error, unknown_names
+from usd2kg.query.sparql_errors import describe_syntax_error, unknown_graphs, unknown_names
 from usd2kg.query.staging import list_found_first
 
 __all__ = ["GraphStore"]
@@ -99,8 +99,8 @@ class GraphStore:
         return self._run(query)
 
     def hints(self, query: str) -> list[str]:
-        """Return a line for each name in a query that the graph does not have, such as a misspelt property."""
-        return unknown_names(query, self._dataset)
+        """Return a line for each name in a query that the graph does not have: a misspelt property, a graph of FROM."""
+        return [*unknown_graphs(query, self._dataset), *unknown_names(query, self._dataset)]
 
     def answer(self, question_id: str, given: Mapping[str, str] | None = None) -> Answer:
         """Return the answer to one of `list_questions`, with values for its parameters.

@@ -9,9 +9,10 @@ from rapidfuzz import fuzz, process
 from usd2kg.errors import one_line
 from usd2kg.graph.vocabulary import OWL, RDF
 from usd2kg.query.dataset import QUERY_PREFIXES, Dataset
+from usd2kg.query.dataset_clause import graphs_named
 from usd2kg.query.settings import LOOKUP
 
-__all__ = ["describe_syntax_error", "unknown_names"]
+__all__ = ["describe_syntax_error", "unknown_graphs", "unknown_names"]
 
 _PLACE = re.compile(r"error at (\d+):(\d+): expected (?:one of )?(.*)", re.DOTALL)
 _EXPECTED = re.compile(r'"([!-~]{1,3})"|\[[^\]]*\]|([A-Z][A-Za-z]* [A-Za-z ]*[a-z])')
@@ -102,6 +103,13 @@ def unknown_names(query: str, dataset: Dataset) -> list[str]:
         advice = f"; did you mean {similar[0]}?" if similar else ""
         hints.append(f"{prefix}:{local} is not in the graph{advice}")
     return hints
+
+
+def unknown_graphs(query: str, dataset: Dataset) -> list[str]:
+    """Return a hint for each graph in FROM and FROM NAMED that the store does not have."""
+    known = {node.value for node in dataset.store.named_graphs()}
+    advice = "" if known else "; a file that names no graphs is queried without FROM"
+    return [f"FROM <{iri}>: there is no such graph{advice}" for iri in graphs_named(query) if iri not in known]
 
 
 def _occurs(node: ox.NamedNode, store: ox.Store) -> bool:

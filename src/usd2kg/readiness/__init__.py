@@ -1,10 +1,11 @@
 """Readiness of an ontology for grounding: what it lacks, and which classes to add."""
 
 from usd2kg.readiness.check import OntologyReport, check_ontology
-from usd2kg.readiness.suggested_classes import SuggestedClass, format_suggestions, suggest_classes
+from usd2kg.readiness.suggested_classes import Proposal, SuggestedClass, format_suggestions, suggest_classes
 
 __all__ = [
     "OntologyReport",
+    "Proposal",
     "SuggestedClass",
     "check_ontology",
     "format_suggestions",

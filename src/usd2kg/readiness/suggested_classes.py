@@ -3,28 +3,44 @@
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, SKOS, Triple, text
+from usd2kg.graph.vocabulary import DCTERMS, OWL, PREFIXES, RDF, RDFS, SKOS, XSD, Triple, named_node, text
 from usd2kg.grounding import Concept, Grounding, Prediction, concepts_named
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.readiness.settings import SUGGESTION
 from usd2kg.words import words_of
 
-__all__ = ["SuggestedClass", "format_suggestions", "suggest_classes"]
+__all__ = ["Proposal", "SuggestedClass", "format_suggestions", "suggest_classes"]
+
+_ANNOTATIONS = (SKOS.exactMatch, SKOS.example, SKOS.editorialNote, DCTERMS.creator, DCTERMS.created)
+
+
+class Proposal(NamedTuple):
+    """A person's proposal of a class."""
+
+    reviewer: str
+    """A name, or an IRI such as an ORCID iD."""
+    time: str
+    """ISO 8601."""
+    comment: str
 
 
 @dataclass(frozen=True)
 class SuggestedClass:
     """A class that the ontology lacks."""
 
-    concept: Concept
-    """What its objects are."""
+    label: str
+    concept: Concept | None
+    """What its objects are, if the label is that of the concept."""
     parent: ClassIRI
     """The class that they have now."""
     objects: tuple[str, ...]
     """Prim paths, in scene order; those of several scenes follow each other."""
+    proposals: tuple[Proposal, ...] = ()
+    """Who proposed it; empty if it follows from the concepts."""
 
 
 def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[SuggestedClass]:
@@ -45,8 +61,10 @@ def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[Suggest
             if concept.iri in _concepts_of_head(tbox.by_iri[prediction.class_iri]):
                 continue
             found.setdefault((concept.iri, prediction.class_iri), (concept, []))[1].append(prediction.prim_path)
-    suggested = (SuggestedClass(concept, parent, tuple(paths)) for (_, parent), (concept, paths) in found.items())
-    return sorted(suggested, key=lambda one: (-len(one.objects), one.concept.label, one.parent))
+    suggested = (
+        SuggestedClass(concept.label, concept, parent, tuple(paths)) for (_, parent), (concept, paths) in found.items()
+    )
+    return sorted(suggested, key=lambda one: (-len(one.objects), one.label, one.parent))
 
 
 def _concepts_of_head(cls: OntologyClass) -> tuple[str, ...]:
@@ -75,15 +93,30 @@ def _triples(suggested: Sequence[SuggestedClass], tbox: TBox, base: str) -> Iter
     yield ontology, RDF.type, OWL.Ontology
     if not tbox.ontology_iri.startswith("file:"):
         yield ontology, OWL.imports, ox.NamedNode(tbox.ontology_iri)
-    yield SKOS.exactMatch, RDF.type, OWL.AnnotationProperty
+    for annotation in _ANNOTATIONS:
+        yield annotation, RDF.type, OWL.AnnotationProperty
     for one in suggested:
-        node = ox.NamedNode(f"{base}#{_class_name(one.concept.label)}")
+        node = ox.NamedNode(f"{base}#{_class_name(one.label)}")
         yield node, RDF.type, OWL.Class
-        yield node, RDFS.label, text(one.concept.label)
+        yield node, RDFS.label, text(one.label)
         yield node, RDFS.subClassOf, ox.NamedNode(one.parent)
-        yield node, SKOS.exactMatch, ox.NamedNode(one.concept.iri)
+        if one.concept is not None:
+            yield node, SKOS.exactMatch, ox.NamedNode(one.concept.iri)
         count = f"{len(one.objects)} objects" if len(one.objects) > 1 else "1 object"
         yield node, RDFS.comment, text(f"{count}, such as {one.objects[0]}")
+        if one.proposals:
+            yield from _triples_of_proposals(one, node)
+
+
+def _triples_of_proposals(one: SuggestedClass, node: ox.NamedNode) -> Iterator[Triple]:
+    """Yield who proposed a class, when and why, and for which objects."""
+    for path in one.objects:
+        yield node, SKOS.example, text(path)
+    for proposal in one.proposals:
+        yield node, DCTERMS.creator, named_node(proposal.reviewer) or text(proposal.reviewer)
+        yield node, DCTERMS.created, ox.Literal(proposal.time, datatype=XSD.dateTime)
+        if proposal.comment:
+            yield node, SKOS.editorialNote, text(proposal.comment)
 
 
 def _class_name(label: str) -> str:

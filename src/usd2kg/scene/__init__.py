@@ -3,9 +3,9 @@
 Only this package, `labels` and `render` import OpenUSD.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from usd2kg.lazy_names import lazy_names
 from usd2kg.scene.model import (
     Box,
     Diagnostic,
@@ -61,8 +61,4 @@ __all__ = [
     "read_scene",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _LAZY:
-        raise AttributeError(f"module 'usd2kg.scene' has no attribute {name!r}")
-    return getattr(import_module(f"usd2kg.scene.{_LAZY[name]}"), name)
+__getattr__ = lazy_names(__name__, _LAZY)

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -48,10 +49,14 @@ class OpenedStage:
     source: str
     """The file as the user named it; for an already open stage, the identifier of its root layer."""
     frame: StageFrame
-    content_hash: str
     diagnostics: tuple[Diagnostic, ...]
     unresolved: frozenset[str]
     """Paths of prims with a missing reference or payload at or below them."""
+
+    @cached_property
+    def content_hash(self) -> str:
+        """SHA-256 over all layers in use; all files are read when it is first asked for."""
+        return _hash_layers(self.stage)
 
 
 def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedStage:
@@ -81,7 +86,6 @@ def _opened(stage: Any, source: str, notes: list[Diagnostic], options: ReadOptio
         stage=stage,
         source=source,
         frame=frame,
-        content_hash=_hash_layers(stage),
         diagnostics=tuple(dict.fromkeys([*composition, *frame_notes, *_other_notes(notes, composition)])),
         unresolved=frozenset(note.prim_path for note in composition if note.prim_path not in {None, "/"}),
     )

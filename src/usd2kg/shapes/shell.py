@@ -59,8 +59,11 @@ def _sample_cells(surface: Surface, cell: float) -> _Cells:
     which = np.ravel_multi_index(tuple(place.T), shape)
     count = int(np.prod(shape))
     lower, upper = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(lower, which, points)
-    np.maximum.at(upper, which, points)
+    # Sorting is faster than the ufuncs' `at`.
+    order = np.argsort(which, kind="stable")
+    met, starts = np.unique(which[order], return_index=True)
+    lower[met] = np.minimum.reduceat(points[order], starts)
+    upper[met] = np.maximum.reduceat(points[order], starts)
     is_met = np.isfinite(lower[:, 0])
     return _Cells(is_met.reshape(shape), lower.reshape(*shape, 3), upper.reshape(*shape, 3))
 

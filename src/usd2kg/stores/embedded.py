@@ -14,8 +14,10 @@ from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.dataset import Dataset
+from usd2kg.query.graph_cache import open_tables
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_UPDATE, has_remote_clause
+from usd2kg.query.settings import CACHE
 from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
 from usd2kg.stores.named_graphs import StoredGraph, list_graphs
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
@@ -31,6 +33,8 @@ _STORE_FILES = re.compile(
     r"usd2kg\.(lock|pending|damaged).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
 )
 """Names of files in an incompletely created store."""
+_DATA_FILES = re.compile(r"CURRENT|MANIFEST-\d+|\d+\.(log|sst)")
+"""Names of the files that change with the content of a store."""
 
 
 class EmbeddedStore:
@@ -145,8 +149,21 @@ class EmbeddedStore:
             keeper = release_when_unused(locks.pop_all())
         everything = set(store.named_graphs())
         chosen = (tuple(map(ox.NamedNode, graphs)) for graphs in selections)
-        datasets = (Dataset(store, None if everything <= set(graphs) else graphs) for graphs in chosen)
-        return [GraphStore(dataset, self.address, keeper) for dataset in datasets]
+        selected = (None if everything <= set(graphs) else graphs for graphs in chosen)
+        return [GraphStore(Dataset(store, graphs, self.tables(graphs)), self.address, keeper) for graphs in selected]
+
+    def tables(self, graphs: Iterable[ox.NamedNode] | None = None) -> Path | None:
+        """Return a folder for tables that are computed from some graphs as they are now; None for a small store.
+
+        Args:
+            graphs: the graphs; None for all.
+        """
+        files = [file.stat() for file in self._folder.iterdir() if _DATA_FILES.fullmatch(file.name)]
+        if sum(state.st_size for state in files) < CACHE.min_mib * (1 << 20):
+            return None
+        names = None if graphs is None else sorted(str(graph) for graph in graphs)
+        changes = sorted((state.st_ino, state.st_size, state.st_mtime_ns) for state in files)
+        return open_tables((str(self._folder.resolve()), changes, names))
 
     def snapshot(self, target: Path) -> None:
         """Copy the store to a new folder.

@@ -1,21 +1,23 @@
 """NamedGraph: a scene or an ontology as a named graph of a store."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
-from usd2kg.graph.instantiate import KnowledgeGraph
-from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, named_node
-from usd2kg.ontology import Closure, TBox, without_header
-from usd2kg.query.graph_file import load_graph
+from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, U2K, named_node
+from usd2kg.query.graph_file import read_triples
+
+if TYPE_CHECKING:
+    from usd2kg.graph.abox import KnowledgeGraph
+    from usd2kg.ontology import Closure, TBox
 
 __all__ = [
     "NamedGraph",
@@ -25,9 +27,6 @@ __all__ = [
     "read_named_graph",
     "relabel_blank_nodes",
 ]
-
-_HEADERS = "SELECT ?g WHERE { ?g a owl:Ontology ; u2k:run ?run }"
-_TRIPLES = "CONSTRUCT { ?s ?p ?o } WHERE { ?s ?p ?o }"
 
 
 @dataclass(frozen=True)
@@ -40,13 +39,15 @@ class NamedGraph:
     """Without duplicates."""
 
 
-def make_named_graph(graph: KnowledgeGraph) -> NamedGraph:
+def make_named_graph(graph: "KnowledgeGraph") -> NamedGraph:
     """Return the named graph of a scene."""
     return NamedGraph(graph.iri, tuple(dict.fromkeys(graph.triples)))
 
 
-def make_ontology_graph(tbox: TBox, closure: Closure) -> NamedGraph:
+def make_ontology_graph(tbox: "TBox", closure: "Closure") -> NamedGraph:
     """Return an ontology, its imports and the u2k vocabulary as one named graph that all scenes of a store share."""
+    from usd2kg.ontology import without_header  # noqa: PLC0415 - loads the parsers of OWL
+
     iri = tbox.ontology_iri
     # Do not publish local paths.
     iri = f"urn:usd2kg:ontology:{tbox.content_hash}" if iri.startswith("file:") else iri
@@ -64,10 +65,10 @@ def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
     Raises:
         GraphError: the file cannot be read, is empty, or states no single ontology IRI; or `iri` is invalid.
     """
-    read = load_graph(path)
+    triples = read_triples(path)
     if iri is None:
-        found = [row[0] for row in read.sparql(_HEADERS).rows]
-        if len(found) != 1 or found[0] is None:
+        found = _headers(triples)
+        if len(found) != 1:
             stated = f"{len(found)} graph IRIs" if found else "no graph IRI"
             raise GraphError(
                 f"{path}: states {stated}; expected a graph that usd2kg build wrote, or its IRI with --scene"
@@ -75,12 +76,21 @@ def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
         iri = found[0]
     if named_node(iri) is None:
         raise GraphError(f"graph {iri!r}: is not an absolute IRI; expected one like https://my.lab/kitchen")
-    found_triples = read.store.query(_TRIPLES, use_default_graph_as_union=True)
-    assert isinstance(found_triples, ox.QueryTriples)
-    triples = tuple(dict.fromkeys(found_triples))
     if not triples:
         raise GraphError(f"{path}: contains no triples; build the graph again")
     return NamedGraph(iri, triples)
+
+
+def _headers(triples: Iterable[ox.Triple]) -> list[str]:
+    """Return the IRIs of the ontologies that scenes form: those that a run of this package wrote."""
+    ontologies, written = set[str](), set[str]()
+    for subject, predicate, value in triples:
+        if isinstance(subject, ox.NamedNode):
+            if predicate == U2K.run:
+                written.add(subject.value)
+            elif predicate == RDF.type and value == OWL.Ontology:
+                ontologies.add(subject.value)
+    return sorted(ontologies & written)
 
 
 def last_segment(iri: str) -> str:
@@ -106,7 +116,10 @@ def relabel_blank_nodes(graph: NamedGraph) -> Iterator[ox.Triple]:
         if isinstance(term, ox.BlankNode):
             return derive(term.value)
         if isinstance(term, ox.Triple):
-            return ox.Triple(relabel(term.subject), term.predicate, relabel(term.object))
+            subject, value = term.subject, term.object
+            # Most triples have no blank node; making them anew takes as long as writing them.
+            if isinstance(subject, ox.BlankNode) or isinstance(value, ox.BlankNode | ox.Triple):
+                return ox.Triple(relabel(subject), term.predicate, relabel(value))
         return term
 
     return map(relabel, graph.triples)

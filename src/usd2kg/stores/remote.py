@@ -14,6 +14,7 @@ from usd2kg.errors import GraphError, StoreError
 from usd2kg.graph.vocabulary import DCTERMS
 from usd2kg.query.answer import Answer
 from usd2kg.query.dataset import Dataset, with_prefixes
+from usd2kg.query.dataset_clause import names_dataset
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_QUERY, REMOTE_UPDATE, has_remote_clause
 from usd2kg.stores.chunking import split_triples
@@ -221,7 +222,8 @@ class RemoteStore:
         return [self.fetch(graphs) for graphs in selections]
 
     def _query(self, sparql: str, graphs: Sequence[str]) -> HttpResponse:
-        form = [("query", sparql), *(("default-graph-uri", iri) for iri in graphs)]
+        # The parameters of the protocol override FROM.
+        form = [("query", sparql), *(("default-graph-uri", iri) for iri in graphs if not names_dataset(sparql))]
         headers = {"Content-Type": FORM, "Accept": f"{_RESULTS}, {_TRIPLES};q=0.9"}
         return self._client.send(HttpRequest("POST", self._query_url, urlencode(form).encode(), headers))
 

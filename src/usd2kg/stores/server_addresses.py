@@ -9,8 +9,10 @@ from urllib.parse import urlsplit
 
 from usd2kg.errors import StoreError
 
-__all__ = ["check_address", "read_credentials", "redact_address"]
+__all__ = ["CREDENTIAL_VARIABLES", "check_address", "read_credentials", "redact_address"]
 
+CREDENTIAL_VARIABLES = ("USD2KG_STORE_USER", "USD2KG_STORE_PASSWORD", "USD2KG_STORE_TOKEN")
+"""Environment variables with credentials for stores."""
 _MAX_SHOWN = 300
 """Characters of an address in a message."""
 _NOT_IN_HEADERS = frozenset({"Cc", "Cs"})
@@ -66,13 +68,12 @@ def read_credentials(environment: Mapping[str, str] | None = None) -> str | None
         StoreError: the variables are incomplete or conflicting, or a value cannot be part of a header.
     """
     given = os.environ if environment is None else environment
-    names = [f"USD2KG_STORE_{name}" for name in ("USER", "PASSWORD", "TOKEN")]
-    user, password, token = (given.get(name) or "" for name in names)
+    user, password, token = (given.get(name) or "" for name in CREDENTIAL_VARIABLES)
     if bool(user) != bool(password) or (token and user):
         raise StoreError(
             "credentials of the store: expected USD2KG_STORE_USER with USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN"
         )
-    for name, value in zip(names, (user, password, token), strict=True):
+    for name, value in zip(CREDENTIAL_VARIABLES, (user, password, token), strict=True):
         if any(unicodedata.category(char) in _NOT_IN_HEADERS for char in value):
             raise StoreError(f"{name}: contains a control character, such as a line break; remove it")
     if ":" in user:

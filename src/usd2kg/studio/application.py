@@ -18,19 +18,23 @@ from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
 from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
+from usd2kg.studio.audit import audit_json
 from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.comparison import Comparison
+from usd2kg.studio.decision_request import read_decision
+from usd2kg.studio.disagreement import DISAGREEMENT_ORDER, make_disagreement_queue
 from usd2kg.studio.exports import EXPORTS
 from usd2kg.studio.live_events import LiveEvents
 from usd2kg.studio.object_page import object_page, relation_json
 from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.other_version import OtherVersion
 from usd2kg.studio.outputs import OutputFiles
 from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
 from usd2kg.studio.request_body import BadRequestError, field, object_indices, read_body
-from usd2kg.studio.review_queue import QUEUE_ORDERS, estimate_seconds, make_queue
+from usd2kg.studio.review_queue import AUDIT_ORDER, QUEUE_ORDERS, estimate_seconds, make_audit_queue, make_queue
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
-from usd2kg.studio.verdicts import Verdict, VerdictKind
 
 __all__ = ["make_app"]
 
@@ -45,6 +49,7 @@ def make_app(
     key: str,
     reviewer: str,
     hosts: Iterable[str] = (),
+    other: OtherVersion | None = None,
     when_ready: Callable[[], None] = lambda: None,
 ) -> Starlette:
     """Return the application.
@@ -55,9 +60,10 @@ def make_app(
         key: the access key that requests for data must carry.
         reviewer: the name that the page suggests for the reviewer.
         hosts: host names that are served in addition to localhost and IP addresses.
+        other: the version that the scene is compared with; None for no comparison.
         when_ready: called when requests are answered.
     """
-    api = _Api(session, reviewer)
+    api = _Api(session, reviewer, other)
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
@@ -100,7 +106,7 @@ def _checked(handler: Handler) -> Handler:
 class _Api:
     """The handlers of requests for data."""
 
-    def __init__(self, session: StudioSession, reviewer: str) -> None:
+    def __init__(self, session: StudioSession, reviewer: str, other: OtherVersion | None) -> None:
         self._session = session
         self._catalog = Catalog(session.scene, session.tbox, session.suggestions, session.relations)
         self._reviewer = reviewer
@@ -108,6 +114,7 @@ class _Api:
         self._pictures = Pictures(session, self._catalog)
         self._questions = Questions(session, self._catalog)
         self._outputs = OutputFiles(session)
+        self._comparison = None if other is None else Comparison(session, self._catalog, other)
 
     def routes(self) -> list[tuple[str, str, Handler]]:
         """Return (method, path, handler)."""
@@ -116,6 +123,7 @@ class _Api:
             ("GET", "/states", self._states),
             ("GET", "/object/{index:int}", self._object),
             ("GET", "/relations", self._relations),
+            ("GET", "/comparison", self._compare),
             ("GET", "/queue", self._queue),
             ("GET", "/events", self._stream),
             ("GET", "/geometry", self._geometry),
@@ -146,8 +154,11 @@ class _Api:
 
     async def _scene(self, _: Request) -> Response:
         # The page asks for meshes next; the stage is opened meanwhile.
-        self._pictures.geometry()
-        return JSONResponse(scene_json(self._session, self._catalog, self._reviewer))
+        self._pictures.manifest()
+        has_comparison = self._comparison is not None
+        return JSONResponse(
+            {**scene_json(self._session, self._catalog, self._reviewer), "has_comparison": has_comparison}
+        )
 
     async def _states(self, request: Request) -> Response:
         reviewer = request.query_params.get("reviewer", self._reviewer)
@@ -179,14 +190,26 @@ class _Api:
         found = [relation_json(r, self._catalog) for r in self._session.relations if r.kind == kind]
         return JSONResponse({"relations": found})
 
+    async def _compare(self, _: Request) -> Response:
+        if self._comparison is None:
+            raise BadRequestError("there is nothing to compare; start with --compare OTHER", 404)
+        return JSONResponse(await asyncio.to_thread(self._comparison.json))
+
     # Review.
 
     async def _queue(self, request: Request) -> Response:
         order = request.query_params.get("order", QUEUE_ORDERS[0])
-        if order not in QUEUE_ORDERS:
-            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(QUEUE_ORDERS)}")
-        states = self._session.states()
-        groups = make_queue(states, self._session.scene.by_path, self._catalog.room_of, order)
+        second = self._session.second
+        expected = (*QUEUE_ORDERS, AUDIT_ORDER, *([DISAGREEMENT_ORDER] if second is not None else []))
+        if order not in expected:
+            raise BadRequestError(f"order {order[:40]!r} is unknown; expected one of {', '.join(expected)}")
+        states, audit, by_path = self._session.states(), self._session.audit(), self._session.scene.by_path
+        if order == AUDIT_ORDER:
+            groups = make_audit_queue(audit.waiting, self._session.predictions, by_path)
+        elif order == DISAGREEMENT_ORDER and second is not None:
+            groups = make_disagreement_queue(states, by_path, second)
+        else:
+            groups = make_queue(states, by_path, self._catalog.room_of, order)
         still_open = sum(state.status.is_open for state in states)
         return JSONResponse(
             {
@@ -199,12 +222,15 @@ class _Api:
                         "concept": self._catalog.concept(group.concept),
                         "confidence": group.confidence,
                         "gain": group.gain,
+                        "is_disputed": group.is_disputed,
+                        "second": self._catalog.class_(group.second),
                     }
                     for group in groups
                 ],
                 "open": still_open,
                 "decided": len(states) - still_open,
                 "agreement": [asdict(found) for found in find_agreement(self._session.review.by_reviewer())],
+                "audit": audit_json(audit),
                 "seconds_left": estimate_seconds(self._session.journal.events, len(groups)),
             }
         )
@@ -214,31 +240,17 @@ class _Api:
         objects = self._session.scene.objects
         paths = [objects[index].prim_path for index in object_indices(body, len(objects))]
         reviewer = _reviewer(body)
-        comment, seen = field(body, "comment", str, ""), field(body, "seen", int, self._session.version)
-        action = field(body, "action", str)
-        verdicts = self._verdicts(action, body, paths, comment)
-        changed = await asyncio.to_thread(self._session.decide, verdicts, reviewer, seen)
-        return self._announce(changed, body, f"{action} {len(changed)} objects")
-
-    def _verdicts(self, action: str, body: dict[str, Any], paths: list[str], comment: str) -> dict[str, Verdict]:
-        """Return prim path → verdict of a request."""
-        kinds = {"unsure": VerdictKind.UNSURE, "no-class": VerdictKind.NO_CLASS, "clear": VerdictKind.OPEN}
-        if action in kinds:
-            return dict.fromkeys(paths, Verdict(kinds[action], comment=comment))
-        if action == "choose":
-            index = field(body, "class", int)
-            if not 0 <= index < len(self._session.tbox.classes):
-                raise BadRequestError(f"field class: {index} is no class")
-            iri = self._session.tbox.classes[index].iri
-            return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, iri, comment=comment))
-        if action != "confirm":
-            raise BadRequestError(
-                f"field action: {action[:40]!r} is unknown; expected confirm, choose, unsure, no-class or clear"
-            )
-        suggested = {path: self._session.predictions[path].class_iri for path in paths}
-        if without := next((path for path, iri in suggested.items() if iri is None), None):
-            raise BadRequestError(f"{without}: has no suggestion to confirm; choose a class")
-        return {path: Verdict(VerdictKind.CLASS, iri, comment=comment) for path, iri in suggested.items()}
+        seen = field(body, "seen", int, self._session.version)
+        decision = read_decision(body, paths, self._session, self._catalog)
+        changed = await asyncio.to_thread(
+            self._session.decide,
+            decision.verdicts,
+            reviewer,
+            seen,
+            concept=decision.concept,
+            is_audit=decision.is_audit,
+        )
+        return self._announce(changed, body, f"{decision.action} {len(changed)} objects")
 
     async def _undo(self, request: Request) -> Response:
         body = await read_body(request)
@@ -297,7 +309,10 @@ class _Api:
     # Pictures.
 
     async def _geometry(self, _: Request) -> Response:
-        return JSONResponse((await _wait(self._pictures.geometry())).manifest())
+        manifest = await _wait(self._pictures.manifest())
+        if not manifest["chunks"]:
+            self._outputs.notify()
+        return JSONResponse(manifest)
 
     async def _geometry_file(self, request: Request) -> Response:
         index = int(request.path_params["index"])
@@ -305,7 +320,7 @@ class _Api:
             content = await _wait(self._pictures.file(index))
         except IndexError as error:
             raise BadRequestError("there is no such file", 404) from error
-        if index + 1 == len((await _wait(self._pictures.geometry())).manifest()["chunks"]):
+        if index + 1 == len((await _wait(self._pictures.manifest()))["chunks"]):
             # The first graph is built when the page has what it shows.
             self._outputs.notify()
         return Response(content, media_type="model/gltf-binary")

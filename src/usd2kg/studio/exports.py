@@ -9,10 +9,13 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
+from usd2kg.errors import SceneError
 from usd2kg.graph import format_sssom, serialize_graph
 from usd2kg.grounding import format_mapping
 from usd2kg.labels import LabelOptions, classes_of_grounding, label_stage
+from usd2kg.readiness import format_suggestions
 from usd2kg.studio.lessons import format_lessons
+from usd2kg.studio.proposals import find_proposals
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["EXPORTS", "Export", "write_label_layer"]
@@ -61,9 +64,11 @@ def write_label_layer(session: StudioSession, target: Path, *, is_bare: bool) ->
     Raises:
         Usd2kgError: the stage cannot be read or the layer cannot be written.
     """
+    if session.stage is None:
+        raise SceneError(session.stage_note)
     classes = classes_of_grounding(session.grounding())
     options = LabelOptions(is_bare=is_bare, provenance={"ontology": session.tbox.ontology_iri})
-    label_stage(session.project.sources.scene, classes, session.tbox, target, options=options)
+    label_stage(session.label_stage, classes, session.tbox, target, options=options)
 
 
 def _objects(session: StudioSession) -> bytes:
@@ -93,12 +98,17 @@ def _lessons(session: StudioSession) -> bytes:
     return format_lessons(session.lessons(), session.tbox).encode()
 
 
+def _proposals(session: StudioSession) -> bytes:
+    return format_suggestions(find_proposals(session.states(), session.suggestions), session.tbox).encode()
+
+
 EXPORTS: Mapping[str, Export] = {
     "graph.ttl": Export("text/turtle", _graph),
     "mapping.sssom.tsv": Export("text/tab-separated-values", _mapping),
     "grounding.json": Export("application/json", _grounding),
     "decisions.sssom.tsv": Export("text/tab-separated-values", _decisions),
     "lessons.sssom.tsv": Export("text/tab-separated-values", _lessons),
+    "proposals.ttl": Export("text/turtle", _proposals),
     "labels.usda": Export("text/plain", _labels),
     "objects.csv": Export("text/csv", _objects),
 }

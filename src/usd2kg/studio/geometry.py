@@ -13,7 +13,10 @@ from usd2kg.studio.mesh_budget import ShadedMesh, decimate, shade
 from usd2kg.studio.settings import GEOMETRY
 from usd2kg.studio.texture_images import TextureImage, TextureImages
 
-__all__ = ["GeometryFiles"]
+__all__ = ["NO_MESHES", "GeometryFiles"]
+
+NO_MESHES: dict[str, Any] = {"chunks": [], "triangles": 0, "source_triangles": 0}
+"""Manifest of a scene without meshes."""
 
 
 @dataclass

@@ -20,7 +20,7 @@ from usd2kg.graph.vocabulary import named_node
 from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT
 from usd2kg.grounding.sssom_file import Curies, SssomFile, format_sssom_file, read_sssom_file
 from usd2kg.ontology import TBox
-from usd2kg.studio.verdicts import Action, Change, Event, Verdict, VerdictKind
+from usd2kg.studio.verdicts import Action, Change, Event, Suggestion, Verdict, VerdictKind
 
 __all__ = ["Journal"]
 
@@ -28,7 +28,8 @@ _COLUMNS = (
     *("subject_id", "predicate_id", "object_id", "object_label", "mapping_justification"),
     *("reviewer_id", "reviewer_label", "review_date", "comment"),
     *("prim_path", VERDICT, "decided_at", "before"),
-    *("event", "action", "actor", "time", "seen", "reverts"),
+    *("event", "action", "actor", "time", "seen", "reverts", "concept", "proposal", "audit"),
+    *("suggested", "suggested_confidence"),
 )
 _EXTENSIONS = {
     "prim_path": "u2k:primPath",
@@ -41,8 +42,13 @@ _EXTENSIONS = {
     "time": "dcterms:modified",
     "seen": "u2k:seenEvent",
     "reverts": "u2k:revertedEvent",
+    "concept": "u2k:decidedConcept",
+    "proposal": "u2k:proposedSubclass",
+    "audit": "u2k:isAudit",
+    "suggested": "u2k:suggestedClass",
+    "suggested_confidence": "u2k:suggestedConfidence",
 }
-_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-6:])
+_REQUIRED = ("prim_path", "object_id", VERDICT, *_COLUMNS[-11:])
 _EXPECTED = "expected the decisions of a studio project"
 _ORCID = "https://orcid.org/"
 _CURATED = "semapv:ManualMappingCuration"
@@ -135,7 +141,18 @@ class Journal:
             "time": event.time,
             "seen": str(event.seen),
             "reverts": str(event.reverts or ""),
+            "concept": self._shorten(event.concept) if event.concept else "",
+            "proposal": one_line(verdict.proposal),
+            "audit": "true" if event.is_audit else "",
+            **self._suggested(change.suggested),
         }
+
+    def _suggested(self, suggested: Suggestion | None) -> dict[str, str]:
+        """Return the cells of what was suggested: empty without an answer."""
+        if suggested is None:
+            return {"suggested": "", "suggested_confidence": ""}
+        confidence = "" if suggested.confidence is None else repr(suggested.confidence)
+        return {"suggested": self._shorten(suggested.class_iri or NO_TERM), "suggested_confidence": confidence}
 
     def _shorten(self, iri: str) -> str:
         """Return the CURIE of an IRI; the IRI itself if the header does not declare its prefix."""
@@ -191,13 +208,22 @@ def _read_event(where: str, cells: Mapping[str, str], expand: Callable[[str], st
     try:
         number, seen, reverts = int(cells["event"]), int(cells["seen"]), int(cells["reverts"] or 0)
         action, kind = Action(cells["action"]), VerdictKind(cells[VERDICT])
+        suggested = _read_suggestion(cells, expand)
     except ValueError as error:
         raise GroundingError(f"{where}: {error}; {_EXPECTED}") from error
     reviewer = expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|")
     iri = expand(cells["object_id"]) if kind is VerdictKind.CLASS else None
     who = "" if kind is VerdictKind.OPEN else reviewer
-    verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number)
-    return Event(number, action, cells["actor"], cells["time"], (Change(cells["prim_path"], verdict),), seen, reverts)
+    verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number, cells["proposal"])
+    change = Change(cells["prim_path"], verdict, suggested)
+    concept, is_audit = expand(cells["concept"]), cells["audit"] == "true"
+    return Event(number, action, cells["actor"], cells["time"], (change,), seen, reverts, concept, is_audit)
+
+
+def _read_suggestion(cells: Mapping[str, str], expand: Callable[[str], str]) -> Suggestion | None:
+    """Return what was suggested when the decision of a row was made; None without an answer."""
+    iri, confidence = expand(cells["suggested"]), cells["suggested_confidence"]
+    return Suggestion(None if iri == NO_TERM else iri, float(confidence) if confidence else None) if iri else None
 
 
 def _write_all(file: io.FileIO, data: bytes) -> None:

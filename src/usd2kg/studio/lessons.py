@@ -1,10 +1,11 @@
 """What decisions teach: rows of an alignment that a person made, for this scene and others.
 
 If reviewers gave all objects of one concept the same class, the concept belongs to that class. An object without a
-concept teaches the same about the words of its name.
+concept teaches the same about the words of its name. A reviewer can also decide about a concept: then exceptions among
+its objects teach nothing else.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from usd2kg.grounding import Decision, Grounding
@@ -13,6 +14,7 @@ from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
+from usd2kg.studio.verdicts import Event
 
 __all__ = ["Lesson", "find_lessons", "format_lessons"]
 
@@ -31,16 +33,22 @@ class Lesson:
     """Number of decided objects that teach it."""
     reviewers: tuple[str, ...]
     """Who decided, sorted."""
+    is_direct: bool = False
+    """Whether a person decided about the concept, not only about its objects."""
 
 
-def find_lessons(suggestions: Grounding, decisions: Mapping[str, Decision], scene: Scene) -> list[Lesson]:
+def find_lessons(
+    suggestions: Grounding, decisions: Mapping[str, Decision], scene: Scene, standing: Sequence[Event] = ()
+) -> list[Lesson]:
     """Return what the decisions teach, sorted by label; nothing about what they contradict each other.
 
     Args:
         suggestions: the grounding that was reviewed.
         decisions: prim path → decision.
         scene: the scene.
+        standing: the events that are not undone, oldest first, for those about a concept.
     """
+    direct = {lesson.concept: lesson for event in standing if event.concept for lesson in [_direct(event, suggestions)]}
     taught: dict[tuple[str, str], list[Decision]] = {}
     for prediction in suggestions.predictions:
         made = decisions.get(prediction.prim_path)
@@ -49,20 +57,34 @@ def find_lessons(suggestions: Grounding, decisions: Mapping[str, Decision], scen
         concept = suggestions.concepts.get(prediction.concept or "")
         words = [word for word in scene.by_path[prediction.prim_path].words if not word.isdigit()]
         key = (concept.iri, concept.label) if concept is not None else ("", " ".join(words).lower())
-        if key[1]:
+        if key[1] and key[0] not in direct:
             taught.setdefault(key, []).append(made)
     lessons = [
         Lesson(iri, label, found[0].class_iri, len(found), tuple(sorted({made.reviewer for made in found})))
         for (iri, label), found in taught.items()
         if len({made.class_iri for made in found}) == 1
     ]
-    return sorted(lessons, key=lambda lesson: (lesson.label, lesson.concept))
+    return sorted([*direct.values(), *lessons], key=lambda lesson: (lesson.label, lesson.concept))
+
+
+def _direct(event: Event, suggestions: Grounding) -> Lesson:
+    """Return the lesson of a decision about a concept."""
+    concept = suggestions.concepts.get(event.concept)
+    return Lesson(
+        event.concept,
+        concept.label if concept is not None else "",
+        event.changes[0].verdict.class_iri,
+        len(event.changes),
+        (event.reviewer,),
+        is_direct=True,
+    )
 
 
 def format_lessons(lessons: Iterable[Lesson], tbox: TBox) -> str:
     """Return the lessons as SSSOM/TSV, an input of `--alignment` that changes the alignment that is built."""
     rows: dict[tuple[RowKind, str], AlignmentRow] = {}
-    for lesson in lessons:
+    # Of two rows about one word, that of a decision about a concept is valid.
+    for lesson in sorted(lessons, key=lambda lesson: not lesson.is_direct):
         for row in _rows(lesson):
             rows.setdefault((row.kind, row.subject), row)
     return format_rows([*rows.values()], tbox)
@@ -73,17 +95,19 @@ def _rows(lesson: Lesson) -> Iterator[AlignmentRow]:
 
     The noun may be the label of another class, which a row for the concept alone does not change.
     """
+    objects = f"{lesson.objects} {'object' if lesson.objects == 1 else 'objects'}"
     row = AlignmentRow(
         RowKind.TERM,
         lesson.label,
         lesson.class_iri or NO_CLASS_IRI,
         confidence=1.0,
         label=lesson.label,
-        reason=f"decided for {lesson.objects} {'object' if lesson.objects == 1 else 'objects'}",
+        reason=f"decided for the concept, with {objects}" if lesson.is_direct else f"decided for {objects}",
         term_kind=TermKind.CURATED,
         is_curated=True,
         reviewers=lesson.reviewers,
     )
     if lesson.concept:
         yield replace(row, kind=RowKind.CONCEPT, subject=lesson.concept)
-    yield row
+    if lesson.label:
+        yield row

@@ -10,6 +10,7 @@ from usd2kg.grounding import Prediction
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.relations import Relation
 from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.disagreement import second_answer
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["object_page", "relation_json"]
@@ -44,6 +45,7 @@ def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[st
         "explanation": prediction.explanation,
         "evidence": prediction.evidence,
         "candidates": _candidates(prediction, session.tbox, catalog),
+        "second": second_answer(prediction, session.second, catalog),
         "concept": _concept(prediction, session),
         "relations": [relation_json(relation, catalog) for relation in session.relations_of(obj.prim_path)],
         "history": [
@@ -52,6 +54,8 @@ def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[st
                 "action": event.action.value,
                 "verdict": verdict.kind.value,
                 "class": catalog.class_(verdict.class_iri),
+                "concept": catalog.concept(event.concept),
+                "proposal": verdict.proposal,
                 "reviewer": event.reviewer,
                 "time": event.time,
                 "comment": verdict.comment,
@@ -89,7 +93,7 @@ def _candidates(prediction: Prediction, tbox: TBox, catalog: Catalog) -> list[di
     return [
         {
             "class": catalog.class_(iri),
-            "share": score / total if total else 1 / len(scores),
+            "share": score / total if total else None,
             "taxonomy": _path_to_root(iri, tbox),
         }
         for iri, score in list(scores.items())[:_MAX_CANDIDATES]

@@ -6,9 +6,9 @@ from enum import StrEnum
 from usd2kg.grounding import Prediction, Status
 from usd2kg.ontology import ClassIRI
 from usd2kg.studio.review_state import ReviewState
-from usd2kg.studio.verdicts import Verdict, VerdictKind
+from usd2kg.studio.verdicts import Suggestion, Verdict, VerdictKind
 
-__all__ = ["ObjectState", "ReviewStatus", "state_of"]
+__all__ = ["ObjectState", "ReviewStatus", "state_of", "suggestion_of"]
 
 
 class ReviewStatus(StrEnum):
@@ -61,6 +61,12 @@ def state_of(prediction: Prediction, review: ReviewState) -> ObjectState:
     verdict = review.verdict(path)
     status, class_iri = _judge(prediction, verdict)
     return ObjectState(path, status, class_iri, prediction, verdict, review.is_conflict(path))
+
+
+def suggestion_of(prediction: Prediction) -> Suggestion | None:
+    """Return what a prediction suggests; None if the call failed."""
+    is_answer = prediction.status not in {Status.UNREADABLE, Status.FAILED, Status.MISSING}
+    return Suggestion(prediction.class_iri, prediction.confidence) if is_answer else None
 
 
 def _judge(prediction: Prediction, verdict: Verdict) -> tuple[ReviewStatus, ClassIRI | None]:

@@ -68,8 +68,11 @@ class OutputFiles:
             lambda: write_graph(self._session.graph(), self.folder / "graph.ttl"),
             lambda: self._export("mapping.sssom.tsv"),
             lambda: self._export("grounding.json"),
-            lambda: write_label_layer(self._session, self.folder / "labels.usda", is_bare=False),
+            lambda: self._export("lessons.sssom.tsv"),
+            lambda: self._export("proposals.ttl"),
         ]
+        if self._session.stage is not None:
+            steps.append(lambda: write_label_layer(self._session, self.folder / "labels.usda", is_bare=False))
         self.problem = ""
         for step in steps:
             try:

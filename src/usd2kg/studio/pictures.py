@@ -3,13 +3,15 @@
 from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cached_property
+from pathlib import Path
+from typing import Any
 
 from usd2kg.errors import SceneError
 from usd2kg.render import Renderer
 from usd2kg.scene.object_geometry import GeometryReader
 from usd2kg.scene.stage import open_stage, time_code
 from usd2kg.studio.catalog import Catalog
-from usd2kg.studio.geometry import GeometryFiles
+from usd2kg.studio.geometry import NO_MESHES, GeometryFiles
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.settings import SERVER
 from usd2kg.studio.texture_images import TextureImage
@@ -36,9 +38,9 @@ class Pictures:
         """
         return self._thread.submit(self._thumbnail, index)
 
-    def geometry(self) -> "Future[GeometryFiles]":
-        """Return the meshes."""
-        return self._thread.submit(lambda: self._geometry)
+    def manifest(self) -> "Future[dict[str, Any]]":
+        """Return the number of files with meshes, and of triangles."""
+        return self._thread.submit(lambda: NO_MESHES if self._session.stage is None else self._geometry.manifest())
 
     def file(self, index: int) -> "Future[bytes]":
         """Return one GLB file; the future raises IndexError if there is none."""
@@ -54,17 +56,22 @@ class Pictures:
 
     @cached_property
     def _renderer(self) -> Renderer:
-        sources = self._session.project.sources
-        return Renderer(sources.scene, sources.reading)
+        return Renderer(self._stage, self._session.project.sources.reading)
 
     @cached_property
     def _geometry(self) -> GeometryFiles:
-        sources = self._session.project.sources
-        opened = open_stage(sources.scene, sources.reading)
+        reading = self._session.project.sources.reading
+        opened = open_stage(self._stage, reading)
         if opened.content_hash != self._session.scene.content_hash:
-            raise SceneError(f"{sources.scene}: has changed since it was read; start the studio again")
-        reader = GeometryReader(opened, self._session.scene, time_code(sources.reading.time))
+            raise SceneError(f"{self._stage}: has changed since it was read; start the studio again")
+        reader = GeometryReader(opened, self._session.scene, time_code(reading.time))
         return GeometryFiles(reader, self._session.scene, self._catalog)
+
+    @property
+    def _stage(self) -> Path:
+        if self._session.stage is None:
+            raise SceneError(self._session.stage_note)
+        return self._session.stage
 
     def _thumbnail(self, index: int) -> bytes:
         if index in self._thumbnails:

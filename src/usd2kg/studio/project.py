@@ -18,6 +18,8 @@ __all__ = ["PROJECT_FILE", "Project", "ProjectSources", "open_project"]
 PROJECT_FILE = "project.json"
 _FORMAT = "usd2kg-studio/1"
 _LOCK_WAIT_S = 1.0
+_PATHS = ("scene", "ontology", "mapping", "second_mapping", "alignment")
+"""Sources that are files."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,8 @@ class ProjectSources:
     """None for the built-in home TBox."""
     mapping: Path | None = None
     """Grounding of `usd2kg ground --format json`; None for the lexical grounder's."""
+    second_mapping: Path | None = None
+    """Grounding of another grounder, to compare with; None without one."""
     alignment: Path | None = None
     """Edited alignment for the lexical grounder."""
     base: str | None = None
@@ -49,9 +53,9 @@ class Project:
         return self.folder / "decisions.sssom.tsv"
 
     @property
-    def lessons(self) -> Path:
-        """What the decisions teach about concepts, an input of `--alignment`; it exists once they were applied."""
-        return self.folder / "lessons.sssom.tsv"
+    def applied_lessons(self) -> Path:
+        """What the decisions had taught when the open objects were last grounded again; absent before."""
+        return self.folder / "applied.sssom.tsv"
 
 
 @contextmanager
@@ -104,7 +108,7 @@ def _check_same(file: Path, known: ProjectSources, given: ProjectSources) -> Non
 def _format_sources(sources: ProjectSources, folder: Path) -> bytes:
     """Return the sources as JSON; paths are relative to the folder, so that it can move with its scene."""
     values = asdict(sources)
-    for name in ("scene", "ontology", "mapping", "alignment"):
+    for name in _PATHS:
         if values[name] is not None:
             values[name] = _relative(values[name], folder)
     return (json.dumps({"format": _FORMAT, **values}, indent=1) + "\n").encode()
@@ -123,8 +127,8 @@ def _read_sources(file: Path) -> ProjectSources:
         values: dict[str, Any] = json.loads(file.read_text("utf-8"))
         if values.pop("format") != _FORMAT:
             raise ValueError("another format")
-        for name in ("scene", "ontology", "mapping", "alignment"):
-            if values[name] is not None:
+        for name in _PATHS:
+            if values.get(name) is not None:
                 values[name] = Path(os.path.normpath(file.parent / values[name]))
         reading = values.pop("reading")
         selection: dict[str, Any] = {

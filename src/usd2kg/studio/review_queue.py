@@ -3,7 +3,7 @@
 import statistics
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import pairwise
 
@@ -14,7 +14,18 @@ from usd2kg.studio.object_state import ObjectState
 from usd2kg.studio.settings import QUEUE
 from usd2kg.studio.verdicts import Action, Event
 
-__all__ = ["QUEUE_ORDERS", "QueueGroup", "estimate_seconds", "make_queue"]
+__all__ = [
+    "AUDIT_ORDER",
+    "QUEUE_ORDERS",
+    "QueueGroup",
+    "estimate_seconds",
+    "group_open",
+    "make_audit_queue",
+    "make_queue",
+]
+
+AUDIT_ORDER = "audit"
+"""The order in which each object of the random sample is a group."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +43,10 @@ class QueueGroup:
     """Mean of the objects; None if the grounder gave none."""
     gain: float
     """Expected number of wrong classes in the group: what a look at it settles."""
+    is_disputed: bool = False
+    """Whether a second grounder gives its objects another class, if the queue is in that order."""
+    second: ClassIRI | None = None
+    """The class by the second grounder, if it is disputed; None if that grounder says that no class fits."""
 
 
 def make_queue(
@@ -45,20 +60,33 @@ def make_queue(
         rooms: prim path → number of its room; absent if it is in none.
         order: one of `QUEUE_ORDERS`.
     """
+    if order == "place":
+        # Room by room, in each by gain.
+        groups = group_open(states, objects, lambda prediction: rooms.get(prediction.prim_path, -1))
+        place = {group.id: rooms.get(group.id, len(objects)) for group in groups}
+        return sorted(groups, key=lambda group: (place[group.id], -group.gain, group.id))
+    return sorted(group_open(states, objects), key=_ORDERS[order])
+
+
+def group_open(
+    states: Iterable[ObjectState],
+    objects: Mapping[str, SceneObject],
+    apart: Callable[[Prediction], object] = lambda _: None,
+) -> list[QueueGroup]:
+    """Return the groups of the open objects, in scene order.
+
+    Args:
+        states: the states of all objects, in scene order.
+        objects: prim path → object.
+        apart: what objects of one group have in common beside the suggestion and the concept or words.
+    """
     found: dict[tuple[object, ...], list[Prediction]] = {}
     for state in states:
         if state.status.is_open:
-            key = (state.status, *_key(state.prediction, objects[state.prim_path]))
-            if order == "place":
-                key = (rooms.get(state.prim_path, -1), *key)
+            key = (apart(state.prediction), state.status, *_key(state.prediction, objects[state.prim_path]))
             found.setdefault(key, []).append(state.prediction)
     common = _common_words(objects.values())
-    groups = [_make_group(predictions, objects, common) for predictions in found.values()]
-    if order == "place":
-        # Room by room, in each by gain.
-        place = {group.id: rooms.get(group.id, len(objects)) for group in groups}
-        return sorted(groups, key=lambda group: (place[group.id], -group.gain, group.id))
-    return sorted(groups, key=_ORDERS[order])
+    return [_make_group(predictions, objects, common) for predictions in found.values()]
 
 
 _ORDERS: Mapping[str, Callable[[QueueGroup], tuple[object, ...]]] = {
@@ -67,6 +95,15 @@ _ORDERS: Mapping[str, Callable[[QueueGroup], tuple[object, ...]]] = {
     "class": lambda group: (group.suggested or "", -group.gain, group.id),
 }
 QUEUE_ORDERS = (*_ORDERS, "place")
+
+
+def make_audit_queue(
+    paths: Iterable[str], predictions: Mapping[str, Prediction], objects: Mapping[str, SceneObject]
+) -> list[QueueGroup]:
+    """Return a group for each object of an audit, without the confidence, which would sway the reviewer."""
+    common = _common_words(objects.values())
+    groups = (_make_group([predictions[path]], objects, common) for path in paths)
+    return [replace(group, confidence=None, gain=0.0) for group in groups]
 
 
 def _key(prediction: Prediction, obj: SceneObject) -> tuple[object, ...]:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Decision
-from usd2kg.studio.verdicts import OPEN, Action, Change, Event, Verdict, VerdictKind
+from usd2kg.studio.verdicts import OPEN, Action, Change, Event, Suggestion, Verdict, VerdictKind
 
 __all__ = ["ReviewState"]
 
@@ -55,6 +55,10 @@ class ReviewState:
             if verdict.kind in {VerdictKind.CLASS, VerdictKind.NO_CLASS}
         }
 
+    def standing(self) -> list[Event]:
+        """Return the decisions that are not undone, oldest first."""
+        return [self._events[number] for number in sorted(n for done in list(self._done.values()) for n in list(done))]
+
     def is_conflict(self, prim_path: str) -> bool:
         """Return whether reviewers disagree about an object, and nobody has decided after seeing both verdicts."""
         given = [v for v in list(self._by_reviewer.get(prim_path, {}).values()) if v.kind is not VerdictKind.OPEN]
@@ -66,7 +70,17 @@ class ReviewState:
 
     # Making events.
 
-    def decide(self, verdicts: Mapping[str, Verdict], reviewer: str, time: str, seen: int) -> Event:
+    def decide(
+        self,
+        verdicts: Mapping[str, Verdict],
+        reviewer: str,
+        time: str,
+        seen: int,
+        *,
+        suggested: Mapping[str, Suggestion | None] | None = None,
+        concept: str = "",
+        is_audit: bool = False,
+    ) -> Event:
         """Return the event that sets the verdicts on several objects; `apply` makes it valid.
 
         Args:
@@ -74,6 +88,9 @@ class ReviewState:
             reviewer: who decides.
             time: when, as ISO 8601 in UTC.
             seen: number of the last event that the reviewer had seen.
+            suggested: prim path → what was suggested.
+            concept: IRI of the concept, if the decision is about all its objects.
+            is_audit: whether the objects were drawn at random.
         """
         number = self.version + 1
         signed = {
@@ -82,8 +99,10 @@ class ReviewState:
             else replace(verdict, reviewer=reviewer, time=time, event=number)
             for verdict in set(verdicts.values())
         }
-        changes = tuple(Change(path, signed[verdict]) for path, verdict in verdicts.items())
-        return Event(number, Action.DECIDE, reviewer, time, changes, min(seen, number - 1))
+        known = suggested or {}
+        changes = tuple(Change(path, signed[verdict], known.get(path)) for path, verdict in verdicts.items())
+        before = min(seen, number - 1)
+        return Event(number, Action.DECIDE, reviewer, time, changes, before, concept=concept, is_audit=is_audit)
 
     def can_undo(self, reviewer: str) -> bool:
         """Return whether a reviewer has a decision to undo."""

@@ -22,8 +22,10 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
         "source": scene.source,
         "ontology": {"iri": tbox.ontology_iri, "label": tbox.source},
         "grounder": grounding.grounder,
+        "second_grounder": session.second.grounder if session.second is not None else "",
         "is_calibrated": grounding.is_calibrated,
-        "is_read_only": False,
+        "is_graph": bool(session.stage_note),
+        "limits": dict(session.limits),
         "reviewer": reviewer,
         "objects": _objects(session, catalog),
         "classes": [
@@ -62,6 +64,7 @@ def _objects(session: StudioSession, catalog: Catalog) -> dict[str, Any]:
         "name": [obj.display_name or obj.name for obj in objects],
         "parent": [catalog.object(obj.parent_path) for obj in objects],
         "box": [_box(obj) for obj in objects],
+        "turned": [_turned(obj) for obj in objects],
         "room": [catalog.room_of.get(obj.prim_path, NONE) for obj in objects],
         "rooms": [path.rpartition("/")[2] for path in catalog.rooms],
         "asset": [assets[_asset(obj)] for obj in objects],
@@ -87,11 +90,19 @@ def _box(obj: SceneObject) -> list[float] | None:
     return None if box is None else [round(value, 4) for value in (*box.lower, *box.upper)]
 
 
+def _turned(obj: SceneObject) -> list[float] | None:
+    """Return the orientation and the extents along the object's own axes; None if those are the world's axes."""
+    if obj.orientation is None or obj.oriented_size is None:
+        return None
+    return [round(value, 4) for value in (*obj.orientation, *obj.oriented_size)]
+
+
 def _figures(session: StudioSession) -> list[dict[str, str]]:
     scene, grounding = session.scene, session.suggestions
     figures = {
+        **({"Meshes": session.stage_note} if session.stage_note else {}),
         "Objects": f"{len(scene.objects):,}",
-        "Prims": f"{scene.prim_count:,}",
+        **({} if session.stage_note else {"Prims": f"{scene.prim_count:,}"}),
         **{f"Left out: {reason}": f"{count:,}" for reason, count in scene.left_out.items()},
         "Up axis": scene.frame.up_axis,
         "Metres per unit": f"{scene.frame.metres_per_unit:g}",
@@ -120,5 +131,6 @@ def state_json(state: ObjectState, catalog: Catalog) -> dict[str, Any]:
         "reviewer": verdict.reviewer or (before.reviewer if before is not None else ""),
         "time": verdict.time or (before.time if before is not None else ""),
         "comment": verdict.comment or (before.comment if before is not None else ""),
+        "proposal": verdict.proposal,
         "is_conflict": state.is_conflict,
     }

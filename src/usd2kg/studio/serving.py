@@ -19,6 +19,7 @@ def serve_studio(
     address: Address,
     *,
     reviewer: str | None = None,
+    compared: Path | None = None,
     when_ready: Callable[[str], None],
 ) -> None:
     """Open or make a project and serve its page until the process is interrupted.
@@ -28,6 +29,7 @@ def serve_studio(
         sources: what to review; None to take those of the project.
         address: where to listen. If other machines can connect, the environment must have a password.
         reviewer: name that the page suggests; None for the user's login name.
+        compared: stage, graph or mapping to compare with; None for no comparison.
         when_ready: receives the URL of the page when requests are answered.
 
     Raises:
@@ -43,7 +45,8 @@ def serve_studio(
     except ModuleNotFoundError as error:
         raise Usd2kgError(f"studio: {error.name} is not installed; run: pip install 'usd2kg[studio]'") from error
     from usd2kg.studio.app_files import read_app_files  # noqa: PLC0415
-    from usd2kg.studio.session import open_session  # noqa: PLC0415
+    from usd2kg.studio.opening import open_session  # noqa: PLC0415
+    from usd2kg.studio.other_version import read_other_version  # noqa: PLC0415
 
     key = choose_key(is_local=address.is_local)
     files = read_app_files()
@@ -52,6 +55,7 @@ def serve_studio(
         open_project(folder, sources) as project,
         closing(open_session(project)) as session,
     ):
+        other = None if compared is None else read_other_version(compared, project.sources, session.tbox)
         # Whoever reads the URL below may connect before the server accepts.
         socket.listen()
         # A fragment is not sent to the server, so no log has it.
@@ -62,6 +66,7 @@ def serve_studio(
             key=key,
             reviewer=reviewer or _login_name(),
             hosts=address.served_names,
+            other=other,
             when_ready=lambda: when_ready(url),
         )
         StudioServer(app).run(sockets=[socket])

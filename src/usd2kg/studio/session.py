@@ -4,7 +4,9 @@ import threading
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from usd2kg.errors import GroundingError
 from usd2kg.files import write_whole
@@ -15,15 +17,17 @@ from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.query import GraphStore
 from usd2kg.relations import Relation, find_relations
-from usd2kg.scene import Scene, read_scene
+from usd2kg.scene import ReadOptions, Scene, read_scene
+from usd2kg.scene.stage import open_stage
+from usd2kg.studio.audit import Audit, make_audit
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
-from usd2kg.studio.object_state import ObjectState, state_of
+from usd2kg.studio.object_state import ObjectState, state_of, suggestion_of
 from usd2kg.studio.project import Project
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.verdicts import Event, Verdict
 
-__all__ = ["StudioSession", "open_session"]
+__all__ = ["StudioSession", "open_stage_session"]
 
 
 class StudioSession:
@@ -33,16 +37,32 @@ class StudioSession:
     """
 
     def __init__(
-        self, project: Project, scene: Scene, tbox: TBox, grounding: Grounding, relations: Sequence[Relation]
+        self,
+        project: Project,
+        scene: Scene,
+        tbox: TBox,
+        grounding: Grounding,
+        relations: Sequence[Relation],
+        *,
+        base: str | None = None,
+        second: Grounding | None = None,
     ) -> None:
         self.project = project
         self.scene = scene
         self.tbox = tbox
         self.suggestions = grounding
         """The grounding without the decisions of the project; open objects may have been grounded again."""
+        self.second = second
+        """What another grounder says; None without one."""
         self.relations = tuple(relations)
         """The relations by the classes of the last graph that was built; at first by the suggestions."""
-        self.base = project.sources.base or default_base(scene.source)
+        self.stage: Path | None = project.sources.scene
+        """The stage of the geometry; None if there is only a graph."""
+        self.stage_note = ""
+        """What is known of the stage of a graph, for people; empty if the source is a stage."""
+        self.limits: Mapping[str, str] = {}
+        """What cannot be done in this session (`meshes`, `labels`, `reground`) → why."""
+        self.base = base or project.sources.base or default_base(scene.source)
         self.journal = Journal(project.journal, self.base, tbox)
         self.review = ReviewState(self.journal.events)
         self._relations_of = self.relations, _by_object(self.relations)
@@ -79,13 +99,17 @@ class StudioSession:
 
     # Decisions.
 
-    def decide(self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int) -> list[ObjectState]:
+    def decide(
+        self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int, *, concept: str = "", is_audit: bool = False
+    ) -> list[ObjectState]:
         """Record the verdicts on several objects as one event; return their states once the journal is on disk.
 
         Args:
             verdicts: prim path → kind, class and comment.
             reviewer: who decides.
             seen: number of the last event that the reviewer had seen.
+            concept: IRI of the concept, if the decision is about all its objects.
+            is_audit: whether the objects were drawn at random.
 
         Raises:
             GroundingError: there are no objects, or one is unknown.
@@ -97,7 +121,11 @@ class StudioSession:
                 f"decision about {unknown[0] if unknown else 'nothing'}; expected objects of the scene"
             )
         with self._lock:
-            return self._record(self.review.decide(verdicts, reviewer, _now(), seen))
+            suggested = {path: suggestion_of(self.predictions[path]) for path in verdicts}
+            event = self.review.decide(
+                verdicts, reviewer, _now(), seen, suggested=suggested, concept=concept, is_audit=is_audit
+            )
+            return self._record(event)
 
     def undo(self, reviewer: str) -> list[ObjectState]:
         """Take back a reviewer's last decision, as `decide`.
@@ -124,11 +152,15 @@ class StudioSession:
         self.review.apply(event)
         return [self.state(change.prim_path) for change in event.changes if change.prim_path in self.predictions]
 
+    def audit(self) -> Audit:
+        """Return the random sample that is audited, and what is found so far."""
+        return make_audit(self.states(), self.review.standing())
+
     # Learning.
 
     def lessons(self) -> list[Lesson]:
         """Return what the decisions teach about concepts and words."""
-        return find_lessons(self.suggestions, self.review.decisions(), self.scene)
+        return find_lessons(self.suggestions, self.review.decisions(), self.scene, self.review.standing())
 
     def ground_again(self) -> list[tuple[Prediction, Prediction]]:
         """Ground the open objects again with what the decisions teach; return the predictions that changed.
@@ -142,7 +174,7 @@ class StudioSession:
         if not self._learns():
             given = self.project.sources.mapping or self.project.sources.alignment
             raise GroundingError(f"the suggestions come from {given}; only those of the built alignment can be learned")
-        write_whole(self.project.lessons, format_lessons(self.lessons(), self.tbox).encode())
+        write_whole(self.project.applied_lessons, format_lessons(self.lessons(), self.tbox).encode())
         renewed = self._ground_with_lessons()
         with self._lock:
             before = self.suggestions
@@ -153,7 +185,7 @@ class StudioSession:
 
     def apply_kept_lessons(self) -> None:
         """Apply the lessons that `ground_again` has kept in the project, if there are any."""
-        if self.project.lessons.exists() and self._learns():
+        if self.project.applied_lessons.exists() and self._learns():
             self.suggestions = self._merge_open(self.suggestions, self._ground_with_lessons())
 
     def _learns(self) -> bool:
@@ -163,7 +195,7 @@ class StudioSession:
     def _ground_with_lessons(self) -> Grounding:
         """Return the grounding of the open objects by the alignment and the lessons of the project."""
         decided = self.review.decisions()
-        grounder = make_grounder("lexical", alignment=self.project.lessons)
+        grounder = make_grounder("lexical", alignment=self.project.applied_lessons)
         still_open = [p.prim_path for p in self.suggestions.predictions if p.prim_path not in decided]
         return ground(self.scene, self.tbox, grounder, paths=still_open)
 
@@ -189,12 +221,13 @@ class StudioSession:
         with self._graph_lock:
             suggestions, version = self.suggestions, self.version
             if self._graph is None or self._graph[0] is not suggestions or self._graph[1] != version:
-                grounding = self.grounding()
-                # What a person says an object is decides what it may hold and bear.
-                self.relations = find_relations(self.scene, self.tbox, grounding)
-                built = instantiate(self.scene, self.tbox, grounding, base=self.base, relations=self.relations)
-                self._graph = suggestions, version, built
+                self._graph = suggestions, version, self._make_graph(self.grounding())
             return self._graph[2]
+
+    def _make_graph(self, grounding: Grounding) -> KnowledgeGraph:
+        # What a person says an object is decides what it may hold and bear.
+        self.relations = find_relations(self.scene, self.tbox, grounding)
+        return instantiate(self.scene, self.tbox, grounding, base=self.base, relations=self.relations)
 
     def answers(self) -> GraphStore:
         """Return the graph of the current decisions, to be queried."""
@@ -203,6 +236,15 @@ class StudioSession:
             if self._answers is None or self._answers[0] is not graph:
                 self._answers = graph, GraphStore.from_triples(graph.triples, self.scene.source)
             return self._answers[1]
+
+    @cached_property
+    def label_stage(self) -> Any:
+        """The stage that labels are written over; it stays open.
+
+        OpenUSD never frees the Python objects of the layers of a closed stage.
+        """
+        assert self.stage is not None, "a graph without a stage has no label layer"
+        return open_stage(self.stage, ReadOptions()).stage
 
     @property
     def last_answers(self) -> GraphStore | None:
@@ -214,8 +256,8 @@ class StudioSession:
         self.journal.close()
 
 
-def open_session(project: Project) -> StudioSession:
-    """Read, ground and relate the scene of a project.
+def open_stage_session(project: Project) -> StudioSession:
+    """Read, ground and relate the stage of a project.
 
     Raises:
         Usd2kgError: a source cannot be read.
@@ -227,7 +269,8 @@ def open_session(project: Project) -> StudioSession:
         grounding = _read_mapping(sources.mapping, scene, tbox)
     else:
         grounding = ground(scene, tbox, make_grounder("lexical", alignment=sources.alignment))
-    session = StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding))
+    second = _read_mapping(sources.second_mapping, scene, tbox) if sources.second_mapping is not None else None
+    session = StudioSession(project, scene, tbox, grounding, find_relations(scene, tbox, grounding), second=second)
     session.apply_kept_lessons()
     return session
 

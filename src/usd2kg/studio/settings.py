@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from usd2kg.knowledge import read_settings
 
 __all__ = [
+    "AUDIT",
     "GEOMETRY",
     "QUEUE",
     "SERVER",
     "TEXTURES",
+    "AuditSettings",
     "GeometrySettings",
     "QueueSettings",
     "ServerSettings",
@@ -24,6 +26,14 @@ class QueueSettings:
     pace_decisions: int
     longest_pause_s: float
     min_decisions: int
+
+
+@dataclass(frozen=True)
+class AuditSettings:
+    """The random sample that measures how often suggestions are right."""
+
+    sample: int
+    seed: int
 
 
 @dataclass(frozen=True)
@@ -56,6 +66,7 @@ class ServerSettings:
     max_body_bytes: int
     max_objects_per_decision: int
     max_text: int
+    max_label: int
     outputs_delay_s: float
     heartbeat_s: float
     thumbnail_size: tuple[int, int]
@@ -63,6 +74,7 @@ class ServerSettings:
 
 
 QUEUE = read_settings("studio", "queue", QueueSettings)
+AUDIT = read_settings("studio", "audit", AuditSettings)
 GEOMETRY = read_settings("studio", "geometry", GeometrySettings)
 TEXTURES = read_settings("studio", "textures", TextureSettings)
 SERVER = read_settings("studio", "server", ServerSettings)

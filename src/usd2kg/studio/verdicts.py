@@ -5,7 +5,7 @@ from enum import StrEnum
 
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["OPEN", "Action", "Change", "Event", "Verdict", "VerdictKind"]
+__all__ = ["OPEN", "Action", "Change", "Event", "Suggestion", "Verdict", "VerdictKind"]
 
 
 class VerdictKind(StrEnum):
@@ -35,6 +35,8 @@ class Verdict:
     comment: str = ""
     event: int = 0
     """Number of the event that set it; 0 if none did."""
+    proposal: str = ""
+    """For the kind `class`, the label of a subclass that the person proposes for it; empty without one."""
 
     def agrees(self, other: "Verdict") -> bool:
         """Return whether two verdicts say the same, whoever gave them."""
@@ -53,11 +55,23 @@ class Action(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class Suggestion:
+    """What a grounder had suggested when a person decided."""
+
+    class_iri: ClassIRI | None
+    """None if it said that no class fits."""
+    confidence: float | None
+    """Probability that it is right; None if the grounder gave none."""
+
+
+@dataclass(frozen=True, slots=True)
 class Change:
     """The verdict that an event sets for one object."""
 
     prim_path: str
     verdict: Verdict
+    suggested: Suggestion | None = None
+    """For `decide`; None if the grounder gave no answer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,3 +89,7 @@ class Event:
     """Number of the last event that the reviewer had seen."""
     reverts: int = 0
     """For `undo` and `redo`, the number of the decision that is taken back or made again; else 0."""
+    concept: str = ""
+    """IRI of the concept, if the reviewer decided that all its objects have the class; empty otherwise."""
+    is_audit: bool = False
+    """Whether the objects were drawn at random, to measure how often suggestions are right."""

@@ -12,6 +12,9 @@ export type ConceptIndex = number;
 /** Lower x, y, z, upper x, y, z. */
 export type Box = [number, number, number, number, number, number];
 
+/** Quaternion x, y, z, w, then extents along the own x, y, z. */
+export type Turned = [number, number, number, number, number, number, number];
+
 /** `GET /api/scene`: what does not change during a session. */
 export interface SceneData {
   title: string;
@@ -19,10 +22,16 @@ export interface SceneData {
   source: string;
   ontology: { iri: string; label: string };
   grounder: string;
+  /** The grounder of a second mapping; empty without one. */
+  second_grounder: string;
   /** Whether confidences are fitted probabilities; otherwise they only rank. */
   is_calibrated: boolean;
-  /** Whether decisions are refused, because a graph is shown without its stage. */
-  is_read_only: boolean;
+  /** Whether the source is a knowledge graph, not a stage. */
+  is_graph: boolean;
+  /** Whether `GET /api/comparison` answers. */
+  has_comparison: boolean;
+  /** Why something cannot be done in this session, as with a graph without its stage; absent if it can. */
+  limits: Partial<Record<Limit, string>>;
   /** Name under which this page decides, as the server suggests it. */
   reviewer: string;
   objects: ObjectColumns;
@@ -33,6 +42,9 @@ export interface SceneData {
   figures: { label: string; value: string }[];
 }
 
+/** Meshes and pictures, the layer of semantic labels, grounding again. */
+export type Limit = "meshes" | "labels" | "reground";
+
 /** Parallel arrays, one entry for each object, in scene order: parents before children. */
 export interface ObjectColumns {
   path: string[];
@@ -41,6 +53,8 @@ export interface ObjectColumns {
   parent: ObjectIndex[];
   /** Box of the object's own geometry; null without geometry. */
   box: (Box | null)[];
+  /** Orientation (quaternion x, y, z, w) and extents along the object's own axes; null if those are the world's. */
+  turned: (Turned | null)[];
   /** Room or group prim that holds it, as an index into `rooms`. */
   room: number[];
   rooms: string[];
@@ -98,6 +112,8 @@ export interface ObjectState {
   /** ISO 8601 in UTC; empty if undecided. */
   time: string;
   comment: string;
+  /** Label of a subclass that the reviewer proposes for the class; empty without one. */
+  proposal: string;
   /** Whether two reviewers decided differently and nobody has settled it. */
   is_conflict: boolean;
 }
@@ -139,6 +155,8 @@ export interface ObjectPage {
   evidence: string[];
   /** Best first, at most 9 for the digit keys. */
   candidates: Candidate[];
+  /** What the grounder of the second mapping says; null without one. */
+  second: SecondAnswer | null;
   concept: { iri: string; label: string; confidence: number | null; hypernyms: string[] } | null;
   relations: RelationRecord[];
   /** All decisions about the object, oldest first. */
@@ -147,11 +165,24 @@ export interface ObjectPage {
   turtle: string;
 }
 
+export interface SecondAnswer {
+  grounder: string;
+  class: ClassIndex;
+  confidence: number | null;
+  explanation: string;
+  /** Whether it is another class than the suggestion. */
+  is_disputed: boolean;
+}
+
 export interface HistoryEntry {
   event: number;
   action: "decide" | "undo" | "redo";
   verdict: "open" | "class" | "no-class" | "unsure";
   class: ClassIndex;
+  /** The concept, if the decision was about all its objects; else -1. */
+  concept: ConceptIndex;
+  /** Label of a subclass that was proposed; empty without one. */
+  proposal: string;
   reviewer: string;
   time: string;
   comment: string;
@@ -159,8 +190,8 @@ export interface HistoryEntry {
 
 export interface Candidate {
   class: ClassIndex;
-  /** Share of the score among the candidates, from 0 to 1. */
-  share: number;
+  /** Share of the score among the candidates, from 0 to 1; null if the scores are unknown, as in a graph. */
+  share: number | null;
   /** Path of the taxonomy from the class to its root, as labels. */
   taxonomy: string[];
 }
@@ -182,6 +213,75 @@ export interface RelationList {
   relations: RelationRecord[];
 }
 
+/** An object can have several; `relations` are on, inside, part of, and room. */
+export type ChangeKind =
+  | "appeared"
+  | "disappeared"
+  | "class"
+  | "moved"
+  | "turned"
+  | "resized"
+  | "renamed"
+  | "mass"
+  | "asset"
+  | "relations";
+
+/** `GET /api/comparison`: the changes from another version, or mapping, to the scene with its current decisions. */
+export interface Comparison {
+  /** The file that `--compare` names. */
+  other: string;
+  source: "stage" | "graph" | "mapping";
+  /** `States.version` of the decisions that are compared. */
+  version: number;
+  /** Number of objects with each kind of change; kinds without objects are left out. */
+  counts: Partial<Record<ChangeKind, number>>;
+  unchanged: number;
+  /** What could not be compared. */
+  notes: string[];
+  /** By kind, then by path. */
+  changes: SceneChange[];
+}
+
+export interface SceneChange {
+  /** The most telling first. */
+  kinds: ChangeKind[];
+  /** -1 if it disappeared. */
+  object: ObjectIndex;
+  path: string;
+  /** Empty if it appeared. */
+  path_before: string;
+  name: string;
+  /** Null if it appeared. */
+  before: ClassClaim | null;
+  /** Null if it disappeared. */
+  after: ClassClaim | null;
+  box_before: Box | null;
+  turned_before: Turned | null;
+  distance_m: number | null;
+  /** The object that explains the move: it carried this one; -1 if none does. */
+  carried_by: ObjectIndex;
+  turned_degrees: number;
+  /** Extents before and after. */
+  sizes: [[number, number, number], [number, number, number]] | null;
+  /** Kilograms before and after. */
+  masses: [number | null, number | null] | null;
+  /** New relations, with paths of now, and former ones, with paths of before. */
+  gained: { kind: string; anchor: string }[];
+  lost: { kind: string; anchor: string }[];
+  /** Why an object with another path is the same. */
+  reason: string;
+}
+
+/** The class of an object according to one version. */
+export interface ClassClaim {
+  /** -1 without a class, or with one of another ontology, which has a label all the same. */
+  class: ClassIndex;
+  label: string;
+  /** Null if there is none, or a person decided. */
+  confidence: number | null;
+  is_decided: boolean;
+}
+
 /** `GET /api/queue?order=gain`: what to review, in order. */
 export interface Queue {
   groups: QueueGroup[];
@@ -190,8 +290,30 @@ export interface Queue {
   decided: number;
   /** Pairs of reviewers with objects in common. */
   agreement: Agreement[];
+  /** The random sample, whatever the order. */
+  audit: Audit;
   /** Estimate for all open groups from this session's pace; null before five decisions. */
   seconds_left: number | null;
+}
+
+/** How often suggestions are right, by the verdicts on objects that were drawn at random. */
+export interface Audit {
+  /** Objects from which the sample is drawn. */
+  population: number;
+  sample: number;
+  /** Those of the sample without a verdict. */
+  waiting: number;
+  unsure: number;
+  /** Those whose class is settled. */
+  judged: number;
+  right: number;
+  /** Wilson's 95 % interval of the share that is right; null if none is judged. */
+  interval: [number, number] | null;
+  /** Expected calibration error of the judged objects with a confidence; null without any. */
+  calibration_error: number | null;
+  with_confidence: number;
+  /** Non-empty bins of confidence, lowest first; `accuracy` is the share that is right. */
+  bins: { lower: number; upper: number; count: number; confidence: number; accuracy: number }[];
 }
 
 /** How far two reviewers agree about the objects that both decided. */
@@ -214,9 +336,14 @@ export interface QueueGroup {
   confidence: number | null;
   /** Expected number of wrong classes that a look at the group settles. */
   gain: number;
+  /** With the order `disagreement`, whether the second grounder gives its objects another class. */
+  is_disputed: boolean;
+  /** The class by the second grounder, if it is disputed; else -1. */
+  second: ClassIndex;
 }
 
-export type QueueOrder = "gain" | "confidence" | "class" | "place";
+/** `disagreement` needs a second mapping. With `audit`, each waiting object of the random sample is a group, without its confidence. */
+export type QueueOrder = "gain" | "confidence" | "class" | "place" | "audit" | "disagreement";
 
 export type DecisionAction = "confirm" | "choose" | "unsure" | "no-class" | "clear";
 
@@ -226,6 +353,12 @@ export interface DecisionRequest {
   action: DecisionAction;
   /** For `choose`. */
   class?: ClassIndex;
+  /** For `choose`: the concept of all these objects, which belongs to the class from now on, in other scenes too. */
+  concept?: ConceptIndex;
+  /** For `choose`: label of a subclass that the ontology lacks and the reviewer proposes. */
+  proposal?: string;
+  /** Whether the objects are of the random sample, and the decision counts for it. */
+  audit?: boolean;
   comment?: string;
   reviewer: string;
   /** Number that tells this page from others, which hear of the decision by an event. */

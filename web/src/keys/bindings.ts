@@ -1,6 +1,10 @@
 /** All keys, in one table: the handler and the help are made from it. */
 
+import type { Signal } from "@preact/signals";
+import { toggleAudit } from "../state/audit";
 import { loadCandidates } from "../state/candidates";
+import { openConcept } from "../state/concepts";
+import { openProposal } from "../state/proposals";
 import { superclass } from "../state/review";
 import type { Store } from "../state/store";
 
@@ -89,6 +93,18 @@ export const BINDINGS: Binding[] = [
     },
   },
   {
+    keys: ["E"],
+    help: "Every object of the concept has one class, here and in other scenes",
+    section: "Review",
+    run: openConcept,
+  },
+  {
+    keys: ["M"],
+    help: "A class is missing: propose a subclass",
+    section: "Review",
+    run: openProposal,
+  },
+  {
     keys: ["R"],
     help: "Ground again with what the decisions teach",
     section: "Review",
@@ -96,6 +112,12 @@ export const BINDINGS: Binding[] = [
   },
   { keys: ["Ctrl+Z", "Z"], help: "Undo", section: "Review", run: (store) => void store.undo() },
   { keys: ["Ctrl+Shift+Z", "Ctrl+Y", "Shift+Z"], help: "Redo", section: "Review", run: (store) => void store.redo() },
+  {
+    keys: ["V"],
+    help: "Audit a random sample to verify the suggestions, or back to the queue",
+    section: "Queue",
+    run: toggleAudit,
+  },
   {
     keys: ["ArrowDown", "J", "S"],
     help: "Skip to the next group",
@@ -226,12 +248,17 @@ function moveMember(store: Store, by: number): void {
   if (count > 0) store.member.value = (store.member.value + by + count) % count;
 }
 
+/** Returns whether each dialog is open. */
+export function dialogs(store: Store): Signal<boolean>[] {
+  return [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen, store.isConceptOpen, store.isProposalOpen];
+}
+
 function close(store: Store): void {
   if (store.changes.value !== null) {
     store.changes.value = null;
     return;
   }
-  for (const dialog of [store.isHelpOpen, store.isClassSearchOpen, store.isBulkOpen]) {
+  for (const dialog of dialogs(store)) {
     if (dialog.value) {
       dialog.value = false;
       return;

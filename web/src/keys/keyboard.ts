@@ -1,7 +1,7 @@
 /** Handles keys wherever they are pressed, except in text fields. */
 
 import type { Store } from "../state/store";
-import { findBinding, keyName, type ViewCommands } from "./bindings";
+import { dialogs, findBinding, keyName, type ViewCommands } from "./bindings";
 
 const TEXT_INPUTS = new Set(["text", "search", "password", "email", "number"]);
 
@@ -24,8 +24,7 @@ function isOfControl(target: EventTarget | null, key: string): boolean {
 export function handleKey(event: KeyboardEvent, store: Store, view: ViewCommands): void {
   const key = keyName(event);
   if (event.defaultPrevented || event.isComposing) return;
-  const isModal =
-    store.isHelpOpen.value || store.isClassSearchOpen.value || store.isBulkOpen.value || store.changes.value !== null;
+  const isModal = dialogs(store).some((dialog) => dialog.value) || store.changes.value !== null;
   if (key !== "Escape" && (isModal || isTextField(event.target) || isOfControl(event.target, key))) return;
   if (key === "Escape" && isTextField(event.target)) (event.target as HTMLElement).blur();
   const binding = findBinding(key);

@@ -7,10 +7,12 @@ import type { Store } from "../state/store";
 import { BulkDialog } from "./BulkDialog";
 import { ChangesDialog } from "./ChangesDialog";
 import { ClassSearch } from "./ClassSearch";
+import { ConceptDialog } from "./ConceptDialog";
 import { DrawerPanel } from "./DrawerPanel";
 import { Help } from "./Help";
 import { Notices } from "./Notices";
 import { ObjectPanel } from "./ObjectPanel";
+import { ProposalDialog } from "./ProposalDialog";
 import { Sidebar } from "./Sidebar";
 import { StatusBar } from "./StatusBar";
 import { ThumbnailCache, Thumbnails } from "./Thumbnail";
@@ -27,7 +29,10 @@ export function App({ store }: { store: Store }) {
     }),
     [],
   );
-  const thumbnails = useMemo(() => new ThumbnailCache(store.client), [store]);
+  const thumbnails = useMemo(
+    () => new ThumbnailCache(store.client, store.model.data.limits.meshes === undefined),
+    [store],
+  );
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => handleKey(event, store, commands);
     addEventListener("keydown", onKey);
@@ -46,6 +51,8 @@ export function App({ store }: { store: Store }) {
       {store.isHelpOpen.value && <Help store={store} />}
       {store.isClassSearchOpen.value && <ClassSearch store={store} />}
       {store.isBulkOpen.value && <BulkDialog store={store} />}
+      {store.isConceptOpen.value && <ConceptDialog store={store} />}
+      {store.isProposalOpen.value && <ProposalDialog store={store} />}
       {store.changes.value !== null && <ChangesDialog store={store} changes={store.changes.value} />}
       <Notices store={store} />
     </Thumbnails.Provider>

@@ -1,6 +1,7 @@
 /** The candidate classes of the object in focus, with their keys. */
 
 import type { ObjectIndex } from "../api/types";
+import { isAuditing } from "../state/audit";
 import { candidatesOf } from "../state/candidates";
 import type { Store } from "../state/store";
 
@@ -22,9 +23,11 @@ export function Candidates({ store, targets }: { store: Store; targets: readonly
             >
               <kbd>{number + 1}</kbd>
               <span class="name">{cls?.label}</span>
-              <span class="share" style={{ "--share": `${Math.round(100 * share)}%` }}>
-                {Math.round(100 * share)} %
-              </span>
+              {share !== null && !isAuditing(store) && (
+                <span class="share" style={{ "--share": `${Math.round(100 * share)}%` }}>
+                  {Math.round(100 * share)} %
+                </span>
+              )}
               <span class="path">{taxonomy.slice(1).join(" ‹ ")}</span>
             </button>
           </li>

@@ -3,7 +3,9 @@
 import type { Store } from "../state/store";
 
 export function Diagnostics({ store }: { store: Store }) {
-  const { diagnostics, objects } = store.model.data;
+  const { diagnostics, objects, is_graph: isGraph } = store.model.data;
+  if (diagnostics.length === 0 && isGraph)
+    return <p class="empty">A graph does not state the problems of its stage.</p>;
   if (diagnostics.length === 0) return <p class="empty">The stage has no problems that the reader found.</p>;
   return (
     <ul class="diagnostics">

@@ -2,8 +2,11 @@
 
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
+import { comparisonOf } from "../state/comparison";
 import type { Drawer, Store } from "../state/store";
 import { Ask } from "./Ask";
+import { AuditFigures } from "./AuditFigures";
+import { Compare } from "./Compare";
 import { Diagnostics } from "./Diagnostics";
 import { Review } from "./Review";
 import { RunFigures } from "./RunFigures";
@@ -28,6 +31,9 @@ export function DrawerPanel({ store }: { store: Store }) {
     { id: "sparql", label: "SPARQL" },
     { id: "diagnostics", label: "Diagnostics", count: store.model.data.diagnostics.length },
     { id: "run", label: "Run" },
+    ...(store.model.data.has_comparison
+      ? [{ id: "compare" as const, label: "Compare", count: comparisonOf(store).changes.value.length }]
+      : []),
   ];
   const { drawer, isDrawerOpen } = store;
   return (
@@ -60,7 +66,13 @@ export function DrawerPanel({ store }: { store: Store }) {
           <Sparql store={store} />
         </Kept>
         {drawer.value === "diagnostics" && <Diagnostics store={store} />}
-        {drawer.value === "run" && <RunFigures store={store} />}
+        {drawer.value === "compare" && <Compare store={store} />}
+        {drawer.value === "run" && (
+          <>
+            <AuditFigures audit={store.queue.value?.audit} />
+            <RunFigures store={store} />
+          </>
+        )}
       </div>
     </section>
   );

@@ -9,12 +9,14 @@ const EXPORTS: { name: string; label: string }[] = [
   { name: "mapping.sssom.tsv", label: "Mapping (SSSOM)" },
   { name: "decisions.sssom.tsv", label: "Decisions (SSSOM journal)" },
   { name: "lessons.sssom.tsv", label: "What decisions teach (alignment)" },
+  { name: "proposals.ttl", label: "Proposed classes (OWL)" },
   { name: "objects.csv", label: "Objects (CSV)" },
   { name: "grounding.json", label: "Grounding (JSON)" },
 ];
 
 export function ExportMenu({ store }: { store: Store }) {
   const [isBusy, setBusy] = useState(false);
+  const { limits } = store.model.data;
   const download = async (name: string) => {
     setBusy(true);
     try {
@@ -37,7 +39,8 @@ export function ExportMenu({ store }: { store: Store }) {
           <button
             key={name}
             type="button"
-            disabled={isBusy}
+            disabled={isBusy || (name === "labels.usda" && limits.labels !== undefined)}
+            title={name === "labels.usda" ? (limits.labels ?? "") : ""}
             onClick={(event) => {
               event.currentTarget.closest("details")?.removeAttribute("open");
               void download(name);

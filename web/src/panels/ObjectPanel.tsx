@@ -2,8 +2,10 @@
 
 import type { ComponentChildren } from "preact";
 import type { HistoryEntry, ObjectPage, RelationRecord } from "../api/types";
+import { isAuditing } from "../state/audit";
 import { focusOf, pageOf } from "../state/candidates";
-import { classLabel } from "../state/model";
+import { openConcept } from "../state/concepts";
+import { classLabel, conceptLabel } from "../state/model";
 import type { Store } from "../state/store";
 import { relationText } from "../viewer/annotations";
 import { Candidates } from "./Candidates";
@@ -29,8 +31,15 @@ export function ObjectPanel({ store }: { store: Store }) {
         <div>
           <h2 title={page.path}>{page.name}</h2>
           <p class="class-line">{state.class < 0 ? "no class" : classLabel(model, state.class)}</p>
+          {state.proposal !== "" && (
+            <p class="muted">
+              proposed below it: <strong>{state.proposal}</strong>
+            </p>
+          )}
           <StateBadge state={state.state} />
-          {state.confidence !== null && <p class="muted">confidence {state.confidence.toFixed(2)}</p>}
+          {state.confidence !== null && !isAuditing(store) && (
+            <p class="muted">confidence {state.confidence.toFixed(2)}</p>
+          )}
         </div>
       </header>
       {state.is_conflict && <p class="conflict">Reviewers disagree. A decision now settles it.</p>}
@@ -40,11 +49,24 @@ export function ObjectPanel({ store }: { store: Store }) {
         {page.concept !== null && (
           <p class="concept">
             Concept <strong>{page.concept.label}</strong>
-            {page.concept.confidence !== null && ` (${page.concept.confidence.toFixed(2)})`}
-            <span class="path"> ‹ {page.concept.hypernyms.slice(0, 5).join(" ‹ ")}</span>
+            {page.concept.confidence !== null && !isAuditing(store) && ` (${page.concept.confidence.toFixed(2)})`}
+            <span class="path"> ‹ {page.concept.hypernyms.slice(0, 5).join(" ‹ ")}</span>{" "}
+            <button type="button" onClick={() => openConcept(store)}>
+              Every {page.concept.label} is… <kbd>E</kbd>
+            </button>
           </p>
         )}
       </Section>
+      {page.second !== null && (
+        <Section title={`Second grounder (${page.second.grounder})`}>
+          <p class={page.second.is_disputed ? "disputed" : ""}>
+            <strong>{classLabel(model, page.second.class)}</strong>
+            {page.second.confidence !== null && !isAuditing(store) && ` (${page.second.confidence.toFixed(2)})`}
+            {page.second.is_disputed && ": disagrees"}
+          </p>
+          <p class="muted">{page.second.explanation}</p>
+        </Section>
+      )}
       <Section title="Candidates">
         <Candidates store={store} targets={targets.includes(page.object) ? targets : [page.object]} />
       </Section>
@@ -152,6 +174,8 @@ function History({ store, entries }: { store: Store; entries: HistoryEntry[] }) 
       {entries.map((entry) => (
         <li key={entry.event}>
           <strong>{entry.verdict === "class" ? classLabel(store.model, entry.class) : VERDICTS[entry.verdict]}</strong>{" "}
+          {entry.proposal !== "" && `(proposed below it: ${entry.proposal}) `}
+          {entry.concept >= 0 && `(every ${conceptLabel(store.model, entry.concept)}) `}
           {entry.action !== "decide" && `(${entry.action}) `}by {entry.reviewer},{" "}
           {new Date(entry.time).toLocaleString()}
           {entry.comment !== "" && <q>{entry.comment}</q>}

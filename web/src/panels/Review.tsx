@@ -2,7 +2,10 @@
 
 import type { Signal } from "@preact/signals";
 import type { QueueGroup, QueueOrder } from "../api/types";
-import { classLabel } from "../state/model";
+import { auditText, isAuditing, showOrder, toggleAudit } from "../state/audit";
+import { openConcept } from "../state/concepts";
+import { classLabel, conceptLabel } from "../state/model";
+import { openProposal } from "../state/proposals";
 import type { Store } from "../state/store";
 import { Thumbnail } from "./Thumbnail";
 import { VirtualList } from "./VirtualList";
@@ -12,11 +15,18 @@ const ORDERS: { id: QueueOrder; label: string }[] = [
   { id: "confidence", label: "least confident" },
   { id: "class", label: "class" },
   { id: "place", label: "place" },
+  { id: "audit", label: "at random" },
+  { id: "disagreement", label: "disagreement" },
 ];
+
+/** Returns the orders that the scene allows. */
+function ordersOf(store: Store): typeof ORDERS {
+  const hasSecond = store.model.data.second_grounder !== "";
+  return hasSecond ? ORDERS : ORDERS.filter(({ id }) => id !== "disagreement");
+}
 
 export function Review({ store }: { store: Store }) {
   const group = store.group.value;
-  if (store.model.data.is_read_only) return <p class="empty">A graph is shown without its stage: nothing to decide.</p>;
   return (
     <div class="review">
       <QueueList store={store} />
@@ -36,23 +46,28 @@ function QueueList({ store }: { store: Store }) {
   const current = groups.findIndex((group) => group.id === store.group.value?.id);
   return (
     <div class="queue">
-      <label class="field">
-        Order
-        <select
-          value={store.order.value}
-          onChange={(event) => {
-            store.order.value = event.currentTarget.value as QueueOrder;
-            event.currentTarget.blur();
-            void store.loadQueue();
-          }}
-        >
-          {ORDERS.map(({ id, label }) => (
-            <option key={id} value={id}>
-              {label}
-            </option>
-          ))}
-        </select>
-      </label>
+      <div class="queue-order">
+        <label class="field">
+          Order
+          <select
+            value={store.order.value}
+            onChange={(event) => {
+              showOrder(store, event.currentTarget.value as QueueOrder);
+              event.currentTarget.blur();
+            }}
+          >
+            {ordersOf(store).map(({ id, label }) => (
+              <option key={id} value={id}>
+                {label}
+              </option>
+            ))}
+          </select>
+        </label>
+        <button type="button" aria-pressed={isAuditing(store)} onClick={() => toggleAudit(store)}>
+          Audit <kbd>V</kbd>
+        </button>
+      </div>
+      {isAuditing(store) && <p class="audit-note">{auditText(store.queue.value?.audit)}</p>}
       <VirtualList rows={groups} rowHeight={ROW_HEIGHT} role="listbox" label="Groups to review" current={current}>
         {(group: QueueGroup, index) => (
           // biome-ignore lint/a11y/useKeyWithClickEvents: arrows move in the queue from anywhere
@@ -69,7 +84,8 @@ function QueueList({ store }: { store: Store }) {
               {group.objects.length > 1 && <span class="count">{group.objects.length}</span>}
             </span>
             <span class="class-name">
-              {group.suggested < 0 ? "no class" : classLabel(store.model, group.suggested)}
+              {classLabel(store.model, group.suggested)}
+              {group.is_disputed && ` ≠ ${classLabel(store.model, group.second)}`}
             </span>
             <span class="confidence">{group.confidence === null ? "" : group.confidence.toFixed(2)}</span>
           </div>
@@ -186,7 +202,23 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
           store.isClassSearchOpen.value = true;
         }}
       >
-        Another class <kbd>/</kbd>
+        Other class <kbd>/</kbd>
+      </button>
+      {group.concept >= 0 && (
+        <button type="button" title="All open objects of the concept, in one stroke" onClick={() => openConcept(store)}>
+          Every {conceptLabel(store.model, group.concept)} <kbd>E</kbd>
+        </button>
+      )}
+      <button
+        type="button"
+        disabled={isNone}
+        title="No class is fine enough: propose a subclass"
+        onClick={() => {
+          store.select([]);
+          openProposal(store);
+        }}
+      >
+        Missing class <kbd>M</kbd>
       </button>
       <button type="button" disabled={isNone} onClick={() => void store.decide(targets, "no-class")}>
         No class fits <kbd>N</kbd>
@@ -202,7 +234,8 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       </button>
       <button
         type="button"
-        title="Ground the open objects with what the decisions teach"
+        title={store.model.data.limits.reground ?? "Ground the open objects with what the decisions teach"}
+        disabled={store.model.data.limits.reground !== undefined}
         onClick={() => store.groundAgain()}
       >
         Ground again <kbd>R</kbd>

@@ -1,5 +1,7 @@
 /** Figures of the run: what was read, with which ontology and settings, and how far the reviewers agree. */
 
+import { classLabel } from "../state/model";
+import { listProposals } from "../state/proposals";
 import type { Store } from "../state/store";
 
 export function RunFigures({ store }: { store: Store }) {
@@ -7,9 +9,13 @@ export function RunFigures({ store }: { store: Store }) {
     label: `Agreement of ${reviewers.join(" and ")}`,
     value: `${same} of ${objects}${kappa === null ? "" : `, Cohen's κ ${kappa.toFixed(2)}`}`,
   }));
+  const proposals = listProposals(store.states.value).map(({ label, parent, objects }) => ({
+    label: `Proposed class “${label}”`,
+    value: `below ${classLabel(store.model, parent)}, ${objects} ${objects === 1 ? "object" : "objects"}`,
+  }));
   return (
     <dl class="facts columns">
-      {[...agreement, ...store.model.data.figures].map(({ label, value }) => (
+      {[...agreement, ...proposals, ...store.model.data.figures].map(({ label, value }) => (
         <div key={label}>
           <dt>{label}</dt>
           <dd>{value}</dd>

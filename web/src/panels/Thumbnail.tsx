@@ -15,10 +15,15 @@ export class ThumbnailCache {
   private readonly waiting: (() => void)[] = [];
   private running = 0;
 
-  constructor(private readonly client: Client) {}
+  /** @param hasPictures whether there is a stage to render. */
+  constructor(
+    private readonly client: Client,
+    private readonly hasPictures = true,
+  ) {}
 
   /** Returns the address of a picture, or why there is none. */
   get(object: ObjectIndex): Promise<Picture> {
+    if (!this.hasPictures) return Promise.resolve({ problem: "box only" });
     const known = this.urls.get(object);
     if (known !== undefined) return known;
     const url = new Promise<Picture>((resolve) => {

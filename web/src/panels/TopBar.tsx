@@ -37,7 +37,7 @@ export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
             event.currentTarget.blur();
           }}
         >
-          {COLOR_MODES.map(({ id, label }) => (
+          {COLOR_MODES.filter(({ id }) => id !== "change" || model.data.has_comparison).map(({ id, label }) => (
             <option key={id} value={id}>
               {label}
             </option>

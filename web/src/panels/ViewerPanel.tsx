@@ -6,6 +6,7 @@ import type { ObjectIndex } from "../api/types";
 import type { ViewCommands } from "../keys/bindings";
 import { pageOf } from "../state/candidates";
 import { colorObjects, cssColor, type LegendEntry } from "../state/colors";
+import { colorChanges, comparisonOf } from "../state/comparison";
 import { classLabel } from "../state/model";
 import type { Store } from "../state/store";
 import { followSupports } from "../state/supports";
@@ -63,6 +64,7 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
           Meshes {loading[0]} of {loading[1]}
         </p>
       )}
+      {store.model.data.limits.meshes !== undefined && <p class="boxes-only">{store.model.data.limits.meshes}</p>}
       <ViewTools store={store} />
       <Legend store={store} entries={legend} />
       <HoverLine store={store} />
@@ -88,16 +90,15 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
   return [
     stop,
     effect(() => {
-      const { colors, legend } = colorObjects(
-        store.colorMode.value,
-        store.model,
-        store.states.value,
-        store.answer.value,
-        supports.value,
-      );
+      const mode = store.colorMode.value;
+      const { colors, legend } =
+        mode === "change"
+          ? colorChanges(store.model.count, comparisonOf(store).rows.value)
+          : colorObjects(mode, store.model, store.states.value, store.answer.value, supports.value);
       setLegend(legend);
       viewer.setAppearance(appearanceOf(store, colors, viewer.eye, before.value), store.colorMode.value === "material");
     }),
+    ...followComparison(store, viewer),
     effect(() => viewer.setSelection(store.selection.value)),
     effect(() => viewer.setHidden([...before.value])),
     effect(() => viewer.setCut(store.cutShare.value)),
@@ -108,6 +109,19 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
     effect(() => {
       // The picture follows the queue and the answers, not each click.
       if (store.lookAt.value !== null) viewer.frame(store.lookAt.value);
+    }),
+  ];
+}
+
+/** Shows where things were: what disappeared, and the old places of selected objects. */
+function followComparison(store: Store, viewer: Viewer): (() => void)[] {
+  if (!store.model.data.has_comparison) return [];
+  const comparison = comparisonOf(store);
+  return [
+    effect(() => viewer.setGhosts(comparison.ghosts.value, comparison.focusedGhost.value)),
+    effect(() => {
+      const ghost = comparison.focusedGhost.value;
+      if (ghost !== null) viewer.frameBox(ghost.box);
     }),
   ];
 }
@@ -200,7 +214,7 @@ function Legend({ store, entries }: { store: Store; entries: LegendEntry[] }) {
   if (entries.length === 0) return null;
   return (
     <section class="legend" aria-label="Legend">
-      {entries.slice(0, MAX_LEGEND).map(({ label, color, objects }) => (
+      {entries.slice(0, MAX_LEGEND).map(({ label, color, objects, count }) => (
         <button
           key={`${label} ${objects[0]}`}
           type="button"
@@ -211,7 +225,7 @@ function Legend({ store, entries }: { store: Store; entries: LegendEntry[] }) {
             <rect width="10" height="10" rx="2" fill={cssColor(color)} />
           </svg>
           <span class="name">{label}</span>
-          <span class="count">{objects.length}</span>
+          <span class="count">{count ?? objects.length}</span>
         </button>
       ))}
       {entries.length > MAX_LEGEND && <p>and {entries.length - MAX_LEGEND} more</p>}

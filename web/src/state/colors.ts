@@ -5,7 +5,16 @@ import { classLabel, conceptLabel, roomLabel, type SceneModel } from "./model";
 import { ANSWER, CATEGORIES, CONFIDENCE_BOUNDS, CONFIDENCE_COLORS, REST } from "./palette";
 import type { Supports } from "./supports";
 
-export type ColorMode = "material" | "class" | "concept" | "confidence" | "state" | "room" | "support" | "answer";
+export type ColorMode =
+  | "material"
+  | "class"
+  | "concept"
+  | "confidence"
+  | "state"
+  | "room"
+  | "support"
+  | "answer"
+  | "change";
 
 export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "material", label: "Material" },
@@ -16,6 +25,7 @@ export const COLOR_MODES: { id: ColorMode; label: string }[] = [
   { id: "room", label: "Room" },
   { id: "support", label: "Support" },
   { id: "answer", label: "Answer" },
+  { id: "change", label: "Change" },
 ];
 
 /** sRGB, each from 0 to 1. */
@@ -25,6 +35,8 @@ export interface LegendEntry {
   label: string;
   color: Rgb;
   objects: ObjectIndex[];
+  /** Number of objects, if some are no longer in the scene. */
+  count?: number;
 }
 
 export interface Coloring {
@@ -58,7 +70,7 @@ export const STATE_LABELS: Record<ReviewState, string> = {
 
 /** Returns the colours and the legend of a mode. */
 export function colorObjects(
-  mode: ColorMode,
+  mode: Exclude<ColorMode, "change">,
   model: SceneModel,
   states: readonly ObjectState[],
   answer: ReadonlySet<ObjectIndex>,
@@ -175,7 +187,7 @@ function byAnswer(states: readonly ObjectState[], answer: ReadonlySet<ObjectInde
   ]);
 }
 
-function fill(count: number, legend: LegendEntry[]): Coloring {
+export function fill(count: number, legend: LegendEntry[]): Coloring {
   const colors: (Rgb | null)[] = new Array(count).fill(null);
   for (const { color, objects } of legend) for (const object of objects) colors[object] = color;
   return { colors, legend };

@@ -27,7 +27,7 @@ export function predictStates(
 ): ObjectState[] {
   return objects.flatMap((object) => {
     const state = states[object];
-    return state === undefined ? [] : [{ ...state, ...judge(state, action, chosen) }];
+    return state === undefined ? [] : [{ ...state, ...judge(state, action, chosen), proposal: "" }];
   });
 }
 

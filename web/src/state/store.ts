@@ -7,6 +7,7 @@ import type {
   ClassIndex,
   DecisionAction,
   DecisionReply,
+  DecisionRequest,
   ObjectIndex,
   ObjectState,
   Outputs,
@@ -18,15 +19,19 @@ import type {
   States,
   SuggestionsEvent,
 } from "../api/types";
+import { isAuditOf } from "./audit";
 import type { ColorMode } from "./colors";
 import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters";
-import { buildModel, classLabel, type SceneModel } from "./model";
+import { buildModel, classLabel, conceptLabel, type SceneModel } from "./model";
 import { findAgain, groupAfter, withoutObjects } from "./queue";
 import { isOpen, predictStates } from "./review";
 import { StateTable } from "./stateTable";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
-export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run";
+export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run" | "compare";
+
+/** What a decision says beside class and objects. */
+export type DecisionDetails = Pick<DecisionRequest, "concept" | "proposal" | "comment">;
 
 export interface Notice {
   id: number;
@@ -68,6 +73,8 @@ export class Store {
   readonly isHelpOpen = signal(false);
   readonly isClassSearchOpen = signal(false);
   readonly isBulkOpen = signal(false);
+  readonly isConceptOpen = signal(false);
+  readonly isProposalOpen = signal(false);
 
   /** What grounding again has changed, while its list is open. */
   readonly changes = signal<RegroundReply["changes"] | null>(null);
@@ -249,10 +256,16 @@ export class Store {
    * Decides about objects. The page shows the result and the next group at once; if the server refuses, it takes both
    * back.
    */
-  async decide(objects: readonly ObjectIndex[], action: DecisionAction, chosen?: ClassIndex): Promise<void> {
-    if (objects.length === 0 || this.model.data.is_read_only || this.hasJustMoved()) return;
+  async decide(
+    objects: readonly ObjectIndex[],
+    action: DecisionAction,
+    chosen?: ClassIndex,
+    details: DecisionDetails = {},
+  ): Promise<void> {
+    if (objects.length === 0 || this.hasJustMoved()) return;
     const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
     const { seen, group } = { seen: this.version.value, group: this.group.value };
+    const isAudit = isAuditOf(this, objects, action, details);
     if (action !== "clear") this.moveOn(objects);
     const reply = await this.send("decisions", {
       objects,
@@ -261,9 +274,11 @@ export class Store {
       page: this.page,
       seen,
       ...(chosen === undefined ? {} : { class: chosen }),
+      ...details,
+      ...(isAudit ? { audit: true } : {}),
     });
     forget();
-    if (reply !== null) this.notify(describe(this.model, reply, objects.length, action, chosen));
+    if (reply !== null) this.notify(describe(this.model, reply, objects.length, action, chosen, details));
     await this.loadQueue();
     const again = reply === null && group !== null ? findAgain(this.groups.value, group) : null;
     if (again !== null) this.goTo(again.id);
@@ -293,6 +308,11 @@ export class Store {
 
   /** Grounds the open objects again with what the decisions teach, and lists what changed. */
   async groundAgain(): Promise<void> {
+    const { reground } = this.model.data.limits;
+    if (reground !== undefined) {
+      this.notify(reground);
+      return;
+    }
     this.saving.value = "saving";
     try {
       const body = { reviewer: this.reviewer.value, page: this.page };
@@ -395,6 +415,7 @@ function describe(
   count: number,
   action: DecisionAction,
   chosen: ClassIndex | undefined,
+  { concept, proposal }: DecisionDetails,
 ): string {
   const things =
     count === 1 ? (model.data.objects.name[reply.states[0]?.object ?? -1] ?? "1 object") : `${count} objects`;
@@ -404,7 +425,10 @@ function describe(
     case "confirm":
       return classes.size > 1 ? `Confirmed ${things} of ${classes.size} classes` : `Confirmed ${things} as ${label}`;
     case "choose":
-      return `Set ${things} to ${label}`;
+      if (proposal !== undefined) return `Proposed “${proposal}” below ${label} for ${things}`;
+      return concept === undefined
+        ? `Set ${things} to ${label}`
+        : `Every “${conceptLabel(model, concept)}” is ${label}: set ${things}`;
     case "unsure":
       return `Marked ${things} as unsure`;
     case "no-class":

@@ -32,13 +32,54 @@ export function appearanceOf(
   const [alone, filtered, selected] = [isolated.value, shown.value, new Set(selection.value)];
   const isGhostly = isSeeThrough.value && selected.size > 0;
   const hidden = isCutAway.value ? cutAway(store.model.data, eye.value.direction) : new Set<ObjectIndex>();
+  const { data } = store.model;
+  const holders = data.limits.meshes === undefined ? new Set<ObjectIndex>() : holdersOf(data);
   return (object) => {
     if (object < 0) return { isVisible: alone === null, color: null, opacity: isGhostly ? GHOST : 1 };
     const isHidden = (hidden.has(object) || before.has(object)) && !selected.has(object);
     const isWanted = alone === null ? !isHidden : alone.has(object);
-    const isGhost = (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
+    // A box without meshes would hide what the object holds.
+    const isGhost =
+      holders.has(object) || (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
     return { isVisible: isWanted, color: colors[object] ?? null, opacity: isGhost ? GHOST : 1 };
   };
+}
+
+const MIN_HELD = 3;
+/** Share of the volume of the scene from which a box may hold the others. */
+const MIN_HOLDER_SHARE = 0.02;
+
+const knownHolders = new WeakMap<SceneData, Set<ObjectIndex>>();
+
+function holdersOf(data: SceneData): Set<ObjectIndex> {
+  const found = knownHolders.get(data) ?? findHolders(data);
+  knownHolders.set(data, found);
+  return found;
+}
+
+/** Returns the objects that hold others: their parents, and large boxes around the middles of several others. */
+export function findHolders({ objects: { box, parent } }: SceneData): Set<ObjectIndex> {
+  const holders = new Set(parent);
+  const scene = new Box3();
+  const boxes = box.map((own) => (own === null ? null : asBox3(own)));
+  for (const own of boxes) if (own !== null) scene.union(own);
+  const least = MIN_HOLDER_SHARE * volume(scene);
+  const middles = boxes.map((own) => own?.getCenter(new Vector3()) ?? null);
+  boxes.forEach((own, object) => {
+    if (own === null || volume(own) < least) return;
+    const held = middles.filter((middle, other) => middle !== null && other !== object && own.containsPoint(middle));
+    if (held.length >= MIN_HELD) holders.add(object);
+  });
+  return holders;
+}
+
+function asBox3([x0, y0, z0, x1, y1, z1]: Box): Box3 {
+  return new Box3(new Vector3(x0, y0, z0), new Vector3(x1, y1, z1));
+}
+
+function volume(box: Box3): number {
+  const { x, y, z } = box.getSize(new Vector3());
+  return x * y * z;
 }
 
 /** A wall is near if its outside faces the viewer by more than this cosine. */

@@ -1,7 +1,17 @@
 /** The boxes of objects, shown until their meshes arrive, and for scenes without meshes. */
 
-import { BoxGeometry, Color, Group, InstancedMesh, Matrix4, MeshLambertMaterial, type Raycaster } from "three";
-import type { Box, ObjectIndex } from "../api/types";
+import {
+  BoxGeometry,
+  Color,
+  Group,
+  InstancedMesh,
+  Matrix4,
+  MeshLambertMaterial,
+  Quaternion,
+  type Raycaster,
+  Vector3,
+} from "three";
+import type { Box, ObjectIndex, Turned } from "../api/types";
 import { type Appearance, bestHit, type Hit, linear } from "./meshes";
 
 const MIN_SIDE = 0.002;
@@ -17,9 +27,13 @@ export class BoxBatch {
   private readonly matrices: Matrix4[];
   private readonly natural: Color[];
 
-  constructor(boxes: readonly (Box | null)[], colors: readonly ([number, number, number] | null)[]) {
+  constructor(
+    boxes: readonly (Box | null)[],
+    colors: readonly ([number, number, number] | null)[],
+    turned: readonly (Turned | null)[] = [],
+  ) {
     this.objects = boxes.flatMap((box, index) => (box === null ? [] : [index]));
-    this.matrices = this.objects.map((object) => boxMatrix(boxes[object] as Box));
+    this.matrices = this.objects.map((object) => boxMatrix(boxes[object] as Box, turned[object] ?? null));
     this.natural = this.objects.map((object) => new Color(...(colors[object] ?? [0.5, 0.5, 0.5])));
     const geometry = new BoxGeometry();
     this.solid = this.makeMesh(geometry, new MeshLambertMaterial());
@@ -81,9 +95,14 @@ export class BoxBatch {
   }
 }
 
-function boxMatrix([x0, y0, z0, x1, y1, z1]: Box): Matrix4 {
-  const side = (lower: number, upper: number) => Math.max(upper - lower, MIN_SIDE);
-  return new Matrix4()
-    .makeScale(side(x0, x1), side(y0, y1), side(z0, z1))
-    .setPosition((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2);
+/** Returns the matrix of a unit cube that fills a box, or the box along the object's own axes in the middle of it. */
+export function boxMatrix([x0, y0, z0, x1, y1, z1]: Box, turned: Turned | null): Matrix4 {
+  const sides = turned === null ? [x1 - x0, y1 - y0, z1 - z0] : turned.slice(4);
+  const [width, depth, height] = sides.map((side) => Math.max(side, MIN_SIDE)) as [number, number, number];
+  const rotation = turned === null ? new Quaternion() : new Quaternion(...turned.slice(0, 4)).normalize();
+  return new Matrix4().compose(
+    new Vector3((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2),
+    rotation,
+    new Vector3(width, depth, height),
+  );
 }

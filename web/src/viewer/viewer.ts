@@ -18,6 +18,7 @@ import type { Box, ObjectIndex, SceneData, TextureUse } from "../api/types";
 import type { Eye } from "./appearance";
 import { BoxBatch } from "./boxes";
 import { Cameras, type ViewName } from "./cameras";
+import { type Ghost, GhostBoxes } from "./ghosts";
 import { boxCenter, boxEdges, LineSet } from "./lines";
 import { type Appearance, bestHit, MeshBatches, readParts } from "./meshes";
 import { LabelOverlay, type OverlayLabel } from "./overlay";
@@ -60,6 +61,7 @@ export class Viewer {
   private readonly selection = new LineSet("#ff9d00");
   private readonly relations = new LineSet("#ff9d00");
   private readonly hidden = new LineSet("#8a93a0");
+  private readonly ghosts = new GhostBoxes();
   private readonly overlay: LabelOverlay;
   private readonly cut = new Plane(new Vector3(0, 0, -1), OUTSIDE);
   private readonly light = new DirectionalLight(0xffffff, 1.6);
@@ -88,8 +90,9 @@ export class Viewer {
     host.append(labels);
     this.overlay = new LabelOverlay(labels);
     this.cameras = new Cameras(canvas, () => this.invalidate());
-    this.boxes = new BoxBatch(data.objects.box, data.objects.color);
+    this.boxes = new BoxBatch(data.objects.box, data.objects.color, data.objects.turned);
     this.scene.add(this.boxes.group, this.selection.segments, this.relations.segments, this.hidden.segments);
+    this.scene.add(this.ghosts.group);
     this.scene.add(new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8d8578, 1.1), this.light);
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(host);
@@ -141,6 +144,18 @@ export class Viewer {
       .map((object) => this.data.objects.box[object]);
     this.hidden.set(boxes.slice(0, MAX_BOXES).flatMap((box) => (box == null ? [] : boxEdges(box))));
     this.invalidate();
+  }
+
+  /** Shows boxes of what is not in the scene any more; the focused one stands out. */
+  setGhosts(ghosts: readonly Ghost[], focused: Ghost | null): void {
+    this.ghosts.set(ghosts, focused);
+    this.invalidate();
+  }
+
+  /** Looks at a box. */
+  frameBox([x0, y0, z0, x1, y1, z1]: Box): void {
+    const bounds = new Box3(new Vector3(x0, y0, z0), new Vector3(x1, y1, z1));
+    this.cameras.frame(bounds.expandByScalar(0.25 * bounds.getSize(new Vector3()).length() + 0.15), null);
   }
 
   /** Shows relation lines and labels. */
@@ -297,6 +312,7 @@ export class Viewer {
     this.selection.dispose();
     this.relations.dispose();
     this.hidden.dispose();
+    this.ghosts.dispose();
     this.renderer.dispose();
     this.host.replaceChildren();
   }

@@ -1,8 +1,8 @@
-"""Bootstrap intervals, McNemar's test, and the spread of repeated runs."""
+"""Bootstrap and Wilson intervals, McNemar's test, and the spread of repeated runs."""
 
 import math
 from collections.abc import Callable, Hashable, Sequence
-from statistics import fmean, stdev
+from statistics import NormalDist, fmean, stdev
 from typing import NamedTuple
 
 import numpy as np
@@ -10,9 +10,10 @@ import numpy as np
 from usd2kg.evaluation.score import Score
 from usd2kg.evaluation.settings import BOOTSTRAP
 
-__all__ = ["Interval", "McNemar", "bootstrap_interval", "mcnemar", "mean_and_deviation"]
+__all__ = ["Interval", "McNemar", "bootstrap_interval", "mcnemar", "mean_and_deviation", "wilson_interval"]
 
 _PERCENTILES = (2.5, 97.5)
+_Z = NormalDist().inv_cdf(_PERCENTILES[1] / 100)
 
 
 class Interval(NamedTuple):
@@ -46,6 +47,20 @@ def bootstrap_interval(
     means = sums[draws].sum(axis=1) / sizes[draws].sum(axis=1)
     lower, upper = np.percentile(means, _PERCENTILES)
     return Interval(float(lower), float(upper))
+
+
+def wilson_interval(right: int, total: int) -> Interval:
+    """Return the score interval of a share of independent draws (Wilson 1927); also good near 0 and 1 and for few.
+
+    Raises:
+        ValueError: there are no draws.
+    """
+    if total <= 0:
+        raise ValueError("the interval of no samples is undefined")
+    share, scale = right / total, 1 + _Z**2 / total
+    center = (share + _Z**2 / (2 * total)) / scale
+    half = _Z / scale * math.sqrt(share * (1 - share) / total + _Z**2 / (4 * total**2))
+    return Interval(max(center - half, 0.0), min(center + half, 1.0))
 
 
 class McNemar(NamedTuple):

@@ -9,10 +9,10 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.files import write_whole
+from usd2kg.graph.abox import KnowledgeGraph
 from usd2kg.graph.export.graphml import graphml_pieces
 from usd2kg.graph.export.property_graph import read_property_graph
 from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces
-from usd2kg.graph.instantiate import KnowledgeGraph
 from usd2kg.graph.rdf_document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import write_functional_syntax

@@ -29,6 +29,7 @@ __all__ = [
     "ClassPosterior",
     "PosteriorModel",
     "log_likelihoods_of_appearance",
+    "match_everyday_nouns",
     "neighbour_weights",
 ]
 
@@ -71,16 +72,24 @@ def log_likelihoods_of_appearance(seen: Appearance) -> Floats:
     return size_log_likelihoods(seen.size) + log_stance_likelihoods(stance_of(seen))
 
 
+def match_everyday_nouns(match: MatchName) -> list[ClassIRI | None]:
+    """Return the class that each everyday noun matches best."""
+    matches = (match(noun, (), None) for noun in everyday_nouns())
+    return [found[0].class_iri if found else None for found in matches]
+
+
 class PosteriorModel:
     """Computes posteriors over the classes of one TBox that everyday nouns match."""
 
-    def __init__(self, match: MatchName) -> None:
-        """Match every everyday noun with its class."""
-        matches = [match(noun, (), None) for noun in everyday_nouns()]
-        classes = sorted({found[0].class_iri for found in matches if found})
-        self._columns = {iri: column for column, iri in enumerate(classes)}
-        self._nouns = np.array([row for row, found in enumerate(matches) if found], dtype=int)
-        self._noun_columns = np.array([self._columns[found[0].class_iri] for found in matches if found], dtype=int)
+    def __init__(self, noun_classes: Sequence[ClassIRI | None]) -> None:
+        """Index the classes.
+
+        Args:
+            noun_classes: the class of each everyday noun; None for a noun without one.
+        """
+        self._columns = {iri: column for column, iri in enumerate(sorted({iri for iri in noun_classes if iri}))}
+        self._nouns = np.array([row for row, iri in enumerate(noun_classes) if iri], dtype=int)
+        self._noun_columns = np.array([self._columns[iri] for iri in noun_classes if iri], dtype=int)
 
     def posterior(self, log_likelihoods: Floats, places: Floats) -> ClassPosterior:
         """Return the posterior of one object.

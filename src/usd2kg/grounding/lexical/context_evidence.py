@@ -12,6 +12,7 @@ from usd2kg.grounding.lexical.class_posterior import (
     ClassPosterior,
     PosteriorModel,
     log_likelihoods_of_appearance,
+    match_everyday_nouns,
     neighbour_weights,
 )
 from usd2kg.grounding.lexical.concepts.places import (
@@ -36,6 +37,7 @@ from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.settings import VOTE
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.table_cache import TableCache
 
 __all__ = ["ContextEvidence"]
 
@@ -50,7 +52,10 @@ _NEARNESS_TEXTS = {
 class ContextEvidence:
     """Scores classes by context, for one TBox."""
 
-    def __init__(self, tbox: TBox, words: NameEvidence, reader: NameReader, matcher: PhraseMatcher) -> None:
+    def __init__(
+        self, tbox: TBox, words: NameEvidence, reader: NameReader, matcher: PhraseMatcher, tables: TableCache
+    ) -> None:
+        self._tables = tables
         self._tbox = tbox
         self._words = words
         self._reader = reader
@@ -64,7 +69,9 @@ class ContextEvidence:
 
     @cached_property
     def _model(self) -> PosteriorModel:
-        return PosteriorModel(self._words.match)
+        return PosteriorModel(
+            self._tables.get("nouns", list, partial(match_everyday_nouns, self._words.match), encode=list)
+        )
 
     def shared_prefix(self, view: ObjectView) -> tuple[str, ...]:
         """Return the parts that nearly all names of the stage begin with; empty in masked regimes."""

@@ -4,7 +4,7 @@ It reads a name as a noun phrase and matches its head noun with the terms of the
 Where the name is not clear it adds the evidence of assets, documentation, parts, neighbours, size and place.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -19,6 +19,7 @@ from usd2kg.grounding.lexical.object_grounder import ObjectGrounder
 from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.table_cache import NO_CACHE, open_table_cache
 
 __all__ = ["LexicalGrounder"]
 
@@ -122,5 +123,16 @@ def _make_object_grounder(
     tbox: TBox, use_home_synonyms: bool, use_member_lists: bool, alignment: AlignmentFile | None
 ) -> ObjectGrounder:
     """Return the grounder of a TBox; it has no state from scenes, so all scenes share it."""
-    synonyms = home_names() if use_home_synonyms else {}
-    return ObjectGrounder(tbox, synonyms, alignment, use_member_lists=use_member_lists)
+    # An edited alignment may have problems to warn about.
+    tables = NO_CACHE
+    if alignment is None:
+        tables = open_table_cache([f"{use_home_synonyms} {use_member_lists}", *_as_text(tbox)])
+    synonyms = home_names if use_home_synonyms else dict
+    return ObjectGrounder(tbox, synonyms, alignment, use_member_lists=use_member_lists, tables=tables)
+
+
+def _as_text(tbox: TBox) -> Iterator[str]:
+    """Yield what the lexicon depends on; the same ontology may be read in another scope."""
+    yield tbox.content_hash
+    for cls in tbox.classes:
+        yield "\n".join((cls.iri, cls.label, cls.comment, *cls.alt_labels, "", *cls.parents))

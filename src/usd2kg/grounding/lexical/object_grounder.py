@@ -1,15 +1,18 @@
 """Ground one object: score classes by its name, then by other evidence, and choose the class with the best score."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, build_alignment
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI
-from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI, with_root
+from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
+from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
@@ -22,6 +25,7 @@ from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.table_cache import NO_CACHE, TableCache
 
 __all__ = ["ObjectGrounder"]
 
@@ -34,30 +38,32 @@ class ObjectGrounder:
     def __init__(
         self,
         tbox: TBox,
-        synonyms: Mapping[ClassIRI, tuple[str, ...]],
+        synonyms: Callable[[], Mapping[ClassIRI, tuple[str, ...]]],
         alignment: AlignmentFile | None = None,
         *,
         use_member_lists: bool = True,
+        tables: TableCache = NO_CACHE,
     ) -> None:
         """Build or read the lexicon of a TBox.
 
         Args:
             tbox: the candidate classes.
-            synonyms: further terms by class IRI.
+            synonyms: returns further terms by class IRI.
             alignment: an edited alignment; None to use the one that is built.
             use_member_lists: whether the lists that usd2kg ships for public ontologies count.
+            tables: the tables of an earlier process for the same arguments.
 
         Raises:
             GroundingError: the alignment is invalid, or for another ontology.
         """
         taxonomy = self._taxonomy = load_taxonomy()
-        if alignment is None:
-            built = build_alignment(tbox, taxonomy, synonyms, use_lists=use_member_lists)
-            lexicon = built.edited(taxonomy)
-        else:
-            rooted, lexicon = alignment.apply(tbox, taxonomy, synonyms, use_lists=use_member_lists)
-            built = BuiltAlignment(rooted, lexicon, ())
-        self._alignment, self._tbox, self._lexicon = built, built.tbox, lexicon
+        self._build = partial(_build, tbox, taxonomy, synonyms, alignment, use_lists=use_member_lists)
+        self._tbox, self._lexicon = tables.get(
+            "lexicon",
+            lambda found: _rooted_of_json(found, tbox, taxonomy),
+            lambda: _edited(self._build(), taxonomy),
+            lambda rooted: lexicon_as_json(rooted[1]),
+        )
         self.general_classes = self._lexicon.general_classes
         """The roots, and the default class."""
         reader = self._reader = NameReader(self._lexicon, taxonomy)
@@ -65,11 +71,11 @@ class ObjectGrounder:
         matcher = PhraseMatcher(terms, taxonomy, reader)
         self._is_fallback = terms.is_fallback
         self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher)
-        self._context = ContextEvidence(self._tbox, self._words, reader, matcher)
+        self._context = ContextEvidence(self._tbox, self._words, reader, matcher, tables)
 
     def format_alignment(self, others: Iterable[AlignmentRow] = ()) -> str:
         """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""
-        built = self._alignment
+        built = self._build()
         return format_alignment(built.tbox, built.lexicon, self._taxonomy, [*built.rows, *others])
 
     def predict(self, prim_path: str, view: ObjectView) -> ScoredView:
@@ -152,3 +158,25 @@ class ObjectGrounder:
 
 def _refusal(prim_path: str, explanation: str) -> Prediction:
     return Prediction(prim_path, None, None, Status.REFUSED, _GROUNDER, explanation)
+
+
+def _build(
+    tbox: TBox,
+    taxonomy: Taxonomy,
+    synonyms: Callable[[], Mapping[ClassIRI, tuple[str, ...]]],
+    alignment: AlignmentFile | None,
+    *,
+    use_lists: bool,
+) -> BuiltAlignment:
+    if alignment is None:
+        return build_alignment(tbox, taxonomy, synonyms(), use_lists=use_lists)
+    return BuiltAlignment(*alignment.apply(tbox, taxonomy, synonyms(), use_lists=use_lists), ())
+
+
+def _edited(built: BuiltAlignment, taxonomy: Taxonomy) -> tuple[TBox, Lexicon]:
+    return built.tbox, built.edited(taxonomy)
+
+
+def _rooted_of_json(found: Any, tbox: TBox, taxonomy: Taxonomy) -> tuple[TBox, Lexicon]:
+    rooted = with_root(tbox, found["default"] or NO_CLASS_IRI, taxonomy)
+    return rooted, lexicon_of_json(found, rooted)

@@ -1,88 +1,48 @@
-"""SceneFacts: what a graph states about its objects, read object by object when it is needed."""
+"""SceneFacts: what a graph states about its objects, read when it is needed."""
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
+import numpy as np
 import pyoxigraph as ox
 
-from usd2kg.graph.vocabulary import DUL, KNOWROB, OWL, RDF, RDFS, SKOS, SOMA, SSSOM, U2K, USD
+from usd2kg.graph.vocabulary import RDFS, SKOS, U2K, USD
 from usd2kg.query.answer import Answer
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.body_table import Body, parse_vector
 from usd2kg.query.dataset import Dataset
-from usd2kg.query.settings import LOOKUP
+from usd2kg.query.lookup.object_columns import ObjectColumns, RowPairs, load_object_columns
+from usd2kg.query.lookup.word_forms import common_stem
 
-__all__ = ["Named", "SceneFacts"]
-
-
-class _Link(NamedTuple):
-    """A property that states a relation."""
-
-    predicate: ox.NamedNode
-    is_inverse: bool = False
-    """Whether the anchor is its subject."""
-
-
-_NEAR = (DUL.nearTo, KNOWROB.isNextTo, DUL.hasCommonBoundary, U2K.near, U2K.nextTo, U2K.touching)
-_RELATIONS = {
-    "on": (_Link(SOMA.isOntopOf), _Link(U2K.on)),
-    "inside": (_Link(SOMA.isInsideOf), _Link(U2K.inside), _Link(U2K.inRoom)),
-    "room": (_Link(U2K.inRoom),),
-    "near": tuple(map(_Link, _NEAR)),
-    "above": (_Link(KNOWROB.isAboveOf), _Link(U2K.above)),
-    "attached": (_Link(U2K.attachedTo),),
-    "part": (_Link(SOMA.hasPhysicalComponent, is_inverse=True), _Link(U2K.partOf)),
-}
-"""Relation → the properties that state it, in both profiles."""
-_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
-
-
-class Named(NamedTuple):
-    """An object, by its name."""
-
-    iri: str
-    label: str
-    path: str
+__all__ = ["SceneFacts"]
 
 
 class SceneFacts:
-    """The facts of one graph, by IRI. Only `objects` and what is based on it read the whole graph."""
+    """The facts of one graph, by IRI. Names, kinds and relations are columns of all objects; looks are read singly."""
 
     def __init__(self, dataset: Dataset, bodies: BodyIndex) -> None:
         self.dataset = dataset
         self.bodies = bodies
-        self._named: dict[str, Named | None] = {}
         self._labels: dict[str, str] = {}
+
+    @cached_property
+    def columns(self) -> ObjectColumns:
+        """The names, kinds and relations of all objects; groups that are rooms by name are included."""
+        return load_object_columns(self.dataset)
 
     # Names.
 
-    @cached_property
-    def objects(self) -> dict[str, Named]:
-        """IRI → object, in the order of prim paths; groups that are rooms by name are included."""
-        labels: dict[str, str] = {}
-        for subject, label in self._pairs("?s rdfs:label ?v"):
-            labels[subject] = min(label, labels.get(subject, label))
-        paths = sorted((path, iri) for iri, path in self._pairs("?s u2k:primPath ?v"))
-        return {iri: Named(iri, labels.get(iri, _last_name(path)), path) for path, iri in paths}
-
-    def find(self, iri: str) -> Named | None:
-        """Return an object; None for anything else, such as a class."""
-        if iri not in self._named:
-            paths = self._values(iri, U2K.primPath)
-            labels = self._values(iri, RDFS.label) or [_last_name(path) for path in paths]
-            self._named[iri] = Named(iri, labels[0], paths[0]) if paths else None
-        return self._named[iri]
-
     def path(self, iri: str) -> str:
         """Return the prim path of an object; empty for anything else."""
-        found = self.find(iri)
-        return found.path if found is not None else ""
+        row = self.columns.rows.get(iri)
+        return "" if row is None else self.columns.paths[row]
 
     def label(self, iri: str) -> str:
         """Return the name of an object."""
-        found = self.find(iri)
-        return found.label if found is not None else iri
+        row = self.columns.rows.get(iri)
+        return iri if row is None else self.columns.labels[row]
 
     def at_path(self, path: str) -> list[str]:
         """Return the objects with a prim path."""
@@ -90,38 +50,72 @@ class SceneFacts:
 
     def labelled(self, labels: Iterable[str]) -> set[str]:
         """Return the objects with one of some labels, as written."""
-        return {iri for label in labels for iri in self._subjects(RDFS.label, ox.Literal(label)) if self.find(iri)}
+        wanted = set(labels)
+        return {iri for iri, label in zip(self.columns.iris, self.columns.labels, strict=True) if label in wanted}
+
+    def named(self, name: str) -> list[str]:
+        """Return the objects with a label, prim name or prim path, given in lower case."""
+        columns, end = self.columns, f"/{name}"
+        return [
+            iri
+            for iri, label, path in zip(columns.iris, self._lower_labels, self._lower_paths, strict=True)
+            if name in (label, path) or path.endswith(end)
+        ]
+
+    def with_words(self, words: Iterable[str]) -> Iterator[tuple[str, str]]:
+        """Yield the objects and labels whose label may have all of some words, see `name_words`."""
+        stems = [common_stem(word) for word in words]
+        columns = self.columns
+        for iri, label, lower in zip(columns.iris, columns.labels, self._lower_labels, strict=True):
+            if all(stem in lower for stem in stems):
+                yield iri, label
+
+    def below_group(self, name: str) -> list[str]:
+        """Return the objects below a group, named in lower case; the root and its children are no groups."""
+        part = f"/{name}/"
+        found = zip(self.columns.iris, self._lower_paths, strict=True)
+        return [iri for iri, path in found if part in path and name in path.split("/")[2:-1]]
 
     @cached_property
-    def by_name(self) -> Mapping[str, list[str]]:
-        """Label, prim name or prim path in lower case → objects."""
-        found: dict[str, list[str]] = {}
-        for iri, label, path in self.objects.values():
-            for name in {label.lower(), path.lower(), _last_name(path).lower()}:
-                found.setdefault(name, []).append(iri)
-        return found
+    def _lower_labels(self) -> list[str]:
+        return [label.lower() for label in self.columns.labels]
+
+    @cached_property
+    def _lower_paths(self) -> list[str]:
+        return [path.lower() for path in self.columns.paths]
 
     @cached_property
     def things(self) -> list[str]:
         """The IRIs of objects that are not rooms, floors of rooms by name, or other places."""
-        groups = {node.value for node in self.dataset.subjects(RDF.type, U2K.RoomGroup)}
-        return [iri for iri in self.objects if iri not in groups]
+        return [iri for iri, is_group in zip(self.columns.iris, self.columns.is_group, strict=True) if not is_group]
 
     def sorted(self, iris: Iterable[str]) -> list[str]:
         """Return the objects among some IRIs, by prim path."""
-        named = ((self.path(iri), iri) for iri in set(iris))
-        return [iri for path, iri in sorted(named) if path]
+        rows = self.columns.rows
+        return self._iris(sorted({rows[iri] for iri in iris if iri in rows}))
 
     # Kinds.
 
     def classes(self, iri: str) -> list[str]:
         """Return the classes of an object, without those that every object has."""
-        found = self.dataset.objects(ox.NamedNode(iri), RDF.type)
-        return sorted(node.value for node in found if node not in _GENERIC_CLASSES and self.label_of(node.value))
+        return self._kinds_of(iri, self.columns.of_class)
 
     def concept(self, iri: str) -> str | None:
         """Return the concept of an object."""
-        return next(iter(self._values(iri, U2K.concept)), None)
+        return next(iter(self._kinds_of(iri, self.columns.of_concept)), None)
+
+    def members(self, kinds: Iterable[str]) -> set[str]:
+        """Return the objects with one of some classes or concepts."""
+        rows = [self._kind_rows[kind] for kind in kinds if kind in self._kind_rows]
+        return set(self._iris(row for kind in rows for of in self.columns.of_kind for row in of.of_second(kind)))
+
+    @cached_property
+    def _kind_rows(self) -> dict[str, int]:
+        return {kind: row for row, kind in enumerate(self.columns.kinds)}
+
+    def _kinds_of(self, iri: str, pairs: RowPairs) -> list[str]:
+        row = self.columns.rows.get(iri)
+        return [] if row is None else [self.columns.kinds[kind] for kind in pairs.of_first(row)]
 
     def label_of(self, kind: str) -> str:
         """Return the label of a class or the noun of a concept; empty if there is none."""
@@ -129,6 +123,11 @@ class SceneFacts:
             labels = self._values(kind, SKOS.prefLabel) or self._values(kind, RDFS.label)
             self._labels[kind] = labels[0] if labels else ""
         return self._labels[kind]
+
+    def used_labels(self) -> list[str]:
+        """Return the labels of the classes of objects, sorted."""
+        used = np.unique(self.columns.of_class.pairs[:, 1]).tolist()
+        return sorted({self.label_of(self.columns.kinds[kind]) for kind in used})
 
     def class_labels(self, iri: str) -> list[str]:
         """Return the labels of the classes of an object, sorted."""
@@ -143,24 +142,9 @@ class SceneFacts:
 
     def confidences(self, iris: Iterable[str]) -> dict[str, float]:
         """Return object → confidence in its class, for those that have one."""
-        wanted = list(iris)
-        if len(wanted) > LOOKUP.max_listed:
-            known = self._all_confidences
-            return {iri: known[iri] for iri in wanted if iri in known}
-        found = ((iri, self._confidence(iri)) for iri in wanted)
-        return {iri: value for iri, value in found if value is not None}
-
-    def _confidence(self, iri: str) -> float | None:
-        for axiom in self.dataset.subjects(OWL.annotatedSource, ox.NamedNode(iri)):
-            if RDF.type in self.dataset.objects(axiom, OWL.annotatedProperty):
-                for value in self.dataset.objects(axiom, SSSOM.confidence):
-                    return float(value.value)
-        return None
-
-    @cached_property
-    def _all_confidences(self) -> dict[str, float]:
-        pattern = "?x owl:annotatedProperty rdf:type ; owl:annotatedSource ?s ; sssom:confidence ?v"
-        return {iri: float(value) for iri, value in self._pairs(pattern)}
+        rows, known = self.columns.rows, self.columns.confidence
+        found = ((iri, float(known[rows[iri]])) for iri in iris if iri in rows)
+        return {iri: value for iri, value in found if not math.isnan(value)}
 
     # Looks.
 
@@ -168,9 +152,11 @@ class SceneFacts:
         """Return the names of the materials of an object."""
         return self._values(iri, U2K.material)
 
-    def assets(self) -> list[tuple[str, str]]:
-        """Return (object, asset) for all objects that have one."""
-        return self._pairs("?s u2k:primPath [] ; u2k:asset ?v")
+    def assets(self) -> Iterator[tuple[str, list[str]]]:
+        """Yield each asset with its objects."""
+        columns = self.columns
+        for row, asset in enumerate(columns.assets):
+            yield asset, self._iris(columns.of_asset.of_second(row))
 
     def color(self, iri: str) -> tuple[float, float, float] | None:
         """Return the linear red, green and blue of an object, 0 to 1."""
@@ -212,25 +198,22 @@ class SceneFacts:
 
     def related(self, relation: str, anchor: str) -> set[str]:
         """Return the objects that stand in a relation to an anchor."""
-        return self._linked(relation, anchor, to_anchor=False)
+        row = self.columns.rows.get(anchor)
+        return set() if row is None else set(self._iris(self.columns.relations[relation].of_second(row)))
 
     def anchors(self, relation: str, iri: str) -> list[str]:
         """Return what an object stands in a relation to, by prim path."""
-        return self.sorted(self._linked(relation, iri, to_anchor=True))
+        row = self.columns.rows.get(iri)
+        return [] if row is None else self._iris(self.columns.relations[relation].of_first(row))
 
     @cached_property
     def supporters(self) -> set[str]:
         """All objects that another is on."""
-        return {anchor for _, anchor in self._pairs("?s soma:isOntopOf|u2k:on ?v")}
+        return set(self._iris(np.unique(self.columns.relations["on"].pairs[:, 1]).tolist()))
 
-    def _linked(self, relation: str, iri: str, *, to_anchor: bool) -> set[str]:
-        found: set[str] = set()
-        for predicate, is_inverse in _RELATIONS[relation]:
-            if is_inverse is to_anchor:
-                found.update(self._subjects(predicate, ox.NamedNode(iri)))
-            else:
-                found.update(self._values(iri, predicate))
-        return found
+    def _iris(self, rows: Iterable[int]) -> list[str]:
+        iris = self.columns.iris
+        return [iris[row] for row in rows]
 
     def body(self, iri: str) -> Body:
         """Return the box, extents and mass of an object."""
@@ -258,10 +241,6 @@ class SceneFacts:
     def _pairs(self, pattern: str) -> list[tuple[str, str]]:
         rows = self.dataset.select(f"SELECT DISTINCT ?s ?v WHERE {{ {pattern} }}")
         return [(str(row["s"].value), str(row["v"].value)) for row in rows]
-
-
-def _last_name(path: str) -> str:
-    return path.rpartition("/")[2]
 
 
 def _text(cell: Any) -> str:

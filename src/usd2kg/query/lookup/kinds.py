@@ -6,7 +6,7 @@ from functools import cached_property
 
 import pyoxigraph as ox
 
-from usd2kg.graph.vocabulary import RDF, RDFS, SKOS, U2K
+from usd2kg.graph.vocabulary import RDFS, SKOS
 from usd2kg.grounding import concepts_named
 from usd2kg.ontology import expand_curie
 from usd2kg.query.lookup.facts import SceneFacts
@@ -17,7 +17,6 @@ __all__ = ["Kinds"]
 
 _CLASSES = "SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }"
 _CONCEPTS = "SELECT DISTINCT ?c ?l WHERE { ?c a skos:Concept . OPTIONAL { ?c skos:prefLabel ?l } }"
-_USED_LABELS = "SELECT DISTINCT ?l WHERE { ?o u2k:primPath [] ; a ?c . ?c rdfs:label ?l } ORDER BY ?l"
 
 
 class Kinds:
@@ -32,14 +31,14 @@ class Kinds:
 
     def objects(self, name: str) -> set[str]:
         """Return the objects of a kind and of all kinds below it. A confident object wins over a doubtful one."""
-        found = {iri for kind in self._below(self.find(name)) for iri in self._members(kind)}
+        found = self._facts.members(str(kind.value) for kind in self._below(self.find(name)))
         sure = self._facts.confidences(found)
         return {iri for iri in found if sure.get(iri, 1.0) >= WORDS.min_confidence} or found
 
     @cached_property
     def used_labels(self) -> list[str]:
         """The labels of the classes of objects."""
-        return [row["l"].value for row in self._facts.dataset.select(_USED_LABELS)]
+        return self._facts.used_labels()
 
     @cached_property
     def names(self) -> list[tuple[ox.NamedNode, str]]:
@@ -87,8 +86,3 @@ class Kinds:
                 for predicate in (RDFS.subClassOf, SKOS.broader):
                     waiting += [n for n in self._facts.dataset.subjects(predicate, node) if isinstance(n, ox.NamedNode)]
         return found
-
-    def _members(self, kind: ox.NamedNode) -> list[str]:
-        """Return the objects with a class or concept."""
-        nodes = [*self._facts.dataset.subjects(RDF.type, kind), *self._facts.dataset.subjects(U2K.concept, kind)]
-        return [node.value for node in nodes if self._facts.find(node.value)]

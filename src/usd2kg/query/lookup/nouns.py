@@ -2,7 +2,7 @@
 
 import os.path
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -87,6 +87,7 @@ class Nouns:
         self._is_english = is_english
         self._kinds = Kinds(facts)
         self._spelling = Spelling(facts, self._kinds)
+        self._words_of_groups: dict[str, frozenset[str]] = {}
 
     def find(self, text: str) -> Things:
         """Return the objects that a noun phrase means.
@@ -136,8 +137,8 @@ class Nouns:
             lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
         )
         named: tuple[_Criterion, ...] = (
-            lambda: facts.by_name.get(lower, ()),
-            lambda: self._labelled(lambda label: len(words) > 1 and words == names == noun_words(label)),
+            lambda: facts.named(lower),
+            lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
             lambda: self._main_of_group(lower),
         )
         kinds: tuple[_Criterion, ...] = (
@@ -145,9 +146,9 @@ class Nouns:
             lambda: self._kinds.objects(text),
         )
         rest: tuple[_Criterion, ...] = (
-            lambda: self._labelled(lambda label: bool(names) and names <= name_words(label)),
+            lambda: self._with_words(names),
             lambda: self._in_place(text),
-            lambda: (iri for iri, asset in facts.assets() if names and names <= name_words(asset)),
+            lambda: (iri for asset, iris in facts.assets() if names and names <= name_words(asset) for iri in iris),
         )
         # One noun is rarely a name, and all names of a large graph take seconds to read.
         for criterion in (*exact, *kinds, *named, *rest) if text.isalpha() else (*exact, *named, *kinds, *rest):
@@ -155,8 +156,12 @@ class Nouns:
                 return found
         return []
 
-    def _labelled(self, accepts: Callable[[str], bool]) -> list[str]:
-        return [one.iri for one in self._facts.objects.values() if accepts(one.label)]
+    def _with_words(self, words: frozenset[str], *, is_whole: bool = False) -> Iterator[str]:
+        """Yield the objects whose label has some words; if whole, no others but numbers."""
+        if words:
+            for iri, label in self._facts.with_words(words):
+                if words == noun_words(label) if is_whole else words <= name_words(label):
+                    yield iri
 
     def kinds(self, text: str) -> list[ox.NamedNode]:
         """Return the classes and concepts that a noun names.
@@ -183,7 +188,7 @@ class Nouns:
         for start in range(1, len(words)):
             place = noun_words(" ".join(words[:start]))
             kind = self._kinds.objects(" ".join(words[start:]))
-            if found := {iri for iri in kind if place <= noun_words(self._group(iri))}:
+            if found := {iri for iri in kind if place <= self._group_words(self._group(iri))}:
                 return found
         return set()
 
@@ -195,7 +200,7 @@ class Nouns:
 
     def _main_of_group(self, name: str) -> set[str]:
         """Return the objects of the kind that a group is named after: the desk of Desk_A1."""
-        grouped = {one.iri for one in self._facts.objects.values() if name in one.path.lower().split("/")[2:-1]}
+        grouped = set(self._facts.below_group(name))
         if not grouped:
             return set()
         noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
@@ -204,15 +209,21 @@ class Nouns:
     def in_area(self, text: str) -> set[str]:
         """Return the objects below the groups that are named after a place: the reception area."""
         words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
-        return {iri for iri in self._facts.things if words and words <= noun_words(self._group(iri))}
+        return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
 
     def _group(self, iri: str) -> str:
         """Return the path of the groups of an object, without the root that all share."""
         return self._facts.path(iri).rpartition("/")[0].removeprefix(self._root)
 
+    def _group_words(self, group: str) -> frozenset[str]:
+        # Objects share groups.
+        if group not in self._words_of_groups:
+            self._words_of_groups[group] = noun_words(group)
+        return self._words_of_groups[group]
+
     @cached_property
     def _root(self) -> str:
-        groups = (one.path.rpartition("/")[0] for one in self._facts.objects.values())
+        groups = {path.rpartition("/")[0] for path in self._facts.columns.paths}
         return os.path.commonpath([group for group in groups if group] or ["/"])
 
     def _restricted(self, text: str) -> Things | None:
@@ -248,7 +259,7 @@ class Nouns:
     def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""
         facts = self._facts
-        first = {iri for anchor in anchors for iri in facts.related(relation, anchor) if facts.find(iri)}
+        first = {iri for anchor in anchors for iri in facts.related(relation, anchor)}
         if is_direct or relation not in {"on", "inside"}:
             return first
         found: set[str] = set()

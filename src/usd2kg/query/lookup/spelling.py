@@ -56,7 +56,6 @@ class Spelling:
     @cached_property
     def _vocabulary(self) -> list[str]:
         """The words of names, classes and concepts of the graph."""
-        texts = [one.label for one in self._facts.objects.values()]
-        texts += [label for _, label in self._kinds.names]
-        words = {word.lower() for text in texts for word in split_identifier(text)}
+        labels = (label for _, label in self._kinds.names)
+        words = {*self._facts.columns.words, *(word.lower() for label in labels for word in split_identifier(label))}
         return sorted(word for word in words if word.isalpha() and len(word) >= WORDS.min_letters)

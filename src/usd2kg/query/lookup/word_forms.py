@@ -2,12 +2,13 @@
 
 import re
 from functools import lru_cache
+from itertools import takewhile
 
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.words import split_identifier
 
-__all__ = ["IRREGULAR_PLURALS", "is_noun", "name_words", "noun_words", "singular", "split_phrase"]
+__all__ = ["IRREGULAR_PLURALS", "common_stem", "is_noun", "name_words", "noun_words", "singular", "split_phrase"]
 
 _FILLERS = word_set("query", "determiners")
 IRREGULAR_PLURALS = {
@@ -47,6 +48,16 @@ def singular(word: str) -> str:
         if stem != word and len(stem) >= _MIN_STEM + (ending == "s") and not word.endswith("ss"):
             return stem + replacement
     return word
+
+
+def common_stem(word: str) -> str:
+    """Return a beginning that all forms of a singular have.
+
+    >>> common_stem("knife"), common_stem("battery"), common_stem("cup")
+    ('kni', 'batter', 'cup')
+    """
+    same = takewhile(lambda pair: pair[0] == pair[1], zip(word, IRREGULAR_PLURALS.get(word, word), strict=False))
+    return "".join(letter for letter, _ in same).removesuffix("y")
 
 
 def noun_words(text: str) -> frozenset[str]:

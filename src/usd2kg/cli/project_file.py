@@ -1,0 +1,200 @@
+"""usd2kg.toml: options of commands that a project sets once.
+
+A top-level key is the name of an option, for every command that has it; a table is a command, such as `[build]` or
+`[store.load]`. Options on the command line take precedence. Relative paths start at the folder of the file.
+"""
+
+import difflib
+import inspect
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, get_args, get_origin
+
+import typer
+from typer.models import OptionInfo
+
+from usd2kg.errors import Usd2kgError
+
+__all__ = ["PROJECT_OPTIONS_FILE", "CommandOption", "ProjectOptions", "read_project_options", "walk_options"]
+
+PROJECT_OPTIONS_FILE = "usd2kg.toml"
+ALLOWED_ANYWHERE = frozenset(
+    {
+        *("abstain", "alignment", "annotations", "base", "class-sizes", "decisions", "dictionary", "evidence"),
+        *("every-prim", "exclude", "expand-instancers", "include", "kind", "metres-per-unit", "objects", "ontology"),
+        *("profile", "regime", "relation-kinds", "relations", "reviewer", "rules", "time", "up-axis", "viewpoint"),
+    }
+)
+"""Options that neither write a file nor contact a server. A file that is not in the current folder or above it, such as
+one that came with a downloaded scene, may set no others."""
+
+_Command = tuple[str, ...]
+"""The words of a command, such as `("store", "load")`."""
+
+
+class CommandOption(NamedTuple):
+    """An option of a command."""
+
+    names: tuple[str, ...]
+    """As on the command line, such as `--output` and `-o`."""
+    help: str
+    is_path: bool
+    is_flag: bool
+    is_repeatable: bool
+
+    @property
+    def key(self) -> str:
+        """The name in the file."""
+        return self.names[0].removeprefix("--")
+
+
+class ProjectOptions(NamedTuple):
+    """The options that a file sets for one call."""
+
+    file: Path
+    keys: tuple[str, ...]
+    arguments: tuple[str, ...]
+    """The arguments of the call with the options of the file."""
+
+
+def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectOptions | None:
+    """Return the options that the nearest `usd2kg.toml` sets for a call; None if there are none.
+
+    The file is looked for in the folder of the first argument that is a file or folder, else in the current folder, and
+    in the folders above.
+
+    Args:
+        app: the command line.
+        arguments: the arguments of the call, without global options.
+
+    Raises:
+        Usd2kgError: the file does not parse, or an option is unknown, of the wrong type, or not allowed there.
+    """
+    commands = dict(walk_options(app))
+    command = next((tuple(arguments[:n]) for n in (1, 2) if tuple(arguments[:n]) in commands), None)
+    given = arguments[len(command) :] if command is not None else ()
+    file = _find_file(given) if command is not None and not {"-h", "--help"}.intersection(given) else None
+    if command is None or file is None:
+        return None
+    tables = _read(file)
+    _check_keys(file, tables, commands)
+    is_trusted = Path.cwd().is_relative_to(file.parent)
+    keys: list[str] = []
+    added: list[str] = []
+    for option in commands[command]:
+        value = _value_for(tables, command, option.key)
+        if value is None or _is_given(option, given):
+            continue
+        if not is_trusted and option.key not in ALLOWED_ANYWHERE:
+            problem = "may write a file or contact a server, and the file is neither in the current folder nor above it"
+            raise Usd2kgError(f"{file}: {option.key} {problem}; change to {file.parent}, or use --no-project-file")
+        keys.append(option.key)
+        added.extend(_as_arguments(file, option, value))
+    return ProjectOptions(file, tuple(keys), (*command, *added, *given)) if keys else None
+
+
+def walk_options(app: typer.Typer, above: _Command = ()) -> Iterator[tuple[_Command, list[CommandOption]]]:
+    """Yield each command with its options."""
+    for registered in app.registered_commands:
+        assert registered.name is not None, "all commands are named"
+        assert registered.callback is not None, "all commands are functions"
+        parameters = inspect.signature(registered.callback).parameters.values()
+        yield (*above, registered.name), [option for one in parameters if (option := _option_of(one)) is not None]
+    for group in app.registered_groups:
+        assert group.typer_instance is not None, "groups are applications"
+        yield from walk_options(group.typer_instance, (*above, str(group.name)))
+
+
+def _option_of(parameter: inspect.Parameter) -> CommandOption | None:
+    kind, *found = get_args(parameter.annotation) or (parameter.annotation,)
+    info = next((one for one in found if isinstance(one, OptionInfo)), None)
+    if info is None or info.is_eager:
+        return None
+    # In an annotation, Typer takes the first name as the default.
+    declared = (info.default, *(info.param_decls or ()))
+    names = tuple(name for name in declared if isinstance(name, str) and name.startswith("-"))
+    names = names or (f"--{parameter.name.replace('_', '-')}",)
+    types = {kind, *get_args(kind)}
+    is_list = any(get_origin(one) is list for one in types)
+    types |= {one for part in types for one in get_args(part)}
+    return CommandOption(names, info.help or "", Path in types, types == {bool}, is_list)
+
+
+def _find_file(given: Sequence[str]) -> Path | None:
+    paths = (Path(argument) for argument in given if not argument.startswith("-"))
+    start = next((path for path in paths if path.exists()), Path()).absolute()
+    folders = [start, *start.parents] if start.is_dir() else start.parents
+    files = (folder / PROJECT_OPTIONS_FILE for folder in folders)
+    return next((file for file in files if file.is_file()), None)
+
+
+def _read(file: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(file.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:
+        raise Usd2kgError(f"{file}: cannot be read ({error}); expected TOML, as usd2kg init writes it") from error
+
+
+def _check_keys(file: Path, tables: Mapping[str, Any], commands: Mapping[_Command, Sequence[CommandOption]]) -> None:
+    all_keys = {option.key for options in commands.values() for option in options}
+    groups = {command[0] for command in commands if len(command) > 1}
+    for key, value in tables.items():
+        if not isinstance(value, dict):
+            _check_known(file, key, all_keys, "an option")
+        elif key in groups:
+            for name, options in value.items():
+                _check_known(file, name, {command[1] for command in commands if command[0] == key}, f"of [{key}]")
+                _check_table(file, options, commands[key, name], f"{key}.{name}")
+        else:
+            _check_known(file, key, {command[0] for command in commands}, "a command or an option")
+            _check_table(file, value, commands[(key,)], key)
+
+
+def _check_table(file: Path, table: Any, options: Sequence[CommandOption], name: str) -> None:
+    if not isinstance(table, dict):
+        raise Usd2kgError(f"{file}: {name} is {table!r}; expected a table of options, [{name}]")
+    for key in table:
+        _check_known(file, key, {option.key for option in options}, f"an option of {name.replace('.', ' ')}")
+
+
+def _check_known(file: Path, key: str, known: set[str], expected: str) -> None:
+    if key not in known:
+        near = difflib.get_close_matches(key, sorted(known), 1)
+        raise Usd2kgError(f"{file}: {key!r} is not {expected}" + (f"; did you mean {near[0]!r}?" if near else ""))
+
+
+def _value_for(tables: Mapping[str, Any], command: _Command, key: str) -> Any:
+    """Return the value of an option, None if it has none; the table of the command takes precedence."""
+    own: Any = tables
+    for word in command:
+        own = own.get(word, {})
+    found = own.get(key)
+    shared = tables.get(key)
+    # A table of the same name is a command: `--graph` is an option, `[graph]` a group of commands.
+    return found if found is not None or isinstance(shared, dict) else shared
+
+
+def _is_given(option: CommandOption, given: Sequence[str]) -> bool:
+    return any(argument.partition("=")[0] in option.names for argument in given)
+
+
+def _as_arguments(file: Path, option: CommandOption, value: Any) -> Iterator[str]:
+    """Yield the arguments that set an option.
+
+    Raises:
+        Usd2kgError: the value has the wrong type.
+    """
+    name = option.names[0]
+    if option.is_flag:
+        if not isinstance(value, bool):
+            raise Usd2kgError(f"{file}: {option.key} is {value!r}; expected true or false")
+        yield from [name] if value else []
+        return
+    values = value if option.is_repeatable and isinstance(value, list) else [value]
+    for one in values:
+        if isinstance(one, bool) or not isinstance(one, str | int | float):
+            expected = "a text or a number" + (", or a list of them" if option.is_repeatable else "")
+            raise Usd2kgError(f"{file}: {option.key} is {value!r}; expected {expected}")
+        # With “=”, a value may begin with a dash.
+        yield f"{name}={file.parent / str(one) if option.is_path else one}"

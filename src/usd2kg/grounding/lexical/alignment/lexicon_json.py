@@ -1,0 +1,80 @@
+"""A lexicon as JSON, so that a later process need not build it."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from usd2kg.grounding.lexical.alignment.lexicon import CategoryMember, Lexicon, make_lexicon
+from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind
+from usd2kg.ontology import TBox
+
+__all__ = ["lexicon_as_json", "lexicon_of_json"]
+
+
+def lexicon_as_json(lexicon: Lexicon) -> dict[str, Any]:
+    """Return a lexicon as values that `json` writes; classes are numbers, columns are parallel lists."""
+    terms, senses = lexicon.terms.values(), lexicon.sense_classes
+    members = [
+        (synset, *one.aligned, one.synset_count) for synset, all_ in lexicon.category_members.items() for one in all_
+    ]
+    numbers = {iri: number for number, iri in enumerate(sorted(_named_classes(lexicon)))}
+    return {
+        "classes": list(numbers),
+        "terms": {
+            "keys": list(lexicon.terms),
+            "classes": [numbers[term.class_iri] for term in terms],
+            "texts": [term.text for term in terms],
+            "kinds": [term.kind.value for term in terms],
+        },
+        "senses": {
+            "synsets": list(senses),
+            "classes": [numbers[aligned.class_iri] for aligned in senses.values()],
+            "weights": [aligned.weight for aligned in senses.values()],
+        },
+        "members": [(synset, numbers[iri], weight, count) for synset, iri, weight, count in members],
+        "default": lexicon.default_class,
+        "home": sorted(lexicon.home_classes),
+        "curated": sorted(lexicon.curated_synsets),
+        "listed": sorted(lexicon.listed_synsets),
+        "excluded": [
+            (synset, sorted(map(numbers.__getitem__, iris))) for synset, iris in lexicon.excluded_classes.items()
+        ],
+    }
+
+
+def lexicon_of_json(found: Mapping[str, Any], tbox: TBox) -> Lexicon:
+    """Return the lexicon of a TBox that `lexicon_as_json` wrote.
+
+    Raises:
+        KeyError, TypeError, ValueError, IndexError: the values are damaged.
+    """
+    classes, kinds = found["classes"], {kind.value: kind for kind in TermKind}
+    terms, senses = found["terms"], found["senses"]
+    members: dict[int, list[CategoryMember]] = {}
+    for synset, number, weight, count in found["members"]:
+        members.setdefault(synset, []).append(CategoryMember(AlignedClass(classes[number], weight), count))
+    columns = (map(classes.__getitem__, terms["classes"]), terms["texts"], map(kinds.__getitem__, terms["kinds"]))
+    aligned = map(AlignedClass, map(classes.__getitem__, senses["classes"]), senses["weights"])
+    lexicon = make_lexicon(
+        tbox,
+        dict(zip(terms["keys"], map(Term, *columns), strict=True)),
+        dict(zip(senses["synsets"], aligned, strict=True)),
+        members,
+        found["default"],
+        frozenset(found["home"]),
+    )
+    return replace(
+        lexicon,
+        curated_synsets=frozenset(found["curated"]),
+        listed_synsets=frozenset(found["listed"]),
+        excluded_classes={
+            synset: frozenset(classes[number] for number in numbers) for synset, numbers in found["excluded"]
+        },
+    )
+
+
+def _named_classes(lexicon: Lexicon) -> set[str]:
+    named = {term.class_iri for term in lexicon.terms.values()}
+    named.update(aligned.class_iri for aligned in lexicon.sense_classes.values())
+    named.update(one.aligned.class_iri for all_ in lexicon.category_members.values() for one in all_)
+    return named.union(*lexicon.excluded_classes.values())

@@ -1,0 +1,220 @@
+"""Names, kinds and relations of all objects of a graph as columns, kept beside the index of a large graph."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+import pyoxigraph as ox
+from numpy.typing import NDArray
+
+from usd2kg.graph.vocabulary import DUL, KNOWROB, OWL, RDF, RDFS, SKOS, SOMA, SSSOM, U2K, USD
+from usd2kg.query.column_file import Columns, keep_columns, pack_texts, unpack_texts
+from usd2kg.query.dataset import Dataset
+from usd2kg.words import split_identifier
+
+__all__ = ["ObjectColumns", "RowPairs", "load_object_columns"]
+
+_FILE = "objects.npz"
+_GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
+_CLASSES_IN_USE = "SELECT DISTINCT ?c WHERE { ?o a ?c }"
+
+
+class _Link(NamedTuple):
+    """A property that states a relation."""
+
+    predicate: ox.NamedNode
+    is_inverse: bool = False
+    """Whether the anchor is its subject."""
+
+
+_NEAR = (DUL.nearTo, KNOWROB.isNextTo, DUL.hasCommonBoundary, U2K.near, U2K.nextTo, U2K.touching)
+_RELATIONS = {
+    "on": (_Link(SOMA.isOntopOf), _Link(U2K.on)),
+    "inside": (_Link(SOMA.isInsideOf), _Link(U2K.inside), _Link(U2K.inRoom)),
+    "room": (_Link(U2K.inRoom),),
+    "near": tuple(map(_Link, _NEAR)),
+    "above": (_Link(KNOWROB.isAboveOf), _Link(U2K.above)),
+    "attached": (_Link(U2K.attachedTo),),
+    "part": (_Link(SOMA.hasPhysicalComponent, is_inverse=True), _Link(U2K.partOf)),
+}
+"""Relation → the properties that state it, in both profiles."""
+_TEXTS = ("iris", "labels", "paths", "kinds", "assets", "words")
+_PAIRS = ("of_class", "of_concept", "of_asset")
+
+
+class RowPairs:
+    """RowPairs of row numbers, for lookups in both directions."""
+
+    def __init__(self, pairs: NDArray[np.int32]) -> None:
+        """Wrap (m, 2) pairs, each once, in ascending order."""
+        self.pairs = pairs
+
+    def of_first(self, row: int) -> list[int]:
+        """Return the second rows of a first row, ascending."""
+        start, end = np.searchsorted(self.pairs[:, 0], (row, row + 1))
+        found: list[int] = self.pairs[start:end, 1].tolist()
+        return found
+
+    def of_second(self, row: int) -> list[int]:
+        """Return the first rows of a second row, ascending."""
+        start, end = np.searchsorted(self._inverse[:, 1], (row, row + 1))
+        found: list[int] = self._inverse[start:end, 0].tolist()
+        return found
+
+    @cached_property
+    def _inverse(self) -> NDArray[np.int32]:
+        inverse: NDArray[np.int32] = self.pairs[np.lexsort((self.pairs[:, 0], self.pairs[:, 1]))]
+        return inverse
+
+
+@dataclass(frozen=True)
+class ObjectColumns:
+    """The n objects of a graph, by prim path; groups that are rooms by name are included."""
+
+    iris: list[str]
+    labels: list[str]
+    paths: list[str]
+    kinds: list[str]
+    """IRIs of the classes and concepts of objects, without classes that every object has."""
+    assets: list[str]
+    words: list[str]
+    """The words of all labels in lower case, sorted."""
+    is_group: NDArray[np.bool_]
+    """(n,)"""
+    confidence: NDArray[np.float64]
+    """(n,): confidence in the class; NaN where none is stated."""
+    of_class: RowPairs
+    """Object, class."""
+    of_concept: RowPairs
+    """Object, concept."""
+    of_asset: RowPairs
+    """Object, asset."""
+    relations: Mapping[str, RowPairs]
+    """Relation → object, anchor."""
+
+    @property
+    def of_kind(self) -> tuple[RowPairs, RowPairs]:
+        """Object, class or concept."""
+        return self.of_class, self.of_concept
+
+    @cached_property
+    def rows(self) -> dict[str, int]:
+        """IRI → row."""
+        return {iri: row for row, iri in enumerate(self.iris)}
+
+
+def load_object_columns(dataset: Dataset) -> ObjectColumns:
+    """Return the table of a dataset: from its folder, if it has one, where the first call leaves it."""
+    path = None if dataset.folder is None else dataset.folder / _FILE
+    return keep_columns(path, _from_columns, lambda: _ColumnReader(dataset).table(), _to_columns)
+
+
+class _ColumnReader:
+    """Reads the objects of a dataset property by property, which is faster than object by object."""
+
+    def __init__(self, dataset: Dataset) -> None:
+        self._dataset = dataset
+        paths = _smallest(dataset.pairs(U2K.primPath))
+        ordered = sorted((path, iri) for iri, path in paths.items())
+        self._iris = [iri for _, iri in ordered]
+        self._paths = [path for path, _ in ordered]
+        self._rows = {iri: row for row, iri in enumerate(self._iris)}
+
+    def table(self) -> ObjectColumns:
+        labels = _smallest(self._dataset.pairs(RDFS.label))
+        named = [labels.get(iri, path.rpartition("/")[2]) for iri, path in zip(self._iris, self._paths, strict=True)]
+        groups = {node.value for node in self._dataset.subjects(RDF.type, U2K.RoomGroup)}
+        classes, concepts, assets = (
+            [pair for pair in pairs if pair[0] in self._rows]
+            for pairs in (self._typed(), self._dataset.pairs(U2K.concept), self._dataset.pairs(U2K.asset))
+        )
+        kinds, files = (sorted({value for _, value in pairs}) for pairs in ([*classes, *concepts], assets))
+        return ObjectColumns(
+            self._iris,
+            named,
+            self._paths,
+            of_class=self._to_values(classes, kinds),
+            of_concept=self._to_values(concepts, kinds),
+            of_asset=self._to_values(assets, files),
+            kinds=kinds,
+            assets=files,
+            words=sorted({word.lower() for label in named for word in split_identifier(label)}),
+            is_group=np.array([iri in groups for iri in self._iris], dtype=bool),
+            confidence=self._confidences(),
+            relations={name: self._related(links) for name, links in _RELATIONS.items()},
+        )
+
+    def _typed(self) -> Iterator[tuple[str, str]]:
+        """Yield the objects with their classes that have a label."""
+        classes = [row["c"] for row in self._dataset.select(_CLASSES_IN_USE)]
+        for node in sorted((c for c in classes if isinstance(c, ox.NamedNode)), key=str):
+            is_named = self._dataset.objects(node, RDFS.label) or self._dataset.objects(node, SKOS.prefLabel)
+            if node not in _GENERIC_CLASSES and is_named:
+                yield from ((subject.value, node.value) for subject in self._dataset.subjects(RDF.type, node))
+
+    def _confidences(self) -> NDArray[np.float64]:
+        found = np.full(len(self._iris), np.nan)
+        about = set(self._dataset.subjects(OWL.annotatedProperty, RDF.type))
+        for axiom, value in self._dataset.quads(SSSOM.confidence):
+            if axiom in about:
+                for source in self._dataset.objects(axiom, OWL.annotatedSource):
+                    row = self._rows.get(getattr(source, "value", ""))
+                    if row is not None:
+                        found[row] = float(value.value)
+        return found
+
+    def _to_values(self, pairs: Iterable[tuple[str, str]], values: Sequence[str]) -> RowPairs:
+        """Return object and value as rows."""
+        rows = {value: row for row, value in enumerate(values)}
+        return _sorted_pairs((self._rows[iri], rows[value]) for iri, value in pairs)
+
+    def _related(self, links: Iterable[_Link]) -> RowPairs:
+        rows = self._rows
+        stated = (
+            (anchor, iri) if link.is_inverse else (iri, anchor)
+            for link in links
+            for iri, anchor in self._dataset.pairs(link.predicate)
+        )
+        return _sorted_pairs((rows[iri], rows[anchor]) for iri, anchor in stated if iri in rows and anchor in rows)
+
+
+def _smallest(pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Return subject → value; of several, the first in the order of text."""
+    found: dict[str, str] = {}
+    for subject, value in pairs:
+        found[subject] = min(value, found.get(subject, value))
+    return found
+
+
+def _sorted_pairs(pairs: Iterable[tuple[int, int]]) -> RowPairs:
+    return RowPairs(np.array(sorted(set(pairs)), dtype=np.int32).reshape(-1, 2))
+
+
+def _to_columns(table: ObjectColumns) -> Columns:
+    if not table.iris:
+        return {}
+    return {
+        **{name: pack_texts(getattr(table, name)) for name in _TEXTS},
+        **{name: getattr(table, name).pairs for name in _PAIRS},
+        **{f"relation {name}": pairs.pairs for name, pairs in table.relations.items()},
+        "is_group": table.is_group,
+        "confidence": table.confidence,
+    }
+
+
+def _from_columns(columns: Columns) -> ObjectColumns:
+    texts: dict[str, Any] = {name: unpack_texts(columns[name]) for name in _TEXTS}
+    sizes = {len(texts["iris"]), len(texts["labels"]), len(texts["paths"]), len(columns["confidence"])}
+    if len(sizes) != 1:
+        raise ValueError(f"columns of different lengths: {sorted(sizes)}")
+    return ObjectColumns(
+        **texts,
+        of_class=RowPairs(columns["of_class"]),
+        of_concept=RowPairs(columns["of_concept"]),
+        of_asset=RowPairs(columns["of_asset"]),
+        is_group=columns["is_group"],
+        confidence=columns["confidence"],
+        relations={name: RowPairs(columns[f"relation {name}"]) for name in _RELATIONS},
+    )

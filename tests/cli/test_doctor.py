@@ -1,0 +1,55 @@
+"""usd2kg doctor: what is installed and configured."""
+
+import json
+import re
+
+import pytest
+
+from tests.cli.conftest import Run
+from usd2kg.cli import doctor
+
+KEY = "sk-planted-0123456789"
+
+
+def test_lists_versions_extras_and_caches(run: Run):
+    done = run("doctor", "--json")
+    assert done.code == 0
+    report = json.loads(done.out)
+    assert all(re.match(r"\d+\.", found) for found in report["packages"].values())
+    assert {"numpy", "pyoxigraph", "usd-core"} <= report["packages"].keys()
+    assert report["extras"]["serve"] == {
+        "is_installed": True,
+        "packages": report["extras"]["serve"]["packages"],
+        "install": "",
+    }
+    assert set(report["extras"]["serve"]["packages"]) == {"starlette", "uvicorn"}
+    assert report["caches"]["tables"] == {"path": None, "mib": 0.0}
+    assert report["caches"]["completions"]["path"].endswith(".sqlite")
+
+
+def test_a_missing_extra_names_its_command(run: Run, monkeypatch: pytest.MonkeyPatch):
+    found = doctor._version
+    monkeypatch.setattr(doctor, "_version", lambda name: None if name == "uvicorn" else found(name))
+    done = run("doctor")
+    assert done.code == 0
+    assert re.search(r"\[serve\] +pip install 'usd2kg\[serve\]' +starlette \S+, uvicorn missing", done.out)
+
+
+def test_a_missing_package_is_a_finding(run: Run, monkeypatch: pytest.MonkeyPatch):
+    found = doctor._version
+    monkeypatch.setattr(doctor, "_version", lambda name: None if name == "numpy" else found(name))
+    done = run("doctor")
+    assert done.code == 1
+    assert re.search(r"numpy +missing", done.out)
+
+
+@pytest.mark.parametrize("form", [[], ["--json"], ["--verbose"]])
+def test_keys_are_never_shown(run: Run, monkeypatch: pytest.MonkeyPatch, form: list[str]):
+    for name in ("OPENAI_API_KEY", "USD2KG_STORE_PASSWORD", "USD2KG_STUDIO_PASSWORD"):
+        monkeypatch.setenv(name, KEY)
+    monkeypatch.delenv("ANTHROPIC_API_KEY", raising=False)
+    done = run("doctor", *form)
+    assert KEY not in done.out + done.err
+    if not form:
+        assert re.search(r"OPENAI_API_KEY +set\n", done.out)
+        assert re.search(r"ANTHROPIC_API_KEY +not set\n", done.out)

@@ -1,0 +1,181 @@
+"""usd2kg.toml: options that a project sets once."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+from usd2kg.cli.app import app
+from usd2kg.cli.options.bundles import OptionBundle
+from usd2kg.cli.project_file import ALLOWED_ANYWHERE, CommandOption, read_project_options, walk_options
+from usd2kg.errors import Usd2kgError
+from usd2kg.query import load_graph
+
+OPTIONS: dict[str, CommandOption] = {option.key: option for _, options in walk_options(app) for option in options}
+
+
+@pytest.fixture(autouse=True)
+def empty_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def write(text: str, folder: Path | None = None) -> Path:
+    file = (folder or Path.cwd()) / "usd2kg.toml"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def arguments(*given: str) -> list[str]:
+    found = read_project_options(app, given)
+    return [*given] if found is None else [*found.arguments]
+
+
+class TestPrecedence:
+    def test_a_key_holds_for_every_command_that_has_the_option(self):
+        write('base = "https://x.org/"')
+        assert arguments("build", "s.usd") == ["build", "--base=https://x.org/", "s.usd"]
+        assert arguments("render", "s.usd") == ["render", "s.usd"]
+
+    def test_the_table_of_a_command_comes_before_the_top_level(self):
+        write('base = "https://x.org/"\n[build]\nbase = "https://y.org/"')
+        assert arguments("build", "s.usd") == ["build", "--base=https://y.org/", "s.usd"]
+
+    def test_the_command_line_comes_first(self):
+        write('base = "https://x.org/"\nexclude = ["/A", "/B"]')
+        given = ["build", "--base=b", "--exclude", "/C", "s.usd"]
+        assert arguments(*given) == given
+
+    def test_short_names_count(self):
+        write('[build]\noutput = "x.ttl"')
+        assert arguments("build", "-o", "y.ttl", "s.usd") == ["build", "-o", "y.ttl", "s.usd"]
+
+    def test_subcommands_have_tables_in_tables(self):
+        write("[store.load]\nscene = 'kitchen'")
+        assert arguments("store", "load", "s", "g.ttl")[:3] == ["store", "load", "--scene=kitchen"]
+        assert arguments("store", "list", "s") == ["store", "list", "s"]
+
+
+class TestValues:
+    def test_lists_repeat_the_option(self):
+        write('include = ["/A/*", "/B"]\nkind = "group"')
+        assert arguments("inspect", "s.usd")[1:4] == ["--include=/A/*", "--include=/B", "--kind=group"]
+
+    def test_switches_are_true_or_false(self):
+        write("every-prim = true\nexpand-instancers = false")
+        assert arguments("inspect", "s.usd") == ["inspect", "--every-prim", "s.usd"]
+
+    def test_paths_start_at_the_folder_of_the_file(self, monkeypatch):
+        file = write('ontology = "lab.ttl"\nobjects = "/abs/list.csv"')
+        (file.parent / "deep" / "er").mkdir(parents=True)
+        monkeypatch.chdir(file.parent / "deep" / "er")
+        assert set(arguments("inspect", "s.usd")) == {"inspect", "--objects=/abs/list.csv", "s.usd"}
+        assert f"--ontology={file.parent / 'lab.ttl'}" in arguments("build", "s.usd")
+
+    def test_a_value_may_begin_with_a_dash(self):
+        write('viewpoint = "-1,0,1.6"')
+        assert "--viewpoint=-1,0,1.6" in arguments("build", "s.usd")
+
+
+class TestWhere:
+    def test_the_file_is_beside_the_scene_or_above(self):
+        file = write('base = "https://x.org/"', Path("project"))
+        scene = file.parent / "scenes" / "a.usd"
+        scene.parent.mkdir()
+        scene.touch()
+        found = read_project_options(app, ["build", str(scene)])
+        assert found is not None
+        assert (found.file, found.keys) == (file.absolute(), ("base",))
+
+    @pytest.mark.parametrize(
+        "line", ['output = "x.ttl"', 'grounder = "llm-B:m"', 'store = "http://h/s"', "json = true"]
+    )
+    def test_a_file_elsewhere_may_not_write_or_contact_a_server(self, line: str):
+        file = write(line, Path("download"))
+        (file.parent / "a.usd").touch()
+        with pytest.raises(
+            Usd2kgError, match=r"download.*neither in the current folder nor above it.*--no-project-file"
+        ):
+            arguments("build", "download/a.usd")
+
+    def test_what_a_file_elsewhere_may_set_writes_no_file(self):
+        assert OPTIONS.keys() >= ALLOWED_ANYWHERE
+        outputs = {name for bundle in OptionBundle.__subclasses__() for name in bundle.output_options}
+        assert outputs
+        assert ALLOWED_ANYWHERE.isdisjoint({name.replace("_", "-") for name in outputs} | {"output", "completions"})
+        for key in ALLOWED_ANYWHERE:
+            assert "to write" not in OPTIONS[key].help, key
+
+    def test_help_needs_no_valid_file(self):
+        write("nonsense = [")
+        assert arguments("build", "--help") == ["build", "--help"]
+
+    def test_it_can_be_ignored(self, run: Run, room: Path):
+        write("nonsense = [", room.parent)
+        assert run("inspect", room, "--no-project-file").code == 0
+        assert "cannot be read" in run("inspect", room).err
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("base = ", "cannot be read"),
+        ('ontologi = "x"', "'ontologi' is not an option; did you mean 'ontology'?"),
+        ("[biuld]\njson = true", "'biuld' is not a command or an option; did you mean 'build'?"),
+        ("[build]\nwhy = true", "'why' is not an option of build"),
+        ("[store]\nlaod = {}", "'laod' is not of \\[store\\]; did you mean 'load'?"),
+        ("store.load = 3", "store.load is 3; expected a table"),
+        ("every-prim = 1", "every-prim is 1; expected true or false"),
+        ("base = true", "base is True; expected a text or a number$"),
+        ("base = []", "base is \\[\\]; expected a text or a number$"),
+        ("include = [[1]]", "expected a text or a number, or a list of them"),
+    ],
+)
+def test_errors_name_the_file_and_what_is_expected(text: str, message: str):
+    file = write(text)
+    with pytest.raises(Usd2kgError, match=f"^{file}: .*{message}"):
+        arguments("build", "s.usd")
+
+
+def test_a_scene_is_built_with_the_options_of_its_project(run: Run, room: Path):
+    write('base = "https://my.lab/k/"\nexclude = ["/Room/Apple"]', room.parent)
+    done = run("build", room, "-o", "g.ttl")
+    assert done.code == 0
+    assert f"{room.parent / 'usd2kg.toml'}: sets exclude, base" in done.err
+    found = load_graph(Path("g.ttl")).sparql("SELECT ?p { ?o u2k:primPath ?p . ?o a [] } ORDER BY ?p").values
+    assert "/Room/Apple" not in {row[0] for row in found}
+    assert load_graph(Path("g.ttl")).sparql("ASK { <https://my.lab/k/Room.Table_1> a [] }").rows == (("true",),)
+
+
+class TestInit:
+    def test_the_written_file_sets_nothing_and_names_all_common_options(self, run: Run):
+        assert run("init").code == 0
+        text = Path("usd2kg.toml").read_text("utf-8")
+        assert [line for line in text.splitlines() if line and not line.startswith("#")] == []
+        for key in ALLOWED_ANYWHERE:
+            assert f"\n# {key} = " in text
+
+    def test_with_all_comments_removed_it_is_valid(self, run: Run, tmp_path: Path):
+        assert run("init", tmp_path).code == 0
+        file = tmp_path / "usd2kg.toml"
+        options = [line for line in file.read_text("utf-8").splitlines() if " = " in line and line.startswith("# ")]
+        file.write_text("\n".join(line.removeprefix("# ") for line in options), encoding="utf-8")
+        found = read_project_options(app, ["build", "s.usd"])
+        assert found is not None
+        assert {"ontology", "include", "every-prim", "viewpoint"} <= set(found.keys)
+
+    def test_an_existing_file_is_kept(self, run: Run, tmp_path: Path):
+        write("base = 'x'", tmp_path)
+        done = run("init", tmp_path)
+        assert done.code == 2
+        assert "exists already" in done.err
+        assert (tmp_path / "usd2kg.toml").read_text("utf-8") == "base = 'x'"
+
+    def test_a_missing_folder_is_an_error(self, run: Run):
+        assert "cannot be written" in run("init", "nowhere").err
+
+
+def test_json_output_is_still_json(run: Run, room: Path):
+    write('base = "https://my.lab/k/"', room.parent)
+    assert json.loads(run("build", room, "--json").out)["objects"] == 4
