@@ -47,14 +47,14 @@ def objects_in(content):
 
 
 def test_the_largest_objects_come_first(write_stage, monkeypatch):
-    monkeypatch.setattr(geometry_module, "GEOMETRY", replace(GEOMETRY, chunk_objects=2))
+    monkeypatch.setattr(geometry_module, "GEOMETRY", replace(GEOMETRY, first_chunk_objects=1, chunk_objects=2))
     sizes = {"Spoon": 0.1, "House": 9, "Table": 2, "Cup": 0.2, "Bed": 3}
     stage = write_stage(METRES + "".join(component(name, cube("Body", size=size)) for name, size in sizes.items()))
     files, paths = open_files(stage)
     count = len(files.manifest()["chunks"])
     assert count == 3
     found = [[paths[index] for index in objects_in(files.file(i))] for i in range(count)]
-    assert found == [["/House", "/Bed"], ["/Table", "/Cup"], ["/Spoon"]]
+    assert found == [["/House"], ["/Bed", "/Table"], ["/Cup", "/Spoon"]]
     with pytest.raises(IndexError):
         files.file(3)
 

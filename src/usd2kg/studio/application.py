@@ -153,6 +153,8 @@ class _Api:
     # The scene.
 
     async def _scene(self, _: Request) -> Response:
+        # The page asks for meshes next; the stage is opened meanwhile.
+        self._pictures.manifest()
         has_comparison = self._comparison is not None
         return JSONResponse(
             {**scene_json(self._session, self._catalog, self._reviewer), "has_comparison": has_comparison}

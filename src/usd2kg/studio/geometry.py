@@ -108,7 +108,7 @@ def _split(reader: GeometryReader, scene: Scene) -> list[_Chunk]:
         largest[asset] = max(size_of[path], largest.get(asset, 0.0))
     chunks: list[_Chunk] = []
     for path in sorted(reader.outermost, key=lambda path: (-largest[asset_of[path]], asset_of[path])):
-        if not chunks or _is_full(chunks[-1]):
+        if not chunks or _is_full(chunks):
             chunks.append(_Chunk())
         chunks[-1].prim_paths.append(path)
         chunks[-1].triangles += reader.count(path)
@@ -117,8 +117,10 @@ def _split(reader: GeometryReader, scene: Scene) -> list[_Chunk]:
     return chunks
 
 
-def _is_full(chunk: _Chunk) -> bool:
-    return chunk.triangles >= GEOMETRY.chunk_triangles or len(chunk.prim_paths) >= GEOMETRY.chunk_objects
+def _is_full(chunks: Sequence[_Chunk]) -> bool:
+    """Return whether the last file is full. The first ones are small, so that the picture fills in at once."""
+    most = min(GEOMETRY.chunk_objects, GEOMETRY.first_chunk_objects * 2 ** (len(chunks) - 1))
+    return chunks[-1].triangles >= GEOMETRY.chunk_triangles or len(chunks[-1].prim_paths) >= most
 
 
 def _size(scene: Scene, prim_path: str) -> float:

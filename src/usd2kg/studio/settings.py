@@ -43,6 +43,7 @@ class GeometrySettings:
     max_triangles: int
     min_mesh_triangles: int
     chunk_triangles: int
+    first_chunk_objects: int
     chunk_objects: int
 
 
