@@ -1,7 +1,7 @@
 """Convert a file by a program that writes USD, for converters that bring their own OpenUSD.
 
-The URDF and MJCF converters depend on `usd-exchange`, which installs a package `pxr` over that of `usd-core`; neither
-works if both are in one environment. As programs in an environment of their own they do.
+The URDF and MJCF converters depend on `usd-exchange`, which installs a package `pxr` over that of `usd-core`; in one
+environment, the converters fail to start. As programs in an environment of their own they work.
 """
 
 import os
