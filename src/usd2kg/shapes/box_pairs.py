@@ -17,6 +17,8 @@ _SMALLEST_CELL = 0.02
 """Side of the cells of level 0 in metres; affects speed only."""
 _HIGHEST_LEVEL = 20
 """Largest level; each level doubles the side of the cells."""
+_HEAP = 16
+"""Boxes in each cell seen from above, beyond which the grid has layers; affects speed only."""
 _BRUTE_FORCE_PAIRS = 200_000
 """Number of pairs up to which comparing all is faster than sorting."""
 _CHUNK = 1 << 20
@@ -105,19 +107,27 @@ def _candidate_pairs(
     cell = ((stored.lower[boxes] - origin) // side).astype(np.int64)
     width, rows = (cell[:, :2].max(axis=0) + 1).tolist()
     key = cell[:, 1] * width + cell[:, 0]
-    if cell.shape[1] > 2:
+    # Layers pay only where many boxes are above each other.
+    has_layers = cell.shape[1] > 2 and len(boxes) > _HEAP * len(np.unique(key))
+    if has_layers:
         key += cell[:, 2] * width * rows
     order = np.argsort(key, kind="stable")
     boxes, key = boxes[order], key[order]
     first = ((queries.lower[chosen] - origin) // side).astype(np.int64) - 1
     last = ((queries.upper[chosen] - origin) // side).astype(np.int64)
     left, right = np.maximum(first[:, 0], 0), np.minimum(last[:, 0], width - 1)
-    for nth in np.ndindex(*((last - first)[:, 1:].max(axis=0, initial=-1) + 1).tolist()):
-        row = first[:, 1:] + nth
-        is_in = (row >= 0).all(axis=1) & (row <= last[:, 1:]).all(axis=1) & (row[:, 0] < rows) & (left <= right)
+    axes = slice(1, 3 if has_layers else 2)
+    for nth in np.ndindex(*((last - first)[:, axes].max(axis=0, initial=-1) + 1).tolist()):
+        is_in = left <= right
+        for axis, step in enumerate(nth, start=1):
+            is_in &= (first[:, axis] + step >= 0) & (first[:, axis] + step <= last[:, axis])
+        if has_layers:
+            is_in &= first[:, 1] + nth[0] < rows
         some = np.flatnonzero(is_in)
         # Adjacent cells of a row have consecutive keys.
-        place = row[some, 0] + (row[some, 1] * rows if row.shape[1] > 1 else 0)
+        place = first[some, 1] + nth[0]
+        if has_layers:
+            place += (first[some, 2] + nth[1]) * rows
         start = np.searchsorted(key, place * width + left[some], side="left")
         end = np.searchsorted(key, place * width + right[some], side="right")
         for query, found in _expand_ranges(chosen[some], start, end):
