@@ -9,7 +9,14 @@ from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.openings import find_in_the_way
 from usd2kg.assistant.phrases import RELATIONS, Phrase, match_phrase, normalize
-from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
+from usd2kg.assistant.sentences import (
+    begin_sentence,
+    count_phrase,
+    join_words,
+    kind_and_label,
+    name_things,
+    number_text,
+)
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore
@@ -282,7 +289,7 @@ class _Answerer:
         if not labels:
             return things.text
         if len(labels) == 1:
-            return f"the {self._facts.kind(things.iris[0])} {labels[0]}"
+            return f"the {kind_and_label(self._facts.kind(things.iris[0]), labels[0])}"
         return f"the {count_phrase(len(labels), things.text)}"
 
     def _where(self, thing: str) -> InterpretedAnswer:
@@ -299,7 +306,8 @@ class _Answerer:
                 anchors = [a for a in facts.anchors(name, iri) if name == "room" or a not in rooms]
                 places += anchors
                 if name != "room" or not said:
-                    said += [f"{_SAID.get(name, 'in')} the {facts.kind(a)} {facts.label(a)}" for a in anchors[:1]]
+                    place = _SAID.get(name, "in")
+                    said += [f"{place} the {kind_and_label(facts.kind(a), facts.label(a))}" for a in anchors[:1]]
             body = facts.body(iri)
             if body.lower is not None and body.upper is not None:
                 x, y, z = (body.lower + body.upper) / 2

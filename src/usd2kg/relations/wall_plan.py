@@ -49,7 +49,7 @@ def draw_walls(boxed: BoxedObjects, storey: Storey, openings: Indices, rule: Roo
     ]
     crossing = [_section(boxed, storey.walls, at, rule) for at in heights]
     here = _on_storey(boxed, openings, storey)
-    grid = _grid(boxed, np.concatenate([storey.floors, here]), solid, rule, max_cells)
+    grid = _grid(boxed, storey.walls, np.concatenate([storey.floors, here]), solid, rule, max_cells)
     is_wall, is_crossed = np.zeros(grid.shape, np.bool_), np.zeros(grid.shape, np.bool_)
     _draw(grid, is_wall, solid)
     for section in crossing:
@@ -96,9 +96,14 @@ def _draw(grid: PlanGrid, mask: Mask, section: _Section) -> None:
     grid.mark_rectangles(mask, section.lower + half, half, np.tile([1.0, 0.0], (len(half), 1)))
 
 
-def _grid(boxed: BoxedObjects, others: Indices, solid: _Section, rule: RoomPlanRule, max_cells: int) -> PlanGrid:
+def _grid(
+    boxed: BoxedObjects, walls: Indices, others: Indices, solid: _Section, rule: RoomPlanRule, max_cells: int
+) -> PlanGrid:
     """Return a grid along the walls, around walls and other objects."""
     turn = _turn(solid.segments)
+    if not len(solid.segments) and not len(solid.lower):
+        # No surface is at the height of the cut.
+        others = np.concatenate([others, walls])
     boxes = [(solid.lower, solid.upper), (boxed.lower[others, :2], boxed.upper[others, :2])]
     corners = [np.stack([a[:, 0], b[:, 1]], axis=1) for low, high in boxes for a in (low, high) for b in (low, high)]
     points = np.concatenate([solid.segments.reshape(-1, 2), *corners]) @ turn
