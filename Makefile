@@ -58,8 +58,8 @@ elk-jars: ## Download ELK into build/elk, for usd2kg validate --reasoner elk; ne
 fuseki-jar: ## Download Apache Jena Fuseki into build/fuseki, for tests of remote stores; needs Java 17 and Maven
 	mvn -q -B dependency:copy -Dartifact=org.apache.jena:jena-fuseki-server:5.6.0 -DoutputDirectory=$(CURDIR)/build/fuseki
 
-fuzz: $(READY) ## Fuzz the stage reader for ten minutes; keep failing stages in build/fuzz
-	$(BIN)/python -m tests.scene.fuzz --seconds 600 --keep build/fuzz
+fuzz: $(READY) ## Fuzz stages, the whole chain and other inputs, an hour each; keep failing files in build/fuzz
+	$(BIN)/python -m tests.scene.fuzz --seconds 3600 --keep build/fuzz
 
 lint: $(READY) ## Check style and formatting
 	$(BIN)/ruff check .

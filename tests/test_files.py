@@ -162,3 +162,15 @@ def test_rejects_two_outputs_to_the_same_file(tmp_path: Path):
     with pytest.raises(OutputError, match=r"a\.csv: is named for two outputs; choose another output"):
         check_apart([tmp_path / "a.csv", tmp_path / "b.csv", tmp_path / "x" / ".." / "a.csv"], [])
     check_apart([Path(os.devnull), Path(os.devnull)], [Path(os.devnull)])
+
+
+def test_a_write_removes_what_a_killed_write_of_the_file_left(tmp_path):
+    abandoned, recent, other = (
+        tmp_path / name for name in (".a.ttl.abcdefgh.tmp", ".a.ttl.12345678.tmp", ".a.ttl.mine.tmp")
+    )
+    for path in (abandoned, recent, other):
+        path.write_text("half")
+    for path in (abandoned, other):
+        os.utime(path, (0, 0))
+    write_whole(tmp_path / "a.ttl", b"whole")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.ttl", recent.name, other.name}

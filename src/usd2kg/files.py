@@ -2,12 +2,21 @@
 
 import os
 import tempfile
+import time
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from usd2kg.errors import OutputError
 
 __all__ = ["check_apart", "check_writable", "is_same_file", "write_whole"]
+
+_TEMPORARY = ".tmp"
+"""Ending of temporary files."""
+_RANDOM = 8
+"""Random characters in the names that `mkstemp` makes."""
+_ABANDONED_S = 3600
+"""Age in seconds after which a temporary file is that of a killed process; no write pauses for so long."""
 
 
 def check_apart(outputs: Iterable[Path | None], inputs: Iterable[Path | str | None]) -> None:
@@ -68,7 +77,9 @@ def write_whole(path: Path, data: bytes | Iterable[bytes | memoryview]) -> None:
 
 
 def _replace(path: Path, chunks: Iterable[bytes | memoryview]) -> None:
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    prefix = f".{path.name}."
+    _remove_abandoned(path.parent, prefix)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=prefix, suffix=_TEMPORARY)
     try:
         with os.fdopen(handle, "wb") as file:
             file.writelines(chunks)
@@ -77,6 +88,17 @@ def _replace(path: Path, chunks: Iterable[bytes | memoryview]) -> None:
     finally:
         # Exists only if an error occurred.
         Path(temporary).unlink(missing_ok=True)
+
+
+def _remove_abandoned(folder: Path, prefix: str) -> None:
+    """Remove the temporary files of killed writes of the same file."""
+    with suppress(OSError):
+        for entry in os.scandir(folder):
+            is_temporary = entry.name.startswith(prefix) and entry.name.endswith(_TEMPORARY)
+            is_temporary &= len(entry.name) == len(prefix) + _RANDOM + len(_TEMPORARY)
+            # Another process may be writing.
+            if is_temporary and time.time() - entry.stat().st_mtime > _ABANDONED_S:
+                Path(entry.path).unlink()
 
 
 def _default_mode() -> int:

@@ -207,13 +207,27 @@ def test_catalogs_may_reach_sibling_folders(write_turtle, tmp_path):
 
 @pytest.mark.parametrize("text", ["secret words", "@prefix secret words", "<secret words", "{secret"])
 def test_errors_do_not_quote_files_outside_the_folder(write_turtle, tmp_path, text):
-    (tmp_path / "notes.txt").write_text(text)
+    (tmp_path / "notes.ttl").write_text(text)
     home = write_turtle(ontology("http://example.com/home", "http://example.com/upper"), "home/home.ttl")
-    entry = '<uri name="http://example.com/upper" uri="../notes.txt"/>'
+    entry = '<uri name="http://example.com/upper" uri="../notes.ttl"/>'
     (tmp_path / "home" / "catalog-v001.xml").write_text(CATALOG.format(entry))
-    with pytest.raises(OntologyError, match=r"notes\.txt: (not an ontology|looks like Turtle)") as caught:
+    with pytest.raises(OntologyError, match=r"notes\.ttl: (not an ontology|looks like Turtle)") as caught:
         load_tbox(home)
     assert "secret" not in str(caught.value)
+
+
+@pytest.mark.parametrize("is_link", [False, True])
+def test_catalogs_open_no_other_files_outside_the_folder(write_turtle, tmp_path, is_link):
+    (tmp_path / "notes.txt").write_text(
+        "@prefix : <http://x#> . :A <http://www.w3.org/2000/01/rdf-schema#subClassOf> :B ."
+    )
+    home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL, "home/home.ttl")
+    if is_link:
+        (tmp_path / "home" / "upper.ttl").symlink_to(tmp_path / "notes.txt")
+    place = "upper.ttl" if is_link else "../notes.txt"
+    entry = f'<uri name="http://example.com/upper" uri="{place}"/>'
+    (tmp_path / "home" / "catalog-v001.xml").write_text(CATALOG.format(entry))
+    assert [note.code for note in load_tbox(home).notes] == ["missing-import"]
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-32", "nonsense"])

@@ -12,10 +12,21 @@ import pytest
 
 from tests.conftest import shared_file
 from tests.scene.fuzz.corpus import as_crate, own_corpus, shared_corpus
-from tests.scene.fuzz.loop import Case, Tally, all_cases, fuzz, make_cases
+from tests.scene.fuzz.inputs import input_cases
+from tests.scene.fuzz.loop import Case, Tally, all_cases, fuzz, make_cases, scaled_cases
 from tests.scene.fuzz.mutators import MUTATORS, mangle_bytes, paths_of
 from tests.scene.fuzz.sanity import insane
-from tests.scene.fuzz.worker import OPENUSDS, Judge, Outcome, Verdict, Worker, read_checked, write_files
+from tests.scene.fuzz.worker import (
+    CHECK_CHAIN,
+    CHECK_INPUT,
+    OPENUSDS,
+    Judge,
+    Outcome,
+    Verdict,
+    Worker,
+    read_checked,
+    write_files,
+)
 from tests.scene.usda import component, cube, xform
 from usd2kg.scene import Box
 
@@ -47,6 +58,17 @@ def test_mangled_stages_of_third_parties(capsys):
 @pytest.mark.parametrize("seed", [2, 3])
 def test_many_mangled_stages(seed, capsys):
     check(fuzz(itertools.islice(all_cases(seed), 8_000)), capsys)
+
+
+def test_mangled_ontologies_graphs_and_mappings():
+    tally = fuzz(input_cases(1), 6, CHECK_INPUT)
+    assert sum(tally.outcomes.values()) > 0
+    assert not tally.failures, "\n".join(tally.failures)
+
+
+@pytest.mark.slow
+def test_the_whole_chain_of_mangled_stages(capsys):
+    check(fuzz(scaled_cases(1), 120, CHECK_CHAIN), capsys)
 
 
 # --- the cases ----------------------------------------------------------------------------------------

@@ -1,14 +1,16 @@
 """Invalid values are ignored or reported, and the rest of the stage is read."""
 
 import math
+import struct
 
 import pytest
+from pxr import Usd
 
 from tests.scene.fuzz.corpus import as_crate
 from tests.scene.usda import METRES, component, cube, header, prim, rigid, xform
 from usd2kg.errors import SceneError
 from usd2kg.pipeline import build
-from usd2kg.render import render_scene
+from usd2kg.render import Renderer, render_scene
 from usd2kg.scene import ReadOptions, explain_choice, read_scene
 from usd2kg.scene.stage import error_text, translated_errors
 
@@ -312,3 +314,26 @@ def test_round_solids_of_any_radius_are_read_and_drawn(write_stage, home_tbox, r
     stage = write_stage(METRES + xform("World", *map(solid, ROUND), *others))
     assert build(stage, home_tbox).graph.triples
     assert render_scene(stage, size=(32, 32)).startswith(b"\x89PNG")
+
+
+def test_a_transform_beyond_all_numbers_is_left_out_of_pictures_without_a_warning(write_stage):
+    far = "matrix4d xformOp:transform = ((1e200, 0, 0, 0), (0, 1e200, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))"
+    order = 'uniform token[] xformOpOrder = ["xformOp:transform"]'
+    stage = write_stage(METRES + xform("World", component("Far", far, order, cube("g")), SOUND))
+    picture = Renderer(stage)
+    assert picture.render_scene(size=(32, 32)).startswith(b"\x89PNG")
+    assert "its transform is not finite; not in pictures" in {note.message for note in picture.diagnostics}
+
+
+def test_a_corrupt_crate_writes_nothing_to_the_terminal(tmp_path, capfd):
+    stage = Usd.Stage.CreateNew(str(tmp_path / "a.usdc"))
+    stage.DefinePrim("/a", "Xform")
+    stage.GetRootLayer().Save()
+    data = bytearray((tmp_path / "a.usdc").read_bytes())
+    (contents,) = struct.unpack_from("<q", data, 16)
+    # The first section starts far beyond the end of the file (name of 16 bytes, start, size).
+    struct.pack_into("<q", data, contents + 8 + 16, 1 << 40)
+    (tmp_path / "odd.usdc").write_bytes(data)
+    with pytest.raises(SceneError, match="OpenUSD cannot read this layer"):
+        read_scene(tmp_path / "odd.usdc")
+    assert capfd.readouterr() == ("", "")

@@ -25,6 +25,10 @@ _LOCAL = re.compile(r"[^#/:]+")
 """Local name of an IRI in a namespace."""
 
 
+_FORMULA_STARTS = ("=", "+", "-", "@")
+"""Characters with which a spreadsheet formula begins."""
+
+
 class Curies:
     """Shortens IRIs to CURIEs and collects the prefixes in use."""
 
@@ -140,15 +144,28 @@ def _read_rows(
         if missing:
             raise GroundingError(f"{path}: line {start + 1} has no column {missing[0]}; {expected}")
         for row in rows:
-            cells = {name: (value or "").strip() for name, value in row.items() if isinstance(name, str)}
+            cells = {name: _written((value or "").strip()) for name, value in row.items() if isinstance(name, str)}
             yield SssomRow(start + rows.line_num, cells)
     except csv.Error as error:
         raise GroundingError(f"{path}: line {start + rows.line_num} is not TSV ({error}); {expected}") from error
 
 
 def one_line(text: str) -> str:
-    """Return text on one line, since many TSV readers do not unescape line breaks and tabs."""
-    return re.sub(r"\s+", " ", text).strip()
+    r"""Return text for a cell: on one line, since many TSV readers do not unescape line breaks and tabs.
+
+    Names on a stage are untrusted: control characters, which a terminal would obey, become U+FFFD, and an apostrophe
+    precedes what a spreadsheet would calculate. `read_sssom_file` removes it.
+
+    >>> one_line("a\tb\x1b[2J"), one_line("=1+1")
+    ('a b\ufffd[2J', "'=1+1")
+    """
+    line = "".join(c if c.isprintable() else "\ufffd" for c in re.sub(r"\s+", " ", text).strip())
+    return f"'{line}" if line.startswith(_FORMULA_STARTS) else line
+
+
+def _written(cell: str) -> str:
+    """Return the text that `one_line` was given."""
+    return cell[1:] if cell.startswith("'") and cell[1:].startswith(_FORMULA_STARTS) else cell
 
 
 def format_sssom_file(

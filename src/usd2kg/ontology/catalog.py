@@ -22,11 +22,17 @@ def find_document(iri: str, folder: Path) -> Path | None:
     """Return the local file of an ontology, by the catalog of `folder` or by file name; None if there is none."""
     catalog = _read_catalog(folder / CATALOG)
     if iri in catalog:
-        return catalog[iri] if _is_file(catalog[iri]) else None
+        return catalog[iri] if _is_file(catalog[iri]) and _may_be_opened(catalog[iri], folder) else None
     name = iri.rstrip("#/").rpartition("/")[2]
     names = [name, *(Path(name).stem + ending for ending in ENDINGS)]
     # Look up plain file names only: an IRI must not reach other folders.
     return next((folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n)), None)
+
+
+def _may_be_opened(path: Path, folder: Path) -> bool:
+    """Return whether a file that an untrusted catalog names is in its folder, or has the ending of an ontology."""
+    target = path.resolve()
+    return target.is_relative_to(folder.resolve()) or target.suffix.lower() in ENDINGS
 
 
 def _is_file(path: Path) -> bool:

@@ -99,7 +99,12 @@ def iterate_meshes(
     reader = MeshReader(opened.stage, time or Usd.TimeCode.EarliestTime(), diagnostics)
     for root, copy in _roots(opened.stage, root_paths):
         for piece in reader.below(root, copy=copy):
-            points = np.ascontiguousarray(points_to_metres(piece.points, opened.frame), dtype=np.float32)
+            world = points_to_metres(piece.points, opened.frame)
+            if not (np.abs(world) < MAX_COORDINATE).all():
+                # Its points are finite, its transform is not.
+                reader.note(opened.stage.GetPrimAtPath(piece.path), "its points are not all finite in the world")
+                continue
+            points = np.ascontiguousarray(world, dtype=np.float32)
             color = piece.look.color or NEUTRAL_GREY
             yield ObjectMesh(piece.path, points, piece.triangles, color, piece.look.opacity)
 
@@ -176,7 +181,7 @@ class MeshReader:
                 try:
                     yield from self._copies(prim, space, depth, copy) if is_instancer else self._pieces(prim, space)
                 except Tf.ErrorException as error:
-                    self._note(prim, f"OpenUSD cannot read it ({str(error).strip().splitlines()[-1]})")
+                    self.note(prim, f"OpenUSD cannot read it ({str(error).strip().splitlines()[-1]})")
 
     def _is_invisible(self, prim: Any) -> bool:
         if prim.IsPseudoRoot():
@@ -192,8 +197,9 @@ class MeshReader:
         matrix = self.matrix(prim, space)
         if mesh is None or not len(mesh.triangles):
             return
-        if not np.isfinite(matrix).all():
-            self._note(prim, "its transform is not finite", "transform")
+        # A factor of 1e30 and more has points beyond all limits, and a determinant that is no number.
+        if not (np.abs(matrix) < MAX_COORDINATE).all():
+            self.note(prim, "its transform is not finite", "transform")
             return
         points = mesh.points @ matrix[:3, :3] + matrix[3, :3]
         # Mirroring inverts the winding.
@@ -219,7 +225,7 @@ class MeshReader:
 
     def _copies(self, prim: Any, space: Any, depth: int, copy: int | None) -> Iterator[MeshPiece]:
         if depth >= MESHES.max_instancer_depth:
-            self._note(prim, f"point instancers are nested more than {MESHES.max_instancer_depth} deep")
+            self.note(prim, f"point instancers are nested more than {MESHES.max_instancer_depth} deep")
             return
         instancer = UsdGeom.PointInstancer(prim)
         prototype_of = as_array(instancer.GetProtoIndicesAttr().Get(self.time), np.int64)
@@ -227,7 +233,7 @@ class MeshReader:
             self.time, self.time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
         )
         if len(placed) != len(prototype_of):
-            self._note(prim, f"{len(prototype_of)} copies, but {len(placed)} positions")
+            self.note(prim, f"{len(prototype_of)} copies, but {len(placed)} positions")
             return
         matrices = np.array(placed).reshape(-1, 4, 4) @ self.matrix(prim, space)
         is_shown = np.isfinite(matrices).all(axis=(1, 2))
@@ -248,7 +254,7 @@ class MeshReader:
     def _even_selection(self, prim: Any, matrices: Points, triangle_count: int) -> Points:
         limit = min(MESHES.max_copies, max(1, self.copied_triangles_left // max(1, triangle_count)))
         if len(matrices) > limit:
-            self._note(prim, f"{limit} of {len(matrices)} copies are drawn; the others are", "copies")
+            self.note(prim, f"{limit} of {len(matrices)} copies are drawn; the others are", "copies")
             matrices = matrices[np.linspace(0, len(matrices) - 1, limit).astype(np.int64)]
         self.copied_triangles_left -= len(matrices) * triangle_count
         return matrices
@@ -271,7 +277,7 @@ class MeshReader:
         if mesh is not None and not len(mesh.triangles):
             return None
         if problem:
-            self._note(prim, problem)
+            self.note(prim, problem)
         return mesh
 
     def _looks_of(self, prim: Any, mesh: LocalMesh) -> Iterator[tuple[_Look, NDArray[np.bool_] | None]]:
@@ -346,7 +352,8 @@ class MeshReader:
         ]
         return inputs[0].Get(self.time) if inputs else None
 
-    def _note(self, prim: Any, problem: str, code: str = "mesh") -> None:
+    def note(self, prim: Any, problem: str, code: str = "mesh") -> None:
+        """Note why a prim is not in pictures."""
         if self.notes is not None:
             self.notes.append(Diagnostic(code, f"{problem}; not in pictures", str(prim.GetPath())))
 

@@ -4,7 +4,9 @@ A value of another type than expected, or one that OpenUSD cannot unpack, is rea
 """
 
 import hashlib
+import os
 import re
+import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -40,6 +42,9 @@ UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _CONVERTED_SUFFIXES = tuple(ending for entry in FORMATS for ending in entry.endings)
+_STDERR = 2
+"""File number of stderr, to which OpenUSD's C code writes."""
+_ADVICE_ERROR = b"failed call to posix_madvise"
 _USD_FALLBACK_METRES = 0.01
 _NOT_UTF8 = "it holds text that is not UTF-8"
 
@@ -83,7 +88,7 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
     if source_format is not None:
         return _convert(source, source_format, options)
     with translated_errors(str(source)):
-        with captured_diagnostics() as notes:
+        with captured_diagnostics() as notes, _without_advice_errors():
             stage = Usd.Stage.Open(str(source), Usd.Stage.LoadAll)
         if stage is None:
             raise SceneError(_cannot_open(str(source), _shorten("; ".join(note.message for note in notes))))
@@ -125,6 +130,27 @@ def captured_diagnostics() -> Iterator[list[Diagnostic]]:
     finally:
         commentaries = (_decoded(attrgetter("commentary"), note) for note in delegate.TakeUncoalescedDiagnostics())
         found.extend(Diagnostic("openusd", _shorten(note), _prim_in(note)) for note in dict.fromkeys(commentaries))
+
+
+@contextmanager
+def _without_advice_errors() -> Iterator[None]:
+    """Drop the line that OpenUSD prints for a corrupt crate, past its diagnostics; pass all else on to stderr."""
+    try:
+        said = tempfile.TemporaryFile()  # noqa: SIM115 - closed below, if stderr can be saved
+        saved = os.dup(_STDERR)
+    except OSError:
+        # The process has no stderr, or no folder for temporary files.
+        yield
+        return
+    with said:
+        os.dup2(said.fileno(), _STDERR)
+        try:
+            yield
+        finally:
+            os.dup2(saved, _STDERR)
+            os.close(saved)
+            said.seek(0)
+            os.write(_STDERR, b"".join(line for line in said if not line.startswith(_ADVICE_ERROR)))
 
 
 def _decoded(get_text: Callable[[Any], str], message: Any) -> str:

@@ -18,6 +18,7 @@ from usd2kg.graph import format_sssom
 from usd2kg.graph.iris import individual_iri
 from usd2kg.grounding import Candidate, Concept, Decision, Grounding, Prediction, Status, read_decisions
 from usd2kg.grounding.decisions import make_decision
+from usd2kg.grounding.sssom_file import one_line, read_sssom_file
 
 TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label="cup"))
 BASE = "https://my.lab/k/"
@@ -128,9 +129,20 @@ def test_any_text_survives(path: str, label: str, comment: str):
     start = text.index("subject_id\t")
     (row,) = csv.DictReader(io.StringIO(text[start:], newline=""), delimiter="\t")
     assert row["prim_path"] == f"/{path}"
-    assert row["subject_label"] == " ".join(label.split())
-    assert row["comment"] == " ".join(comment.split())
+    assert row["subject_label"] == one_line(label)
+    assert row["comment"] == one_line(comment)
     assert row["subject_id"].removeprefix("scene:") == individual_iri("", f"/{path}")
+
+
+def test_names_control_no_terminal_and_no_spreadsheet(tmp_path: Path):
+    prediction = replace(CUP, explanation="=HYPERLINK(1)", status=Status.REVIEWED)
+    text = format_sssom(make_grounding(prediction), TBOX, {CUP.prim_path: "cup\x1b[2J\x9b\u202e"}, base=BASE)
+    start = text.index("subject_id\t")
+    (row,) = csv.DictReader(io.StringIO(text[start:], newline=""), delimiter="\t")
+    assert row["subject_label"] == "cup\ufffd[2J\ufffd\ufffd"
+    assert row["comment"] == "'=HYPERLINK(1)"
+    (read,) = read_sssom_file(tmp_path / "a.tsv", text, ("comment",), "").rows
+    assert read.cells["comment"] == "=HYPERLINK(1)"
 
 
 class TestReadingBack:

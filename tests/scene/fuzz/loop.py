@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tests.scene.fuzz.corpus import Files, as_crate, own_corpus, shared_corpus, text_of
-from tests.scene.fuzz.mutators import mangle_bytes, mangle_text
-from tests.scene.fuzz.worker import OPENUSDS, Judge, Outcome, Verdict, write_files
+from tests.scene.fuzz.mutators import mangle_bytes, mangle_text, multiply
+from tests.scene.fuzz.worker import OPENUSDS, READ_STAGE, Judge, Outcome, Verdict, write_files
 
 _KEPT = 3
 """Cases kept per failure."""
@@ -85,6 +85,16 @@ def make_cases(corpus: dict[str, Files], seed: int) -> Iterator[Case]:
         yield Case(f"{seed} {number} {name}", {**files, chosen: _mangle(files[chosen], rng, texts)})
 
 
+def scaled_cases(seed: int) -> Iterator[Case]:
+    """Yield mutated stages, half of them with something multiplied: instances, objects in one place, or levels."""
+    for number, case in enumerate(all_cases(seed)):
+        rng = random.Random(f"{seed} scale {number}")
+        root, data = next(iter(case.files.items()))
+        text = text_of(data)
+        is_scaled = bool(text) and rng.random() < 0.5
+        yield case._replace(files={**case.files, root: multiply(text, rng).encode()}) if is_scaled else case
+
+
 def all_cases(seed: int) -> Iterator[Case]:
     """Yield mutated stages of the own corpus, alternating with third-party files if there are any."""
     streams = [make_cases(corpus, seed) for corpus in (own_corpus(), shared_corpus()) if corpus]
@@ -97,12 +107,12 @@ def _mangle(data: bytes, rng: random.Random, texts: list[str]) -> bytes:
     return mangle_text(text, rng, texts).encode(errors="surrogatepass") if text else mangle_bytes(data, rng)
 
 
-def fuzz(cases: Iterable[Case], seconds: float = math.inf) -> Tally:
+def fuzz(cases: Iterable[Case], seconds: float = math.inf, examine: str = READ_STAGE) -> Tally:
     """Return the outcomes of the cases that start within `seconds`."""
     tally = Tally()
     end = time.monotonic() + seconds
     with tempfile.TemporaryDirectory() as folder:
-        judge = Judge(Path(folder))
+        judge = Judge(Path(folder), examine)
         try:
             for case in itertools.takewhile(lambda _: time.monotonic() < end, cases):
                 tally.add(case, judge.judge(case.files))

@@ -283,3 +283,23 @@ def mangle_bytes(data: bytes, rng: random.Random) -> bytes:
         pieces = (flipped, bytes(size), b"\xff" * size, noise, data[elsewhere : elsewhere + size], b"", there + noise)
         data = data[:at] + rng.choice(pieces) + data[at + size :]
     return data[: rng.randrange(len(data) + 1)] if rng.random() < 0.05 else data
+
+
+def multiply(text: str, rng: random.Random) -> str:
+    """Return a stage with many copies of a prim in one place, nested instances, or many levels around a cube."""
+    kind = rng.choice(("copies", "instances", "levels"))
+    count = rng.choice((3, 30, 300))
+    if kind == "copies":
+        cubes = "".join(
+            f'def Xform "same{i}" (kind = "component")\n{{\n def Cube "g"\n {{\n }}\n}}\n' for i in range(count)
+        )
+        return f'{text}\ndef Xform "Copies"\n{{\n{cubes}}}\n'
+    if kind == "levels":
+        return f"{text}\n" + 'def Xform "level"\n{\n' * count + 'def Cube "g"\n{\n}\n' + "}\n" * count
+    levels = rng.randrange(2, 10)
+    use = 'def Xform "i{}" (\n instanceable = true\n prepend references = </P{}>\n)\n{{\n}}\n'
+    text += "\n" + use.format("nested", levels - 1)
+    for level in range(levels):
+        inside = "".join(use.format(i, level - 1) for i in range(10)) if level else 'def Cube "g"\n{\n}\n'
+        text += f'class Xform "P{level}"\n{{\n{inside}}}\n'
+    return text

@@ -33,6 +33,10 @@ from usd2kg.scene.stage import captured_diagnostics
 
 SECONDS = 10
 """Time limit of one case."""
+READ_STAGE = "tests.scene.fuzz.worker:read_checked"
+CHECK_CHAIN = "tests.scene.fuzz.chain:check_chain"
+CHECK_INPUT = "tests.scene.fuzz.chain:check_input"
+"""What a child process does with each file."""
 _MEMORY = 4 * 2**30
 _REPOSITORY = Path(__file__).parents[3]
 _PACKAGE = str(Path(usd2kg.__file__).parent)
@@ -155,7 +159,8 @@ def serve(examine: str, trace: str) -> None:
         os.dup2(said.fileno(), 2)
         faulthandler.enable(places)
         for line in sys.stdin:
-            faulthandler.dump_traceback_later(SECONDS - 1, file=places)
+            seconds = SECONDS if examine == READ_STAGE else 6 * SECONDS
+            faulthandler.dump_traceback_later(seconds - 1, file=places)
             verdict = judge(line.rstrip("\n"))
             faulthandler.cancel_dump_traceback_later()
             sys.stdout.flush()
@@ -231,10 +236,13 @@ _ATTRIBUTED_TO_OPENUSD = {
 class Judge:
     """Writes the files of cases into a folder and returns the verdicts on them."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, examine: str = READ_STAGE) -> None:
         self._folder = folder
         self._cases = itertools.count()
-        self.reader = Worker("tests.scene.fuzz.worker:read_checked", folder)
+        # The whole chain loads more, once, and does more.
+        self._seconds = SECONDS if examine == READ_STAGE else 6 * SECONDS
+        self._is_stage = examine != CHECK_INPUT
+        self.reader = Worker(examine, folder)
         self._plain = Worker("tests.scene.fuzz.worker:read_plainly", folder)
 
     def judge(self, files: Files) -> Verdict:
@@ -243,7 +251,10 @@ class Judge:
         folder = self._folder / str(next(self._cases))
         write_files(files, folder)
         path = folder / next(iter(files))
-        verdict = self.reader.ask(path)
+        verdict = self.reader.ask(path, self._seconds)
+        if not self._is_stage:
+            shutil.rmtree(folder)
+            return verdict
         if verdict.outcome == Outcome.DIED and verdict.place.startswith("SIG"):
             # Python code alone cannot end with a signal.
             verdict = verdict._replace(outcome=Outcome.OPENUSD_DIED)
