@@ -62,12 +62,12 @@ def _look_up(
     boxed: BoxedObjects, plan: FloorPlan, which: Indices, samples: int, reach: float
 ) -> tuple[Indices, NDArray[np.bool_]]:
     """Return the rooms of points in footprints, longer by `reach` at each end, and whether they are in walls."""
-    points = footprint_points(boxed, which, samples, reach)
+    points = _footprint_points(boxed, which, samples, reach)
     x, y = plan.grid.cells_of(points.reshape(-1, 2)).T
     return plan.room[x, y].reshape(points.shape[:2]), plan.is_wall[x, y].reshape(points.shape[:2])
 
 
-def footprint_points(boxed: BoxedObjects, which: Indices, count: int, reach: float = 0.0) -> Array:
+def _footprint_points(boxed: BoxedObjects, which: Indices, count: int, reach: float = 0.0) -> Array:
     """Return count × count points (n, count², 2) in the footprints of objects, off their sides.
 
     Args:
