@@ -19,6 +19,7 @@ _EXAMPLES = {
     "alike": {"thing": "wineGlass_01"},
     "below": {"thing": "cookerHood", "distance": "70 cm"},
     "close-to": {"thing": "toaster", "distance": "12 cm"},
+    "connects": {"thing": "door_int_LOW"},
     "contents": {"thing": "refrigerator"},
     "graspable": {"thing": "barTable"},
     "heavy-near": {"thing": "sink_steel", "distance": "50 cm"},
@@ -31,6 +32,7 @@ _EXAMPLES = {
     "support-chain": {"thing": "apple_1"},
     "to-open": {"thing": "refrigerator"},
     "unsure": {"confidence": "0.8"},
+    "ways-into": {"thing": "KitchenDining"},
 }
 _INTRODUCTION = f"""\
 # Questions

@@ -114,6 +114,13 @@ def test_what_hangs_on_a_wall_is_in_its_room():
     assert in_rooms(*FLAT, picture)["picture"] == "room 1"
 
 
+def test_walls_without_a_surface_at_the_height_of_the_plan_enclose_nothing():
+    walls, surface = one_mesh(
+        [wall("skirting", (0, 0), (8, 0.1), (0, 0.1)), wall("rail", (0, 0), (8, 0.1), (2.4, 2.5))]
+    )
+    assert found(walls, SOFA, surfaces={"/walls": surface}) == ()
+
+
 def test_doors_are_in_no_room():
     leaf = door("leaf", (5.02, 3.1, 0), (0.06, 0.9, 2.1))
     assert "leaf" not in in_rooms(*FLAT, leaf, SOFA)

@@ -13,9 +13,9 @@ from usd2kg.assistant.sentences import (
     begin_sentence,
     count_phrase,
     join_words,
-    kind_and_label,
     name_things,
     number_text,
+    the_thing,
 )
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
@@ -289,7 +289,7 @@ class _Answerer:
         if not labels:
             return things.text
         if len(labels) == 1:
-            return f"the {kind_and_label(self._facts.kind(things.iris[0]), labels[0])}"
+            return the_thing(self._facts.kind(things.iris[0]), labels[0])
         return f"the {count_phrase(len(labels), things.text)}"
 
     def _where(self, thing: str) -> InterpretedAnswer:
@@ -307,7 +307,7 @@ class _Answerer:
                 places += anchors
                 if name != "room" or not said:
                     place = _SAID.get(name, "in")
-                    said += [f"{place} the {kind_and_label(facts.kind(a), facts.label(a))}" for a in anchors[:1]]
+                    said += [f"{place} {the_thing(facts.kind(a), facts.label(a))}" for a in anchors[:1]]
             body = facts.body(iri)
             if body.lower is not None and body.upper is not None:
                 x, y, z = (body.lower + body.upper) / 2

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from usd2kg.query.lookup import SceneFacts
 from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
-__all__ = ["begin_sentence", "count_phrase", "join_words", "kind_and_label", "name_things", "number_text", "plural"]
+__all__ = ["begin_sentence", "count_phrase", "join_words", "name_things", "number_text", "plural", "the_thing"]
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 _MOST_NAMED = 6
@@ -40,13 +40,13 @@ def count_phrase(count: int, noun: str) -> str:
     return f"{number} {plural(noun)}"
 
 
-def kind_and_label(kind: str, label: str) -> str:
-    """Return a kind with the name of a thing, once if the name begins with the kind.
+def the_thing(kind: str, label: str) -> str:
+    """Return a thing by its kind and name, or by its name alone if that begins with the kind as a word.
 
-    >>> kind_and_label("cup", "Mug_2"), kind_and_label("room", "room 1")
-    ('cup Mug_2', 'room 1')
+    >>> the_thing("cup", "Mug_2"), the_thing("room", "room 1")
+    ('the cup Mug_2', 'room 1')
     """
-    return label if label.lower().split()[:1] == [kind.lower()] else f"{kind} {label}"
+    return label if label.lower().split()[:1] == [kind.lower()] else f"the {kind} {label}"
 
 
 def plural(noun: str) -> str:
