@@ -46,7 +46,7 @@ def the_thing(kind: str, label: str) -> str:
     >>> the_thing("cup", "Mug_2"), the_thing("room", "room 1")
     ('the cup Mug_2', 'room 1')
     """
-    return label if label.lower().split()[:1] == [kind.lower()] else f"the {kind} {label}"
+    return label if label.lower().startswith(f"{kind.lower()} ") else f"the {kind} {label}"
 
 
 def plural(noun: str) -> str:
