@@ -10,8 +10,8 @@ from usd2kg.query.questions import list_questions
 
 ROOT = "/apartment/Geometry/apartment_root"
 ASKED = {
-    "above", "alike", "below", "close-to", "contents", "count", "graspable", "heavy-near", "hold-liquid", "joints",
-    "moves-along", "nearest", "reach", "same-surface", "support-chain", "to-open", "unsure", "which-where",
+    "above", "alike", "below", "close-to", "connects", "contents", "count", "graspable", "heavy-near", "hold-liquid", "joints",
+    "moves-along", "nearest", "reach", "same-surface", "support-chain", "to-open", "unsure", "ways-into", "which-where",
 }  # fmt: skip
 
 
@@ -54,6 +54,11 @@ class TestPlaces:
         assert ask(apartment, "nearest", thing="armchair", **{"class": "table"}) == ["bedside_table"]
         assert ask(apartment, "nearest", thing="sofa", **{"class": "coffee table"}) == ["coffee_table"]
         assert ask(apartment, "nearest", thing="cooktop", **{"class": "sink"}) == ["sink"]
+
+    def test_doors_of_furniture_connect_no_rooms(self, apartment: GraphStore):
+        # The flat has no doors or windows in its walls.
+        assert ask(apartment, "ways-into", thing=f"{ROOT}/kitchen_root") == []
+        assert ask(apartment, "connects", thing="cabinet4_door_bottom") == []
 
     def test_reaches_objects_from_above_the_coffee_table(self, apartment: GraphStore):
         found = ask(apartment, "reach", position="16.6 2.8 0.5", radius="50 cm")
