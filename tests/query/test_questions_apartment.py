@@ -10,8 +10,9 @@ from usd2kg.query.questions import list_questions
 
 ROOT = "/apartment/Geometry/apartment_root"
 ASKED = {
-    "above", "alike", "below", "close-to", "connects", "contents", "count", "graspable", "heavy-near", "hold-liquid", "joints",
-    "moves-along", "nearest", "reach", "same-surface", "support-chain", "to-open", "unsure", "ways-into", "which-where",
+    "above", "alike", "below", "close-to", "connects", "contents", "count", "graspable", "heavy-near", "hold-liquid",
+    "joints", "moves-along", "nearest", "reach", "same-surface", "support-chain", "to-open", "unsure", "ways-into",
+    "which-where",
 }  # fmt: skip
 
 
