@@ -93,7 +93,7 @@ def test_proposals_survive_a_restart_and_are_an_ontology(stage: Path, tmp_path: 
     [
         ("two\nlines", "choose", "on one line"),
         ("\u202etxet", "choose", "on one line"),
-        ("\ud800", "choose", "on one line"),
+        ("\ud800", "choose", "the body is not JSON"),
         ("_ !", "choose", "expected letters"),
         ("x" * 101, "choose", "at most 100 characters"),
         ("CUPBOARD", "choose", "the ontology has the class Cupboard; choose it"),
