@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -53,3 +55,29 @@ def test_keys_are_never_shown(run: Run, monkeypatch: pytest.MonkeyPatch, form: l
     if not form:
         assert re.search(r"OPENAI_API_KEY +set\n", done.out)
         assert re.search(r"ANTHROPIC_API_KEY +not set\n", done.out)
+
+
+def test_needs_no_extra():
+    # A package that is None in sys.modules cannot be imported.
+    extras = [
+        "starlette",
+        "uvicorn",
+        "trimesh",
+        "PIL",
+        "scipy",
+        "pandas",
+        "mcp",
+        "pydantic_ai",
+        "onnxruntime",
+        "resvg_py",
+    ]
+    code = f"""
+import sys
+sys.modules.update(dict.fromkeys({extras!r}))
+sys.argv = ["usd2kg", "doctor"]
+from usd2kg.cli.app import main
+main()
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "USD2KG_STUDIO_PASSWORD" in done.stdout

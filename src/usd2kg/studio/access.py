@@ -10,11 +10,10 @@ from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from usd2kg.errors import OutputError
-from usd2kg.studio.settings import SERVER
+from usd2kg.studio.settings import PASSWORD_VARIABLE, SERVER
 
-__all__ = ["PASSWORD_VARIABLE", "KeyGate", "choose_key", "has_password"]
+__all__ = ["KeyGate", "choose_key", "has_password"]
 
-PASSWORD_VARIABLE = "USD2KG_STUDIO_PASSWORD"
 _SCHEME = "Bearer "
 _FAILURE_DELAY_S = 1.0
 """Slows down guessing of passwords."""

@@ -7,6 +7,7 @@ from usd2kg.knowledge import read_settings
 __all__ = [
     "AUDIT",
     "GEOMETRY",
+    "PASSWORD_VARIABLE",
     "QUEUE",
     "SERVER",
     "TEXTURES",
@@ -16,6 +17,9 @@ __all__ = [
     "ServerSettings",
     "TextureSettings",
 ]
+
+PASSWORD_VARIABLE = "USD2KG_STUDIO_PASSWORD"
+"""Environment variable with the password of the studio."""
 
 
 @dataclass(frozen=True)
