@@ -56,6 +56,14 @@ class TestPrecedence:
         assert arguments("store", "load", "s", "g.ttl")[:3] == ["store", "load", "--scene=kitchen"]
         assert arguments("store", "list", "s") == ["store", "list", "s"]
 
+    def test_an_option_may_have_the_name_of_a_group_of_commands(self):
+        file = write('store = "lab"')
+        assert arguments("store", "load", "g.ttl") == ["store", "load", f"--store={file.parent / 'lab'}", "g.ttl"]
+
+    def test_an_address_is_no_path(self):
+        write('store = "https://lab.org/sparql"')
+        assert arguments("store", "load", "g.ttl") == ["store", "load", "--store=https://lab.org/sparql", "g.ttl"]
+
 
 class TestValues:
     def test_lists_repeat_the_option(self):
@@ -87,6 +95,20 @@ class TestWhere:
         found = read_project_options(app, ["build", str(scene)])
         assert found is not None
         assert (found.file, found.keys) == (file.absolute(), ("base",))
+
+    def test_values_of_options_are_no_scenes(self):
+        write('base = "https://here.org/"')
+        elsewhere = write('base = "https://there.org/"', Path("elsewhere")).parent
+        (elsewhere / "out.ttl").touch()
+        for output in (["-o", "elsewhere/out.ttl"], ["--output=elsewhere/out.ttl"]):
+            assert arguments("build", *output, "s.usd") == ["build", "--base=https://here.org/", *output, "s.usd"]
+        (elsewhere / "-s.usd").touch()
+        assert "--base=https://there.org/" in arguments("build", "-o", "out.ttl", "--", "elsewhere/-s.usd")
+
+    @pytest.mark.parametrize("argument", ["what " * 2000, "a\0b"])
+    def test_arguments_that_cannot_be_paths_are_no_scenes(self, argument: str):
+        write('model = "openai:m"')
+        assert arguments("ask", "g.ttl", argument) == ["ask", "--model=openai:m", "g.ttl", argument]
 
     @pytest.mark.parametrize(
         "line", ['output = "x.ttl"', 'grounder = "llm-B:m"', 'store = "http://h/s"', "json = true"]

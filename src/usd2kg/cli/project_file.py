@@ -6,14 +6,16 @@ A top-level key is the name of an option, for every command that has it; a table
 
 import difflib
 import inspect
+import os
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, get_args, get_origin
 
 import typer
 from typer.models import OptionInfo
 
+from usd2kg.cli.options.stores import FOLDER_OR_URL
 from usd2kg.errors import Usd2kgError
 
 __all__ = ["PROJECT_OPTIONS_FILE", "CommandOption", "ProjectOptions", "read_project_options", "walk_options"]
@@ -61,8 +63,8 @@ class ProjectOptions(NamedTuple):
 def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectOptions | None:
     """Return the options that the nearest `usd2kg.toml` sets for a call; None if there are none.
 
-    The file is looked for in the folder of the first argument that is a file or folder, else in the current folder, and
-    in the folders above.
+    The file is looked for in the folder of the first argument that is a file or folder and no value of an option, else
+    in the current folder, and in the folders above.
 
     Args:
         app: the command line.
@@ -74,8 +76,10 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
     commands = dict(walk_options(app))
     command = next((tuple(arguments[:n]) for n in (1, 2) if tuple(arguments[:n]) in commands), None)
     given = arguments[len(command) :] if command is not None else ()
-    file = _find_file(given) if command is not None and not {"-h", "--help"}.intersection(given) else None
-    if command is None or file is None:
+    if command is None or {"-h", "--help"}.intersection(given):
+        return None
+    file = _find_file(_positional(given, commands[command]))
+    if file is None:
         return None
     tables = _read(file)
     _check_keys(file, tables, commands)
@@ -118,12 +122,26 @@ def _option_of(parameter: inspect.Parameter) -> CommandOption | None:
     types = {kind, *get_args(kind)}
     is_list = any(get_origin(one) is list for one in types)
     types |= {one for part in types for one in get_args(part)}
-    return CommandOption(names, info.help or "", Path in types, types == {bool}, is_list)
+    is_path = Path in types or info.metavar == FOLDER_OR_URL
+    return CommandOption(names, info.help or "", is_path, types == {bool}, is_list)
 
 
-def _find_file(given: Sequence[str]) -> Path | None:
-    paths = (Path(argument) for argument in given if not argument.startswith("-"))
-    start = next((path for path in paths if path.exists()), Path()).absolute()
+def _positional(given: Sequence[str], options: Sequence[CommandOption]) -> Iterator[str]:
+    """Yield the arguments that are neither options nor their values."""
+    with_value = {name for option in options if not option.is_flag for name in option.names}
+    arguments = iter(given)
+    for argument in arguments:
+        if argument == "--":
+            yield from arguments
+        elif argument in with_value:
+            next(arguments, None)
+        elif not argument.startswith("-"):
+            yield argument
+
+
+def _find_file(positional: Iterable[str]) -> Path | None:
+    # Unlike `Path.exists`, `os.path.exists` is False for what cannot be a path, such as a long question.
+    start = next((Path(one) for one in positional if os.path.exists(one)), Path()).absolute()  # noqa: PTH110
     folders = [start, *start.parents] if start.is_dir() else start.parents
     files = (folder / PROJECT_OPTIONS_FILE for folder in folders)
     return next((file for file in files if file.is_file()), None)
@@ -168,8 +186,9 @@ def _value_for(tables: Mapping[str, Any], command: _Command, key: str) -> Any:
     """Return the value of an option, None if it has none; the table of the command takes precedence."""
     own: Any = tables
     for word in command:
-        own = own.get(word, {})
-    found = own.get(key)
+        # An option may have the name of a group of commands, such as `store`.
+        own = own.get(word) if isinstance(own, dict) else None
+    found = own.get(key) if isinstance(own, dict) else None
     shared = tables.get(key)
     # A table of the same name is a command: `--graph` is an option, `[graph]` a group of commands.
     return found if found is not None or isinstance(shared, dict) else shared
@@ -196,5 +215,6 @@ def _as_arguments(file: Path, option: CommandOption, value: Any) -> Iterator[str
         if isinstance(one, bool) or not isinstance(one, str | int | float):
             expected = "a text or a number" + (", or a list of them" if option.is_repeatable else "")
             raise Usd2kgError(f"{file}: {option.key} is {value!r}; expected {expected}")
+        is_path = option.is_path and "://" not in str(one)
         # With “=”, a value may begin with a dash.
-        yield f"{name}={file.parent / str(one) if option.is_path else one}"
+        yield f"{name}={file.parent / str(one) if is_path else one}"

@@ -5,6 +5,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 __all__ = [
+    "FOLDER_OR_URL",
     "DataAddress",
     "GraphSource",
     "OptionalGraphSource",
@@ -18,9 +19,12 @@ _GRAPH = Argument(metavar="GRAPH", help="Graph written by usd2kg build, folder o
 GraphSource = Annotated[str, _GRAPH]
 OptionalGraphSource = Annotated[str | None, _GRAPH]
 
+FOLDER_OR_URL = "FOLDER|URL"
+"""The metavar of options that take the path of a folder, or an address."""
+
 _STORE = Option(
     "--store",
-    metavar="FOLDER|URL",
+    metavar=FOLDER_OR_URL,
     help="Store of graphs: a folder, or the URL of a SPARQL 1.1 server. Credentials are read from the environment: "
     "USD2KG_STORE_USER and USD2KG_STORE_PASSWORD, or USD2KG_STORE_TOKEN.",
 )
