@@ -94,7 +94,7 @@ def test_reports_different_bases(run: Run, room: Path, edited: Path) -> None:
 
 
 def test_reports_versions_without_classes(run: Run, graph: Path, room: Path) -> None:
-    done = run("diff", graph, room, "--no-ground", "--relations", "none")
+    done = run("diff", graph, room, "--no-ground", "--relation-kinds", "none")
     assert (done.code, done.out.splitlines()[-1]) == (0, "no changes in 4 objects")
     assert "classes: only one version has classes" in done.err
 
@@ -105,7 +105,7 @@ def test_reports_versions_without_classes(run: Run, graph: Path, room: Path) -> 
         (["--format", "xml"], "format 'xml' is unknown; expected one of text, json, sparql"),
         (["--graph", "https://my.lab/g"], "--graph names the graph of an update; use it with --format sparql"),
         (["--graph", "g", "--format", "sparql"], "graph 'g' is not an absolute IRI"),
-        (["--relations", "on,under"], "relations: kind 'under' is unknown; expected a list of on, inside"),
+        (["--relation-kinds", "on,under"], "--relation-kinds: kind 'under' is unknown; expected a list of on, inside"),
         (["--moved", "-1"], "moved m -1.0: expected a number that is not negative"),
         (["-o", "no/such/file"], "the folder no/such does not exist"),
     ],

@@ -16,7 +16,7 @@ OF_ONE_COMMAND = {
     "--output": "each command writes another kind of file",
     "--profile": "build has auto, ontology shapes has not",
     "--refresh": "ground renews completions, eval reproduce renews results",
-    "--relations": "rules in build, kinds in diff",
+    "--relation-kinds": "build finds, diff compares them",
     "--scene": "store load names a new graph, the others choose an existing one",
 }
 """Option → why its meaning differs between commands."""

@@ -64,6 +64,15 @@ class TestPrecedence:
         write('store = "https://lab.org/sparql"')
         assert arguments("store", "load", "g.ttl") == ["store", "load", "--store=https://lab.org/sparql", "g.ttl"]
 
+    def test_a_reviewer_without_decisions_is_left_out(self):
+        write('reviewer = "Ann"')
+        assert arguments("build", "s.usd") == ["build", "s.usd"]
+        assert arguments("studio", "s.usd") == ["studio", "--reviewer=Ann", "s.usd"]
+        given = ["--decisions", "d.csv", "s.usd"]
+        assert arguments("build", *given) == ["build", "--reviewer=Ann", *given]
+        write('reviewer = "Ann"\ndecisions = "d.csv"')
+        assert "--reviewer=Ann" in arguments("build", "s.usd")
+
 
 class TestValues:
     def test_lists_repeat_the_option(self):
@@ -168,6 +177,37 @@ def test_a_scene_is_built_with_the_options_of_its_project(run: Run, room: Path):
     found = load_graph(Path("g.ttl")).sparql("SELECT ?p { ?o u2k:primPath ?p . ?o a [] } ORDER BY ?p").values
     assert "/Room/Apple" not in {row[0] for row in found}
     assert load_graph(Path("g.ttl")).sparql("ASK { <https://my.lab/k/Room.Table_1> a [] }").rows == (("true",),)
+
+
+def test_every_command_takes_the_options_of_a_full_project(run: Run, room: Path):
+    folder = room.parent
+    assert run("ontology", "align", "-o", folder / "align.csv").code == 0
+    (folder / "decisions.csv").write_text("path,decision\n/Room/coffee_mug,Bowl\n", encoding="utf-8")
+    for name in ("relations.toml", "plausibility.toml"):
+        (folder / name).write_text("", encoding="utf-8")
+    write(
+        'abstain = true\nalignment = "align.csv"\nannotations = "owl"\nbase = "https://my.lab/k/"\n'
+        'decisions = "decisions.csv"\nreviewer = "Ann"\nevidence = "name,geometry"\nevery-prim = false\n'
+        'exclude = ["/Room/Apple"]\nexpand-instancers = true\nkind = ["component"]\nmetres-per-unit = 1\n'
+        'profile = "soma"\nregime = "semantic"\nrelations = "relations.toml"\nrelation-kinds = "on,inside"\n'
+        'rules = "plausibility.toml"\ntime = 1\nup-axis = "Z"\nviewpoint = "0,0,1.6"\n',
+        folder,
+    )
+    for command in (
+        ("inspect", room),
+        ("build", room, "-o", folder / "g.ttl"),
+        ("ground", room),
+        ("render", room, "-o", folder / "room.png"),
+        ("render", room, "--color-by", "class", "-o", folder / "classes.png"),
+        ("validate", folder / "g.ttl"),
+        ("diff", folder / "g.ttl", folder / "g.ttl"),
+        ("diff", room, room),
+        ("ask", folder / "g.ttl", "what is in the bowl?"),
+        ("label", "lint", room),
+        ("ontology", "shapes"),
+    ):
+        done = run(*command)
+        assert done.code in ({0, 1} if command[0] in {"validate", "label"} else {0}), (command, done.err)
 
 
 class TestInit:

@@ -69,8 +69,8 @@ def diff_command(
         str | None,
         Option("--graph", help="IRI of the named graph that the update changes; default: the default graph."),
     ] = None,
-    relations: Annotated[
-        str, Option("--relations", help="Comma-separated kinds of relations to compare, or all, or none.")
+    relation_kinds: Annotated[
+        str, Option("--relation-kinds", help="Comma-separated kinds of relations to compare, or all, or none.")
     ] = "on,inside,part-of,room",
     no_ground: Annotated[
         bool, Option("--no-ground", help="Do not ground the objects of a stage; faster, without classes.")
@@ -97,7 +97,7 @@ def diff_command(
     from usd2kg.files import check_writable  # noqa: PLC0415
 
     file_format = _choose_format(file_format, is_json=json, graph=graph)
-    limits, kinds = tolerances.tolerances(), _parse_kinds(relations)
+    limits, kinds = tolerances.tolerances(), _parse_kinds(relation_kinds)
     if output is not None:
         check_writable(output)
         check_files([output], [old, new, ontology], reading)
@@ -138,7 +138,7 @@ def _parse_kinds(text: str) -> frozenset[str]:
     unknown = sorted(kinds - frozenset(ALL_KINDS))
     if unknown or not kinds:
         found = f"kind {unknown[0]!r} is unknown" if unknown else "no kind is named"
-        raise GraphError(f"relations: {found}; expected a list of {', '.join(ALL_KINDS)}, or all, or none")
+        raise GraphError(f"--relation-kinds: {found}; expected a list of {', '.join(ALL_KINDS)}, or all, or none")
     return kinds
 
 

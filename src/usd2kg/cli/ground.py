@@ -44,7 +44,7 @@ def ground_command(
         str | None,
         Option(
             "--format",
-            help="csv, json, or sssom, which --base, --license and --mapping-date describe; default: by the file "
+            help="csv, json, or sssom, which --license and --mapping-date describe; default: by the file "
             "ending (.json, .tsv), else csv.",
         ),
     ] = None,
@@ -68,8 +68,8 @@ def ground_command(
         file_format = _FORMAT_OF_SUFFIX.get(output.suffix.lower() if output is not None else "", _CSV)
     if file_format != _SSSOM:
         check_format(file_format)
-        if base or license_iri or mapping_date:
-            raise GroundingError("--base, --license and --mapping-date need --format sssom; leave them out")
+        if license_iri or mapping_date:
+            raise GroundingError("--license and --mapping-date need --format sssom; leave them out")
     carry_over.check(grounding.review.decisions, 1)
     for target in (output, grounding.review.queue):
         if target is not None:

@@ -30,6 +30,9 @@ ALLOWED_ANYWHERE = frozenset(
 )
 """Options that neither write a file nor contact a server. A file that is not in the current folder or above it, such as
 one that came with a downloaded scene, may set no others."""
+_QUALIFIED = {"reviewer": "decisions"}
+"""Option → the option that it qualifies; a command that has both refuses the one without the other, so the file sets
+none of them there."""
 
 _Command = tuple[str, ...]
 """The words of a command, such as `("store", "load")`."""
@@ -86,9 +89,10 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
     is_trusted = Path.cwd().is_relative_to(file.parent)
     keys: list[str] = []
     added: list[str] = []
-    for option in commands[command]:
-        value = _value_for(tables, command, option.key)
-        if value is None or _is_given(option, given):
+    values = {option: _value_for(tables, command, option.key) for option in commands[command]}
+    unset = {option.key for option, value in values.items() if value is None and not _is_given(option, given)}
+    for option, value in values.items():
+        if value is None or _is_given(option, given) or _QUALIFIED.get(option.key) in unset:
             continue
         if not is_trusted and option.key not in ALLOWED_ANYWHERE:
             problem = "may write a file or contact a server, and the file is neither in the current folder nor above it"

@@ -52,6 +52,4 @@ class ColorOptions(OptionBundle):
         if (mode is ColorMode.ANSWER) != (self.ask is not None):
             problem = "needs a question" if self.ask is None else "shows no answer"
             raise OutputError(f"--color-by {mode} {problem}; use --ask 'what is on the table?' with --color-by answer")
-        if mode is ColorMode.MATERIAL and (self.ontology or self.decisions):
-            raise OutputError("--ontology and --decisions change no colour of a material; choose another --color-by")
         return mode
