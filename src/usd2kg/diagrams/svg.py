@@ -29,6 +29,8 @@ def _em(c: str) -> float:
         return 1.05
     if c in "W@%—…\ufffd":
         return 1.05
+    if c in "#&+<=>^~":
+        return 0.88
     if c in "MWmw×" or c.isupper():
         return 0.86 if c in "Mmw" else 0.72
     return 0.36 if c in "iljtf.,:;|!'()[] I" else 0.61
