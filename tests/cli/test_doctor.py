@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -73,6 +74,7 @@ def test_needs_no_extra():
     ]
     code = f"""
 import sys
+from pathlib import Path
 sys.modules.update(dict.fromkeys({extras!r}))
 sys.argv = ["usd2kg", "doctor"]
 from usd2kg.cli.app import main
@@ -81,3 +83,15 @@ main()
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)
     assert (done.returncode, done.stderr) == (0, "")
     assert "USD2KG_STUDIO_PASSWORD" in done.stdout
+
+
+def test_a_user_without_a_home_folder_has_no_caches(run: Run, monkeypatch: pytest.MonkeyPatch):
+    def fail() -> None:
+        raise RuntimeError("Could not determine home directory.")
+
+    for name in ("USD2KG_CACHE", "USD2KG_GRAPH_CACHE", "USD2KG_TABLE_CACHE", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(Path, "home", fail)
+    done = run("doctor", "--json")
+    assert done.code == 0
+    assert {found["path"] for found in json.loads(done.out)["caches"].values()} == {None}

@@ -1,8 +1,8 @@
 """The command `usd2kg`.
 
 Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, `diff` has differences, or `doctor`
-misses a package; 2 wrong
-usage, or an input or output cannot be used; 130 `ground` was interrupted and wrote a partial mapping.
+misses a package; 2 wrong usage, or an input or output cannot be used; 130 `ground` was interrupted and wrote a partial
+mapping.
 """
 
 import io

@@ -89,14 +89,19 @@ def _has_page() -> bool:
 
 
 def _caches() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield each cache with its path and size; the path is None if the cache is off."""
+    """Yield each cache with its path and size; the path is None if the cache is off, or there is no home folder."""
     from usd2kg.cache_folder import chosen_cache_folder  # noqa: PLC0415
+    from usd2kg.errors import GroundingError  # noqa: PLC0415
     from usd2kg.grounding.llm.cache import default_cache_path  # noqa: PLC0415
     from usd2kg.query.graph_cache import GRAPH_CACHE_VARIABLE  # noqa: PLC0415
     from usd2kg.table_cache import TABLE_CACHE_VARIABLE  # noqa: PLC0415
 
+    try:
+        completions = default_cache_path()
+    except GroundingError:
+        completions = None
     paths = {
-        "completions": default_cache_path(),
+        "completions": completions,
         "graphs": chosen_cache_folder(GRAPH_CACHE_VARIABLE, "graphs"),
         "tables": chosen_cache_folder(TABLE_CACHE_VARIABLE, "tables"),
     }
