@@ -73,6 +73,12 @@ class TestPrecedence:
         write('reviewer = "Ann"\ndecisions = "d.csv"')
         assert "--reviewer=Ann" in arguments("build", "s.usd")
 
+    def test_classes_are_left_out_where_a_picture_shows_none(self):
+        write('decisions = "d.csv"')
+        assert arguments("render", "s.usd") == ["render", "s.usd"]
+        assert arguments("render", "--color-by=room", "s.usd")[1].endswith("d.csv")
+        assert arguments("render", "s.usd", "--ask", "where is the mug?")[1].endswith("d.csv")
+
 
 class TestValues:
     def test_lists_repeat_the_option(self):

@@ -30,9 +30,13 @@ ALLOWED_ANYWHERE = frozenset(
 )
 """Options that neither write a file nor contact a server. A file that is not in the current folder or above it, such as
 one that came with a downloaded scene, may set no others."""
-_QUALIFIED = {"reviewer": "decisions"}
-"""Option → the option that it qualifies; a command that has both refuses the one without the other, so the file sets
-none of them there."""
+_QUALIFIED = {
+    "decisions": ("color-by", "ask"),
+    "ontology": ("color-by", "ask"),
+    "reviewer": ("decisions",),
+}
+"""Option → the options that it qualifies. A command that has some of these refuses the one without any of them:
+the file does not set it there."""
 
 _Command = tuple[str, ...]
 """The words of a command, such as `("store", "load")`."""
@@ -90,9 +94,12 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
     keys: list[str] = []
     added: list[str] = []
     values = {option: _value_for(tables, command, option.key) for option in commands[command]}
-    unset = {option.key for option, value in values.items() if value is None and not _is_given(option, given)}
+    is_set = {option.key: value is not None or _is_given(option, given) for option, value in values.items()}
     for option, value in values.items():
-        if value is None or _is_given(option, given) or _QUALIFIED.get(option.key) in unset:
+        if value is None or _is_given(option, given):
+            continue
+        qualified = [is_set[key] for key in _QUALIFIED.get(option.key, ()) if key in is_set]
+        if qualified and not any(qualified):
             continue
         if not is_trusted and option.key not in ALLOWED_ANYWHERE:
             problem = "may write a file or contact a server, and the file is neither in the current folder nor above it"

@@ -21,13 +21,13 @@ class ColorOptions(OptionBundle):
     """What colours show, and where classes come from."""
 
     color_by: Annotated[
-        str,
+        str | None,
         Option(
             "--color-by",
             help="What colours show, with a legend: material, class, concept, confidence, room, support "
-            "(what an object is on or in), or answer, which needs --ask.",
+            "(what an object is on or in), or answer, which needs --ask; default: answer with --ask, else material.",
         ),
-    ] = "material"
+    ] = None
     ask: Annotated[
         str | None,
         Option("--ask", metavar="QUESTION", help="Highlight the answer to a question in plain English."),
@@ -44,11 +44,16 @@ class ColorOptions(OptionBundle):
         from usd2kg.diagrams import ColorMode  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
         modes = [mode.value for mode in ColorMode]
-        if self.color_by not in modes:
+        if self.color_by is None:
+            mode = ColorMode.MATERIAL if self.ask is None else ColorMode.ANSWER
+            if mode is ColorMode.MATERIAL and (self.ontology or self.decisions):
+                raise OutputError(
+                    "--ontology and --decisions change no colour of a material; choose another --color-by than material"
+                )
+        elif self.color_by in modes:
+            mode = ColorMode(self.color_by)
+        else:
             raise OutputError(f"--color-by {self.color_by}: expected {', '.join(modes[:-1])} or {modes[-1]}")
-        mode = ColorMode(self.color_by)
-        if self.ask is not None and mode is ColorMode.MATERIAL:
-            mode = ColorMode.ANSWER
         if (mode is ColorMode.ANSWER) != (self.ask is not None):
             problem = "needs a question" if self.ask is None else "shows no answer"
             raise OutputError(f"--color-by {mode} {problem}; use --ask 'what is on the table?' with --color-by answer")
