@@ -5,9 +5,13 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
+import numpy as np
 import pyoxigraph as ox
 import pytest
 
+from tests.graph.records import ground_as
+from tests.grounding.records import make_scene
+from tests.relations.test_derived_rooms import BED, FLAT, SOFA, door
 from tests.studio.conftest import running_studio
 from usd2kg.demo import demo_scene
 from usd2kg.diff import read_statements
@@ -83,6 +87,34 @@ def test_a_graph_is_read_back_as_the_stage_was(profile: str, annotations: str, t
             assert again.numbers == pytest.approx(dict(relation.numbers), rel=1e-5, abs=1e-6)
         # Without a decision, the graph is that of the file.
         assert frozenset(session.graph().triples) == read_statements(path)
+
+
+@pytest.mark.parametrize("profile", ["soma", "plain"])
+def test_rooms_without_a_prim_are_read_back(profile: str, tmp_path: Path):
+    placed = [*FLAT, SOFA, BED, door("door_bedroom", (5.02, 3.1, 0), (0.06, 0.9, 2.1))]
+    tbox = load_home_tbox()
+    scene = make_scene(*(obj for obj, _ in placed))
+    grounding = ground_as(tbox, scene, {obj.prim_path: cls for obj, cls in placed if cls})
+    graph = instantiate(scene, tbox, grounding, profile=profile)
+    expected = {(r.kind, r.target, r.anchor): r.room for r in graph.relations if r.room is not None}
+    assert {(kind, anchor) for kind, _, anchor in expected} >= {("room", "room 1"), ("connects", "room 2")}
+    write_graph(graph, tmp_path / "flat.ttl")
+    with (
+        running_studio(tmp_path / "flat.ttl", tmp_path / "p") as client,
+        opened(tmp_path / "flat.ttl", tmp_path / "q") as session,
+    ):
+        found = {(r.kind, r.target, r.anchor): r.room for r in session.relations if r.room is not None}
+        assert found.keys() == expected.keys()
+        for key, room in expected.items():
+            read = found[key]
+            assert room is not None and read is not None
+            assert (read.name, read.rule) == (room.name, room.rule)
+            assert np.concatenate(read.outline) == pytest.approx(np.concatenate(room.outline), abs=1e-3)
+            measured = [(each.area, each.height, each.confidence) for each in (read, room)]
+            assert measured[0] == pytest.approx(measured[1], abs=1e-5)
+        objects = client.ask("api/scene").json()
+        room_of = dict(zip(objects["objects"]["path"], objects["objects"]["room"], strict=True))
+        assert objects["objects"]["rooms"][room_of["/bed"]] == "room 2"
 
 
 @pytest.mark.parametrize("annotations", ["owl", "rdf12"])
