@@ -13,8 +13,8 @@ from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.studio import ProjectSources, open_project
 from usd2kg.studio.app_files import read_app_files
 from usd2kg.studio.application import make_app
-from usd2kg.studio.http_server import StudioServer
-from usd2kg.studio.opening import open_session
+from usd2kg.studio.open_session import open_session
+from usd2kg.studio.studio_server import StudioServer
 
 KEY = "benchmark-of-the-studio"
 

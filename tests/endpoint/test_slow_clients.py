@@ -14,9 +14,9 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from usd2kg.endpoint.connections import Connections
+from usd2kg.endpoint.bounded_server import BoundedServer, _RateFilter
 from usd2kg.endpoint.http_limits import HttpServerLimits
-from usd2kg.endpoint.http_server import BoundedServer, _RateFilter
+from usd2kg.endpoint.open_connections import Connections
 
 LIMITS = HttpServerLimits(head_s=0.4, body_s=0.8, write_s=0.4, connections=20, held_bytes=20 << 20)
 LARGE = 16 << 20
@@ -158,7 +158,7 @@ def test_the_server_stops_although_clients_are_slow(server):
 
 
 def test_open_files_limit_the_connections(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("usd2kg.endpoint.connections._open_files", lambda: 300)
+    monkeypatch.setattr("usd2kg.endpoint.open_connections._open_files", lambda: 300)
     connections = Connections()
     transports = [asyncio.Transport() for _ in range(45)]
     assert [connections.add(transport) for transport in transports] == [True] * 44 + [False]

@@ -13,7 +13,7 @@ from usd2kg.evaluation.metrics.intervals import wilson_interval
 from usd2kg.grounding import Prediction, Status
 from usd2kg.grounding.model import Review
 from usd2kg.studio.audit import audit_json, make_audit
-from usd2kg.studio.object_state import ObjectState, ReviewStatus, suggestion_of
+from usd2kg.studio.object_review import ObjectReview, ReviewStatus, suggestion_of
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import OPEN, Verdict, VerdictKind
@@ -23,13 +23,15 @@ SMALL = replace(AUDIT, sample=1)
 CUP, BOWL = "https://x.org/Cup", "https://x.org/Bowl"
 
 
-def state(name: str, confidence: float | None = 0.95, verdict: Verdict = OPEN, answer: str | None = CUP) -> ObjectState:
+def state(
+    name: str, confidence: float | None = 0.95, verdict: Verdict = OPEN, answer: str | None = CUP
+) -> ObjectReview:
     status = Status.GROUNDED if answer is not None else Status.REFUSED
     prediction = Prediction(f"/{name}", answer, confidence, status, "test", "")
-    return ObjectState(f"/{name}", ReviewStatus.SUGGESTED, answer, prediction, verdict, False)
+    return ObjectReview(f"/{name}", ReviewStatus.SUGGESTED, answer, prediction, verdict, False)
 
 
-def judged(states: list[ObjectState]) -> ReviewState:
+def judged(states: list[ObjectReview]) -> ReviewState:
     """The events that give the verdicts of states, in an audit."""
     review = ReviewState()
     verdicts = {found.prim_path: found.verdict for found in states if found.verdict != OPEN}

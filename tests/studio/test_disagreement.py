@@ -12,7 +12,7 @@ from usd2kg.grounding import Prediction, Status, format_mapping, ground
 from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import read_scene
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.opening import open_session
+from usd2kg.studio.open_session import open_session
 
 pytestmark = pytest.mark.studio
 

@@ -16,11 +16,11 @@ from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import ReadOptions, read_scene
 from usd2kg.scene.object_geometry import NO_TEXTURE, GeometryReader
 from usd2kg.scene.stage import open_stage, time_code
-from usd2kg.studio import geometry as geometry_module
-from usd2kg.studio.catalog import Catalog
-from usd2kg.studio.geometry import GeometryFiles
+from usd2kg.studio import geometry_files
+from usd2kg.studio.geometry_files import GeometryFiles
 from usd2kg.studio.glb import GlbNode, write_glb
 from usd2kg.studio.mesh_budget import ShadedMesh
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.settings import GEOMETRY
 
 
@@ -32,8 +32,8 @@ def open_files(path, only=None):
         scene = replace(scene, objects=tuple(obj for obj in scene.objects if obj.prim_path in only))
     tbox = load_home_tbox()
     reader = GeometryReader(open_stage(path, options), scene, time_code(options.time))
-    catalog = Catalog(scene, tbox, ground(scene, tbox, make_grounder("dictionary")), [])
-    return GeometryFiles(reader, scene, catalog), [obj.prim_path for obj in scene.objects]
+    indices = PageIndices(scene, tbox, ground(scene, tbox, make_grounder("dictionary")), [])
+    return GeometryFiles(reader, scene, indices), [obj.prim_path for obj in scene.objects]
 
 
 def document(content):
@@ -47,7 +47,7 @@ def objects_in(content):
 
 
 def test_the_largest_objects_come_first(write_stage, monkeypatch):
-    monkeypatch.setattr(geometry_module, "GEOMETRY", replace(GEOMETRY, first_chunk_objects=1, chunk_objects=2))
+    monkeypatch.setattr(geometry_files, "GEOMETRY", replace(GEOMETRY, first_chunk_objects=1, chunk_objects=2))
     sizes = {"Spoon": 0.1, "House": 9, "Table": 2, "Cup": 0.2, "Bed": 3}
     stage = write_stage(METRES + "".join(component(name, cube("Body", size=size)) for name, size in sizes.items()))
     files, paths = open_files(stage)
@@ -94,7 +94,7 @@ def test_many_triangles_are_decimated(tmp_path, monkeypatch):
     mesh.CreateFaceVertexCountsAttr([3] * len(ball.faces))
     mesh.CreateFaceVertexIndicesAttr(ball.faces.reshape(-1))
     stage.Save()
-    monkeypatch.setattr(geometry_module, "GEOMETRY", replace(GEOMETRY, max_triangles=1000))
+    monkeypatch.setattr(geometry_files, "GEOMETRY", replace(GEOMETRY, max_triangles=1000))
     files, _ = open_files(tmp_path / "ball.usda")
     manifest = files.manifest()
     assert (manifest["source_triangles"], manifest["triangles"]) == (len(ball.faces), 1000)

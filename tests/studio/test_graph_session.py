@@ -23,7 +23,7 @@ from usd2kg.ontology import load_home_tbox
 from usd2kg.pipeline import build
 from usd2kg.query import load_graph
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.opening import open_session
+from usd2kg.studio.open_session import open_session
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.verdicts import Verdict, VerdictKind
 

@@ -14,7 +14,7 @@ from usd2kg.grounding import Prediction, Status
 from usd2kg.ontology import TBox, load_tbox
 from usd2kg.readiness import format_suggestions
 from usd2kg.studio.decision_request import read_decision
-from usd2kg.studio.object_state import ObjectState, ReviewStatus
+from usd2kg.studio.object_review import ObjectReview, ReviewStatus
 from usd2kg.studio.proposals import find_proposals
 from usd2kg.studio.request_body import BadRequestError
 from usd2kg.studio.verdicts import Verdict, VerdictKind
@@ -119,7 +119,7 @@ def test_every_accepted_label_can_be_written_and_read(home_tbox: TBox, label: st
     verdict = decision.verdicts["/A"]
     if verdict.proposal == "":
         return
-    state = ObjectState("/A", ReviewStatus.CORRECTED, verdict.class_iri, PREDICTION, verdict, False)
+    state = ObjectReview("/A", ReviewStatus.CORRECTED, verdict.class_iri, PREDICTION, verdict, False)
     (one,) = find_proposals([state], SimpleNamespace(concepts={}))  # type: ignore[arg-type]
     found = ox.parse(format_suggestions([one], home_tbox), format=ox.RdfFormat.TURTLE)
     label_iri = "http://www.w3.org/2000/01/rdf-schema#label"
@@ -128,7 +128,7 @@ def test_every_accepted_label_can_be_written_and_read(home_tbox: TBox, label: st
 
 def test_the_concept_is_named_only_if_the_label_is_its_own(home_tbox: TBox):
     cup = Verdict(VerdictKind.CLASS, home_tbox.resolve("Cup"), "Ann", "2026-11-27T10:00:00+00:00", proposal="Mug")
-    states = [ObjectState("/A", ReviewStatus.CONFIRMED, cup.class_iri, PREDICTION, cup, False)]
+    states = [ObjectReview("/A", ReviewStatus.CONFIRMED, cup.class_iri, PREDICTION, cup, False)]
     (one,) = find_proposals(states, SimpleNamespace(concepts={}))  # type: ignore[arg-type]
     assert (one.label, one.concept, one.objects) == ("Mug", None, ("/A",))
     assert one.proposals[0].reviewer == "Ann"

@@ -6,7 +6,7 @@ from pathlib import Path
 from usd2kg.grounding import read_decisions
 from usd2kg.pipeline import build
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.opening import open_session
+from usd2kg.studio.open_session import open_session
 from usd2kg.studio.verdicts import Verdict, VerdictKind
 
 

@@ -12,7 +12,7 @@ from pxr import Sdf, UsdUtils
 from tests.conftest import shared_file
 from tests.scene.usda import METRES
 from tests.studio.test_geometry import document, open_files
-from usd2kg.studio import geometry as geometry_module
+from usd2kg.studio import geometry_files
 from usd2kg.studio import texture_images as texture_module
 from usd2kg.studio.settings import GEOMETRY, TEXTURES
 
@@ -244,7 +244,7 @@ def test_the_budget_of_a_scene(write_poster, picture, monkeypatch):
 
 
 def test_decimated_meshes_have_no_texture(write_poster, picture, monkeypatch):
-    monkeypatch.setattr(geometry_module, "GEOMETRY", replace(GEOMETRY, max_triangles=1, min_mesh_triangles=1))
+    monkeypatch.setattr(geometry_files, "GEOMETRY", replace(GEOMETRY, max_triangles=1, min_mesh_triangles=1))
     (primitive,) = primitives(open_files(write_poster())[0])
     assert "extras" not in primitive
 

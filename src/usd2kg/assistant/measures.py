@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.places import find_free_places
 from usd2kg.assistant.sentences import begin_sentence, join_words, name_things, number_text
 from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError

@@ -7,7 +7,6 @@ from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.openings import find_in_the_way
 from usd2kg.assistant.phrases import RELATIONS, Phrase, match_phrase, normalize
 from usd2kg.assistant.sentences import (
     begin_sentence,
@@ -17,6 +16,7 @@ from usd2kg.assistant.sentences import (
     number_text,
     the_thing,
 )
+from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore

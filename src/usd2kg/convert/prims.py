@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
-__all__ = ["PrimAuthor", "TriangleMesh", "custom_data", "new_stage", "safe_name", "valid_text"]
+__all__ = ["PrimAuthor", "SourceMesh", "custom_data", "new_stage", "safe_name", "valid_text"]
 
 _MAX_DEPTH = 8
 """Nesting of dictionaries that custom data keeps; deeper ones become JSON text."""
 _INT64 = range(-(2**63), 2**63)
 
 
-class TriangleMesh:
+class SourceMesh:
     """Triangles in the frame of a prim, with optional colours."""
 
     def __init__(
@@ -64,7 +64,7 @@ class PrimAuthor:
         taken.add(free)
         return free
 
-    def define_mesh(self, parent: str, name: str, mesh: TriangleMesh) -> Usd.Prim:
+    def define_mesh(self, parent: str, name: str, mesh: SourceMesh) -> Usd.Prim:
         """Return a new mesh below the path `parent`."""
         prim = self.define(parent, name, "Mesh")
         geometry = UsdGeom.Mesh(prim)
@@ -80,7 +80,7 @@ class PrimAuthor:
             self._color(geometry, mesh, mesh.colors)
         return prim
 
-    def _color(self, geometry: Any, mesh: TriangleMesh, colors: NDArray[np.float32]) -> None:
+    def _color(self, geometry: Any, mesh: SourceMesh, colors: NDArray[np.float32]) -> None:
         tokens = UsdGeom.Tokens
         interpolation = tokens.vertex if mesh.is_per_point else tokens.uniform
         if len(colors) == 1 or (colors == colors[0]).all():

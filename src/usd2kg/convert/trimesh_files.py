@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from usd2kg.convert.converted import parse_error
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
-from usd2kg.convert.prims import PrimAuthor, TriangleMesh
+from usd2kg.convert.prims import PrimAuthor, SourceMesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -55,7 +55,7 @@ class MeshAuthor:
         """Keep materials in a scope below the path `root`."""
         self._author = author
         self._materials = MaterialAuthor(author, root)
-        self._read: dict[int, TriangleMesh] = {}
+        self._read: dict[int, SourceMesh] = {}
 
     def define(self, parent: str, name: str, geometry: "trimesh.Trimesh") -> Any:
         """Return the prim of a mesh below the path `parent`."""
@@ -63,7 +63,7 @@ class MeshAuthor:
         if mesh is None:
             is_per_point = getattr(geometry.visual, "kind", None) == "vertex"
             colors = _colors(geometry)
-            mesh = TriangleMesh(geometry.vertices, geometry.faces, colors, is_per_point=is_per_point)
+            mesh = SourceMesh(geometry.vertices, geometry.faces, colors, is_per_point=is_per_point)
             self._read[id(geometry)] = mesh
         prim = self._author.define_mesh(parent, name, mesh)
         material = _material(geometry)

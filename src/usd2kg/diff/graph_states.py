@@ -20,10 +20,10 @@ from usd2kg.relations import SYMMETRIC_KINDS
 
 __all__ = [
     "GraphStyle",
+    "as_vector",
     "detect_graph_style",
     "objects_of_graph",
     "parse_numbers",
-    "parse_vector",
     "read_ordered_statements",
     "read_statements",
 ]
@@ -154,10 +154,10 @@ class _StateReader:
             node.value,
             tuple(classes),
             " and ".join(self._text(ox.NamedNode(cls), RDFS.label) or local_name(cls) for cls in classes),
-            size=parse_vector(self._numbers(node, U2K.orientedSize) or self._sides(box)),
-            box_size=parse_vector(self._sides(box)),
-            center=parse_vector(self._numbers(box, U2K.boxCenter)),
-            position=parse_vector(pose[:3] or self._numbers(node, U2K.position)),
+            size=as_vector(self._numbers(node, U2K.orientedSize) or self._sides(box)),
+            box_size=as_vector(self._sides(box)),
+            center=as_vector(self._numbers(box, U2K.boxCenter)),
+            position=as_vector(pose[:3] or self._numbers(node, U2K.position)),
             orientation=_quaternion(pose[3:] or self._numbers(node, U2K.orientation)),
             mass_kg=masses[0] if masses else None,
             assets=frozenset(str(getattr(value, "value", "")) for value in self._values[U2K.asset].get(node, ())),
@@ -213,7 +213,7 @@ def parse_numbers(text: str) -> tuple[float, ...]:
     return numbers if all(map(math.isfinite, numbers)) else ()
 
 
-def parse_vector(values: Iterable[float]) -> Vector | None:
+def as_vector(values: Iterable[float]) -> Vector | None:
     """Return three numbers as a vector; None if there are not three."""
     match tuple(values):
         case x, y, z:

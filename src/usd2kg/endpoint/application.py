@@ -18,13 +18,13 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
-from usd2kg.endpoint.connections import Connections
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.example_queries import ExampleQuery
-from usd2kg.endpoint.formats import GRAPH_TYPES, render
 from usd2kg.endpoint.guard import Guard
 from usd2kg.endpoint.negotiation import negotiate
+from usd2kg.endpoint.open_connections import Connections
 from usd2kg.endpoint.pool import BusyError, TimeLimitError, WorkerLostError, WorkerPool
+from usd2kg.endpoint.result_formats import GRAPH_TYPES, render
 from usd2kg.graph.vocabulary import named_node
 from usd2kg.query.dataset import QUERY_PREFIXES
 

@@ -5,8 +5,8 @@ from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from usd2kg.endpoint.connections import Connections
 from usd2kg.endpoint.http_limits import HttpServerLimits
+from usd2kg.endpoint.open_connections import Connections
 
 __all__ = ["BoundedProtocol"]
 

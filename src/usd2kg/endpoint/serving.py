@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.endpoint.connections import Connections
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.listening import Address, open_socket, url_of
+from usd2kg.endpoint.open_connections import Connections
 from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError
 from usd2kg.query.graph_file import load_graph
@@ -46,7 +46,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
     """
     try:
         from usd2kg.endpoint.application import make_app  # noqa: PLC0415
-        from usd2kg.endpoint.http_server import BoundedServer  # noqa: PLC0415
+        from usd2kg.endpoint.bounded_server import BoundedServer  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise GraphError(f"serve: {error.name} is not installed; run: pip install 'usd2kg[serve]'") from error
     from usd2kg.endpoint.example_queries import make_examples  # noqa: PLC0415

@@ -15,8 +15,8 @@ from typing import Any, BinaryIO
 import pyoxigraph as ox
 
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
-from usd2kg.endpoint.formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
 from usd2kg.endpoint.negotiation import negotiate
+from usd2kg.endpoint.result_formats import GRAPH_TYPES, TABLE_TYPES, Rendered, render
 from usd2kg.errors import GraphError, one_line
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.complexity import check_complexity

@@ -15,7 +15,7 @@ from usd2kg.scene.stage import OpenedStage, captured_diagnostics
 from usd2kg.scene.textures import Texture
 from usd2kg.scene.triangle_counter import TriangleCounter
 
-__all__ = ["NO_TEXTURE", "ColoredMesh", "GeometryReader", "Placement", "join_meshes"]
+__all__ = ["NO_TEXTURE", "ColoredMesh", "GeometryReader", "MeshPlacement", "join_meshes"]
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ class ColoredMesh:
     """The triangles of one object, or of several equal ones, in a frame of their own."""
 
     points: NDArray[np.float32]
-    """(n, 3), in the units of `Placement.matrix`."""
+    """(n, 3), in the units of `MeshPlacement.matrix`."""
     triangles: NDArray[np.int32]
     """(m, 3), indices into `points`, counter-clockwise seen from outside."""
     colors: NDArray[np.uint8]
@@ -43,7 +43,7 @@ class ColoredMesh:
 
 
 @dataclass(frozen=True, slots=True)
-class Placement:
+class MeshPlacement:
     """One mesh in the scene."""
 
     prim_path: str | None
@@ -99,22 +99,22 @@ class GeometryReader:
         """Return about how many triangles are outside any object."""
         return self._triangles.count("/", without=frozenset(self.outermost))
 
-    def read(self, prim_paths: Iterable[str]) -> list[Placement]:
+    def read(self, prim_paths: Iterable[str]) -> list[MeshPlacement]:
         """Return the meshes of outermost objects and of the objects in them."""
         with captured_diagnostics() as notes:
             found = [placement for path in prim_paths for placement in self._read_object(path)]
         self._notes.extend(notes)
         return found
 
-    def read_outside(self) -> list[Placement]:
+    def read_outside(self) -> list[MeshPlacement]:
         """Return the mesh of the geometry outside any object; none if there is no such geometry."""
         with captured_diagnostics() as notes:
             root = self._stage.GetPseudoRoot()
             rest = list(self._reader.below(root, without=frozenset(self.outermost)))
         self._notes.extend(notes)
-        return [Placement(None, self._add(rest), self._to_metres)] if rest else []
+        return [MeshPlacement(None, self._add(rest), self._to_metres)] if rest else []
 
-    def _read_object(self, path: str) -> list[Placement]:
+    def _read_object(self, path: str) -> list[MeshPlacement]:
         name, _, number = path.removesuffix("]").partition("[")
         prim = self._stage.GetPrimAtPath(name)
         if not prim:
@@ -132,7 +132,7 @@ class GeometryReader:
             parts = [(owner.removeprefix(path), self._add(found)) for owner, found in own.items()]
             if prototype:
                 self._of_prototype[prototype] = parts
-        return [Placement(path + below, mesh, to_world) for below, mesh in parts]
+        return [MeshPlacement(path + below, mesh, to_world) for below, mesh in parts]
 
     def _by_owner(self, pieces: Iterator[MeshPiece], outermost: str) -> Mapping[str, list[MeshPiece]]:
         """Return prim path of an object → its pieces: those whose nearest object above it is."""

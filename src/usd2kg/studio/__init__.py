@@ -1,6 +1,6 @@
 """The studio: a local web application to look at a scene, review its classes, and ask questions."""
 
-from usd2kg.studio.opening import is_graph
+from usd2kg.studio.open_session import is_graph
 from usd2kg.studio.project import PROJECT_FILE, Project, ProjectSources, open_project
 from usd2kg.studio.serving import serve_studio
 

@@ -16,23 +16,23 @@ from starlette.routing import Route
 from usd2kg.endpoint.guard import Guard
 from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
-from usd2kg.studio.agreement import find_agreement
 from usd2kg.studio.app_files import PAGE_POLICY, AppFile
 from usd2kg.studio.audit import audit_json
-from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.comparison import Comparison
 from usd2kg.studio.decision_request import read_decision
 from usd2kg.studio.disagreement import DISAGREEMENT_ORDER, make_disagreement_queue
 from usd2kg.studio.exports import EXPORTS
 from usd2kg.studio.live_events import LiveEvents
 from usd2kg.studio.object_page import object_page, relation_json
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.other_version import OtherVersion
 from usd2kg.studio.outputs import OutputFiles
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
 from usd2kg.studio.request_body import BadRequestError, field, object_indices, read_body
 from usd2kg.studio.review_queue import AUDIT_ORDER, QUEUE_ORDERS, estimate_seconds, make_audit_queue, make_queue
+from usd2kg.studio.reviewer_agreement import find_agreement
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
 
@@ -108,13 +108,13 @@ class _Api:
 
     def __init__(self, session: StudioSession, reviewer: str, other: OtherVersion | None) -> None:
         self._session = session
-        self._catalog = Catalog(session.scene, session.tbox, session.suggestions, session.relations)
+        self._indices = PageIndices(session.scene, session.tbox, session.suggestions, session.relations)
         self._reviewer = reviewer
         self._events = LiveEvents()
-        self._pictures = Pictures(session, self._catalog)
-        self._questions = Questions(session, self._catalog)
+        self._pictures = Pictures(session, self._indices)
+        self._questions = Questions(session, self._indices)
         self._outputs = OutputFiles(session)
-        self._comparison = None if other is None else Comparison(session, self._catalog, other)
+        self._comparison = None if other is None else Comparison(session, self._indices, other)
 
     def routes(self) -> list[tuple[str, str, Handler]]:
         """Return (method, path, handler)."""
@@ -157,17 +157,17 @@ class _Api:
         self._pictures.manifest()
         has_comparison = self._comparison is not None
         return JSONResponse(
-            {**scene_json(self._session, self._catalog, self._reviewer), "has_comparison": has_comparison}
+            {**scene_json(self._session, self._indices, self._reviewer), "has_comparison": has_comparison}
         )
 
     async def _states(self, request: Request) -> Response:
         reviewer = request.query_params.get("reviewer", self._reviewer)
         return JSONResponse(self._reply(self._session.states(), reviewer))
 
-    def _reply(self, states: list[ObjectState], reviewer: str) -> dict[str, Any]:
+    def _reply(self, states: list[ObjectReview], reviewer: str) -> dict[str, Any]:
         return {
             "version": self._session.version,
-            "states": [state_json(state, self._catalog) for state in states],
+            "states": [state_json(state, self._indices) for state in states],
             "can_undo": self._session.review.can_undo(reviewer),
             "can_redo": self._session.review.can_redo(reviewer),
             "outputs": {"folder": str(self._outputs.folder), "problem": self._outputs.problem},
@@ -175,7 +175,7 @@ class _Api:
 
     async def _object(self, request: Request) -> Response:
         index = self._index(request)
-        return JSONResponse(object_page(self._session, self._catalog, index))
+        return JSONResponse(object_page(self._session, self._indices, index))
 
     def _index(self, request: Request) -> int:
         index = int(request.path_params["index"])
@@ -187,7 +187,7 @@ class _Api:
         kind = request.query_params.get("kind", "")
         # The graph of the current decisions, which change what may hold and bear something.
         await asyncio.to_thread(self._session.graph)
-        found = [relation_json(r, self._catalog) for r in self._session.relations if r.kind == kind]
+        found = [relation_json(r, self._indices) for r in self._session.relations if r.kind == kind]
         return JSONResponse({"relations": found})
 
     async def _compare(self, _: Request) -> Response:
@@ -209,7 +209,7 @@ class _Api:
         elif order == DISAGREEMENT_ORDER and second is not None:
             groups = make_disagreement_queue(states, by_path, second)
         else:
-            groups = make_queue(states, by_path, self._catalog.room_of, order)
+            groups = make_queue(states, by_path, self._indices.room_of, order)
         still_open = sum(state.status.is_open for state in states)
         return JSONResponse(
             {
@@ -217,13 +217,13 @@ class _Api:
                     {
                         "id": group.id,
                         "title": group.title,
-                        "objects": [self._catalog.object(path) for path in group.objects],
-                        "suggested": self._catalog.class_(group.suggested),
-                        "concept": self._catalog.concept(group.concept),
+                        "objects": [self._indices.object(path) for path in group.objects],
+                        "suggested": self._indices.class_(group.suggested),
+                        "concept": self._indices.concept(group.concept),
                         "confidence": group.confidence,
                         "gain": group.gain,
                         "is_disputed": group.is_disputed,
-                        "second": self._catalog.class_(group.second),
+                        "second": self._indices.class_(group.second),
                     }
                     for group in groups
                 ],
@@ -241,7 +241,7 @@ class _Api:
         paths = [objects[index].prim_path for index in object_indices(body, len(objects))]
         reviewer = _reviewer(body)
         seen = field(body, "seen", int, self._session.version)
-        decision = read_decision(body, paths, self._session, self._catalog)
+        decision = read_decision(body, paths, self._session, self._indices)
         changed = await asyncio.to_thread(
             self._session.decide,
             decision.verdicts,
@@ -268,17 +268,17 @@ class _Api:
         self._outputs.notify()
         found = [
             {
-                "object": self._catalog.object(new.prim_path),
-                "before": self._catalog.class_(old.class_iri),
-                "after": self._catalog.class_(new.class_iri),
+                "object": self._indices.object(new.prim_path),
+                "before": self._indices.class_(old.class_iri),
+                "after": self._indices.class_(new.class_iri),
                 "reason": new.explanation,
             }
             for old, new in changes
         ]
-        all_states = [state_json(state, self._catalog) for state in self._session.states()]
+        all_states = [state_json(state, self._indices) for state in self._session.states()]
         return JSONResponse({"version": self._session.version, "states": all_states, "changes": found})
 
-    def _announce(self, changed: list[ObjectState], body: dict[str, Any], message: str) -> Response:
+    def _announce(self, changed: list[ObjectReview], body: dict[str, Any], message: str) -> Response:
         """Tell all pages of a change, and return the answer to the page that made it."""
         reviewer = _reviewer(body)
         reply = {**self._reply(changed, reviewer), "message": message}
@@ -301,7 +301,7 @@ class _Api:
                     "reviewer": "",
                     "page": "",
                     "message": "",
-                    "states": [state_json(state, self._catalog) for state in self._session.states()],
+                    "states": [state_json(state, self._indices) for state in self._session.states()],
                 },
             )
         return StreamingResponse(self._events.listen(listener, first), media_type="text/event-stream")

@@ -13,7 +13,7 @@ from usd2kg.evaluation import Score
 from usd2kg.evaluation.metrics.calibration import calibration_error, reliability_bins
 from usd2kg.evaluation.metrics.intervals import wilson_interval
 from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import Event, Suggestion, VerdictKind
 
@@ -36,7 +36,7 @@ class Audit:
     """Suggestion and valid verdict of each object whose class is settled."""
 
 
-def make_audit(states: Iterable[ObjectState], standing: Iterable[Event]) -> Audit:
+def make_audit(states: Iterable[ObjectReview], standing: Iterable[Event]) -> Audit:
     """Return the audit of a scene.
 
     A sample in which all objects have a verdict is continued by another one of the same size.
@@ -62,12 +62,12 @@ def make_audit(states: Iterable[ObjectState], standing: Iterable[Event]) -> Audi
     )
 
 
-def _draw(state: ObjectState) -> bytes:
+def _draw(state: ObjectReview) -> bytes:
     """Return the place of an object in the random order, which does not depend on the other objects."""
     return hashlib.sha256(f"{AUDIT.seed} {state.prim_path}".encode("utf-8", "surrogatepass")).digest()
 
 
-def _score(state: ObjectState, suggested: Suggestion | None) -> Score:
+def _score(state: ObjectReview, suggested: Suggestion | None) -> Score:
     """Return how the valid verdict and the suggestion at the time of the audit compare; no answer is wrong."""
     return Score(
         id=state.prim_path,

@@ -5,12 +5,11 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from usd2kg.diff import Change, Changes, Link, compare_objects, describe_match
-from usd2kg.diff import ObjectState as StatedObject
-from usd2kg.studio.catalog import NONE, Catalog
+from usd2kg.diff import Change, Changes, Link, ObjectState, compare_objects, describe_match
 from usd2kg.studio.class_claims import ClassClaim, class_name
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.other_version import OtherVersion, VersionSource, describe_objects
+from usd2kg.studio.page_indices import NONE, PageIndices
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["CHANGE_KINDS", "Comparison"]
@@ -25,9 +24,9 @@ CHANGE_KINDS = (
 class Comparison:
     """The changes from another version to the scene; computed again when the decisions have changed."""
 
-    def __init__(self, session: StudioSession, catalog: Catalog, other: OtherVersion) -> None:
+    def __init__(self, session: StudioSession, indices: PageIndices, other: OtherVersion) -> None:
         self._session = session
-        self._catalog = catalog
+        self._indices = indices
         self._other = other
         self._lock = threading.Lock()
         self._found: tuple[object, dict[str, Any]] | None = None
@@ -59,14 +58,14 @@ class Comparison:
             "changes": found,
         }
 
-    def _claim(self, state: ObjectState) -> ClassClaim:
+    def _claim(self, state: ObjectReview) -> ClassClaim:
         iri, is_decided = state.class_iri, not state.status.is_open
         confidence = None if is_decided or iri is None else state.prediction.confidence
         return ClassClaim(iri, class_name(iri, self._session.tbox) if iri else "", confidence, is_decided)
 
     def _before(
-        self, new: tuple[StatedObject, ...]
-    ) -> tuple[tuple[StatedObject, ...], tuple[StatedObject, ...], list[str]]:
+        self, new: tuple[ObjectState, ...]
+    ) -> tuple[tuple[ObjectState, ...], tuple[ObjectState, ...], list[str]]:
         """Return the objects before and now that can be compared, and what cannot."""
         if self._other.source is not VersionSource.MAPPING:
             return tuple(self._other.objects), new, []
@@ -87,7 +86,7 @@ class Comparison:
                 "kinds": [*_kinds(change)],
                 **self._ends(old, new, claims),
                 "distance_m": None if change.move is None else round(change.move.distance, 4),
-                "carried_by": self._catalog.object(change.carrier),
+                "carried_by": self._indices.object(change.carrier),
                 "turned_degrees": round(change.turned_degrees, 2),
                 "sizes": None if change.resized is None else change.resized,
                 "masses": change.mass,
@@ -111,13 +110,13 @@ class Comparison:
             yield {"kinds": ["disappeared"], **self._ends(state, None, claims), **rest}
 
     def _ends(
-        self, old: StatedObject | None, new: StatedObject | None, claims: Mapping[str, ClassClaim]
+        self, old: ObjectState | None, new: ObjectState | None, claims: Mapping[str, ClassClaim]
     ) -> dict[str, Any]:
         """Return what is known of an object before and now."""
         state = new or old
         assert state is not None, "one end is known"
         return {
-            "object": NONE if new is None else self._catalog.object(new.prim_path),
+            "object": NONE if new is None else self._indices.object(new.prim_path),
             "path": state.prim_path,
             "path_before": "" if old is None else old.prim_path,
             "name": state.name,
@@ -130,7 +129,7 @@ class Comparison:
     def _class_json(self, claim: ClassClaim | None) -> dict[str, Any]:
         claim = claim or ClassClaim(None, "", None, is_decided=False)
         return {
-            "class": self._catalog.class_(claim.class_iri),
+            "class": self._indices.class_(claim.class_iri),
             "label": claim.label,
             "confidence": claim.confidence,
             "is_decided": claim.is_decided,
@@ -160,7 +159,7 @@ def _links(links: Iterable[Link]) -> list[dict[str, str]]:
     return [{"kind": link.kind, "anchor": link.anchor} for link in links]
 
 
-def _box(state: StatedObject) -> list[float] | None:
+def _box(state: ObjectState) -> list[float] | None:
     """Return lower and upper x, y, z."""
     if state.center is None or state.box_size is None:
         return None
@@ -168,7 +167,7 @@ def _box(state: StatedObject) -> list[float] | None:
     return [round(v, 4) for v in (*(c - s / 2 for c, s in sides), *(c + s / 2 for c, s in sides))]
 
 
-def _turned(state: StatedObject) -> list[float] | None:
+def _turned(state: ObjectState) -> list[float] | None:
     """Return orientation and extents along the own axes; None if those are the world's."""
     if state.orientation is None or state.size is None or state.size == state.box_size:
         return None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.ontology import OntologyClass
-from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.request_body import BadRequestError, field
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.settings import SERVER
@@ -31,7 +31,7 @@ class RequestedDecision:
 
 
 def read_decision(
-    body: dict[str, Any], paths: Sequence[str], session: StudioSession, catalog: Catalog
+    body: dict[str, Any], paths: Sequence[str], session: StudioSession, indices: PageIndices
 ) -> RequestedDecision:
     """Return the decision of a request.
 
@@ -39,14 +39,14 @@ def read_decision(
         body: the request.
         paths: prim paths of its objects.
         session: the scene under review.
-        catalog: numbers of classes and concepts.
+        indices: numbers of classes and concepts.
 
     Raises:
         BadRequestError: a field is missing or wrong.
     """
     action = field(body, "action", str)
     comment, proposal = field(body, "comment", str, ""), _proposal(body, action, session)
-    concept = _concept(body, action, paths, session, catalog)
+    concept = _concept(body, action, paths, session, indices)
     return RequestedDecision(
         action, _verdicts(body, action, paths, session, comment, proposal), concept, _is_audit(body, paths, session)
     )
@@ -73,14 +73,16 @@ def _verdicts(
     return {path: Verdict(VerdictKind.CLASS, iri, comment=comment) for path, iri in suggested.items()}
 
 
-def _concept(body: dict[str, Any], action: str, paths: Sequence[str], session: StudioSession, catalog: Catalog) -> str:
+def _concept(
+    body: dict[str, Any], action: str, paths: Sequence[str], session: StudioSession, indices: PageIndices
+) -> str:
     """Return the concept that all objects of a decision have; empty if the decision is about objects only."""
     index = field(body, "concept", int, -1)
     if index == -1:
         return ""
-    if action != "choose" or not 0 <= index < len(catalog.concept_iris):
+    if action != "choose" or not 0 <= index < len(indices.concept_iris):
         raise BadRequestError(f"field concept: {index}; expected a concept, with the action choose")
-    iri = catalog.concept_iris[index]
+    iri = indices.concept_iris[index]
     if other := next((path for path in paths if session.predictions[path].concept != iri), None):
         raise BadRequestError(f"{other}: has another concept; expected objects of {iri}")
     return iri

@@ -6,8 +6,8 @@ from typing import Any
 
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.scene import SceneObject
-from usd2kg.studio.catalog import Catalog
-from usd2kg.studio.object_state import ObjectState, suggestion_of
+from usd2kg.studio.object_review import ObjectReview, suggestion_of
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.review_queue import QueueGroup, group_open
 
 __all__ = ["DISAGREEMENT_ORDER", "make_disagreement_queue", "second_answer"]
@@ -16,7 +16,7 @@ DISAGREEMENT_ORDER = "disagreement"
 
 
 def make_disagreement_queue(
-    states: Iterable[ObjectState], objects: Mapping[str, SceneObject], second: Grounding
+    states: Iterable[ObjectReview], objects: Mapping[str, SceneObject], second: Grounding
 ) -> list[QueueGroup]:
     """Return the groups of the open objects, first those about which the grounders disagree, the largest first.
 
@@ -38,14 +38,14 @@ def make_disagreement_queue(
     return sorted(groups, key=lambda g: (not g.is_disputed, -len(g.objects) if g.is_disputed else 0, -g.gain, g.id))
 
 
-def second_answer(prediction: Prediction, second: Grounding | None, catalog: Catalog) -> dict[str, Any] | None:
+def second_answer(prediction: Prediction, second: Grounding | None, indices: PageIndices) -> dict[str, Any] | None:
     """Return what the second grounder says of an object; None without one."""
     if second is None:
         return None
     other = second.by_path[prediction.prim_path]
     return {
         "grounder": second.grounder,
-        "class": catalog.class_(other.class_iri),
+        "class": indices.class_(other.class_iri),
         "confidence": other.confidence,
         "explanation": other.explanation,
         "is_disputed": _disagree(prediction, other),

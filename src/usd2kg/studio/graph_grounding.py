@@ -5,7 +5,7 @@ from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.diff import ObjectState as StatedObject
+from usd2kg.diff import ObjectState
 from usd2kg.diff.graph_states import parse_numbers
 from usd2kg.graph.vocabulary import PROV, RDF, SKOS, SSSOM, U2K
 from usd2kg.grounding import Candidate, Concept, Grounding, Prediction, Review, Status
@@ -15,7 +15,7 @@ from usd2kg.studio.graph_index import GraphIndex
 __all__ = ["read_stated_grounding"]
 
 
-def read_stated_grounding(index: GraphIndex, scene: Scene, stated: Sequence[StatedObject]) -> Grounding:
+def read_stated_grounding(index: GraphIndex, scene: Scene, stated: Sequence[ObjectState]) -> Grounding:
     """Return the grounding behind the types of the objects.
 
     The scores of the alternatives are not in a graph, so all candidates have the score 0.
@@ -53,7 +53,7 @@ class _PredictionReader:
         self._index = index
         self._grounder = grounder
 
-    def prediction(self, stated: StatedObject) -> Prediction:
+    def prediction(self, stated: ObjectState) -> Prediction:
         """Return the prediction of one object."""
         index, node = self._index, ox.NamedNode(stated.iri)
         # usd2kg writes one class; more would be the work of another tool, and the first is as good as any.

@@ -7,9 +7,8 @@ from typing import Any, get_args
 
 import pyoxigraph as ox
 
-from usd2kg.diff import GraphStyle, detect_graph_style, objects_of_graph, read_ordered_statements
-from usd2kg.diff import ObjectState as StatedObject
-from usd2kg.diff.graph_states import parse_numbers, parse_vector
+from usd2kg.diff import GraphStyle, ObjectState, detect_graph_style, objects_of_graph, read_ordered_statements
+from usd2kg.diff.graph_states import as_vector, parse_numbers
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.iris import individual_iri
@@ -80,7 +79,7 @@ def _read(path: Path, statements: tuple[ox.Triple, ...]) -> GraphScene:
     )
 
 
-def _find_base(stated: StatedObject, path: Path) -> str:
+def _find_base(stated: ObjectState, path: Path) -> str:
     """Return the namespace of the individuals, from the IRI of an object."""
     name = individual_iri("", stated.prim_path)
     if not stated.iri.endswith(name):
@@ -90,7 +89,7 @@ def _find_base(stated: StatedObject, path: Path) -> str:
     return stated.iri.removesuffix(name)
 
 
-def _read_scene(path: Path, index: GraphIndex, stage: Any, stated: Sequence[StatedObject]) -> Scene:
+def _read_scene(path: Path, index: GraphIndex, stage: Any, stated: Sequence[ObjectState]) -> Scene:
     metres = parse_numbers(index.text(stage, U2K.metresPerUnit))
     time = parse_numbers(index.text(stage, U2K.timeCode))
     known = {each.prim_path for each in stated}
@@ -111,7 +110,7 @@ def _read_scene(path: Path, index: GraphIndex, stage: Any, stated: Sequence[Stat
     )
 
 
-def _read_object(stated: StatedObject, index: GraphIndex, parent: str | None) -> SceneObject:
+def _read_object(stated: ObjectState, index: GraphIndex, parent: str | None) -> SceneObject:
     node = ox.NamedNode(stated.iri)
     label = index.text(node, RDFS.label)
     return SceneObject(
@@ -134,12 +133,12 @@ def _read_object(stated: StatedObject, index: GraphIndex, parent: str | None) ->
         parts=(),
         display_color=_color(index, node),
         instance_of=None,
-        oriented_size=parse_vector(parse_numbers(index.text(node, U2K.orientedSize))),
+        oriented_size=as_vector(parse_numbers(index.text(node, U2K.orientedSize))),
         labels=ObjectLabels(tuple(_labels(index, node, stated.prim_path)), (), ()),
     )
 
 
-def _box(stated: StatedObject) -> Box | None:
+def _box(stated: ObjectState) -> Box | None:
     """Return the world box; None if the graph states no valid one."""
     if stated.center is None or stated.box_size is None or min(stated.box_size) < 0:
         return None
@@ -164,7 +163,7 @@ def _color(index: GraphIndex, node: ox.NamedNode) -> Vector | None:
     text = index.text(node, U2K.color) or next(
         (index.text(quality, USD.primvars_displayColor) for quality in qualities), ""
     )
-    found = parse_vector(parse_numbers(text.strip("[]").replace(",", " ")))
+    found = as_vector(parse_numbers(text.strip("[]").replace(",", " ")))
     return found if found is not None and all(0 <= value <= 1 for value in found) else None
 
 

@@ -20,7 +20,7 @@ from usd2kg.graph.vocabulary import named_node
 from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT
 from usd2kg.grounding.sssom_file import Curies, SssomFile, format_sssom_file, read_sssom_file
 from usd2kg.ontology import TBox
-from usd2kg.studio.verdicts import Action, Change, Event, Suggestion, Verdict, VerdictKind
+from usd2kg.studio.verdicts import Action, Event, Suggestion, Verdict, VerdictChange, VerdictKind
 
 __all__ = ["Journal"]
 
@@ -114,7 +114,7 @@ class Journal:
         """Close the file."""
         self._file.close()
 
-    def _row(self, event: Event, change: Change, before: Verdict) -> dict[str, str]:
+    def _row(self, event: Event, change: VerdictChange, before: Verdict) -> dict[str, str]:
         verdict = change.verdict
         known = self._tbox.by_iri.get(verdict.class_iri or "")
         # An undo restores a verdict of somebody else; who gives none is the actor.
@@ -215,7 +215,7 @@ def _read_event(where: str, cells: Mapping[str, str], expand: Callable[[str], st
     iri = expand(cells["object_id"]) if kind is VerdictKind.CLASS else None
     who = "" if kind is VerdictKind.OPEN else reviewer
     verdict = Verdict(kind, iri, who, cells["decided_at"], cells.get("comment", ""), number, cells["proposal"])
-    change = Change(cells["prim_path"], verdict, suggested)
+    change = VerdictChange(cells["prim_path"], verdict, suggested)
     concept, is_audit = expand(cells["concept"]), cells["audit"] == "true"
     return Event(number, action, cells["actor"], cells["time"], (change,), seen, reverts, concept, is_audit)
 

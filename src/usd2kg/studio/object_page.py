@@ -9,8 +9,8 @@ from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.grounding import Prediction
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.relations import Relation
-from usd2kg.studio.catalog import Catalog
 from usd2kg.studio.disagreement import second_answer
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["object_page", "relation_json"]
@@ -19,7 +19,7 @@ _MAX_CANDIDATES = 9
 """As many as there are digit keys."""
 
 
-def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[str, Any]:
+def object_page(session: StudioSession, indices: PageIndices, index: int) -> dict[str, Any]:
     """Return everything about one object; its statements are those of the last graph that was built."""
     obj = session.scene.objects[index]
     prediction = session.predictions[obj.prim_path]
@@ -44,17 +44,17 @@ def object_page(session: StudioSession, catalog: Catalog, index: int) -> dict[st
         "documentation": obj.documentation,
         "explanation": prediction.explanation,
         "evidence": prediction.evidence,
-        "candidates": _candidates(prediction, session.tbox, catalog),
-        "second": second_answer(prediction, session.second, catalog),
+        "candidates": _candidates(prediction, session.tbox, indices),
+        "second": second_answer(prediction, session.second, indices),
         "concept": _concept(prediction, session),
-        "relations": [relation_json(relation, catalog) for relation in session.relations_of(obj.prim_path)],
+        "relations": [relation_json(relation, indices) for relation in session.relations_of(obj.prim_path)],
         "history": [
             {
                 "event": event.number,
                 "action": event.action.value,
                 "verdict": verdict.kind.value,
-                "class": catalog.class_(verdict.class_iri),
-                "concept": catalog.concept(event.concept),
+                "class": indices.class_(verdict.class_iri),
+                "concept": indices.concept(event.concept),
                 "proposal": verdict.proposal,
                 "reviewer": event.reviewer,
                 "time": event.time,
@@ -83,7 +83,7 @@ def _turtle(session: StudioSession, iri: str) -> str:
     return text.decode()
 
 
-def _candidates(prediction: Prediction, tbox: TBox, catalog: Catalog) -> list[dict[str, Any]]:
+def _candidates(prediction: Prediction, tbox: TBox, indices: PageIndices) -> list[dict[str, Any]]:
     """Return the candidates, the suggestion first, with their shares of the score."""
     scores = {candidate.class_iri: max(candidate.score, 0.0) for candidate in prediction.candidates}
     if prediction.class_iri is not None:
@@ -92,7 +92,7 @@ def _candidates(prediction: Prediction, tbox: TBox, catalog: Catalog) -> list[di
     total = sum(scores.values())
     return [
         {
-            "class": catalog.class_(iri),
+            "class": indices.class_(iri),
             "share": score / total if total else None,
             "taxonomy": _path_to_root(iri, tbox),
         }
@@ -129,12 +129,12 @@ def _concept(prediction: Prediction, session: StudioSession) -> dict[str, Any] |
     }
 
 
-def relation_json(relation: Relation, catalog: Catalog) -> dict[str, Any]:
+def relation_json(relation: Relation, indices: PageIndices) -> dict[str, Any]:
     """Return one relation."""
     return {
         "kind": relation.kind,
-        "target": catalog.object(relation.target),
-        "anchor": catalog.object(relation.anchor),
+        "target": indices.object(relation.target),
+        "anchor": indices.object(relation.anchor),
         "anchor_path": relation.anchor,
         "numbers": {name: round(value, 4) for name, value in relation.numbers.items()},
         "confidence": relation.confidence,

@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
-from usd2kg.diff import Link, objects_of_scene
-from usd2kg.diff import ObjectState as StatedObject
+from usd2kg.diff import Link, ObjectState, objects_of_scene
 from usd2kg.diff.versions import is_stage
 from usd2kg.grounding import ground, make_grounder
 from usd2kg.ontology import TBox
@@ -14,7 +13,7 @@ from usd2kg.relations import SYMMETRIC_KINDS, Relation, find_relations
 from usd2kg.scene import Scene, read_scene
 from usd2kg.studio.class_claims import ClassClaim, claim_of, read_claims
 from usd2kg.studio.graph_scene import read_graph_scene
-from usd2kg.studio.opening import is_graph
+from usd2kg.studio.open_session import is_graph
 from usd2kg.studio.project import ProjectSources
 
 __all__ = ["OtherVersion", "VersionSource", "describe_objects", "read_other_version"]
@@ -38,7 +37,7 @@ class OtherVersion:
     source: VersionSource
     claims: Mapping[str, ClassClaim]
     """Prim path → class; a mapping need not have all objects."""
-    objects: Sequence[StatedObject] = ()
+    objects: Sequence[ObjectState] = ()
     """With classes and relations; empty for a mapping, which has no objects of its own."""
 
 
@@ -69,7 +68,7 @@ def read_other_version(path: Path, sources: ProjectSources, tbox: TBox) -> Other
 
 def describe_objects(
     scene: Scene, claims: Mapping[str, ClassClaim], relations: Iterable[Relation]
-) -> tuple[StatedObject, ...]:
+) -> tuple[ObjectState, ...]:
     """Return the objects of a scene with classes and relations, to be compared."""
     links: dict[str, set[Link]] = {}
     for relation in relations:

@@ -10,8 +10,8 @@ from usd2kg.errors import SceneError
 from usd2kg.render import Renderer
 from usd2kg.scene.object_geometry import GeometryReader
 from usd2kg.scene.stage import open_stage, time_code
-from usd2kg.studio.catalog import Catalog
-from usd2kg.studio.geometry import NO_MESHES, GeometryFiles
+from usd2kg.studio.geometry_files import NO_MESHES, GeometryFiles
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.settings import SERVER
 from usd2kg.studio.texture_images import TextureImage
@@ -25,9 +25,9 @@ _KEPT = 4096
 class Pictures:
     """The stage of a session, read when the first picture is asked for."""
 
-    def __init__(self, session: StudioSession, catalog: Catalog) -> None:
+    def __init__(self, session: StudioSession, indices: PageIndices) -> None:
         self._session = session
-        self._catalog = catalog
+        self._indices = indices
         self._thread = ThreadPoolExecutor(1, "usd2kg-pictures")
         self._thumbnails: OrderedDict[int, bytes] = OrderedDict()
 
@@ -65,7 +65,7 @@ class Pictures:
         if opened.content_hash != self._session.scene.content_hash:
             raise SceneError(f"{self._stage}: has changed since it was read; start the studio again")
         reader = GeometryReader(opened, self._session.scene, time_code(reading.time))
-        return GeometryFiles(reader, self._session.scene, self._catalog)
+        return GeometryFiles(reader, self._session.scene, self._indices)
 
     @property
     def _stage(self) -> Path:

@@ -5,12 +5,12 @@ from collections.abc import Iterable, Iterator
 from usd2kg.grounding import Concept, Grounding
 from usd2kg.ontology import ClassIRI
 from usd2kg.readiness import Proposal, SuggestedClass
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_review import ObjectReview
 
 __all__ = ["find_proposals"]
 
 
-def find_proposals(states: Iterable[ObjectState], suggestions: Grounding) -> list[SuggestedClass]:
+def find_proposals(states: Iterable[ObjectReview], suggestions: Grounding) -> list[SuggestedClass]:
     """Return the proposed classes, those with the most objects first.
 
     Labels that differ in case only are one proposal, unless their superclasses differ.
@@ -19,7 +19,7 @@ def find_proposals(states: Iterable[ObjectState], suggestions: Grounding) -> lis
         states: the states of all objects, in scene order.
         suggestions: the grounding that was reviewed, for the concepts.
     """
-    held: dict[tuple[str, ClassIRI], list[ObjectState]] = {}
+    held: dict[tuple[str, ClassIRI], list[ObjectReview]] = {}
     for state in states:
         verdict = state.verdict
         if verdict.proposal and verdict.class_iri is not None:
@@ -37,14 +37,14 @@ def find_proposals(states: Iterable[ObjectState], suggestions: Grounding) -> lis
     return sorted(found, key=lambda one: (-len(one.objects), one.label, one.parent))
 
 
-def _concept_of(label: str, members: Iterable[ObjectState], suggestions: Grounding) -> Concept | None:
+def _concept_of(label: str, members: Iterable[ObjectReview], suggestions: Grounding) -> Concept | None:
     """Return the concept that all objects have, if the label is its own."""
     iris = {state.prediction.concept for state in members}
     concept = suggestions.concepts.get(iris.pop() or "") if len(iris) == 1 else None
     return concept if concept is not None and concept.label.casefold() == label else None
 
 
-def _proposals(members: Iterable[ObjectState]) -> Iterator[Proposal]:
+def _proposals(members: Iterable[ObjectReview]) -> Iterator[Proposal]:
     """Yield who proposed a class, the first time of each comment."""
     seen: set[tuple[str, str]] = set()
     for verdict in sorted((state.verdict for state in members), key=lambda verdict: verdict.time):

@@ -9,7 +9,7 @@ from usd2kg.endpoint import BoundedQueries, EndpointLimits
 from usd2kg.endpoint.example_queries import make_examples
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.named_objects import prim_path_of_row
-from usd2kg.studio.catalog import Catalog
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["Questions"]
@@ -21,9 +21,9 @@ _MAX_ROWS = 2000
 class Questions:
     """Answers as JSON; see `web/src/api/types.ts`. Safe to use from several threads."""
 
-    def __init__(self, session: StudioSession, catalog: Catalog) -> None:
+    def __init__(self, session: StudioSession, indices: PageIndices) -> None:
         self._session = session
-        self._catalog = catalog
+        self._indices = indices
         self._lock = threading.Lock()
         self._bounded: tuple[GraphStore, BoundedQueries] | None = None
 
@@ -80,4 +80,4 @@ class Questions:
 
     def _object(self, row: tuple[str | None, ...]) -> int:
         """Return the object that a row names by its prim path or IRI, the first one if there are several."""
-        return self._catalog.object(prim_path_of_row(row, self._session.base, self._session.scene.by_path))
+        return self._indices.object(prim_path_of_row(row, self._session.base, self._session.scene.by_path))

@@ -10,7 +10,7 @@ from itertools import pairwise
 from usd2kg.grounding import Prediction
 from usd2kg.ontology import ClassIRI
 from usd2kg.scene import SceneObject
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.settings import QUEUE
 from usd2kg.studio.verdicts import Action, Event
 
@@ -50,7 +50,7 @@ class QueueGroup:
 
 
 def make_queue(
-    states: Iterable[ObjectState], objects: Mapping[str, SceneObject], rooms: Mapping[str, int], order: str
+    states: Iterable[ObjectReview], objects: Mapping[str, SceneObject], rooms: Mapping[str, int], order: str
 ) -> list[QueueGroup]:
     """Return the groups of the open objects.
 
@@ -69,7 +69,7 @@ def make_queue(
 
 
 def group_open(
-    states: Iterable[ObjectState],
+    states: Iterable[ObjectReview],
     objects: Mapping[str, SceneObject],
     apart: Callable[[Prediction], object] = lambda _: None,
 ) -> list[QueueGroup]:

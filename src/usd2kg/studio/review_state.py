@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import Decision
-from usd2kg.studio.verdicts import OPEN, Action, Change, Event, Suggestion, Verdict, VerdictKind
+from usd2kg.studio.verdicts import OPEN, Action, Event, Suggestion, Verdict, VerdictChange, VerdictKind
 
 __all__ = ["ReviewState"]
 
@@ -100,7 +100,7 @@ class ReviewState:
             for verdict in set(verdicts.values())
         }
         known = suggested or {}
-        changes = tuple(Change(path, signed[verdict], known.get(path)) for path, verdict in verdicts.items())
+        changes = tuple(VerdictChange(path, signed[verdict], known.get(path)) for path, verdict in verdicts.items())
         before = min(seen, number - 1)
         return Event(number, Action.DECIDE, reviewer, time, changes, before, concept=concept, is_audit=is_audit)
 
@@ -145,7 +145,7 @@ class ReviewState:
         for path, verdict in verdicts.items():
             current = self.verdict(path)
             is_own = current.reviewer in {"", reviewer}
-            changes.append(Change(path, replace(verdict, event=number) if is_own else current))
+            changes.append(VerdictChange(path, replace(verdict, event=number) if is_own else current))
         return Event(number, action, reviewer, time, tuple(changes), number - 1, reverted)
 
     # Applying events.
@@ -170,7 +170,7 @@ class ReviewState:
         elif event.action is Action.REDO and undone:
             done.append(undone.pop())
 
-    def _apply_change(self, event: Event, change: Change) -> None:
+    def _apply_change(self, event: Event, change: VerdictChange) -> None:
         path, verdict = change.prim_path, change.verdict
         given = self._by_reviewer.setdefault(path, {})
         others = [other for who, other in given.items() if who != event.reviewer]

@@ -6,14 +6,14 @@ from typing import Any
 from usd2kg.graph.vocabulary import SOMA
 from usd2kg.relations.object_kinds import ObjectKind, find_kinds
 from usd2kg.scene import SceneObject
-from usd2kg.studio.catalog import NONE, Catalog
-from usd2kg.studio.object_state import ObjectState
+from usd2kg.studio.object_review import ObjectReview
+from usd2kg.studio.page_indices import NONE, PageIndices
 from usd2kg.studio.session import StudioSession
 
 __all__ = ["scene_json", "state_json"]
 
 
-def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[str, Any]:
+def scene_json(session: StudioSession, indices: PageIndices, reviewer: str) -> dict[str, Any]:
     """Return what does not change during a session."""
     scene, tbox, grounding = session.scene, session.tbox, session.suggestions
     kinds = Counter(relation.kind for relation in session.relations)
@@ -27,7 +27,7 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
         "is_graph": bool(session.stage_note),
         "limits": dict(session.limits),
         "reviewer": reviewer,
-        "objects": _objects(session, catalog),
+        "objects": _objects(session, indices),
         "classes": [
             {
                 "iri": cls.iri,
@@ -35,7 +35,7 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
                 "label": cls.label,
                 "synonyms": cls.alt_labels,
                 "definition": cls.comment,
-                "parents": [catalog.class_(parent) for parent in cls.parents],
+                "parents": [indices.class_(parent) for parent in cls.parents],
             }
             for cls in tbox.classes
         ],
@@ -43,9 +43,9 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
             {
                 "iri": iri,
                 "label": grounding.concepts[iri].label,
-                "broader": [catalog.concept(above) for above in grounding.concepts[iri].broader],
+                "broader": [indices.concept(above) for above in grounding.concepts[iri].broader],
             }
-            for iri in catalog.concept_iris
+            for iri in indices.concept_iris
         ],
         "relation_kinds": [{"kind": kind, "count": count} for kind, count in sorted(kinds.items())],
         "diagnostics": [
@@ -55,23 +55,23 @@ def scene_json(session: StudioSession, catalog: Catalog, reviewer: str) -> dict[
     }
 
 
-def _objects(session: StudioSession, catalog: Catalog) -> dict[str, Any]:
-    objects = catalog.scene.objects
+def _objects(session: StudioSession, indices: PageIndices) -> dict[str, Any]:
+    objects = indices.scene.objects
     mounts = {relation.target: relation.anchor for relation in session.relations if relation.kind == "attached-to"}
     assets = {name: number for number, name in enumerate(dict.fromkeys(map(_asset, objects)))}
     return {
         "path": [obj.prim_path for obj in objects],
         "name": [obj.display_name or obj.name for obj in objects],
-        "parent": [catalog.object(obj.parent_path) for obj in objects],
+        "parent": [indices.object(obj.parent_path) for obj in objects],
         "box": [_box(obj) for obj in objects],
         "turned": [_turned(obj) for obj in objects],
-        "room": [catalog.room_of.get(obj.prim_path, NONE) for obj in objects],
-        "rooms": [path.rpartition("/")[2] for path in catalog.rooms],
+        "room": [indices.room_of.get(obj.prim_path, NONE) for obj in objects],
+        "rooms": [path.rpartition("/")[2] for path in indices.rooms],
         "asset": [assets[_asset(obj)] for obj in objects],
         "assets": list(assets),
         "color": [obj.display_color for obj in objects],
         "shell": [_shell(kind) for kind in find_kinds(session.scene, session.tbox, session.suggestions)],
-        "mount": [catalog.object(mounts.get(obj.prim_path)) for obj in objects],
+        "mount": [indices.object(mounts.get(obj.prim_path)) for obj in objects],
     }
 
 
@@ -117,17 +117,17 @@ def _figures(session: StudioSession) -> list[dict[str, str]]:
     return [{"label": label, "value": value} for label, value in figures.items()]
 
 
-def state_json(state: ObjectState, catalog: Catalog) -> dict[str, Any]:
+def state_json(state: ObjectReview, indices: PageIndices) -> dict[str, Any]:
     """Return the state of one object."""
     prediction, verdict = state.prediction, state.verdict
     before = prediction.review
     return {
-        "object": catalog.object(state.prim_path),
+        "object": indices.object(state.prim_path),
         "state": state.status.value,
-        "class": catalog.class_(state.class_iri),
+        "class": indices.class_(state.class_iri),
         "confidence": prediction.confidence,
-        "suggested": catalog.class_(prediction.class_iri),
-        "concept": catalog.concept(prediction.concept),
+        "suggested": indices.class_(prediction.class_iri),
+        "concept": indices.concept(prediction.concept),
         "reviewer": verdict.reviewer or (before.reviewer if before is not None else ""),
         "time": verdict.time or (before.time if before is not None else ""),
         "comment": verdict.comment or (before.comment if before is not None else ""),

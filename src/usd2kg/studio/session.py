@@ -22,7 +22,7 @@ from usd2kg.scene.stage import open_stage
 from usd2kg.studio.audit import Audit, make_audit
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
-from usd2kg.studio.object_state import ObjectState, state_of, suggestion_of
+from usd2kg.studio.object_review import ObjectReview, state_of, suggestion_of
 from usd2kg.studio.project import Project
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.verdicts import Event, Verdict
@@ -89,11 +89,11 @@ class StudioSession:
             self._relations_of = relations, found
         return found.get(prim_path, [])
 
-    def state(self, prim_path: str) -> ObjectState:
+    def state(self, prim_path: str) -> ObjectReview:
         """Return the state of one object."""
         return state_of(self.predictions[prim_path], self.review)
 
-    def states(self) -> list[ObjectState]:
+    def states(self) -> list[ObjectReview]:
         """Return the states of all objects, in scene order."""
         return [state_of(prediction, self.review) for prediction in self.suggestions.predictions]
 
@@ -101,7 +101,7 @@ class StudioSession:
 
     def decide(
         self, verdicts: Mapping[str, Verdict], reviewer: str, seen: int, *, concept: str = "", is_audit: bool = False
-    ) -> list[ObjectState]:
+    ) -> list[ObjectReview]:
         """Record the verdicts on several objects as one event; return their states once the journal is on disk.
 
         Args:
@@ -127,7 +127,7 @@ class StudioSession:
             )
             return self._record(event)
 
-    def undo(self, reviewer: str) -> list[ObjectState]:
+    def undo(self, reviewer: str) -> list[ObjectReview]:
         """Take back a reviewer's last decision, as `decide`.
 
         Raises:
@@ -137,7 +137,7 @@ class StudioSession:
         with self._lock:
             return self._record(self.review.undo(reviewer, _now()))
 
-    def redo(self, reviewer: str) -> list[ObjectState]:
+    def redo(self, reviewer: str) -> list[ObjectReview]:
         """Make a reviewer's last undone decision again, as `decide`.
 
         Raises:
@@ -147,7 +147,7 @@ class StudioSession:
         with self._lock:
             return self._record(self.review.redo(reviewer, _now()))
 
-    def _record(self, event: Event) -> list[ObjectState]:
+    def _record(self, event: Event) -> list[ObjectReview]:
         self.journal.append(event, self.review.before(event))
         self.review.apply(event)
         return [self.state(change.prim_path) for change in event.changes if change.prim_path in self.predictions]

@@ -13,7 +13,7 @@ __all__ = [
     "TEXTURES",
     "AuditSettings",
     "GeometrySettings",
-    "QueueSettings",
+    "ReviewQueueSettings",
     "ServerSettings",
     "TextureSettings",
 ]
@@ -23,7 +23,7 @@ PASSWORD_VARIABLE = "USD2KG_STUDIO_PASSWORD"
 
 
 @dataclass(frozen=True)
-class QueueSettings:
+class ReviewQueueSettings:
     """How groups are named, and how the time for the rest of a queue is estimated."""
 
     common_share: float
@@ -77,7 +77,7 @@ class ServerSettings:
     min_password: int
 
 
-QUEUE = read_settings("studio", "queue", QueueSettings)
+QUEUE = read_settings("studio", "queue", ReviewQueueSettings)
 AUDIT = read_settings("studio", "audit", AuditSettings)
 GEOMETRY = read_settings("studio", "geometry", GeometrySettings)
 TEXTURES = read_settings("studio", "textures", TextureSettings)

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["OPEN", "Action", "Change", "Event", "Suggestion", "Verdict", "VerdictKind"]
+__all__ = ["OPEN", "Action", "Event", "Suggestion", "Verdict", "VerdictChange", "VerdictKind"]
 
 
 class VerdictKind(StrEnum):
@@ -65,7 +65,7 @@ class Suggestion:
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class VerdictChange:
     """The verdict that an event sets for one object."""
 
     prim_path: str
@@ -84,7 +84,7 @@ class Event:
     reviewer: str
     time: str
     """ISO 8601 in UTC."""
-    changes: tuple[Change, ...]
+    changes: tuple[VerdictChange, ...]
     seen: int
     """Number of the last event that the reviewer had seen."""
     reverts: int = 0

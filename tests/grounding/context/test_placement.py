@@ -6,7 +6,7 @@ import pytest
 from tests.grounding.records import make_object, make_scene
 from usd2kg.grounding import NamingRegime, view_objects
 from usd2kg.grounding.context import Appearance, PlacedObject
-from usd2kg.grounding.context.placement import FloorPlan, Placement
+from usd2kg.grounding.context.placement import BoxGrid, Placement
 from usd2kg.scene import Box, Scene
 
 
@@ -23,7 +23,7 @@ ROOM = make_scene(FLOOR, TABLE, CUP, LAMP)
 
 
 def elevation(scene: Scene, path: str) -> float | None:
-    return FloorPlan(scene).elevation([obj.prim_path for obj in scene.objects].index(path))
+    return BoxGrid(scene).elevation([obj.prim_path for obj in scene.objects].index(path))
 
 
 class Names:
@@ -69,13 +69,13 @@ def test_objects_far_away_are_no_ground():
 def test_without_a_box_elevation_and_neighbours_are_unknown():
     scene = make_scene(FLOOR, make_object("/Room/x"))
     assert elevation(scene, "/Room/x") is None
-    assert Placement(FloorPlan(scene), 1, is_anonymous=False).around(Names(), 5)[1].tolist() == []
+    assert Placement(BoxGrid(scene), 1, is_anonymous=False).around(Names(), 5)[1].tolist() == []
 
 
 def test_a_library_of_assets_at_the_origin_has_no_layout():
     sizes = [(0.1 + i / 50, 0.1 + i / 60, 0.1 + i / 30) for i in range(20)]
     library = make_scene(*(thing(f"/a{i}", (-x / 2, -y / 2, 0), (x, y, z)) for i, (x, y, z) in enumerate(sizes)))
-    plan = FloorPlan(library)
+    plan = BoxGrid(library)
     assert not plan.is_laid_out
     assert plan.elevation(3) is None
     assert plan.nearest(3, 8)[0].tolist() == []
@@ -84,15 +84,15 @@ def test_a_library_of_assets_at_the_origin_has_no_layout():
         assert view.appearance.height is None
         # The extents are known.
         assert view.appearance.size[2] == pytest.approx(height)
-    assert FloorPlan(ROOM).is_laid_out
-    assert FloorPlan(make_scene()).is_laid_out
+    assert BoxGrid(ROOM).is_laid_out
+    assert BoxGrid(make_scene()).is_laid_out
 
 
 # --- neighbours --------------------------------------------------------------------------------------
 
 
 def test_neighbours_are_sorted_by_the_distance_of_centres():
-    others, metres = FloorPlan(ROOM).nearest(2, 2)
+    others, metres = BoxGrid(ROOM).nearest(2, 2)
     # Cup (0.25, 0.24, 0.8); table (0.8, 0.4, 0.375), floor (0, 0, -0.05), lamp (0.75, 0.45, 2.35).
     assert others.tolist() == [1, 0]
     assert metres.tolist() == pytest.approx([0.71325, 0.91793], abs=1e-5)
@@ -101,12 +101,12 @@ def test_neighbours_are_sorted_by_the_distance_of_centres():
 def test_descendants_of_the_target_are_no_neighbours():
     drawer = thing("/Room/table/drawer", (0.5, 0.2, 0.5), (0.4, 0.4, 0.1), parent_path="/Room/table")
     scene = make_scene(TABLE, drawer, CUP)
-    assert FloorPlan(scene).nearest(0, 5)[0].tolist() == [2]
-    assert set(FloorPlan(scene).nearest(1, 5)[0].tolist()) == {0, 2}
+    assert BoxGrid(scene).nearest(0, 5)[0].tolist() == [2]
+    assert set(BoxGrid(scene).nearest(1, 5)[0].tolist()) == {0, 2}
 
 
 def test_each_object_is_judged_once():
-    plan, judge = FloorPlan(ROOM), Names()
+    plan, judge = BoxGrid(ROOM), Names()
     rows = [Placement(plan, index, is_anonymous=False).around(judge, 3)[0] for index in range(4)]
     assert len(judge.asked) == 4
     assert [row.shape for row in rows] == [(3, 2)] * 4
@@ -116,7 +116,7 @@ def test_each_object_is_judged_once():
 def test_anonymous_neighbours_have_a_look_but_no_name():
     for is_anonymous, names in ((False, {"floor", "table", "lamp"}), (True, {""})):
         judge = Names()
-        Placement(FloorPlan(ROOM), 2, is_anonymous=is_anonymous).around(judge, 8)
+        Placement(BoxGrid(ROOM), 2, is_anonymous=is_anonymous).around(judge, 8)
         assert {neighbour.name for neighbour in judge.asked} == names
         assert {neighbour.parents for neighbour in judge.asked} == {() if is_anonymous else ("Room",)}
         assert Appearance((1.6, 0.8, 0.75), 0.75, 0.0, False) in [neighbour.appearance for neighbour in judge.asked]
@@ -125,7 +125,7 @@ def test_anonymous_neighbours_have_a_look_but_no_name():
 def test_the_look_has_oriented_extents_and_nesting():
     turned = thing("/Room/x", (0, 0, 1), (1, 1, 2), oriented_size=(1.2, 0.1, 2), parent_path="/Room")
     judge = Names()
-    Placement(FloorPlan(make_scene(TABLE, turned)), 0, is_anonymous=True).around(judge, 8)
+    Placement(BoxGrid(make_scene(TABLE, turned)), 0, is_anonymous=True).around(judge, 8)
     assert judge.asked == [PlacedObject("", (), Appearance((1.2, 0.1, 2), 2, 1.0, True))]
 
 
@@ -162,7 +162,7 @@ def test_the_anonymous_regime_hides_names_of_neighbours():
 
 def test_the_search_is_local_in_a_large_scene():
     shelf = [thing(f"/S/box_{x}_{y}", (x * 1.5, y * 1.5, 0), (0.3, 0.2, 0.2)) for x in range(60) for y in range(60)]
-    plan = FloorPlan(make_scene(*shelf))
+    plan = BoxGrid(make_scene(*shelf))
     others, metres = plan.nearest(1830, 8)
     assert metres.tolist() == pytest.approx([1.5] * 4 + [1.5 * 2**0.5] * 4)
     assert max(len(cell) for cell in plan._cells.values()) <= 9
@@ -173,7 +173,7 @@ def test_a_dense_crowd_is_searched_in_part():
     crowd = [
         thing(f"/B/part_{x}_{y}", (x * 0.01, y * 0.01, 0), (0.008, 0.008, 0.008)) for x in range(90) for y in range(90)
     ]
-    plan = FloorPlan(make_scene(*crowd))
+    plan = BoxGrid(make_scene(*crowd))
     others, metres = plan.nearest(4000, 48)
     assert len(set(others.tolist())) == 48
     assert metres.tolist() == sorted(metres.tolist())

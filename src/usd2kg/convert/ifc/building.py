@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Kind, Usd, UsdGeom, UsdSemantics, Vt
 
 from usd2kg.convert.converted import Converted, parse_error
-from usd2kg.convert.ifc.facts import entity_data, kind_word, material_names, name_of
+from usd2kg.convert.ifc.entity_facts import entity_data, kind_word, material_names, name_of
 from usd2kg.convert.ifc.tessellation import Shape, tessellate
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.origin import SOURCE_ID

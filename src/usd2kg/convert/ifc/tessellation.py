@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.convert.prims import TriangleMesh
+from usd2kg.convert.prims import SourceMesh
 
 __all__ = ["Shape", "tessellate"]
 
@@ -18,7 +18,7 @@ _WITHOUT_SURFACE = ["IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", 
 class Shape(NamedTuple):
     """The triangles of a product."""
 
-    mesh: TriangleMesh
+    mesh: SourceMesh
     """In the frame of the product, metres."""
     matrix: NDArray[np.float64]
     """(4, 4), from that frame to the world, for column vectors."""
@@ -51,12 +51,12 @@ def _is_known(model: Any, name: str) -> bool:
     return True
 
 
-def _mesh(geometry: Any) -> TriangleMesh:
+def _mesh(geometry: Any) -> SourceMesh:
     styles = [_color(style) for style in geometry.materials]
     # Triangles without a style have the id -1.
     ids = np.array(geometry.material_ids, np.int64)
     colors = np.array(styles)[ids] if styles and (ids >= 0).all() else None
-    return TriangleMesh(geometry.verts, geometry.faces, colors)
+    return SourceMesh(geometry.verts, geometry.faces, colors)
 
 
 def _color(style: Any) -> tuple[float, float, float]:

@@ -1,7 +1,7 @@
 """The context of an object: its neighbours, its placement, and its view under a naming regime."""
 
 from usd2kg.grounding.context.neighbours import Nearness, Neighbour, Neighbourhood, size_distance
-from usd2kg.grounding.context.placement import Appearance, FloorPlan, PlacedObject, Placement
+from usd2kg.grounding.context.placement import Appearance, BoxGrid, PlacedObject, Placement
 from usd2kg.grounding.context.views import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -17,7 +17,7 @@ __all__ = [
     "EVIDENCE_GROUPS",
     "STUDY_GROUPS",
     "Appearance",
-    "FloorPlan",
+    "BoxGrid",
     "NamingRegime",
     "Nearness",
     "Neighbour",

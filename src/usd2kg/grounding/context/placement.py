@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from usd2kg.grounding.context.settings import PLACEMENT
 from usd2kg.scene.model import Box, Scene, Vector
 
-__all__ = ["Appearance", "FloorPlan", "PlacedObject", "Placement", "ScoreObject"]
+__all__ = ["Appearance", "BoxGrid", "PlacedObject", "Placement", "ScoreObject"]
 
 _Floats = NDArray[np.float64]
 _Indices = NDArray[np.int64]
@@ -49,7 +49,7 @@ ScoreObject = Callable[[PlacedObject], _Floats]
 """Returns scores of one object, always of the same shape."""
 
 
-class FloorPlan:
+class BoxGrid:
     """The boxes of a scene in a grid of cells on the floor plan, computed on first use."""
 
     def __init__(self, scene: Scene) -> None:
@@ -184,7 +184,7 @@ class FloorPlan:
 class Placement:
     """Where one object is, computed on first use."""
 
-    def __init__(self, plan: FloorPlan, index: int, *, is_anonymous: bool) -> None:
+    def __init__(self, plan: BoxGrid, index: int, *, is_anonymous: bool) -> None:
         """Create it; `is_anonymous` hides the names of other objects."""
         self._plan = plan
         self._index = index
@@ -197,7 +197,7 @@ class Placement:
 
     @property
     def is_laid_out(self) -> bool:
-        """Whether positions in the scene are meaningful, see `FloorPlan.is_laid_out`."""
+        """Whether positions in the scene are meaningful, see `BoxGrid.is_laid_out`."""
         return self._plan.is_laid_out
 
     def around(self, score: ScoreObject, most: int) -> tuple[NDArray[np.float32], _Floats]:

@@ -12,7 +12,7 @@ from enum import StrEnum
 from typing import overload
 
 from usd2kg.grounding.context.neighbours import Neighbourhood, neighbourhoods
-from usd2kg.grounding.context.placement import Appearance, FloorPlan, Placement
+from usd2kg.grounding.context.placement import Appearance, BoxGrid, Placement
 from usd2kg.scene.model import Scene, SceneObject, Vector
 from usd2kg.words import split_identifier
 
@@ -166,7 +166,7 @@ def view_objects(
     masked = _masked_names(scene, regime, length)
     families = _families(scene)
     has_names = "neighbours" in shown and regime is not NamingRegime.OPAQUE_ANONYMOUS
-    plan = FloorPlan(scene)
+    plan = BoxGrid(scene)
     others = neighbourhoods(scene) if has_names else [None] * len(scene.objects)
     for index, obj in enumerate(scene.objects):
         parents, siblings = _relatives(obj, families, regime)

@@ -13,9 +13,9 @@ from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.languages import translate
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
+from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
-from usd2kg.query.lookup.spelling import Spelling
 from usd2kg.query.lookup.word_forms import is_noun, name_words, noun_words, singular, split_phrase
 from usd2kg.words import split_identifier
 

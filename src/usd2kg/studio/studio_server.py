@@ -4,8 +4,8 @@ import socket
 
 from starlette.applications import Starlette
 
-from usd2kg.endpoint.connections import Connections
-from usd2kg.endpoint.http_server import BoundedServer
+from usd2kg.endpoint.bounded_server import BoundedServer
+from usd2kg.endpoint.open_connections import Connections
 
 __all__ = ["StudioServer"]
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from usd2kg.scene import Scene
-from usd2kg.scene.object_geometry import GeometryReader, Placement
-from usd2kg.studio.catalog import Catalog
+from usd2kg.scene.object_geometry import GeometryReader, MeshPlacement
 from usd2kg.studio.glb import GlbNode, write_glb
 from usd2kg.studio.mesh_budget import ShadedMesh, decimate, shade
+from usd2kg.studio.page_indices import PageIndices
 from usd2kg.studio.settings import GEOMETRY
 from usd2kg.studio.texture_images import TextureImage, TextureImages
 
@@ -32,9 +32,9 @@ class _Chunk:
 class GeometryFiles:
     """The files of one scene. The stage is read file by file, when they are asked for."""
 
-    def __init__(self, reader: GeometryReader, scene: Scene, catalog: Catalog) -> None:
+    def __init__(self, reader: GeometryReader, scene: Scene, indices: PageIndices) -> None:
         self._reader = reader
-        self._catalog = catalog
+        self._indices = indices
         self._chunks = _split(reader, scene)
         self._source_triangles = sum(chunk.triangles for chunk in self._chunks)
         self._share = min(1.0, GEOMETRY.max_triangles / max(1, self._source_triangles))
@@ -75,10 +75,10 @@ class GeometryFiles:
             raise IndexError(index)
         return self._images.image(self._reader.textures[index])
 
-    def _write(self, placements: Sequence[Placement]) -> bytes:
+    def _write(self, placements: Sequence[MeshPlacement]) -> bytes:
         meshes = {placement.mesh: self._mesh(placement.mesh) for placement in placements}
         nodes = [
-            GlbNode(placement.mesh, placement.matrix, {"object": self._catalog.object(placement.prim_path)})
+            GlbNode(placement.mesh, placement.matrix, {"object": self._indices.object(placement.prim_path)})
             for placement in placements
             if len(meshes[placement.mesh].triangles)
         ]

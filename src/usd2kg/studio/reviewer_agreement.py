@@ -1,4 +1,4 @@
-"""Agreement of reviewers who decided about the same objects: Cohen's kappa."""
+"""ReviewerAgreement of reviewers who decided about the same objects: Cohen's kappa."""
 
 from collections import Counter
 from collections.abc import Mapping
@@ -7,11 +7,11 @@ from itertools import combinations
 
 from usd2kg.studio.verdicts import Verdict, VerdictKind
 
-__all__ = ["Agreement", "find_agreement"]
+__all__ = ["ReviewerAgreement", "find_agreement"]
 
 
 @dataclass(frozen=True, slots=True)
-class Agreement:
+class ReviewerAgreement:
     """How far two reviewers agree."""
 
     reviewers: tuple[str, str]
@@ -23,7 +23,7 @@ class Agreement:
     """Cohen's kappa, 1 for full agreement, 0 for that of chance; None if both gave all objects one verdict."""
 
 
-def find_agreement(given: Mapping[str, Mapping[str, Verdict]]) -> list[Agreement]:
+def find_agreement(given: Mapping[str, Mapping[str, Verdict]]) -> list[ReviewerAgreement]:
     """Return the agreement of each pair of reviewers with an object in common, sorted by name.
 
     kappa = (po - pe) / (1 - pe), with po the share of equal verdicts and pe that expected from how often each reviewer
@@ -45,9 +45,9 @@ def find_agreement(given: Mapping[str, Mapping[str, Verdict]]) -> list[Agreement
     return found
 
 
-def _agreement(reviewers: tuple[str, str], pairs: list[tuple[str, str]]) -> Agreement:
+def _agreement(reviewers: tuple[str, str], pairs: list[tuple[str, str]]) -> ReviewerAgreement:
     same = sum(one == other for one, other in pairs)
     first, second = (Counter(column) for column in zip(*pairs, strict=True))
     expected = sum(count * second[label] for label, count in first.items()) / len(pairs) ** 2
     kappa = None if expected == 1 else (same / len(pairs) - expected) / (1 - expected)
-    return Agreement(reviewers, len(pairs), same, kappa)
+    return ReviewerAgreement(reviewers, len(pairs), same, kappa)

@@ -9,9 +9,9 @@ from collections.abc import Callable
 import uvicorn
 from starlette.applications import Starlette
 
-from usd2kg.endpoint.connections import Connections
 from usd2kg.endpoint.http_limits import HTTP_LIMITS, HttpServerLimits
 from usd2kg.endpoint.http_protocol import BoundedProtocol
+from usd2kg.endpoint.open_connections import Connections
 
 __all__ = ["BoundedServer"]
 

@@ -6,7 +6,7 @@ import pyoxigraph as ox
 import pytest
 
 from usd2kg.endpoint import EndpointLimits
-from usd2kg.endpoint.formats import render
+from usd2kg.endpoint.result_formats import render
 
 _VALUE = "a\x00\x01b\ufffe\r\n<c>\U0001f600"
 _KEPT = "a\ufffd\ufffdb\ufffd\r\n<c>\U0001f600"

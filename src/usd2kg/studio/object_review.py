@@ -1,4 +1,4 @@
-"""ObjectState: what is known of an object's class, as the page shows it."""
+"""ObjectReview: what is known of an object's class, as the page shows it."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,7 +8,7 @@ from usd2kg.ontology import ClassIRI
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.verdicts import Suggestion, Verdict, VerdictKind
 
-__all__ = ["ObjectState", "ReviewStatus", "state_of", "suggestion_of"]
+__all__ = ["ObjectReview", "ReviewStatus", "state_of", "suggestion_of"]
 
 
 class ReviewStatus(StrEnum):
@@ -42,7 +42,7 @@ _SUGGESTED = {
 
 
 @dataclass(frozen=True, slots=True)
-class ObjectState:
+class ObjectReview:
     """The valid class of an object beside what the grounder suggested."""
 
     prim_path: str
@@ -55,12 +55,12 @@ class ObjectState:
     is_conflict: bool
 
 
-def state_of(prediction: Prediction, review: ReviewState) -> ObjectState:
+def state_of(prediction: Prediction, review: ReviewState) -> ObjectReview:
     """Return the state of the object of a prediction."""
     path = prediction.prim_path
     verdict = review.verdict(path)
     status, class_iri = _judge(prediction, verdict)
-    return ObjectState(path, status, class_iri, prediction, verdict, review.is_conflict(path))
+    return ObjectReview(path, status, class_iri, prediction, verdict, review.is_conflict(path))
 
 
 def suggestion_of(prediction: Prediction) -> Suggestion | None:

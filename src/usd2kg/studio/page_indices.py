@@ -1,4 +1,4 @@
-"""Catalog: the numbers by which the page names objects, classes and concepts; -1 is none."""
+"""PageIndices: the numbers by which the page names objects, classes and concepts; -1 is none."""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -8,12 +8,12 @@ from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.relations import Relation
 from usd2kg.scene import Scene
 
-__all__ = ["NONE", "Catalog"]
+__all__ = ["NONE", "PageIndices"]
 
 NONE = -1
 
 
-class Catalog:
+class PageIndices:
     """Indices of the objects of a scene, the classes of a TBox, and the concepts of a grounding."""
 
     def __init__(self, scene: Scene, tbox: TBox, grounding: Grounding, relations: Sequence[Relation]) -> None:

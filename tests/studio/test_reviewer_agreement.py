@@ -2,7 +2,7 @@
 
 import pytest
 
-from usd2kg.studio.agreement import find_agreement
+from usd2kg.studio.reviewer_agreement import find_agreement
 from usd2kg.studio.verdicts import OPEN, Verdict, VerdictKind
 
 
