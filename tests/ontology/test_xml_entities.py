@@ -2,9 +2,8 @@
 
 import pytest
 
-from usd2kg.diff.graph_states import read_statements
 from usd2kg.errors import GraphError, OntologyError
-from usd2kg.graph.rdf_document import read_document
+from usd2kg.graph.rdf_document import read_document, read_statements
 from usd2kg.ontology import load_tbox
 from usd2kg.ontology.xml_entities import refuse_entity_bomb
 from usd2kg.query import load_graph

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from usd2kg.convert.converted import parse_error
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.prims import PrimAuthor, SourceMesh
+from usd2kg.srgb import linear_from_srgb
 
 if TYPE_CHECKING:
     import trimesh
@@ -102,9 +103,7 @@ def _texture_color(material: Any) -> NDArray[np.float64] | None:
         return None
     small = image.convert("RGB")
     small.thumbnail((_MAX_TEXTURE_SIDE, _MAX_TEXTURE_SIDE))
-    encoded = np.asarray(small, np.float64) / 255
-    # IEC 61966-2-1, the transfer function of sRGB.
-    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    linear = linear_from_srgb(np.asarray(small, np.float64) / 255)
     mean: NDArray[np.float64] = linear.reshape(-1, 3).mean(axis=0)
     return mean
 

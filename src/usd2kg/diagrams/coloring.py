@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from usd2kg.diagrams.settings import COLORS, CONFIDENCE
 from usd2kg.scene.model import Vector
+from usd2kg.srgb import linear_from_srgb
 
 __all__ = ["Coloring", "LegendEntry", "color_by_answer", "color_by_confidence", "color_by_group"]
 
@@ -102,10 +103,6 @@ def _rest_entry(label: str, prim_paths: Sequence[str]) -> tuple[LegendEntry, ...
 
 
 def _linear(color: str) -> Vector:
-    """Return linear RGB of sRGB `#rrggbb` (IEC 61966-2-1)."""
-    red, green, blue = (_decode(int(color[at : at + 2], 16) / 255) for at in (1, 3, 5))
+    """Return linear RGB of sRGB `#rrggbb`."""
+    red, green, blue = linear_from_srgb([int(color[at : at + 2], 16) / 255 for at in (1, 3, 5)]).tolist()
     return red, green, blue
-
-
-def _decode(value: float) -> float:
-    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)

@@ -6,8 +6,6 @@ from usd2kg.diff.graph_states import (
     GraphStyle,
     detect_graph_style,
     objects_of_graph,
-    read_ordered_statements,
-    read_statements,
 )
 from usd2kg.diff.match import Matching, ObjectMatch, match_objects
 from usd2kg.diff.match_description import describe_match
@@ -38,6 +36,4 @@ __all__ = [
     "match_objects",
     "objects_of_graph",
     "objects_of_scene",
-    "read_ordered_statements",
-    "read_statements",
 ]

@@ -1,18 +1,15 @@
-"""Read the statements of a graph file, the objects that they describe, and the style in which they are written."""
+"""The objects that the statements of a graph describe, and the style in which they are written."""
 
 import math
-import zlib
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyoxigraph as ox
 
 from usd2kg.diff.object_state import Link, ObjectState, Quaternion, Vector
-from usd2kg.errors import GraphError, one_line
+from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
-from usd2kg.graph.rdf_document import TOO_LARGE, open_rdf, rdf_format
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 from usd2kg.ontology import local_name
@@ -24,8 +21,6 @@ __all__ = [
     "detect_graph_style",
     "objects_of_graph",
     "parse_numbers",
-    "read_ordered_statements",
-    "read_statements",
 ]
 
 _GENERAL_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
@@ -41,33 +36,6 @@ _READ_PROPERTIES = {
 }
 _RUN = "-run"
 """Suffix of the IRI of the grounding run; the rest is the base IRI."""
-
-
-def read_statements(path: Path) -> frozenset[ox.Triple]:
-    """Return the statements of all named graphs in a file, with literals in their original lexical form.
-
-    Raises:
-        GraphError: the file cannot be read, its extension is not that of an RDF format, or its syntax is wrong.
-    """
-    return frozenset(read_ordered_statements(path))
-
-
-def read_ordered_statements(path: Path) -> tuple[ox.Triple, ...]:
-    """Return the same statements in the order of the file, each once.
-
-    Raises:
-        GraphError: as `read_statements`.
-    """
-    syntax = rdf_format(path)
-    try:
-        # Not through a store, which normalizes numbers: an update must quote literals exactly.
-        with paused_collection(), open_rdf(path) as file:
-            return tuple(dict.fromkeys(quad.triple for quad in ox.parse(file, format=syntax)))
-    except MemoryError as error:
-        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
-    except (SyntaxError, OSError, EOFError, zlib.error) as error:
-        reason = one_line(getattr(error, "strerror", None) or error)
-        raise GraphError(f"{path}: cannot be read as {syntax.name} ({reason}); build the graph again") from error
 
 
 class GraphStyle(NamedTuple):

@@ -7,10 +7,11 @@ from typing import NamedTuple
 import pyoxigraph as ox
 
 from usd2kg.convert import find_format
-from usd2kg.diff.graph_states import GraphStyle, detect_graph_style, objects_of_graph, read_statements
+from usd2kg.diff.graph_states import GraphStyle, detect_graph_style, objects_of_graph
 from usd2kg.diff.object_state import ObjectState, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
 from usd2kg.graph.iris import default_base
+from usd2kg.graph.rdf_document import read_statements
 from usd2kg.grounding import ground
 from usd2kg.ontology import TBox
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, find_relations
@@ -66,7 +67,7 @@ def read_versions(
     Raises:
         Usd2kgError: a file cannot be read.
     """
-    graphs = {path: _version(read_statements(path), path) for path in (old, new) if not is_stage(path)}
+    graphs = {path: _version(frozenset(read_statements(path)), path) for path in (old, new) if not is_stage(path)}
     style = next((version.style for version in graphs.values()), GraphStyle(None, "auto", "owl"))
     style = style._replace(base=options.base or style.base or default_base(str(old)))
     if graphs.keys() == {old, new}:

@@ -11,7 +11,7 @@ from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
 from usd2kg.graph.concept_hierarchy import describe_concepts, state_concept
-from usd2kg.graph.declarations import declare_terms
+from usd2kg.graph.declarations import declare_classes, declare_terms
 from usd2kg.graph.derived_rooms import derived_room_iri, describe_derived_room, room_classes
 from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import check_base, default_base, individual_iri
@@ -173,7 +173,8 @@ class _GraphBuilder:
         """Return all triples without duplicates."""
         statements = [triple for block in self._blocks() for triple in self._record(block)]
         declarations = list(declare_terms(self.properties, self.classes))
-        head = dict.fromkeys((*self._header(), *declarations, *self._class_hierarchy()))
+        used = {p.class_iri for p in self.grounding.predictions if p.class_iri} | set(self.room_classes.values())
+        head = dict.fromkeys((*self._header(), *declarations, *declare_classes(used, self.tbox)))
         return (*(ox.Triple(*triple) for triple in head), *statements)
 
     def _record(self, block: Iterable[Triple]) -> Iterator[ox.Triple]:
@@ -203,17 +204,6 @@ class _GraphBuilder:
         yield self.graph, U2K.run, self.run
         for iri in self.imports:
             yield self.graph, OWL.imports, ox.NamedNode(iri)
-
-    def _class_hierarchy(self) -> Iterator[Triple]:
-        """Yield the superclass closure of the used classes, so that class queries need no ontology."""
-        used = {p.class_iri for p in self.grounding.predictions if p.class_iri} | set(self.room_classes.values())
-        closure = {iri for cls in used for iri in self.tbox.closure(cls)}
-        for iri in sorted(closure):
-            node = ox.NamedNode(iri)
-            yield node, RDF.type, OWL.Class
-            yield node, RDFS.label, text(self.tbox.by_iri[iri].label)
-            for parent in self.tbox.by_iri[iri].parents:
-                yield node, RDFS.subClassOf, ox.NamedNode(parent)
 
     def _provenance(self) -> Iterator[Triple]:
         used = (self.stage, self.ontology)

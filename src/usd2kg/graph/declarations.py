@@ -20,9 +20,11 @@ from usd2kg.graph.vocabulary import (
     USD,
     Namespace,
     Triple,
+    text,
 )
+from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["VOCABULARY_IRI", "declare_terms", "vocabulary_text", "vocabulary_triples"]
+__all__ = ["VOCABULARY_IRI", "declare_classes", "declare_terms", "vocabulary_text", "vocabulary_triples"]
 
 VOCABULARY_IRI = "https://w3id.org/usd2kg"
 """IRI of the ontology of the u2k terms."""
@@ -88,8 +90,8 @@ def _entity_types() -> dict[ox.NamedNode, ox.NamedNode]:
     kinds = {
         namespace[name]: kind
         for kind, names in _EXTERNAL_TERMS.items()
-        for namespace, text in names.items()
-        for name in text.split()
+        for namespace, listed in names.items()
+        for name in listed.split()
     }
     for triple in vocabulary_triples():
         subject, kind = triple.subject, triple.object
@@ -108,3 +110,13 @@ def declare_terms(properties: Iterable[ox.NamedNode], classes: Iterable[ox.Named
     own = [node for node in properties if not node.value.startswith(_BUILT_IN)]
     for node in sorted({*own, *(node for node in classes if node in kinds)}, key=str):
         yield node, RDF.type, kinds[node]
+
+
+def declare_classes(used: Iterable[ClassIRI], tbox: TBox) -> Iterator[Triple]:
+    """Yield the sorted superclass closure of classes, with labels, so that class queries need no ontology."""
+    for iri in sorted({above for cls in used for above in tbox.closure(cls)}):
+        node = ox.NamedNode(iri)
+        yield node, RDF.type, OWL.Class
+        yield node, RDFS.label, text(tbox.by_iri[iri].label)
+        for parent in tbox.by_iri[iri].parents:
+            yield node, RDFS.subClassOf, ox.NamedNode(parent)

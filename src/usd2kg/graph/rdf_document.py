@@ -3,6 +3,7 @@
 import gzip
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple, cast
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, one_line
+from usd2kg.garbage import paused_collection
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
 from usd2kg.ontology.nesting import refuse_deep_nesting_in_file
 from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
@@ -20,13 +22,15 @@ if TYPE_CHECKING:
 
 __all__ = [
     "RDF_FORMATS",
-    "TOO_LARGE",
     "GraphDocument",
     "GraphPart",
+    "check_graph_file",
     "document_of",
     "open_rdf",
+    "parse_errors_explained",
     "rdf_format",
     "read_document",
+    "read_statements",
     "refuse_rdf12",
 ]
 
@@ -41,8 +45,7 @@ RDF_FORMATS = {
 }
 """File extension → RDF syntax for reading and writing; each may be followed by .gz."""
 
-
-TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
+_TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
 """Error text for a literal beyond the limit of the parser."""
 _READ_ELSEWHERE = {
     ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
@@ -97,6 +100,46 @@ def rdf_format(path: Path) -> ox.RdfFormat:
     return found
 
 
+def check_graph_file(path: Path) -> ox.RdfFormat:
+    """Return the RDF syntax of a graph file.
+
+    Raises:
+        GraphError: there is no such file, or its extension names no RDF syntax.
+    """
+    if path.is_dir():
+        raise GraphError(f"{path}: is a folder; expected a graph that usd2kg build wrote")
+    syntax = rdf_format(path)
+    if not path.is_file():
+        raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
+    return syntax
+
+
+@contextmanager
+def parse_errors_explained(path: Path, syntax: ox.RdfFormat) -> Iterator[None]:
+    """Raise a GraphError for whatever reading and parsing a graph file raises."""
+    try:
+        yield
+    except MemoryError as error:
+        # pyoxigraph raises this for a literal above 16 MiB, its parser's limit.
+        raise GraphError(f"{path}: {_TOO_LARGE} ({error}); shorten its longest text") from error
+    except (SyntaxError, OSError, EOFError, zlib.error) as error:
+        reason = one_line(getattr(error, "strerror", None) or error)
+        raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
+
+
+def read_statements(path: Path) -> tuple[ox.Triple, ...]:
+    """Return the statements of all named graphs in a file, in its order, each once.
+
+    Literals keep their lexical form, which a store normalizes.
+
+    Raises:
+        GraphError: the file is missing, its extension names no RDF format, or it does not parse.
+    """
+    syntax = check_graph_file(path)
+    with parse_errors_explained(path, syntax), paused_collection(), open_rdf(path) as file:
+        return tuple(dict.fromkeys(quad.triple for quad in ox.parse(file, format=syntax)))
+
+
 def open_rdf(path: Path) -> BinaryIO:
     """Return a file opened for reading, decompressed if its name ends in .gz.
 
@@ -125,20 +168,11 @@ def read_document(path: Path) -> GraphDocument:
     Raises:
         GraphError: the file is missing, its extension names no RDF format, or it does not parse.
     """
-    syntax = rdf_format(path)
-    if not path.is_file():
-        raise GraphError(f"{path}: no such file; expected a graph that usd2kg build wrote")
-    try:
-        with open_rdf(path) as file:
-            parser = ox.parse(file, format=syntax)
-            parts = tuple(_parts(parser))
-            prefixes = dict(parser.prefixes)
-    except MemoryError as error:
-        # pyoxigraph's parser buffers at most 16 MiB per token.
-        raise GraphError(f"{path}: {TOO_LARGE} ({error}); shorten its longest text") from error
-    except (SyntaxError, OSError, EOFError, zlib.error) as error:
-        reason = one_line(error)
-        raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
+    syntax = check_graph_file(path)
+    with parse_errors_explained(path, syntax), open_rdf(path) as file:
+        parser = ox.parse(file, format=syntax)
+        parts = tuple(_parts(parser))
+        prefixes = dict(parser.prefixes)
     base = _base(parts)
     return GraphDocument(parts, {**PREFIXES, **({"": base} if base else {}), **prefixes}, str(path))
 

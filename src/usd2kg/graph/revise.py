@@ -6,9 +6,9 @@ import pyoxigraph as ox
 
 from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
 from usd2kg.graph.concept_hierarchy import state_concept
-from usd2kg.graph.declarations import declare_terms
+from usd2kg.graph.declarations import declare_classes, declare_terms
 from usd2kg.graph.justification import justify_class, justify_refusal
-from usd2kg.graph.vocabulary import OWL, RDF, RDFS, SSSOM, U2K, Triple, text
+from usd2kg.graph.vocabulary import OWL, RDF, SSSOM, U2K, Triple
 from usd2kg.grounding import Prediction
 from usd2kg.ontology import TBox
 
@@ -104,10 +104,4 @@ class _ClassRevision:
 def _terms(added: Iterable[ox.Triple], predictions: Iterable[Prediction], tbox: TBox) -> Iterator[Triple]:
     """Yield the declarations of the properties in use, and the superclass closure of the classes."""
     yield from declare_terms({each.predicate for each in added}, ())
-    closure = {iri for p in predictions if p.class_iri is not None for iri in tbox.closure(p.class_iri)}
-    for iri in sorted(closure):
-        node = ox.NamedNode(iri)
-        yield node, RDF.type, OWL.Class
-        yield node, RDFS.label, text(tbox.by_iri[iri].label)
-        for parent in tbox.by_iri[iri].parents:
-            yield node, RDFS.subClassOf, ox.NamedNode(parent)
+    yield from declare_classes({p.class_iri for p in predictions if p.class_iri is not None}, tbox)

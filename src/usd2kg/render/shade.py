@@ -9,6 +9,7 @@ from usd2kg.render.camera import Camera
 from usd2kg.render.raster import Hits, rasterise
 from usd2kg.render.settings import LIGHTING
 from usd2kg.render.triangle_soup import TriangleSoup, corner_normals
+from usd2kg.srgb import srgb_from_linear
 
 __all__ = ["ShadedImage", "draw", "to_srgb"]
 
@@ -147,10 +148,9 @@ def _along(axis: int, part: slice) -> tuple[slice, slice]:
 
 
 def to_srgb(light: Image) -> NDArray[np.uint8]:
-    """Return linear light as sRGB bytes (IEC 61966-2-1); highlights are compressed, not clipped."""
+    """Return linear light as sRGB bytes; highlights are compressed, not clipped."""
     knee = 0.8
     over = np.maximum(light - knee, 0)
     soft = np.where(light > knee, knee + (1 - knee) * over / (over + (1 - knee)), np.maximum(light, 0))
-    curve = np.where(soft <= 0.0031308, soft * 12.92, 1.055 * np.maximum(soft, 1e-9) ** (1 / 2.4) - 0.055)
-    pixels: NDArray[np.uint8] = np.round(np.clip(curve, 0, 1) * 255).astype(np.uint8)
+    pixels: NDArray[np.uint8] = np.round(srgb_from_linear(soft) * 255).astype(np.uint8)
     return pixels

@@ -12,8 +12,8 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
 from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_triples
+from usd2kg.graph.rdf_document import read_statements
 from usd2kg.graph.vocabulary import DCTERMS, OWL, RDF, U2K, named_node
-from usd2kg.query.graph_file import read_triples
 
 if TYPE_CHECKING:
     from usd2kg.graph.abox import KnowledgeGraph
@@ -65,7 +65,7 @@ def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
     Raises:
         GraphError: the file cannot be read, is empty, or states no single ontology IRI; or `iri` is invalid.
     """
-    triples = read_triples(path)
+    triples = read_statements(path)
     if iri is None:
         found = _headers(triples)
         if len(found) != 1:

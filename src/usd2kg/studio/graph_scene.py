@@ -7,11 +7,12 @@ from typing import Any, get_args
 
 import pyoxigraph as ox
 
-from usd2kg.diff import GraphStyle, ObjectState, detect_graph_style, objects_of_graph, read_ordered_statements
+from usd2kg.diff import GraphStyle, ObjectState, detect_graph_style, objects_of_graph
 from usd2kg.diff.graph_states import as_vector, parse_numbers
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.iris import individual_iri
+from usd2kg.graph.rdf_document import read_statements
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, USD
 from usd2kg.grounding import Grounding
 from usd2kg.relations import Relation
@@ -54,7 +55,7 @@ def read_graph_scene(path: Path) -> GraphScene:
         GraphError: the file cannot be read, or describes no scene, or several.
     """
     with paused_collection():
-        return _read(path, read_ordered_statements(path))
+        return _read(path, read_statements(path))
 
 
 def _read(path: Path, statements: tuple[ox.Triple, ...]) -> GraphScene:

@@ -18,7 +18,6 @@ from rdflib.compare import to_isomorphic
 
 from tests.graph.records import build_graph, thing
 from tests.graph.test_joint_patterns import make_joint
-from usd2kg.diff.graph_states import read_statements
 from usd2kg.errors import GraphError
 from usd2kg.graph import (
     GRAPH_FORMATS,
@@ -34,6 +33,7 @@ from usd2kg.graph import (
     write_graph,
     write_neo4j,
 )
+from usd2kg.graph.rdf_document import read_statements
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF, RDFS, U2K, XSD
 from usd2kg.ontology import TBox
 from usd2kg.query import load_graph

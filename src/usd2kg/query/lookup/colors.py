@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.srgb import srgb_from_linear
 from usd2kg.words import split_identifier
 
 __all__ = ["COLORS", "color_name", "has_color", "has_material", "is_material", "material_words", "own_colors"]
@@ -42,9 +43,7 @@ def color_name(rgb: tuple[float, float, float]) -> str:
     >>> color_name((0.58, 0.05, 0.04)), color_name((0.9, 0.9, 0.9)), color_name((0.1, 0.05, 0.02))
     ('red', 'white', 'brown')
     """
-    encoded = [
-        12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055 for c in (min(max(c, 0), 1) for c in rgb)
-    ]
+    encoded = srgb_from_linear(rgb).tolist()
     hue, lightness, saturation = colorsys.rgb_to_hls(*encoded)
     chroma = max(encoded) - min(encoded)
     if chroma < 0.1:
