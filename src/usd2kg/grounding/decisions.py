@@ -14,6 +14,7 @@ from usd2kg.grounding.model import Decision, Grounding, Prediction, Review, Stat
 from usd2kg.grounding.settings import QUEUE
 from usd2kg.grounding.sssom_decisions import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.spreadsheet import guard_formula
 
 __all__ = [
     "NO_CLASS",
@@ -32,8 +33,6 @@ NO_CLASS = "none"
 """The decision that no class fits, in a CSV file."""
 _EXPECTED = "expected CSV with the columns path and decision (or class)"
 _QUEUE_COLUMNS = ("path", "decision", "reviewer", "comment", "answer", "confidence", "alternatives", "explanation")
-_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
-"""Characters with which a spreadsheet formula begins."""
 
 
 def read_decisions(path: Path, tbox: TBox) -> dict[str, Decision]:
@@ -127,7 +126,7 @@ def format_queue(predictions: Sequence[Prediction], tbox: TBox) -> str:
         confidence = "" if prediction.confidence is None else f"{prediction.confidence:.4f}"
         answer = tbox.by_iri[prediction.class_iri].local_name if prediction.class_iri else ""
         alternatives = "|".join(_alternatives(prediction, tbox))
-        explanation = _escape_formula(prediction.explanation)
+        explanation = guard_formula(prediction.explanation)
         writer.writerow((prediction.prim_path, "", "", "", answer, confidence, alternatives, explanation))
     return text.getvalue()
 
@@ -135,8 +134,3 @@ def format_queue(predictions: Sequence[Prediction], tbox: TBox) -> str:
 def _alternatives(prediction: Prediction, tbox: TBox) -> Iterator[str]:
     others = [c.class_iri for c in prediction.candidates if c.class_iri != prediction.class_iri]
     return (tbox.by_iri[iri].local_name for iri in others[: QUEUE.max_alternatives])
-
-
-def _escape_formula(text: str) -> str:
-    """Return text that a spreadsheet does not evaluate as a formula."""
-    return "'" + text if text.startswith(_FORMULA_STARTS) else text

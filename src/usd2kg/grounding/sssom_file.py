@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from usd2kg.errors import GroundingError
+from usd2kg.spreadsheet import guard_formula, unguard_formula
 
 __all__ = ["Curies", "SssomFile", "SssomRow", "format_sssom_file", "one_line", "read_sssom_file"]
 
@@ -23,10 +24,6 @@ _BUILT_IN = {
 """Prefixes that are predefined in SSSOM."""
 _LOCAL = re.compile(r"[^#/:]+")
 """Local name of an IRI in a namespace."""
-
-
-_FORMULA_STARTS = ("=", "+", "-", "@")
-"""Characters with which a spreadsheet formula begins."""
 
 
 class Curies:
@@ -144,7 +141,9 @@ def _read_rows(
         if missing:
             raise GroundingError(f"{path}: line {start + 1} has no column {missing[0]}; {expected}")
         for row in rows:
-            cells = {name: _written((value or "").strip()) for name, value in row.items() if isinstance(name, str)}
+            cells = {
+                name: unguard_formula((value or "").strip()) for name, value in row.items() if isinstance(name, str)
+            }
             yield SssomRow(start + rows.line_num, cells)
     except csv.Error as error:
         raise GroundingError(f"{path}: line {start + rows.line_num} is not TSV ({error}); {expected}") from error
@@ -154,18 +153,16 @@ def one_line(text: str) -> str:
     r"""Return text for a cell: on one line, since many TSV readers do not unescape line breaks and tabs.
 
     Names on a stage are untrusted: control characters, which a terminal would obey, become U+FFFD, and an apostrophe
-    precedes what a spreadsheet would calculate. `read_sssom_file` removes it.
+    precedes what a spreadsheet would evaluate. `read_sssom_file` removes it.
 
     >>> one_line("a\tb\x1b[2J"), one_line("=1+1")
     ('a b\ufffd[2J', "'=1+1")
     """
-    line = "".join(c if c.isprintable() else "\ufffd" for c in re.sub(r"\s+", " ", text).strip())
-    return f"'{line}" if line.startswith(_FORMULA_STARTS) else line
+    return guard_formula(_printable_line(text))
 
 
-def _written(cell: str) -> str:
-    """Return the text that `one_line` was given."""
-    return cell[1:] if cell.startswith("'") and cell[1:].startswith(_FORMULA_STARTS) else cell
+def _printable_line(text: str) -> str:
+    return "".join(c if c.isprintable() else "\ufffd" for c in re.sub(r"\s+", " ", text).strip())
 
 
 def format_sssom_file(
@@ -187,7 +184,7 @@ def format_sssom_file(
     lines = ['sssom_version: "1.1"', "curie_map:"]
     # Every JSON string is a YAML string.
     lines += [f"  {prefix}: {json.dumps(iri)}" for prefix, iri in sorted(curies.used.items())]
-    lines += [f"{name}: {json.dumps(one_line(value))}" for name, value in header.items()]
+    lines += [f"{name}: {json.dumps(_printable_line(value))}" for name, value in header.items()]
     lines.append("extension_definitions:")
     for name, term in extensions.items():
         lines += [f"- slot_name: {name}", f"  property: {term}", "  type_hint: xsd:string"]

@@ -17,10 +17,9 @@ from usd2kg.evaluation.report.analysis import (
 )
 from usd2kg.evaluation.run import evaluation_json
 from usd2kg.evaluation.run_matrix import CellResult, SceneResult
+from usd2kg.spreadsheet import guard_formula
 
 __all__ = ["format_csv", "format_json"]
-
-_FORMULA_STARTS = ("=", "+", "-", "@")
 
 
 def format_csv(results: Sequence[SceneResult]) -> str:
@@ -38,9 +37,9 @@ def format_csv(results: Sequence[SceneResult]) -> str:
 
 def _csv_row(result: SceneResult, done: CellResult) -> Iterator[tuple[str, Any]]:
     cell, summary = done.cell, done.evaluation.summary
-    yield "scene", _safe(result.spec.name)
-    yield "method", _safe(cell.grounder)
-    yield "condition", _safe(cell.condition)
+    yield "scene", guard_formula(result.spec.name)
+    yield "method", guard_formula(cell.grounder)
+    yield "condition", guard_formula(cell.condition)
     yield "regime", cell.regime.value
     yield "evidence", _evidence(done)
     yield "repeat", cell.repeat
@@ -54,10 +53,6 @@ def _csv_row(result: SceneResult, done: CellResult) -> Iterator[tuple[str, Any]]
             yield key, value
     yield "seconds", done.evaluation.seconds
     yield "seconds_per_object", done.evaluation.seconds / summary.n
-
-
-def _safe(text: str) -> str:
-    return f"'{text}" if text.startswith(_FORMULA_STARTS) else text
 
 
 def _evidence(done: CellResult) -> str:
