@@ -3,6 +3,8 @@
 import pytest
 
 from tests.graph.records import build_graph, open_store, thing
+from tests.query.test_questions import HINGE
+from tests.query.test_questions import ROOM as HINGED_ROOM
 from usd2kg.assistant import ask_offline
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
@@ -22,6 +24,12 @@ ROOM = [
     (thing("/R/Door_lever", (-1.8, -3.0, 1), (0.1, 0.05, 0.05)), "DesignedArtifact"),
     (thing("/R/Bin", (-2.2, -2.5, 0), (0.3, 0.3, 0.4)), "DesignedArtifact"),
     (thing("/R/Window", (1, -3.05, 1), (0.9, 0.05, 1)), "DesignedArtifact"),
+    # A door in the right wall, in its frame, with a stool against it; a wall on either side.
+    (thing("/R/Exit", (3.0, -2, 0), (0.05, 0.9, 2)), "DesignedArtifact"),
+    (thing("/R/Exit_frame", (2.97, -2.05, 0), (0.11, 1, 2.05)), "DesignedArtifact"),
+    (thing("/R/Exit_knob", (2.9, -1.2, 1), (0.1, 0.05, 0.05)), "DesignedArtifact"),
+    (thing("/R/Wall_right", (3.0, -3, 0), (0.1, 6, 2.5)), "DesignedArtifact"),
+    (thing("/R/Stool", (2.6, -1.7, 0), (0.4, 0.4, 0.5)), "DesignedArtifact"),
     (thing("/R/Crate", (-3, 1, 0), (0.5, 0.5, 0.5)), "DesignedArtifact"),
     # Between the boards of a rack.
     (thing("/R/Rack", (2.2, 0, 0), (0.4, 1, 1.5)), "Rack"),
@@ -63,8 +71,23 @@ def test_what_is_in_the_way_of_a_door_without_a_joint(room: GraphStore):
     assert (asked.verdict, [row[0] for row in asked.answer.rows]) == (True, ["Bin"])
     assert "by boxes: the stage has no joint" in asked.sentence
     assert ask_offline(room, "is anything blocking Window?").verdict is False
+    assert found(room, "what is in the way of Exit?") == ["Stool"], "touches the door, as its frame and its knob do"
     with pytest.raises(GraphError, match="not known: the stage has no joint for crate"):
         ask_offline(room, "is anything blocking the Crate?")
+
+
+def test_what_a_hinged_door_hits(home_tbox: TBox):
+    graph = open_store(build_graph(home_tbox, HINGED_ROOM, joints=(HINGE,)))
+    answered = ask_offline(graph, "what is in the way of the cabinet?")
+    assert [row[1] for row in answered.answer.rows] == ["Crate"]
+    assert answered.sentence.startswith("The box Crate is in the way of the kitchen cabinet Cabinet, by boxes that move")
+    off_floor = ask_offline(graph, "what must be moved off the floor to open the cabinet?")
+    assert [row[1] for row in off_floor.answer.rows] == ["Crate"]
+    off_table = ask_offline(graph, "what must be moved off the table to open the cabinet?")
+    assert off_table.answer.rows == ()
+    assert off_table.sentence.startswith("Nothing on the table is in the way of the kitchen cabinet")
+    blocked = ask_offline(graph, "is anything blocking the cabinet?")
+    assert (blocked.verdict, blocked.sentence[:14]) == (True, "Yes. The box C")
 
 
 def test_between_needs_one_pair(room: GraphStore):

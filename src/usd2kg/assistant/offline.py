@@ -1,6 +1,7 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from usd2kg.assistant.describe import description_answer
@@ -379,23 +380,39 @@ class _Answerer:
     def _to_open(self, thing: str, other: str = "") -> InterpretedAnswer:
         """Return what is in the way of a thing that opens: by its joint, else by the boxes in front of it."""
         things = self._found(thing)
+        carried = self._nouns.around("on", other, is_direct=False) if other else None
         found = self._ready_question("to-open", {"thing": thing})
         if found.answer.rows or not self._facts.opened_by_joint.isdisjoint(things.iris):
-            return found
+            answer = found.answer if carried is None else self._only(found.answer, carried)
+            rows = [dict(zip(answer.columns, row, strict=True)) for row in answer.rows]
+            named = dict.fromkeys(the_thing(row["class"] or "", row["object"] or "") for row in rows)
+            reason = "by boxes that move as far as the joints allow"
+            sentence = self._obstructed(things, other, join_words([*named]), len(named), reason)
+            return replace(found, answer=answer, sentence=sentence)
         parts = self._nouns.related("part", things.iris, is_direct=True)
         swept = [find_in_the_way(self._facts, iri, parts) for iri in things.iris]
         if any(one is None for one in swept):
             raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
-        chosen = self._facts.sorted({iri for one in swept for iri in one or ()})
-        if other:
-            carried = self._nouns.around("on", other, is_direct=False)
-            chosen = [iri for iri in chosen if iri in carried]
-        named = name_things(self._facts, chosen) or "nothing"
-        sentence = begin_sentence(
-            f"{named} {'is' if len(chosen) < 2 else 'are'} in the way of {self._the(things)}, by boxes: the stage has "
-            f"no joint for it, and it may open to either side{things.suffix}."
-        )
+        chosen = self._facts.sorted({iri for one in swept for iri in one or () if carried is None or iri in carried})
+        reason = "by boxes: the stage has no joint for it, and it may open to either side"
+        sentence = self._obstructed(things, other, name_things(self._facts, chosen), len(chosen), reason)
         return InterpretedAnswer(f"what is in the way of {things.text}", self._located(chosen), sentence=sentence)
+
+    def _obstructed(self, things: Things, other: str, named: str, count: int, reason: str) -> str:
+        """Return the sentence about what is in the way, of all things or of those on another."""
+        named = f"{named or 'nothing'}{f' on {other}' if other else ''}"
+        verb = "is" if count < 2 else "are"
+        return begin_sentence(f"{named} {verb} in the way of {self._the(things)}, {reason}{things.suffix}.")
+
+    def _only(self, answer: Answer, objects: Collection[str]) -> Answer:
+        """Return the rows of an answer that are about some of its objects."""
+        paths, column = {self._facts.path(iri) for iri in objects}, answer.columns.index("path")
+        kept = [number for number, row in enumerate(answer.rows) if row[column] in paths]
+        return replace(
+            answer,
+            rows=tuple(answer.rows[number] for number in kept),
+            values=tuple(answer.values[number] for number in kept),
+        )
 
     def _nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
         what, anchors, facts = self._nouns.find(values["class"]), self._found(values["thing"]), self._facts
@@ -411,10 +428,9 @@ class _Answerer:
 
     def _is_blocked(self, thing: str) -> InterpretedAnswer:
         found = self._to_open(thing)
-        labels = list(dict.fromkeys(filter(None, _column(found.answer, "object"))))
-        said = f"Yes: {join_words(labels)}." if labels else "No: nothing is in the way."
-        reason = f" {found.sentence}" if found.sentence else ""
-        return InterpretedAnswer(f"what blocks {thing}", found.answer, bool(labels), sentence=f"{said}{reason}")
+        is_blocked = bool(found.answer.rows)
+        sentence = f"{'Yes' if is_blocked else 'No'}. {found.sentence}"
+        return InterpretedAnswer(f"what blocks {thing}", found.answer, is_blocked, sentence=sentence)
 
 
 def _relation(text: str) -> str:

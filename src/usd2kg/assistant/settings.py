@@ -68,6 +68,7 @@ class OpeningSettings:
 
     max_thickness: float
     margin: float
+    max_handle: float
 
 
 RESULTS = read_settings("assistant", "results", ResultSettings)

@@ -13,7 +13,8 @@ __all__ = ["find_in_the_way"]
 def find_in_the_way(facts: SceneFacts, panel: str, ignored: Collection[str]) -> list[str] | None:
     """Return the objects in the space that a panel sweeps if it opens to either side, by prim path.
 
-    The space is as deep as the panel is wide. What meets the closed panel is its frame, its handle or the wall.
+    The space is as deep as the panel is wide. What reaches through the closed panel is its frame or the wall, and what
+    touches it and reaches no farther than a handle does is fixed to it.
 
     Args:
         facts: the graph.
@@ -36,5 +37,9 @@ def find_in_the_way(facts: SceneFacts, panel: str, ignored: Collection[str]) -> 
     # Objects without a box have NaN, which meets nothing.
     is_swept = ((table.lower < upper) & (table.upper > lower)).all(axis=1)
     is_touching = ((table.lower <= body.upper) & (table.upper >= body.lower)).all(axis=1)
-    rows = np.flatnonzero(is_swept & ~is_touching).tolist()
+    middle = (body.lower[normal] + body.upper[normal]) / 2
+    is_through = (table.lower[:, normal] < middle) & (table.upper[:, normal] > middle)
+    reach = np.maximum(body.lower[normal] - table.lower[:, normal], table.upper[:, normal] - body.upper[normal])
+    is_fixed = is_touching & (is_through | (reach <= OPENING.max_handle))
+    rows = np.flatnonzero(is_swept & ~is_fixed).tolist()
     return facts.sorted(iri for row in rows if (iri := table.iris[row]) not in ignored and iri != panel)

@@ -47,11 +47,12 @@ RDF_FORMATS = {
 
 _TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
 """Error text for a literal beyond the limit of the parser."""
-_READ_ELSEWHERE = {
+_STAGES = (".usd", ".usda", ".usdc", ".usdz")
+_NOT_READ = {
     ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
     ".graphml": "graphs are not read from GraphML, an export format",
 }
-"""Write-only file extension → reason."""
+"""File extension of what usd2kg writes and reads elsewhere → reason."""
 
 
 class GraphPart(NamedTuple):
@@ -93,9 +94,11 @@ def rdf_format(path: Path) -> ox.RdfFormat:
     name = path.with_suffix("") if path.suffix.lower() == ".gz" else path
     found = RDF_FORMATS.get(name.suffix.lower())
     if found is None:
-        endings = ", ".join(RDF_FORMATS)
-        if readers := _READ_ELSEWHERE.get(name.suffix.lower()):
-            raise GraphError(f"{path}: {readers}; expected the same graph as one of {endings}")
+        ending, endings = name.suffix.lower(), ", ".join(RDF_FORMATS)
+        if ending in _STAGES:
+            raise GraphError(f"{path}: is a stage; expected its graph: usd2kg build {path} -o {path.stem}.ttl")
+        if ending in _NOT_READ:
+            raise GraphError(f"{path}: {_NOT_READ[ending]}; expected the same graph as one of {endings}")
         raise GraphError(f"{path}: the ending {name.suffix!r} names no RDF format; expected one of {endings}")
     return found
 
