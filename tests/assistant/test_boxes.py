@@ -80,7 +80,9 @@ def test_what_a_hinged_door_hits(home_tbox: TBox):
     graph = open_store(build_graph(home_tbox, HINGED_ROOM, joints=(HINGE,)))
     answered = ask_offline(graph, "what is in the way of the cabinet?")
     assert [row[1] for row in answered.answer.rows] == ["Crate"]
-    assert answered.sentence.startswith("The box Crate is in the way of the kitchen cabinet Cabinet, by boxes that move")
+    assert answered.sentence.startswith(
+        "The box Crate is in the way of the kitchen cabinet Cabinet, by boxes that move"
+    )
     off_floor = ask_offline(graph, "what must be moved off the floor to open the cabinet?")
     assert [row[1] for row in off_floor.answer.rows] == ["Crate"]
     off_table = ask_offline(graph, "what must be moved off the table to open the cabinet?")

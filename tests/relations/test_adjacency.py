@@ -81,6 +81,18 @@ class TestNextTo:
         found = pairs(relate(*row, kinds=("next-to",)))
         assert found == {("next-to", names("a", "b")), ("next-to", names("b", "c"))}
 
+    def test_a_third_object_blocks_that_is_near_only_one_of_the_two(self):
+        # The bench's nearest neighbours are the cups on its far side; the screen is among those of the stool.
+        bench = artifact("bench", (0, 0, 0), (2.4, 0.5, 0.5))
+        cups = [cup((0.05 + 0.2 * i, -0.12, 0), (0.1, 0.1, 0.1), f"c{i}") for i in range(RULES.blocking.most + 2)]
+        screen, stool = (
+            artifact("screen", (0.8, 0.6, 0), (0.8, 0.02, 0.8)),
+            artifact("stool", (1, 0.75, 0), (0.6, 0.6, 0.5)),
+        )
+        found = pairs(relate(bench, *cups, screen, stool, kinds=("next-to",)))
+        assert ("next-to", names("screen", "stool")) in found
+        assert ("next-to", names("bench", "stool")) not in found
+
     def test_a_wall_blocks_adjacency(self):
         wall = (thing("/wall", (0.32, -2, 0), (0.06, 4, 2.5)), "Wall")
         here, there = artifact("here", (0, 0, 0), (0.3, 0.3, 0.3)), artifact("there", (0.4, 0, 0), (0.3, 0.3, 0.3))

@@ -175,14 +175,11 @@ def _is_blocked(boxed: BoxedObjects, pairs: NearbyPairs, around: NearbyPairs, ru
     near = _nearest_of_each(boxed, around, rule.most)
     neighbour = np.concatenate([around.other, around.one])[near]
     starts = np.searchsorted(np.concatenate([around.one, around.other])[near], np.arange(len(boxed) + 1))
-    # Of the two objects, the first one by path is asked for its neighbours, whatever their order in the scene.
-    is_first = boxed.rank[pairs.one] < boxed.rank[pairs.other]
-    first, second = np.where(is_first, (pairs.one, pairs.other), (pairs.other, pairs.one))
-    count = starts[first[wide] + 1] - starts[first[wide]]
-    pair = np.repeat(wide, count)
-    nth = np.arange(len(pair)) - np.repeat(np.cumsum(count) - count, count)
-    third = neighbour[starts[first[pair]] + nth]
-    is_other = third != second[pair]
+    # The neighbours of both ends are tried, since the list of either may be cut before the blocker.
+    ends = np.concatenate([pairs.one[wide], pairs.other[wide]])
+    row, nth = ragged_indices(starts[ends + 1] - starts[ends])
+    pair, third = np.concatenate([wide, wide])[row], neighbour[starts[ends[row]] + nth]
+    is_other = (third != pairs.one[pair]) & (third != pairs.other[pair])
     pair, (lowest, highest) = _pieces(boxed, pair[is_other], third[is_other])
     one, other = pairs.one[pair], pairs.other[pair]
     # Along each axis: the gap between the two, or their overlap.
