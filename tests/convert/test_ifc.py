@@ -221,7 +221,8 @@ def test_colours_and_materials(tmp_path: Path):
     brick = material.add_material(house.model, name="brick")
     material.assign_material(house.model, products=[wall], material=brick)
     (found,) = read_scene(house.save(tmp_path / "house.ifc")).objects
-    assert found.display_color == pytest.approx((1, 0.25, 0))
+    # ((0.25 + 0.055) / 1.055) ** 2.4, by the transfer function of sRGB.
+    assert found.display_color == pytest.approx((1, 0.050876, 0), abs=1e-5)
     assert found.materials == ("brick",)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from usd2kg import build
+from usd2kg.convert import converter_program
 from usd2kg.convert.write import convert_file
 from usd2kg.errors import SceneError
 from usd2kg.scene import read_scene
@@ -169,6 +170,13 @@ class TestProgram:
         with pytest.raises(SceneError, match=r"\(line 3: no such element\), expected an MJCF file") as caught:
             read_scene(write(tmp_path / "robot.xml", "<mujoco/>"))
         assert len(str(caught.value).splitlines()) == 1
+
+    def test_a_program_that_does_not_end_is_stopped(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        install(monkeypatch, tmp_path / "bin", "urdf_usd_converter")
+        (tmp_path / "bin" / "urdf_usd_converter").write_text(f"#!{sys.executable}\nimport time\ntime.sleep(60)\n")
+        monkeypatch.setattr(converter_program, "_MAX_SECONDS", 0.2)
+        with pytest.raises(SceneError, match=r"urdf_usd_converter did not end in 0\.2 s and was stopped"):
+            read_scene(write(tmp_path / "robot.urdf", "<robot/>"))
 
     @pytest.mark.parametrize(("name", "package"), [("a.urdf", "urdf-usd-converter"), ("a.xml", "mujoco-usd-converter")])
     def test_a_missing_program_names_its_package(

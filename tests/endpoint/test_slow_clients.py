@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 
 import pytest
 from starlette.applications import Starlette
@@ -15,10 +16,10 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from usd2kg.endpoint.bounded_server import BoundedServer, _RateFilter
-from usd2kg.endpoint.http_limits import HttpServerLimits
+from usd2kg.endpoint.http_limits import HTTP_LIMITS
 from usd2kg.endpoint.open_connections import Connections
 
-LIMITS = HttpServerLimits(head_s=0.4, body_s=0.8, write_s=0.4, connections=20, held_bytes=20 << 20)
+LIMITS = replace(HTTP_LIMITS, head_s=0.4, body_s=0.8, write_s=0.4, connections=20, held_bytes=20 << 20)
 LARGE = 16 << 20
 GET = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 

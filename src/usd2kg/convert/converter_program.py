@@ -25,6 +25,8 @@ _OWN_ADVICE = "usdex.core.deprecation"
 """Place of warnings to the authors of the converter."""
 _MAX_NOTES = 20
 """Distinct warnings that are passed on; a file with missing meshes has one for each."""
+_MAX_SECONDS = 600
+"""Time limit of a program; robots with hundreds of meshes take seconds."""
 
 
 def run_converter(program: str, path: Path, expected: str, arguments: Sequence[str] = ()) -> Converted:
@@ -37,7 +39,7 @@ def run_converter(program: str, path: Path, expected: str, arguments: Sequence[s
         arguments: further arguments of the program.
 
     Raises:
-        SceneError: the program is not installed, or refuses the file.
+        SceneError: the program is not installed, refuses the file, or does not end in ten minutes.
     """
     command = shutil.which(program)
     package = program.replace("_", "-")
@@ -49,16 +51,23 @@ def run_converter(program: str, path: Path, expected: str, arguments: Sequence[s
     # Modules of this environment must not shadow those of the program.
     environment = {name: value for name, value in os.environ.items() if name not in {"PYTHONPATH", "PYTHONHOME"}}
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(
-            [command, "--no-layer-structure", *arguments, str(path.resolve()), folder],
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            check=False,
-        )
+        try:
+            done = subprocess.run(
+                [command, "--no-layer-structure", *arguments, str(path.resolve()), folder],
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                check=False,
+                timeout=_MAX_SECONDS,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise SceneError(
+                f"{path}: {program} did not end in {_MAX_SECONDS} s and was stopped; run it by itself: "
+                f"{program} {path} FOLDER, and read the USD file that it writes"
+            ) from error
         written = sorted(Path(folder).glob("*.usd*"))
         if done.returncode != 0 or not written:
             raise parse_error(path, _reason(done.stdout) or f"{program} ended with code {done.returncode}", expected)

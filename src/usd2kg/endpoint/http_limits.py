@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from usd2kg.knowledge import read_settings
+
 __all__ = ["HTTP_LIMITS", "HttpServerLimits"]
 
 
@@ -9,24 +11,16 @@ __all__ = ["HTTP_LIMITS", "HttpServerLimits"]
 class HttpServerLimits:
     """Limits on connections, of the endpoint and of the studio."""
 
-    head_s: float = 10.0
-    """Seconds until the head of a request is complete, from the connection or from its first byte."""
-    body_s: float = 60.0
-    """Seconds until the body of a request is complete."""
-    write_s: float = 10.0
-    """Seconds in which a client has to take `write_bytes` of an answer that waits for it."""
-    write_bytes: int = 64 << 10
-    connections: int = 512
-    """Open connections; further ones are closed."""
-    spare_files: int = 256
-    """Files that a process may open in addition to its connections: workers, the store, connections to be refused."""
-    backlog: int = 64
-    """Connections that are accepted at a time."""
-    held_bytes: int = 256 << 20
-    """Bytes of all answers that wait for their clients; further answers are refused."""
-    log_lines: int = 20
-    """Messages about clients in each `log_period_s`; the rest is counted."""
-    log_period_s: float = 60.0
+    head_s: float
+    body_s: float
+    write_s: float
+    write_bytes: int
+    connections: int
+    spare_files: int
+    backlog: int
+    held_bytes: int
+    log_lines: int
+    log_period_s: float
 
 
-HTTP_LIMITS = HttpServerLimits()
+HTTP_LIMITS = read_settings("endpoint", "http", HttpServerLimits)

@@ -57,11 +57,7 @@ def pack_texts(texts: Sequence[str]) -> NDArray[np.uint8]:
 
 
 def unpack_texts(packed: NDArray[np.uint8]) -> list[str]:
-    """Return the texts of `pack_texts`.
-
-    Raises:
-        ValueError: the bytes are no list of texts.
-    """
+    """Return the texts of `pack_texts`."""
     texts: list[str] = json.loads(packed.tobytes())
     return texts
 

@@ -1,4 +1,8 @@
-"""write_glb: binary glTF 2.0 with shared meshes (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html)."""
+"""write_glb: binary glTF 2.0 with shared meshes (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html).
+
+trimesh's exporter writes a mesh either with vertex colours or with texture coordinates, and no extras of nodes that
+share a mesh; the page needs all three.
+"""
 
 import json
 import struct

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.convert.prims import SourceMesh
+from usd2kg.srgb import linear_from_srgb
 
 __all__ = ["Shape", "tessellate"]
 
@@ -60,6 +61,10 @@ def _mesh(geometry: Any) -> SourceMesh:
 
 
 def _color(style: Any) -> tuple[float, float, float]:
-    """Return the diffuse colour of a style, RGB."""
+    """Return the diffuse colour of a style, linear RGB.
+
+    IfcColourRgb names no colour space; the programs that write it take the values from sRGB colour pickers.
+    """
     diffuse = style.diffuse
-    return float(diffuse.r()), float(diffuse.g()), float(diffuse.b())
+    red, green, blue = linear_from_srgb([diffuse.r(), diffuse.g(), diffuse.b()]).tolist()
+    return red, green, blue

@@ -36,6 +36,9 @@ _FLOOR = {U2K.floorArea: "floorArea", U2K.floorHeight: "floorHeight", SSSOM.conf
 """RDF property → number property of a room without a prim."""
 _LIST_SEPARATOR = " | "
 
+_MAX_CLASSES = 100
+"""Most superclasses of a node. Real hierarchies have fewer; all those of a chain of thousands would be quadratic."""
+
 
 class PropertyNode(NamedTuple):
     """An object, a room or a joint."""
@@ -55,10 +58,6 @@ class PropertyEdge(NamedTuple):
     end: str
     type: str
     properties: Mapping[str, Value]
-
-
-_MAX_CLASSES = 100
-"""Most superclasses of a node. Real hierarchies have fewer; all those of a chain of thousands would be quadratic."""
 
 
 @dataclass(frozen=True)

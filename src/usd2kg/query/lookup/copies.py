@@ -13,9 +13,9 @@ _Look = tuple[tuple[str, ...], tuple[float, ...]]
 
 
 def find_copies(facts: SceneFacts, members: Set[str]) -> set[str]:
-    """Return the objects that no words tell apart from some objects: `ms_07` has class and size of `mouse_01`.
+    """Return objects without a concept that look like a member: `ms_07` has the class and the size of `mouse_01`.
 
-    None is returned for a look that objects of another concept have, too.
+    A look that objects of another concept have as well is not taken into account.
 
     Args:
         facts: the graph.
