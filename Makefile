@@ -26,8 +26,8 @@ test: $(READY) ## Run the tests
 test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
 
-test-studio: $(READY) web ## Run the tests of the server of the studio, and those in Chromium (CHROMIUM, or on the path)
-	$(BIN)/python -m pytest -q -n auto --dist loadfile -m studio tests/studio
+test-studio: $(READY) web ## Run the tests of the studio, and those of its page and the query page in Chromium (CHROMIUM, or on the path)
+	$(BIN)/python -m pytest -q -n auto --dist loadfile -m studio tests/studio tests/endpoint
 
 web/node_modules: web/package-lock.json
 	cd web && npm ci --no-audit --no-fund

@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from usd2kg.endpoint.app_files import read_app_files
 from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.app_files import read_app_files
 from usd2kg.studio.application import make_app
 from usd2kg.studio.open_session import open_session
 from usd2kg.studio.studio_server import StudioServer
@@ -29,7 +29,7 @@ def studio(scene: Path) -> Iterator[str]:
     ):
         socket.listen()
         session = open_session(project)
-        server = StudioServer(make_app(session, read_app_files(), key=KEY, reviewer="benchmark"))
+        server = StudioServer(make_app(session, read_app_files("index.html"), key=KEY, reviewer="benchmark"))
         thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]}, daemon=True)
         thread.start()
         try:

@@ -15,17 +15,21 @@ from typing import Any, NamedTuple
 
 import pytest
 
+from usd2kg.endpoint.app_files import AppFile, read_app_files
 from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.studio import ProjectSources, open_project
-from usd2kg.studio.app_files import AppFile, read_app_files
 from usd2kg.studio.application import make_app
 from usd2kg.studio.open_session import open_session
 from usd2kg.studio.other_version import read_other_version
 from usd2kg.studio.studio_server import StudioServer
 
-IS_BUILT = (files("usd2kg.studio") / "app" / "index.html").is_file()
+IS_BUILT = (files("usd2kg.endpoint") / "app" / "index.html").is_file()
 """Whether `make web` has built the page; the server is tested without it, too."""
-APP_FILES = read_app_files() if IS_BUILT else {"/": AppFile(b"<!doctype html><title>not built</title>", "text/html")}
+APP_FILES = (
+    read_app_files("index.html")
+    if IS_BUILT
+    else {"/": AppFile(b"<!doctype html><title>not built</title>", "text/html")}
+)
 needs_page = pytest.mark.skipif(not IS_BUILT, reason="needs the built page: make web")
 KEY = "correct-horse-battery"
 HOSTILE = "<img src=x onerror=\"document.title='owned'\">"

@@ -12,11 +12,11 @@ import trimesh
 from pxr import Usd
 
 from tests.studio.conftest import HOSTILE, KEY, Client, Studio, needs_page, running_studio
+from usd2kg.endpoint.app_files import read_app_files
 from usd2kg.errors import OutputError
 from usd2kg.grounding import read_decisions
 from usd2kg.ontology import load_home_tbox
 from usd2kg.query import load_graph
-from usd2kg.studio.app_files import read_app_files
 
 pytestmark = pytest.mark.studio
 FLOOR, TABLE, CUP_1, CUP_2, THING = range(5)
@@ -271,9 +271,11 @@ def shared(stage: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 def test_a_page_that_is_not_built_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("usd2kg.studio.app_files.files", lambda _: tmp_path)
-    with pytest.raises(OutputError, match=r"the page is not built; install usd2kg from a wheel, or run make web"):
-        read_app_files()
+    monkeypatch.setattr("usd2kg.endpoint.app_files.files", lambda _: tmp_path)
+    with pytest.raises(
+        OutputError, match=r"index\.html is not built; install usd2kg from a wheel, or run make web"
+    ):
+        read_app_files("index.html")
 
 
 def test_one_decision_about_several_classes_is_undone_as_one(studio: Client):

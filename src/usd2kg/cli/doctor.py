@@ -79,11 +79,11 @@ def _extras(packages: list[_Package]) -> dict[str, dict[str, Any]]:
 
 
 def _has_page() -> bool:
+    from usd2kg.endpoint.app_files import read_app_files  # noqa: PLC0415
     from usd2kg.errors import Usd2kgError  # noqa: PLC0415
-    from usd2kg.studio.app_files import read_app_files  # noqa: PLC0415
 
     try:
-        return bool(read_app_files())
+        return bool(read_app_files("index.html"))
     except Usd2kgError:
         return False
 

@@ -1,13 +1,9 @@
 """make_app: the ASGI application of a read-only SPARQL 1.1 Protocol endpoint with a query page."""
 
-import base64
-import hashlib
-import re
 import time
-from collections.abc import AsyncIterator, Callable, Iterable
+from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from contextlib import asynccontextmanager
 from dataclasses import asdict
-from importlib.resources import files
 from typing import Any
 from urllib.parse import parse_qsl
 
@@ -15,9 +11,10 @@ import pyoxigraph as ox
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
+from usd2kg.endpoint.app_files import PAGE_POLICY, AppFile
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.example_queries import ExampleQuery
 from usd2kg.endpoint.guard import Guard
@@ -42,6 +39,11 @@ CONSTRUCT {
       <http://www.w3.org/ns/formats/RDF_XML>, <http://www.w3.org/ns/formats/JSON-LD>
 } WHERE {}"""
 
+_NO_PAGE = (
+    "This is a SPARQL 1.1 endpoint, at /sparql. Its query page is not built: install usd2kg from a wheel, or run "
+    "make web (it needs Node.js).\n"
+)
+
 
 class RefusedRequestError(Exception):
     """A request that is refused, with its HTTP status and a message."""
@@ -56,6 +58,7 @@ def make_app(
     limits: EndpointLimits,
     connections: Connections,
     *,
+    files: Mapping[str, AppFile],
     title: str,
     graphs: Iterable[str],
     examples: Iterable[ExampleQuery],
@@ -69,6 +72,7 @@ def make_app(
         pool: the workers that answer queries.
         limits: limits on each request.
         connections: the open connections, for the budget of answers that wait for clients.
+        files: the query page, by URL path; without files, `/` says how to get it.
         title: heading of the page.
         graphs: IRIs of the named graphs.
         examples: queries that the page offers.
@@ -83,10 +87,12 @@ def make_app(
         "prefixes": QUERY_PREFIXES,
         "examples": [asdict(example) for example in examples],
     }
-    page = (files("usd2kg.endpoint") / "page.html").read_text("utf-8")
 
-    async def show_page(_: Request) -> Response:
-        return HTMLResponse(page, headers={"Content-Security-Policy": _page_policy(page)})
+    async def show_file(request: Request) -> Response:
+        file = files.get(request.url.path)
+        if file is None:
+            return PlainTextResponse(_NO_PAGE)
+        return Response(file.content, media_type=file.media_type, headers={"Content-Security-Policy": PAGE_POLICY})
 
     async def show_about(_: Request) -> Response:
         return JSONResponse(about)
@@ -104,27 +110,13 @@ def make_app(
     methods = ["GET", "POST", "OPTIONS"]
     return Starlette(
         routes=[
-            Route("/", show_page),
+            *(Route(path, show_file) for path in {"/", *files}),
             Route("/about", show_about),
             Route("/sparql", handle, methods=methods),
             Route("/query", handle, methods=methods),
         ],
         middleware=[Middleware(Guard, hosts=tuple(hosts), origins=tuple(origins))],
         lifespan=lifespan,
-    )
-
-
-def _page_policy(page: str) -> str:
-    """Return the Content-Security-Policy that allows only the page's own script and style."""
-
-    def digest(tag: str) -> str:
-        found = re.search(rf"<{tag}>(.*?)</{tag}>", page, flags=re.DOTALL)
-        assert found is not None, f"the page has a {tag}"
-        return "'sha256-" + base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode() + "'"
-
-    return (
-        f"default-src 'none'; script-src {digest('script')}; style-src {digest('style')}; connect-src 'self'; "
-        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     )
 
 

@@ -8,15 +8,16 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
+from usd2kg.endpoint.app_files import AppFile, read_app_files
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.endpoint.open_connections import Connections
 from usd2kg.endpoint.pool import WorkerPool
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, OutputError
 from usd2kg.query.graph_file import load_graph
 from usd2kg.stores import EmbeddedStore
 
-__all__ = ["ServeOptions", "serve"]
+__all__ = ["ServeOptions", "page_files", "serve"]
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
             WorkerPool(folder, options.limits, tables),
             options.limits,
             connections,
+            files=page_files(),
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
             examples=make_examples(store),
@@ -71,6 +73,14 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         )
         del store
         BoundedServer(app, connections, options.limits.shutdown_s).run(sockets=[socket])
+
+
+def page_files() -> dict[str, AppFile]:
+    """Return the query page; nothing in a checkout without Node.js, where the protocol is all that is served."""
+    try:
+        return read_app_files("query.html")
+    except OutputError:
+        return {}
 
 
 class _Served(NamedTuple):

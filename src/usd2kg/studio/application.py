@@ -13,10 +13,10 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
+from usd2kg.endpoint.app_files import PAGE_POLICY, AppFile
 from usd2kg.endpoint.guard import Guard
 from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
-from usd2kg.studio.app_files import PAGE_POLICY, AppFile
 from usd2kg.studio.audit import audit_json
 from usd2kg.studio.comparison import Comparison
 from usd2kg.studio.decision_request import read_decision

@@ -44,12 +44,12 @@ def serve_studio(
         from usd2kg.studio.studio_server import StudioServer  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise Usd2kgError(f"studio: {error.name} is not installed; run: pip install 'usd2kg[studio]'") from error
-    from usd2kg.studio.app_files import read_app_files  # noqa: PLC0415
+    from usd2kg.endpoint.app_files import read_app_files  # noqa: PLC0415
     from usd2kg.studio.open_session import open_session  # noqa: PLC0415
     from usd2kg.studio.other_version import read_other_version  # noqa: PLC0415
 
     key = choose_key(is_local=address.is_local)
-    files = read_app_files()
+    files = read_app_files("index.html")
     with (
         open_socket(address) as socket,
         open_project(folder, sources) as project,

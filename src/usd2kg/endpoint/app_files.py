@@ -1,4 +1,4 @@
-"""The built page, see `web/`: its files by URL path."""
+"""The built pages, see `web/`: their files by URL path."""
 
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -31,19 +31,22 @@ class AppFile(NamedTuple):
     media_type: str
 
 
-def read_app_files() -> dict[str, AppFile]:
-    """Return URL path → file. Only these are served, so that no request reaches another file.
+def read_app_files(page: str) -> dict[str, AppFile]:
+    """Return URL path → file of a page, which is at `/`. Only these are served: no request reaches another file.
+
+    Args:
+        page: `index.html`, the studio, or `query.html`, the query page of the endpoint.
 
     Raises:
-        OutputError: the page is not built.
+        OutputError: the pages are not built.
     """
-    folder = files("usd2kg.studio") / "app"
-    if not (folder / "index.html").is_file():
+    folder = files("usd2kg.endpoint") / "app"
+    if not (folder / page).is_file():
         raise OutputError(
-            "studio: the page is not built; install usd2kg from a wheel, or run make web (it needs Node.js)"
+            f"the page {page} is not built; install usd2kg from a wheel, or run make web (needs Node.js)"
         )
-    found = {f"/{path}": file for path, file in _walk(folder, "")}
-    return {"/": found["/index.html"], **found}
+    found = {f"/{path}": file for path, file in _walk(folder, "") if not path.endswith(".html") or path == page}
+    return {"/": found[f"/{page}"], **found}
 
 
 def _walk(folder: Traversable, prefix: str) -> list[tuple[str, AppFile]]:
