@@ -272,9 +272,7 @@ def shared(stage: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 def test_a_page_that_is_not_built_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("usd2kg.endpoint.app_files.files", lambda _: tmp_path)
-    with pytest.raises(
-        OutputError, match=r"index\.html is not built; install usd2kg from a wheel, or run make web"
-    ):
+    with pytest.raises(OutputError, match=r"index\.html is not built; install usd2kg from a wheel, or run make web"):
         read_app_files("index.html")
 
 

@@ -42,9 +42,7 @@ def read_app_files(page: str) -> dict[str, AppFile]:
     """
     folder = files("usd2kg.endpoint") / "app"
     if not (folder / page).is_file():
-        raise OutputError(
-            f"the page {page} is not built; install usd2kg from a wheel, or run make web (needs Node.js)"
-        )
+        raise OutputError(f"the page {page} is not built; install usd2kg from a wheel, or run make web (needs Node.js)")
     found = {f"/{path}": file for path, file in _walk(folder, "") if not path.endswith(".html") or path == page}
     return {"/": found[f"/{page}"], **found}
 
