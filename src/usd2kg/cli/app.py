@@ -1,8 +1,8 @@
 """The command `usd2kg`.
 
-Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, `diff` has differences, or `doctor`
-misses a package; 2 wrong usage, or an input or output cannot be used; 130 `ground` was interrupted and wrote a partial
-mapping.
+Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, `diff` has differences, `doctor`
+misses a package, or `batch` could not build a scene; 2 wrong usage, or an input or output cannot be used; 130 `ground`
+or `batch` was interrupted and keeps what is finished.
 """
 
 import io
@@ -16,6 +16,7 @@ from typer import Option
 
 from usd2kg.cli import (
     assistant,
+    batch,
     build,
     completions,
     convert,
@@ -58,6 +59,7 @@ app = typer.Typer(
     help="Turn an OpenUSD scene into a knowledge graph: ground every object to a class of an OWL ontology.",
 )
 app.command("build")(build.build_command)
+app.command("batch")(batch.batch_command)
 app.command("inspect")(inspect.inspect_command)
 app.command("convert")(convert.convert_command)
 app.command("ground")(ground.ground_command)

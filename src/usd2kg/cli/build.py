@@ -9,15 +9,15 @@ import typer
 from typer import Argument, Option
 
 from usd2kg.cli.build_summary import summarize_build, summary_text
-from usd2kg.cli.grounder_session import open_session
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import BaseIri, JsonOutput, OntologyFile
-from usd2kg.cli.options.graph import AnnotationOptions, SpatialOptions
+from usd2kg.cli.options.graph import AnnotationOptions, MergedImports, Profile, SpatialOptions
 from usd2kg.cli.options.grounding import GroundingOptions
 from usd2kg.cli.options.review import CarryOverOptions
 from usd2kg.cli.options.stage import StageOptions
 from usd2kg.cli.options.stores import DataAddress, OptionalStore, UpdateAddress
 from usd2kg.cli.output import notify, notify_notes, print_json
+from usd2kg.cli.scene_build import SceneBuild
 from usd2kg.cli.store import check_graph_names, load_graphs, open_for_loading
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
 
@@ -38,16 +38,8 @@ def build_command(
     annotation: AnnotationOptions,
     ontology: OntologyFile = None,
     base: BaseIri = None,
-    profile: Annotated[
-        str, Option("--profile", help="Modelling pattern: soma, plain, or auto (soma if the ontology uses SOMA).")
-    ] = "auto",
-    merge_imports: Annotated[
-        bool,
-        Option(
-            "--merge-imports",
-            help="Add the ontology, its imports and the usd2kg vocabulary, so the graph needs no other file.",
-        ),
-    ] = False,
+    profile: Profile = "auto",
+    merge_imports: MergedImports = False,
     output: Annotated[
         Path | None,
         Option(
@@ -64,8 +56,7 @@ def build_command(
 ) -> None:
     """Build the knowledge graph of a scene: read it, ground its objects, find relations, write RDF."""
     from usd2kg.graph.iris import default_base  # noqa: PLC0415
-    from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
-    from usd2kg.scene import read_scene  # noqa: PLC0415
+    from usd2kg.pipeline import open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     if grounding.model.requests.dry_run:
         raise GroundingError("--dry-run prints the prompts of one scene; use it with usd2kg ground")
@@ -77,32 +68,17 @@ def build_command(
     if store is not None:
         check_graph_names([base or default_base(str(scene)) for scene in scenes])
         opened = open_for_loading(store, store_update, store_data)
-    evidence, regime = grounding.evidence_groups, grounding.naming_regime
-    read_options, relations = reading.read_options(), spatial.relation_options()
-    graph_options = annotation.graph_options()
+    steps = SceneBuild(grounding, reading, spatial, annotation, profile, carry_over)
+    steps.check()
     tbox = open_tbox(ontology)
     notify_notes(tbox)
     summaries, has_failed = [], False
     for source, target in zip(scenes, targets, strict=True):
         start = time.perf_counter()
         try:
-            scene = read_scene(source, options=read_options)
-            with open_session(grounding, scene, tbox, source, read_options, carry_over) as session:
-                result = build(
-                    scene,
-                    tbox,
-                    grounder=session.grounder,
-                    regime=regime,
-                    evidence=evidence,
-                    decisions=session.decisions,
-                    carried=session.carried,
-                    base=base,
-                    profile=profile,
-                    graph_options=graph_options,
-                    relations=relations,
-                )
-            _save(result, merge_imports, target, opened)
-            session.report(result.grounding, tbox)
+            with steps.run(source, tbox, base) as (result, session):
+                _save(result, merge_imports, target, opened)
+                session.report(result.grounding, tbox)
         except Usd2kgError as error:
             # Of several scenes, the others are still built.
             if len(scenes) == 1:

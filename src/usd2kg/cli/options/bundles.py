@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from usd2kg.files import check_apart
 
-__all__ = ["OptionBundle", "check_files", "expand_bundles"]
+__all__ = ["OptionBundle", "bundle_files", "check_files", "expand_bundles"]
 
 
 class OptionBundle:
@@ -25,17 +25,17 @@ def check_files(outputs: Iterable[Path | None], inputs: Iterable[Path | None], *
     Raises:
         OutputError: an output is an input, or named twice.
     """
-    files = [file for bundle in bundles for file in _files(bundle)]
+    files = [file for bundle in bundles for file in bundle_files(bundle)]
     written = [path for path, is_output in files if is_output]
     check_apart((*outputs, *written), (*inputs, *(path for path, is_output in files if not is_output)))
 
 
-def _files(bundle: Any) -> Iterator[tuple[Path, bool]]:
-    """Yield each file of a bundle, and whether it is an output."""
+def bundle_files(bundle: Any) -> Iterator[tuple[Path, bool]]:
+    """Yield each file that a bundle names, and whether it is an output."""
     for field in fields(bundle):
         value = getattr(bundle, field.name)
         if isinstance(value, OptionBundle):
-            yield from _files(value)
+            yield from bundle_files(value)
         elif isinstance(value, Path):
             yield value, field.name in bundle.output_options
 

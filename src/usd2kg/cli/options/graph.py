@@ -13,7 +13,18 @@ if TYPE_CHECKING:
     from usd2kg.graph import GraphOptions
     from usd2kg.relations import RelationOptions
 
-__all__ = ["AnnotationOptions", "SpatialOptions"]
+__all__ = ["AnnotationOptions", "MergedImports", "Profile", "SpatialOptions"]
+
+Profile = Annotated[
+    str, Option("--profile", help="Modelling pattern: soma, plain, or auto (soma if the ontology uses SOMA).")
+]
+MergedImports = Annotated[
+    bool,
+    Option(
+        "--merge-imports",
+        help="Add the ontology, its imports and the usd2kg vocabulary, so the graph needs no other file.",
+    ),
+]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,148 @@
+"""Manifest: what became of each scene of a batch, one JSON record a line."""
+
+import errno
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
+from enum import StrEnum
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Self
+
+from usd2kg.errors import OutputError
+
+__all__ = ["Manifest", "Record", "SourceState", "Status", "hash_file"]
+
+
+class Status(StrEnum):
+    """How the last attempt ended."""
+
+    DONE = "done"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True)
+class SourceState:
+    """By what a changed scene file is known, without reading it."""
+
+    bytes: int
+    modified_ns: int
+
+    @classmethod
+    def of(cls, path: Path) -> Self:
+        """Return the state of a file."""
+        found = path.stat()
+        return cls(found.st_size, found.st_mtime_ns)
+
+
+@dataclass(frozen=True)
+class Record:
+    """One line: a scene that was built, or could not be."""
+
+    scene: str
+    """Its name in the batch."""
+    status: Status
+    options: str
+    """Hash of the options and the ontology."""
+    source: SourceState
+    output: str = ""
+    """Graph file relative to the output folder; empty if it failed."""
+    sha256: str = ""
+    """Checksum of the graph file."""
+    error: str = ""
+    attempts: int = 1
+    seconds: float = 0.0
+    finished: str = ""
+    """UTC, ISO 8601."""
+    summary: Mapping[str, Any] = field(default_factory=dict)
+    """Counts of objects, classes, statements and diagnostics."""
+
+
+class Manifest:
+    """The records of a batch in a file that only grows; the last record of a scene counts.
+
+    A record is on disk when `add` returns. A last line that a crash cut short is removed when the file is opened.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Open the manifest, or start it.
+
+        Raises:
+            OutputError: the file is no manifest, or cannot be written.
+        """
+        self.path = path
+        self._records: dict[str, Record] = {}
+        if path.exists() and not path.is_file():
+            raise OutputError(f"{path}: is no file; choose another output folder")
+        try:
+            data = path.read_bytes() if path.exists() else b""
+            whole = data[: data.rfind(b"\n") + 1]
+            self._records.update((record.scene, record) for record in _read(path, whole.decode("utf-8")))
+            # Without a buffer, which would be written again when the file is closed.
+            self._file = path.open("ab", buffering=0)
+            if len(whole) < len(data):
+                self._file.truncate(len(whole))
+        except (OSError, UnicodeDecodeError) as error:
+            raise OutputError(f"{path}: cannot be used as a manifest ({error}); choose another folder") from error
+
+    def get(self, scene: str) -> Record | None:
+        """Return the last record of a scene."""
+        return self._records.get(scene)
+
+    def add(self, record: Record) -> None:
+        """Append a record.
+
+        Raises:
+            OutputError: it cannot be written; a part of it is removed.
+        """
+        size = self.path.stat().st_size
+        line = json.dumps(asdict(record), ensure_ascii=True, separators=(",", ":")).encode() + b"\n"
+        try:
+            if self._file.write(line) < len(line):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            _cut(self._file, size)
+            raise OutputError(
+                f"{self.path}: cannot be written ({error.strerror}); free space and run it again"
+            ) from error
+        self._records[record.scene] = record
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def hash_file(path: Path) -> str:
+    """Return the SHA-256 of a file as hexadecimal digits."""
+    with path.open("rb") as file:
+        digest = sha256()
+        while block := file.read(1 << 20):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def _read(path: Path, text: str) -> Iterator[Record]:
+    for number, line in enumerate(text.splitlines(), 1):
+        try:
+            values = json.loads(line)
+            source = SourceState(**values.pop("source"))
+            yield Record(status=Status(values.pop("status")), source=source, **values)
+        except (ValueError, TypeError, KeyError, AttributeError) as error:
+            raise OutputError(
+                f"{path}: line {number} is no record of a batch ({error}); choose another output folder"
+            ) from error
+
+
+def _cut(file: Any, size: int) -> None:
+    try:
+        file.truncate(size)
+    except OSError:
+        return

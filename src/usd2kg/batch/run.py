@@ -1,0 +1,150 @@
+"""plan_batch and run_batch: which scenes of a batch are still to be built, and building them."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import quote
+
+from usd2kg.batch.job import Job, Outcome
+from usd2kg.batch.manifest import Manifest, Record, SourceState, Status, hash_file
+from usd2kg.batch.scene_files import SceneFile, output_names
+from usd2kg.errors import OutputError, StoreError
+from usd2kg.graph.iris import check_base
+
+__all__ = ["BatchPlan", "Built", "plan_batch", "run_batch"]
+
+DEFAULT_BASE = "https://example.org/"
+
+
+class BatchPlan(NamedTuple):
+    """What a batch has to do."""
+
+    jobs: tuple[Job, ...]
+    """Scenes to build, the largest files first: the last ones to end are then short."""
+    finished: tuple[Record, ...]
+    """Scenes that are built already."""
+
+
+class Built(NamedTuple):
+    """One scene that was built, or could not be."""
+
+    job: Job
+    record: Record
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where the outputs go."""
+
+    folder: Path
+    ending: str
+    base: str
+
+    def job(self, scene: SceneFile, name: str) -> Job:
+        iri = self.base + "/".join(quote(part, safe="") for part in name.split("/")) + "/"
+        return Job(scene.name, scene.path, self.folder / f"{name}{self.ending}", check_base(iri))
+
+
+def plan_batch(
+    scenes: Sequence[SceneFile],
+    folder: Path,
+    manifest: Manifest,
+    *,
+    options: str,
+    ending: str = ".ttl",
+    base: str = DEFAULT_BASE,
+    is_again: bool = False,
+) -> BatchPlan:
+    """Return which scenes are to be built, and which are finished.
+
+    A scene is finished if it was built with the same options, its file has the same size and time, and its graph has
+    the checksum that it was written with. Files that a scene refers to are not looked at.
+
+    Args:
+        scenes: the scenes.
+        folder: for the graphs, in folders as those of the scenes.
+        manifest: the records of earlier runs.
+        options: hash of all else that the graphs depend on.
+        ending: file ending of the graphs.
+        base: beginning of the namespaces; the name of the scene follows.
+        is_again: whether to build all scenes again.
+
+    Raises:
+        OutputError: a graph would overwrite a scene.
+    """
+    place, names = _Place(folder.absolute(), ending, base), output_names(scenes)
+    sources = {scene.path.resolve() for scene in scenes}
+    jobs: list[tuple[int, Job]] = []
+    finished: list[Record] = []
+    for scene in scenes:
+        job = place.job(scene, names[scene.name])
+        if job.target.resolve() in sources:
+            raise OutputError(f"{job.target}: is a scene of the batch and would be overwritten; choose another folder")
+        record, state = manifest.get(scene.name), SourceState.of(scene.path)
+        if not is_again and record is not None and _is_finished(record, job, state, options):
+            finished.append(record)
+        else:
+            jobs.append((-state.bytes, job))
+    return BatchPlan(
+        tuple(job for _, job in sorted(jobs, key=lambda entry: (entry[0], entry[1].name))), tuple(finished)
+    )
+
+
+def _is_finished(record: Record, job: Job, state: SourceState, options: str) -> bool:
+    if record.status is not Status.DONE or (record.options, record.source) != (options, state):
+        return False
+    return job.target.is_file() and hash_file(job.target) == record.sha256
+
+
+def run_batch(
+    plan: BatchPlan,
+    manifest: Manifest,
+    outcomes: Iterable[Outcome],
+    *,
+    options: str,
+    folder: Path,
+    store: Callable[[Job], None] = lambda job: None,
+) -> Iterator[Built]:
+    """Yield each scene when its record is on disk.
+
+    Args:
+        plan: what is to be done.
+        manifest: receives the records.
+        outcomes: those of the jobs, as they end; each graph is in its file by then.
+        options: as in `plan_batch`.
+        folder: as in `plan_batch`.
+        store: puts the graph of a job elsewhere, too.
+
+    Raises:
+        OutputError: the manifest cannot be written.
+    """
+    states = {job.name: SourceState.of(job.source) for job in plan.jobs if job.source.exists()}
+    for outcome in outcomes:
+        error = outcome.error
+        if outcome.summary is not None:
+            try:
+                store(outcome.job)
+            except StoreError as problem:
+                error = str(problem)
+        record = _record(outcome, error, options, states.get(outcome.job.name, SourceState(0, 0)), folder.absolute())
+        manifest.add(record)
+        yield Built(outcome.job, record)
+
+
+def _record(outcome: Outcome, error: str, options: str, source: SourceState, folder: Path) -> Record:
+    job, is_done = outcome.job, outcome.summary is not None and not error
+    return Record(
+        scene=job.name,
+        status=Status.DONE if is_done else Status.FAILED,
+        options=options,
+        source=source,
+        output=job.target.relative_to(folder).as_posix() if is_done else "",
+        sha256=hash_file(job.target) if is_done else "",
+        error=error,
+        attempts=outcome.attempts,
+        seconds=round(outcome.seconds, 3),
+        finished=datetime.now(UTC).isoformat(timespec="seconds"),
+        summary=dict(outcome.summary or {}) if is_done else {},
+    )

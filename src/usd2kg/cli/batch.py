@@ -1,0 +1,240 @@
+"""usd2kg batch: the knowledge graphs of many scenes."""
+
+import hashlib
+import os
+import signal
+import time
+from collections.abc import Callable, Generator, Iterable, Mapping
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from typer import Argument, Option
+
+from usd2kg.cli.batch_progress import BatchProgress
+from usd2kg.cli.options.bundles import bundle_files, check_files, expand_bundles
+from usd2kg.cli.options.common import JsonOutput, OntologyFile
+from usd2kg.cli.options.graph import AnnotationOptions, MergedImports, Profile, SpatialOptions
+from usd2kg.cli.options.grounding import GroundingOptions
+from usd2kg.cli.options.stage import StageOptions
+from usd2kg.cli.options.stores import DataAddress, OptionalStore, UpdateAddress
+from usd2kg.cli.output import count_noun, notify, notify_notes, print_json
+from usd2kg.cli.scene_build import SceneBuild
+from usd2kg.cli.store import open_for_loading
+from usd2kg.errors import GroundingError, OutputError
+
+if TYPE_CHECKING:
+    from usd2kg.batch import Built, Job, Outcome, PoolLimits
+    from usd2kg.ontology import TBox
+    from usd2kg.stores import SceneStore
+
+__all__ = ["batch_command"]
+
+MANIFEST = "manifest.jsonl"
+_SUMMARY = ("prims", "objects", "classes", "status", "confidence", "relations", "triples", "diagnostics")
+"""What a record keeps of the summary of a build."""
+_LOCK_WAIT_S = 2.0
+
+
+@dataclass(frozen=True)
+class _BuildTask:
+    """What each worker does; it is sent to them."""
+
+    steps: SceneBuild
+    ontology: Path | None
+    merges_imports: bool
+
+    def prepare(self) -> "Callable[[Job], Mapping[str, Any]]":
+        from usd2kg.pipeline import open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+
+        tbox = open_tbox(self.ontology)
+        return lambda job: self._build(job, tbox)
+
+    def _build(self, job: "Job", tbox: "TBox") -> Mapping[str, Any]:
+        from usd2kg.cli.build_summary import summarize_build  # noqa: PLC0415
+        from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
+        from usd2kg.ontology import read_closure  # noqa: PLC0415
+
+        start = time.perf_counter()
+        with self.steps.run(job.source, tbox, job.base) as (result, _):
+            graph = result.graph
+            if self.merges_imports:
+                graph = merge_imports(graph, read_closure(tbox, graph.imports))
+            try:
+                job.target.parent.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise OutputError(f"{job.target.parent}: cannot be made ({error.strerror})") from error
+            write_graph(graph, job.target)
+        summary = summarize_build(result, "", time.perf_counter() - start)
+        return {key: summary[key] for key in _SUMMARY}
+
+
+@expand_bundles
+def batch_command(
+    places: Annotated[
+        list[str],
+        Argument(
+            metavar="SCENE|FOLDER|PATTERN...",
+            help="Scenes, folders with stages, or patterns in quotes, such as 'scenes/**/*.usd'.",
+        ),
+    ],
+    output: Annotated[
+        Path,
+        Option("--output", "-o", help="Folder for the graphs, in folders as those of the scenes, and the manifest."),
+    ],
+    grounding: GroundingOptions,
+    reading: StageOptions,
+    spatial: SpatialOptions,
+    annotation: AnnotationOptions,
+    ontology: OntologyFile = None,
+    base: Annotated[
+        str,
+        Option(
+            "--base", help="Beginning of the namespaces of individuals, ending in / or #; the scene's name follows."
+        ),
+    ] = "https://example.org/",
+    profile: Profile = "auto",
+    merge_imports: MergedImports = False,
+    file_format: Annotated[
+        str, Option("--format", help="Ending of the graphs: ttl, trig, nt, nq, rdf, owl or jsonld, also with .gz.")
+    ] = "ttl",
+    exclude_scenes: Annotated[
+        list[str] | None,
+        Option("--exclude-scenes", metavar="PATTERN", help="Scenes to leave out, such as '**/assets/**'. Repeatable."),
+    ] = None,
+    workers: Annotated[
+        int | None, Option("--workers", min=1, max=1024, help="Scenes built at the same time; default: one a core.")
+    ] = None,
+    time_limit: Annotated[
+        float,
+        Option("--time-limit", min=1, help="Seconds after which a scene is stopped, tried once more, and reported."),
+    ] = 600.0,
+    memory_limit: Annotated[
+        int, Option("--memory-limit", min=256, help="MiB of memory at which a scene is stopped likewise; on Linux.")
+    ] = 8192,
+    again: Annotated[bool, Option("--again", help="Build finished scenes again, too.")] = False,
+    on_ray: Annotated[
+        bool,
+        Option("--ray", help="Run on the Ray cluster that RAY_ADDRESS names, or on a local one (extra ray)."),
+    ] = False,
+    store: OptionalStore = None,
+    store_update: UpdateAddress = None,
+    store_data: DataAddress = None,
+    json: JsonOutput = False,
+) -> None:
+    """Build the graphs of many scenes in parallel; what is finished survives a crash, and is not built again."""
+    # Loads OpenUSD, too slow for --help.
+    from usd2kg.batch import Manifest, PoolLimits, find_scene_files, plan_batch, run_batch  # noqa: PLC0415
+    from usd2kg.batch.folder import open_batch_folder  # noqa: PLC0415
+    from usd2kg.graph import graph_format  # noqa: PLC0415
+    from usd2kg.pipeline import open_tbox  # noqa: PLC0415
+
+    if grounding.model.requests.dry_run or grounding.review.queue is not None:
+        raise GroundingError("--dry-run and --queue are for one scene; use them with usd2kg ground or build")
+    ending = f".{file_format.removeprefix('.')}"
+    graph_format(Path(f"graph{ending}"))
+    scenes = find_scene_files(places, exclude_scenes or ())
+    check_files([], [scene.path for scene in scenes], grounding, reading, spatial)
+    steps = SceneBuild(grounding, reading, spatial, annotation, profile)
+    steps.check()
+    tbox = open_tbox(ontology)
+    notify_notes(tbox)
+    task = _BuildTask(steps, ontology, merge_imports)
+    options = _hash_options(task, tbox, ending, base)
+    limits = PoolLimits(workers or _count_cores(), time_limit, memory_limit)
+    opened = None if store is None else open_for_loading(store, store_update, store_data)
+    start = time.perf_counter()
+    # As Ctrl+C: the workers are stopped, and what is finished is kept.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with open_batch_folder(output, _LOCK_WAIT_S), Manifest(output / MANIFEST) as manifest:
+        plan = plan_batch(scenes, output, manifest, options=options, ending=ending, base=base, is_again=again)
+        if plan.finished:
+            notify(f"{count_noun(len(plan.finished), 'scene')} of {len(scenes)} finished before")
+        built: list[Built] = []
+        outcomes = _outcomes(task, plan.jobs, limits, on_ray=on_ray)
+        with BatchProgress(plan.jobs, sum(1 for _ in plan.finished)) as progress, closing(outcomes):
+            try:
+                for one in run_batch(plan, manifest, outcomes, options=options, folder=output, store=_loader(opened)):
+                    built.append(one)
+                    progress.show(one)
+            except KeyboardInterrupt:
+                notify(f"stopped after {count_noun(len(built), 'scene')}; the same command goes on from there")
+                raise typer.Exit(130) from None
+            except ChildProcessError as error:
+                raise GroundingError(f"{error}; --verbose shows why, with one worker") from error
+    failed = [one.record for one in built if one.record.error]
+    seconds = time.perf_counter() - start
+    summary = {
+        "scenes": len(scenes),
+        "built": len(built) - len(failed),
+        "finished_before": len(plan.finished),
+        "failed": {record.scene: record.error for record in failed},
+        "objects": sum(one.record.summary.get("objects", 0) for one in built),
+        "triples": sum(one.record.summary.get("triples", 0) for one in built),
+        "manifest": str(output / MANIFEST),
+        "seconds": round(seconds, 3),
+    }
+    if json:
+        print_json(summary)
+    else:
+        notify(_summary_text(summary))
+    if failed:
+        raise typer.Exit(1)
+
+
+def _outcomes(task: _BuildTask, jobs: "Iterable[Job]", limits: "PoolLimits", *, on_ray: bool) -> "Generator[Outcome]":
+    if on_ray:
+        from usd2kg.batch.ray_pool import run_on_ray  # noqa: PLC0415 - an extra
+
+        return run_on_ray(task, jobs, limits)
+    from usd2kg.batch import run_in_processes  # noqa: PLC0415
+
+    return run_in_processes(task, jobs, limits)
+
+
+def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
+    """Return what loads the graph of a job into a store, as a named graph; nothing without a store."""
+    from usd2kg.stores import read_named_graph  # noqa: PLC0415
+
+    def load(job: "Job") -> None:
+        if store is not None:
+            store.load(read_named_graph(job.target))
+
+    return load
+
+
+def _hash_options(task: _BuildTask, tbox: "TBox", ending: str, base: str) -> str:
+    """Return a hash of what the graphs depend on besides the scenes: options, their files, ontology and version."""
+    from importlib.metadata import version  # noqa: PLC0415
+
+    steps = task.steps
+    bundles = (steps.grounding, steps.reading, steps.spatial, steps.annotation)
+    digest = hashlib.sha256()
+    for text in (version("usd2kg"), tbox.content_hash, repr(task), ending, base):
+        digest.update(text.encode() + b"\0")
+    for path in (path for bundle in bundles for path, is_output in bundle_files(bundle) if not is_output):
+        try:
+            digest.update(path.read_bytes() + b"\0")
+        except OSError as error:
+            raise GroundingError(f"{path}: cannot be read ({error.strerror})") from error
+    return digest.hexdigest()[:16]
+
+
+def _count_cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _summary_text(summary: Mapping[str, Any]) -> str:
+    failed, seconds = summary["failed"], summary["seconds"]
+    rate = f", {60 * summary['built'] / seconds:,.0f} scenes a minute" if summary["built"] else ""
+    parts = [f"{count_noun(summary['scenes'], 'scene')}: {summary['built']} built in {seconds:.1f} s{rate}"]
+    if summary["finished_before"]:
+        parts.append(f"{summary['finished_before']} finished before")
+    if failed:
+        parts.append(f"{len(failed)} failed")
+    return (
+        f"{', '.join(parts)}\n  {summary['objects']:,} objects, {summary['triples']:,} triples\n"
+        f"  manifest: {summary['manifest']}"
+    )
