@@ -10,7 +10,7 @@ from urllib.parse import quote
 from usd2kg.batch.job import Job, Outcome
 from usd2kg.batch.manifest import Manifest, Record, SourceState, Status, hash_file
 from usd2kg.batch.scene_files import SceneFile, output_names
-from usd2kg.errors import OutputError, StoreError
+from usd2kg.errors import OutputError, Usd2kgError, one_line
 from usd2kg.graph.iris import check_base
 
 __all__ = ["BatchPlan", "Built", "plan_batch", "run_batch"]
@@ -126,8 +126,8 @@ def run_batch(
         if outcome.summary is not None:
             try:
                 store(outcome.job)
-            except StoreError as problem:
-                error = str(problem)
+            except Usd2kgError as problem:
+                error = one_line(problem)
         record = _record(outcome, error, options, states.get(outcome.job.name, SourceState(0, 0)), folder.absolute())
         manifest.add(record)
         yield Built(outcome.job, record)
