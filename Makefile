@@ -3,7 +3,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env sbom audit fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -48,6 +48,20 @@ data-check: $(READY) ## Check that the package data is up to date with knowledge
 owl-jars: ## Download the OWL API and HermiT into build/owl, for make test-slow; needs Java 17 and Maven
 	mvn -q -B -f tools/owl/pom.xml dependency:copy-dependencies -DoutputDirectory=$(CURDIR)/build/owl
 
+build/supply/bin/cyclonedx-py: requirements/supply.txt
+	$(PYTHON) -m venv build/supply
+	build/supply/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/supply.txt
+
+sbom: build/supply/bin/cyclonedx-py ## Write the bill of materials of the wheel's dependencies (CycloneDX) into dist
+	@mkdir -p dist
+	build/supply/bin/cyclonedx-py requirements requirements/run.txt --pyproject pyproject.toml --mc-type library \
+	  --output-reproducible --output-format JSON --output-file dist/usd2kg.cdx.json
+
+audit: build/supply/bin/cyclonedx-py ## Look for known vulnerabilities of all pinned dependencies; asks the registries
+	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/run.txt
+	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/dev.txt
+	cd web && npm audit --omit=dev
+
 sssom-check-env: ## Install the reference implementation of SSSOM into build/sssom, for make test-slow
 	$(PYTHON) -m venv build/sssom
 	build/sssom/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/sssom.txt
@@ -86,6 +100,8 @@ lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with 
 	  --group dev --output-file requirements/dev.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	  --output-file requirements/run.txt pyproject.toml
+	printf 'cyclonedx-bom\npip-audit\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
+	  --generate-hashes --no-header --no-annotate --output-file requirements/supply.txt -
 	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --output-file requirements/sssom.txt -
 

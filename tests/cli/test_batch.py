@@ -171,7 +171,9 @@ def workers_of(process: int) -> Iterator[int]:
 
 
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs /proc")
-@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "sent", [signal.SIGKILL, *(pytest.param(sent, marks=pytest.mark.slow) for sent in (signal.SIGINT, signal.SIGTERM))]
+)
 def test_what_was_finished_survives_a_kill(run: Run, scenes: Scenes, tmp_path: Path, sent: signal.Signals):
     folder, out = scenes(*(f"{number}.usda" for number in range(60))), tmp_path / "out"
     with start(folder, out) as process:

@@ -13,10 +13,13 @@ OF_ONE_COMMAND = {
     "--base": "diff takes the namespace of the other graph",
     "--format": "ground writes mappings, diff writes changes",
     "--gold": "optional in eval kitchen-set",
+    "--memory-limit": "of a scene in batch, of a query in serve",
     "--output": "each command writes another kind of file",
     "--profile": "build has auto, ontology shapes has not",
     "--refresh": "ground renews completions, eval reproduce renews results",
     "--relation-kinds": "build finds, diff compares them",
+    "--time-limit": "of a scene in batch, of a query in serve",
+    "--workers": "scenes in batch, queries in serve",
     "--scene": "store load names a new graph, the others choose an existing one",
 }
 """Option → why its meaning differs between commands."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from usd2kg.convert import FORMATS
 from usd2kg.errors import SceneError
 
-__all__ = ["SceneFile", "find_scene_files"]
+__all__ = ["SceneFile", "find_scene_files", "output_names"]
 
 _STAGES = (".usd", ".usda", ".usdc", ".usdz")
 _ENDINGS = (*_STAGES, *(ending for entry in FORMATS for ending in entry.endings))

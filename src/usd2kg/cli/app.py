@@ -9,6 +9,7 @@ import io
 import logging
 import sys
 import traceback
+from collections.abc import Sequence
 from typing import Annotated
 
 import typer
@@ -37,9 +38,11 @@ from usd2kg.cli import (
     studio,
     validate,
 )
+from usd2kg.cli.log_format import set_up_logging
 from usd2kg.cli.output import emit, notify, to_single_line
 from usd2kg.cli.project_file import read_project_options
 from usd2kg.errors import Usd2kgError
+from usd2kg.tracing import set_up_tracing
 
 __all__ = ["app", "main"]
 
@@ -101,9 +104,19 @@ def _options(
     no_project_file: Annotated[
         bool, Option("--no-project-file", help="Ignore the options of usd2kg.toml. Accepted anywhere.")
     ] = False,
+    log_format: Annotated[
+        str,
+        Option(
+            "--log-format",
+            metavar="text|json",
+            help="Form of the messages on stderr: text, or json, one object a line with the time of each step. "
+            "Accepted anywhere.",
+        ),
+    ] = "text",
 ) -> None:
-    level = logging.INFO if verbose else logging.WARNING
-    logging.basicConfig(level=level, stream=sys.stderr, format="%(message)s")
+    level = logging.INFO if verbose or log_format == "json" else logging.WARNING
+    set_up_logging(level, log_format)
+    set_up_tracing()
 
 
 def main() -> None:
@@ -112,24 +125,45 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             # Escape characters that the terminal's encoding lacks instead of failing.
             stream.reconfigure(errors="backslashreplace")
-    # Click takes a global option only before the command; users append it to the command that failed.
-    global_options = [argument for argument in sys.argv[1:] if argument in {"--verbose", "--no-project-file"}]
-    arguments = [argument for argument in sys.argv[1:] if argument not in global_options]
+    global_options, arguments = _split_global_options(sys.argv[1:])
     is_verbose = "--verbose" in global_options
     try:
+        if "--log-format=json" in global_options:
+            # Before the project file is announced.
+            set_up_logging(logging.INFO, "json")
         if "--no-project-file" not in global_options:
             arguments = _with_project_options(arguments)
         app(args=[*global_options, *arguments], prog_name="usd2kg")
     except Usd2kgError as error:
         if is_verbose:
             traceback.print_exc()
-        notify(f"usd2kg: {to_single_line(str(error))}")
+        notify(f"usd2kg: {to_single_line(str(error))}", logging.ERROR)
         sys.exit(2)
     except (MemoryError, RecursionError) as error:
         if is_verbose:
             traceback.print_exc()
-        notify(f"usd2kg: {_EXHAUSTED[MemoryError if isinstance(error, MemoryError) else RecursionError]}")
+        notify(
+            f"usd2kg: {_EXHAUSTED[MemoryError if isinstance(error, MemoryError) else RecursionError]}", logging.ERROR
+        )
         sys.exit(2)
+
+
+def _split_global_options(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Return the global options and the other arguments.
+
+    Click takes a global option only before the command; users append it to the command that failed.
+    """
+    found: list[str] = []
+    others: list[str] = []
+    waiting = iter(arguments)
+    for argument in waiting:
+        if argument in {"--verbose", "--no-project-file"} or argument.startswith("--log-format="):
+            found.append(argument)
+        elif argument == "--log-format":
+            found.append(f"--log-format={next(waiting, '')}")
+        else:
+            others.append(argument)
+    return found, others
 
 
 def _with_project_options(arguments: list[str]) -> list[str]:

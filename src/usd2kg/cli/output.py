@@ -1,6 +1,7 @@
 """Output: data to stdout or a file, messages and progress to stderr."""
 
 import json
+import logging
 import os
 import re
 import sys
@@ -11,6 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from usd2kg.cli.limits import CELL_WIDTH
+from usd2kg.cli.log_format import format_record, is_json_log
 from usd2kg.files import write_whole
 
 if TYPE_CHECKING:
@@ -36,9 +38,10 @@ _CLEAR_LINE = "\r\x1b[K"
 """Carriage return and the ANSI sequence that erases the rest of the line."""
 
 
-def notify(message: str) -> None:
-    """Print a message to stderr."""
-    print(replace_controls(message), file=sys.stderr)  # noqa: T201
+def notify(message: str, level: int = logging.INFO) -> None:
+    """Print a message to stderr, as a record if messages are JSON."""
+    text = format_record(level, message) if is_json_log() else message
+    print(replace_controls(text), file=sys.stderr)  # noqa: T201
 
 
 def notify_notes(tbox: "TBox") -> None:

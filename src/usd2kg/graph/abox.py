@@ -34,6 +34,7 @@ from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
 from usd2kg.relations import ROOM_KINDS, Relation, find_relations
 from usd2kg.scene import Scene, SceneObject
+from usd2kg.tracing import traced
 
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]
 
@@ -66,6 +67,7 @@ class KnowledgeGraph:
     """IRIs of ontologies that were to be merged and are unavailable."""
 
 
+@traced("instantiate", lambda graph: {"triples": len(graph.triples)})
 def instantiate(
     scene: Scene,
     tbox: TBox,

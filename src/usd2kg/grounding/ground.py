@@ -11,10 +11,12 @@ from usd2kg.grounding.model import Decision, Grounding, Prediction, Status
 from usd2kg.grounding.registry import make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
+from usd2kg.tracing import traced
 
 __all__ = ["ground", "parse_evidence", "parse_regime"]
 
 
+@traced("ground", lambda grounding: {"objects": len(grounding.predictions)})
 def ground(
     scene: Scene,
     tbox: TBox,

@@ -18,6 +18,7 @@ from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
 from usd2kg.ontology.prefixes import expand_curie
 from usd2kg.ontology.scope import default_scope, isolated_classes, nearest_parents, rooted_scope
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
+from usd2kg.tracing import traced
 
 __all__ = ["HOME", "load_home_tbox", "load_tbox"]
 
@@ -28,6 +29,7 @@ _NO_OTHER: frozenset[str] = frozenset()
 _SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
 
 
+@traced("ontology", lambda tbox: {"classes": len(tbox.classes)})
 def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes: Iterable[str] | None = None) -> TBox:
     """Return the candidate classes of an ontology.
 

@@ -41,6 +41,7 @@ from usd2kg.relations.sides import find_sides
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.support import find_hovering, find_support
 from usd2kg.scene import Scene
+from usd2kg.tracing import traced
 
 __all__ = ["find_relations"]
 
@@ -48,6 +49,7 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 
+@traced("relate", lambda relations: {"relations": len(relations)})
 def find_relations(
     scene: Scene, tbox: TBox, grounding: Grounding, options: RelationOptions | None = None
 ) -> tuple[Relation, ...]:

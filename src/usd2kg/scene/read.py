@@ -1,6 +1,5 @@
 """read_scene: USD stage → Scene."""
 
-import logging
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -38,10 +37,9 @@ from usd2kg.scene.stage import (
 from usd2kg.scene.surfaces import SurfaceReader, are_near_others, hold_middles, read_shell
 from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage, paths_above_endless
 from usd2kg.shapes.surface import Surface
+from usd2kg.tracing import traced
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
-
-logger = logging.getLogger(__name__)
 
 _MAX_REASONS = 4
 """Number of reasons listed in the error message for a stage without objects."""
@@ -51,6 +49,7 @@ _NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "
 """Fields without defaults, for an object that OpenUSD cannot read."""
 
 
+@traced("read", lambda scene: {"objects": len(scene.objects), "prims": scene.prim_count})
 def read_scene(
     source: Path | str | Usd.Stage, *, paths: Iterable[str] | None = None, options: ReadOptions | None = None
 ) -> Scene:
@@ -87,7 +86,6 @@ def read_scene(
         time_read = _time_read(opened, options)
     if not objects:
         raise SceneError(_no_object_message(opened.source, outline, selection, opened))
-    logger.info("%s: %d objects among %d prims", opened.source, len(objects), outline.prim_count)
     scene = Scene(
         source=opened.source,
         content_hash=opened.content_hash,

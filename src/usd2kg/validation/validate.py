@@ -10,6 +10,7 @@ from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import OWL, RDFS, U2K
 from usd2kg.ontology import Closure, compact_iri
 from usd2kg.query.graph_store import GraphStore
+from usd2kg.tracing import traced
 from usd2kg.validation.checked_scene import CheckedScene
 from usd2kg.validation.clashes import find_clashes, read_axioms
 from usd2kg.validation.elk import ElkAnswer
@@ -59,6 +60,7 @@ def imports_of(graph: GraphStore) -> tuple[str, ...]:
     return tuple(sorted(v.value for values in values_of(graph.store, OWL.imports).values() for v in values))
 
 
+@traced("validate")
 def validate_graph(
     graph: GraphStore,
     closure: Closure | None = None,

@@ -16,6 +16,7 @@ from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces
 from usd2kg.graph.rdf_document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import write_functional_syntax
+from usd2kg.tracing import traced
 
 __all__ = ["GRAPH_FORMATS", "GraphFormat", "graph_format", "serialize_graph", "write_graph"]
 
@@ -57,6 +58,7 @@ def serialize_graph(graph: KnowledgeGraph | GraphDocument, rdf_format: ox.RdfFor
     return b"".join(_chunks_of(graph, GRAPH_FORMATS[ending]))
 
 
+@traced("write")
 def write_graph(graph: KnowledgeGraph | GraphDocument, path: Path | str) -> None:
     """Write the graph atomically, in the format of the file extension; compressed if it ends in .gz.
 
