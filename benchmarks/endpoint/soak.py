@@ -62,8 +62,9 @@ class Client(threading.Thread):
             except (OSError, HTTPException) as error:
                 self.problems.append(f"{kind}: {type(error).__name__} {error}")
                 continue
-            self.times[kind].append(time.monotonic() - start)
             self.statuses[kind, status] += 1
+            if status in EXPECTED[kind]:
+                self.times[kind].append(time.monotonic() - start)
             if self._is_nasty:
                 time.sleep(20)
 
@@ -86,6 +87,8 @@ class Client(threading.Thread):
                 connection.request("GET", path)
             reply = connection.getresponse()
             reply.read()
+            # As well-behaved clients do when the queue is full.
+            time.sleep(float(reply.headers.get("Retry-After", "0")))
             return reply.status
         except (BrokenPipeError, ConnectionResetError):
             # The server answers a body that is too long before it has read all of it.

@@ -19,7 +19,7 @@ class EndpointLimits:
     """Memory of one query, in addition to that of an idle worker; Linux only."""
     workers: int = 2
     """Queries that run at the same time."""
-    queued_per_worker: int = 8
+    queued_per_worker: int = 32
     """Queries that wait for each worker; further ones are refused."""
     answer_bytes: int = 64 << 20
     """Size of one SELECT result; the rest is cut."""
