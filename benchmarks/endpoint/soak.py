@@ -48,6 +48,7 @@ class Client(threading.Thread):
         self.times: dict[str, list[float]] = defaultdict(list)
         self.statuses: Counter[tuple[str, int]] = Counter()
         self.problems: list[str] = []
+        self.refusals: Counter[str] = Counter()
         self._port, self._examples, self._end, self._chance = port, examples, end, random.Random(seed)
         self._is_nasty = seed == 0
 
@@ -86,7 +87,9 @@ class Client(threading.Thread):
                 path = {"about": "/about", "page": "/"}.get(kind, f"/sparql?{urlencode({'query': query or ''})}")
                 connection.request("GET", path)
             reply = connection.getresponse()
-            reply.read()
+            text = reply.read()
+            if reply.status not in EXPECTED[kind]:
+                self.refusals[text.decode("utf-8", "replace").strip()[:100]] += 1
             # As well-behaved clients do when the queue is full.
             time.sleep(float(reply.headers.get("Retry-After", "0")))
             return reply.status
@@ -176,6 +179,8 @@ def measure(asked: argparse.Namespace, pid: int, port: int) -> None:
     problems = Counter(problem for client in clients for problem in client.problems)
     print(f"{sum(statuses.values())} requests of {asked.clients} clients in {asked.minutes:g} min")
     print(f"without an answer: {dict(problems) or 'none'}")
+    refusals = sum((client.refusals for client in clients), Counter[str]())
+    print(f"refused: {dict(refusals) or 'none'}")
     print(f"memory of the server and its workers, MiB: {', '.join(f'{value:.0f}' for value in memory)}")
 
 

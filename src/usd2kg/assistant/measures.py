@@ -1,18 +1,17 @@
-"""Answers about numbers and looks: sizes, masses, distances, superlatives, colours, materials, places, confidence."""
+"""Answers about numbers and looks: sizes, masses, distances, colours, materials, places, confidence."""
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 
+from usd2kg.assistant.body_measures import MASS, MEASURES, SIZE, BodyMeasures
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_words, name_things, number_text
 from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
-from usd2kg.query.body_table import Body
-from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
+from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.settings import WORDS
 
@@ -21,76 +20,8 @@ __all__ = ["MeasureAnswers"]
 Handler = Callable[..., InterpretedAnswer]
 
 
-class _Measure(NamedTuple):
-    """A measure of bodies."""
-
-    name: str
-    unit: str
-    of: Callable[[Body], float | None]
-
-
-def _side(body: Body, axis: int | None) -> float | None:
-    """Return the height of a box, or the longer (1) or shorter (0) of its level sides, in metres."""
-    if body.lower is None or body.upper is None:
-        return None
-    size = body.upper - body.lower
-    return float(size[2]) if axis is None else float(sorted(size[:2])[axis])
-
-
-def _volume(body: Body) -> float | None:
-    return None if body.extents is None else float(np.prod(body.extents)) ** (1 / 3)
-
-
-def _bottom(body: Body) -> float | None:
-    return None if body.lower is None else float(body.lower[2])
-
-
-_HEIGHT = _Measure("tall", "m", lambda body: _side(body, None))
-_WIDTH = _Measure("wide", "m", lambda body: _side(body, 1))
-_DEPTH = _Measure("deep", "m", lambda body: _side(body, 0))
-_LENGTH = _Measure("long", "m", lambda body: None if body.extents is None else body.extents[2])
-_THICKNESS = _Measure("thick", "m", lambda body: None if body.extents is None else body.extents[0])
-_MASS = _Measure("heavy", "kg", lambda body: body.mass)
-_SIZE = _Measure("large", "m", _volume)
-_PLACE = _Measure("high up", "m", _bottom)
-_MEASURES = {
-    **dict.fromkeys(("tall", "high", "height", "hoch"), _HEIGHT),
-    **dict.fromkeys(("wide", "broad", "width", "breadth", "breit"), _WIDTH),
-    **dict.fromkeys(("deep", "depth", "tief"), _DEPTH),
-    **dict.fromkeys(("long", "length", "lang"), _LENGTH),
-    **dict.fromkeys(("thick",), _THICKNESS),
-    **dict.fromkeys(("heavy", "weight", "mass", "schwer"), _MASS),
-    **dict.fromkeys(("big", "large", "small", "size", "dimensions", "groß"), _SIZE),
-}
-_SUPERLATIVES = {
-    **dict.fromkeys(("heaviest", "schwerste"), (_MASS, 1)),
-    **dict.fromkeys(("lightest", "leichteste"), (_MASS, -1)),
-    **dict.fromkeys(("tallest", "höchste"), (_HEIGHT, 1)),
-    "shortest": (_HEIGHT, -1),
-    **dict.fromkeys(("largest", "biggest", "größte"), (_SIZE, 1)),
-    **dict.fromkeys(("smallest", "kleinste"), (_SIZE, -1)),
-    "widest": (_WIDTH, 1),
-    "narrowest": (_WIDTH, -1),
-    "longest": (_LENGTH, 1),
-    "deepest": (_DEPTH, 1),
-    "thinnest": (_THICKNESS, -1),
-    "highest": (_PLACE, 1),
-    "lowest": (_PLACE, -1),
-}
-_COMPARED = {
-    **dict.fromkeys(("bigger", "larger"), (_SIZE, 1)),
-    "smaller": (_SIZE, -1),
-    **dict.fromkeys(("taller", "higher"), (_HEIGHT, 1)),
-    "shorter": (_HEIGHT, -1),
-    "wider": (_WIDTH, 1),
-    "longer": (_LENGTH, 1),
-    "heavier": (_MASS, 1),
-    "lighter": (_MASS, -1),
-}
 _WITH_MATERIAL = "?s u2k:material []"
 _COLORED = "{ ?s u2k:color [] } UNION { ?s usd:hasColor/usd:primvars_displayColor [] }"
-_SAME = 0.005
-"""Share of a measure by which two things must differ to be unequal."""
 
 
 class MeasureAnswers:
@@ -99,6 +30,7 @@ class MeasureAnswers:
     def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._bodies = BodyMeasures(facts, nouns)
 
     def find(self, question: str) -> Handler | None:
         """Return the method that answers a frame; None if it is another's."""
@@ -106,8 +38,6 @@ class MeasureAnswers:
             "measure": self._measure,
             "weigh": lambda thing: self._measure(thing, "heavy"),
             "distance": self._distance,
-            "superlative": self._superlative,
-            "compare": self._compare,
             "color": self._color,
             "material": self._material,
             "are-color": self._are_like,
@@ -120,57 +50,23 @@ class MeasureAnswers:
         }
         return handlers.get(question)
 
-    def gaps(self, iris: Iterable[str], anchors: Sequence[str]) -> dict[str, float]:
-        """Return the distances between boxes in metres, to the nearest anchor; things without a box are left out."""
-        found: dict[str, float] = {}
-        for iri in iris:
-            distances = [gap for anchor in anchors if iri != anchor and (gap := self._gap(iri, anchor)) is not None]
-            if distances:
-                found[iri] = min(distances)
-        return found
-
-    def _gap(self, one: str, other: str) -> float | None:
-        a, b = self._facts.body(one), self._facts.body(other)
-        if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
-            return None
-        return round(float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0))), 4)
-
-    def _existing(self, text: str) -> Things:
-        """Return things that exist.
-
-        Raises:
-            GraphError: there are none.
-        """
-        things = self._nouns.find(text)
-        if not things.iris:
-            raise GraphError(f"there is no {things.text} in this scene{things.suffix}")
-        return things
-
-    def _values(self, iris: Iterable[str], measure: _Measure) -> dict[str, float]:
-        found = {iri: measure.of(self._facts.body(iri)) for iri in iris}
-        return {iri: round(value, 4) for iri, value in found.items() if value is not None}
-
-    def _unmeasured(self, things: Things, measure: _Measure) -> GraphError:
-        missing = "mass" if measure is _MASS else "box"
-        return GraphError(f"not known: the graph has no {missing} for {things.text}{things.suffix}")
-
     def _measure(self, thing: str, adjective: str = "size") -> InterpretedAnswer:
-        things, measure = self._existing(thing), _MEASURES[adjective.lower()]
-        values = self._values(things.iris, measure)
+        things, measure = self._bodies.existing(thing), MEASURES[adjective.lower()]
+        values = self._bodies.values(things.iris, measure)
         if not values:
-            raise self._unmeasured(things, measure)
+            raise self._bodies.unmeasured(things, measure)
         facts = self._facts
         parts = []
         for iri, value in values.items():
             extents = facts.body(iri).extents
-            if measure is _SIZE and extents is not None:
+            if measure is SIZE and extents is not None:
                 sides = " × ".join(f"{side:.2f}" for side in reversed(extents))
                 parts.append(f"{facts.label(iri)} measures {sides} m")
-            elif measure is _MASS:
+            elif measure is MASS:
                 parts.append(f"{facts.label(iri)} weighs {number_text(value, 'kg')}")
             else:
                 parts.append(f"{facts.label(iri)} is {number_text(value, 'm')} {measure.name}")
-        column = {f"{'mass_kg' if measure is _MASS else f'{measure.name}_m'}": values}
+        column = {f"{'mass_kg' if measure is MASS else f'{measure.name}_m'}": values}
         sentence = f"{join_words(parts[:4])}{f' and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
         return InterpretedAnswer(
             f"how {measure.name}: {things.text}",
@@ -180,8 +76,8 @@ class MeasureAnswers:
         )
 
     def _distance(self, thing: str, other: str) -> InterpretedAnswer:
-        first, second = self._existing(thing), self._existing(other)
-        gaps = self.gaps(first.iris, second.iris)
+        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        gaps = self._bodies.gaps(first.iris, second.iris)
         if not gaps:
             raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
         facts = self._facts
@@ -195,42 +91,8 @@ class MeasureAnswers:
             sentence=sentence,
         )
 
-    def _superlative(self, adjective: str, kind: str) -> InterpretedAnswer:
-        things = self._existing(kind)
-        measure, sign = _SUPERLATIVES[adjective.lower()]
-        values = self._values(things.iris, measure)
-        if not values:
-            raise self._unmeasured(things, measure)
-        facts = self._facts
-        order = sorted(values, key=lambda iri: (-sign * values[iri], facts.path(iri)))
-        best = [iri for iri in order if values[iri] == values[order[0]]]
-        known = (
-            f" of the {len(values)} whose mass is known" if measure is _MASS and len(values) < len(things.iris) else ""
-        )
-        labels = join_words([facts.label(iri) for iri in best[:4]])
-        amount = "" if measure is _SIZE else f", {number_text(values[best[0]], measure.unit)}"
-        sentence = f"The {adjective.lower()} {things.text}{known}: {labels}{amount}{things.suffix}."
-        column = {"mass_kg" if measure is _MASS else "bottom_m" if measure is _PLACE else f"{measure.name}_m": values}
-        return InterpretedAnswer(f"{adjective} {things.text}", facts.table(best, **column), sentence=sentence)
-
-    def _compare(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
-        first, second = self._existing(thing), self._existing(other)
-        measure, sign = _COMPARED[adjective.lower()]
-        values = self._values([first.iris[0], second.iris[0]], measure)
-        if len(values) < 2:
-            raise self._unmeasured(first if first.iris[0] not in values else second, measure)
-        one, two = values[first.iris[0]], values[second.iris[0]]
-        is_more = sign * (one - two) > _SAME * max(one, two)
-        equal = abs(one - two) <= _SAME * max(one, two)
-        numbers = f"{number_text(one, measure.unit)} against {number_text(two, measure.unit)}"
-        how = f"{one**3:.3g} against {two**3:.3g} m³" if measure is _SIZE else numbers
-        said = f"{'Yes' if is_more else 'No'}: {'they are equal' if equal else how}."
-        return InterpretedAnswer(
-            f"whether {first.text} is {adjective} than {second.text}", self._facts.table(values), is_more, sentence=said
-        )
-
     def _color(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._existing(thing), self._facts
+        things, facts = self._bodies.existing(thing), self._facts
         colors = {iri: ", ".join(own_colors(facts, iri)) for iri in things.iris if own_colors(facts, iri)}
         if not colors:
             raise GraphError(f"not known: the graph has no colour for {things.text}{things.suffix}")
@@ -245,7 +107,7 @@ class MeasureAnswers:
         )
 
     def _material(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._existing(thing), self._facts
+        things, facts = self._bodies.existing(thing), self._facts
         found = {iri: ", ".join(facts.materials(iri)) for iri in things.iris if facts.materials(iri)}
         if not found:
             raise GraphError(f"not known: the graph has no material for {things.text}{things.suffix}")
@@ -265,7 +127,7 @@ class MeasureAnswers:
 
     def _are_like(self, kind: str, adjective: str) -> InterpretedAnswer:
         """Return the things of a colour, a material, or another kind."""
-        things, facts, word = self._existing(kind), self._facts, adjective.lower()
+        things, facts, word = self._bodies.existing(kind), self._facts, adjective.lower()
         if word in COLORS:
             if not facts.count(_COLORED):
                 raise GraphError("not known: the graph has no colours")
@@ -373,7 +235,7 @@ class MeasureAnswers:
         return InterpretedAnswer("things that open", facts.table(chosen), sentence=sentence)
 
     def _sure(self, thing: str, kind: str) -> InterpretedAnswer:
-        things, facts = self._existing(thing), self._facts
+        things, facts = self._bodies.existing(thing), self._facts
         what = set(self._nouns.find(kind).iris)
         sure = facts.confidences(things.iris)
         parts = []
@@ -395,7 +257,7 @@ class MeasureAnswers:
         things = facts.things
         sure = facts.confidences(things)
         unsure = [iri for iri in things if sure.get(iri, 0.0) < WORDS.min_confidence]
-        masses = len(self._values(things, _MASS))
+        masses = len(self._bodies.values(things, MASS))
         parts = [f"{len(unsure)} of {len(things)} objects have no class or a doubtful one"]
         materials, colors = facts.count(_WITH_MATERIAL), facts.count(_COLORED)
         for known, name in ((masses, "mass"), (materials, "material"), (colors, "colour")):

@@ -32,7 +32,7 @@ RELATIONS = {
     "above": "above|over|über|au-dessus de",
     "near": "near to|near|next to|beside|besides|close to|by|at|around|touching|neben|près de|à côté de|junto a|"
     "cerca de|accanto a|vicino a",
-    "attached": "attached to|fixed to|fastened to|mounted on|mounted to|hanging from|hanging on",
+    "attached": "hangs from|hang from|attached to|fixed to|fastened to|mounted on|mounted to|hanging from|hanging on",
 }
 """Relation → how people say it, in five languages; longer ways come before their beginnings, such as in and on."""
 _PARAMETERS = {
@@ -41,15 +41,22 @@ _PARAMETERS = {
     "class": "[^?]+?",
     "relation": "|".join(RELATIONS.values()),
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
+    "amount": r"<number> ?([a-z]+|\")",
+    "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)? ?(by|x|×) ?<number> ?[a-z]+",
     "mass": r"<number> ?(kilos?|(kilo)?grams?|kg|g)?",
     "position": r"-?<number>,? +-?<number>,? +-?<number>",
 }
 _POLITE = re.compile(
-    r"(please|can you|could you|would you|tell me(?! about)|i want to know|i would like to know|do you know|hey|ok|so|"
+    r"(please|(can|could) you(?! (see|find|spot|have)\b)|would you|"
+    r"tell me(?! about)|i want to know|i would like to know|do you know|hey|ok|so|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
     re.IGNORECASE,
 )
-_TRAILING = re.compile(r",?\s+(please|thanks|thank you|bitte)$", re.IGNORECASE)
+_TRAILING = re.compile(
+    r",?\s+(please|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
+    r"right now|currently|for me)$",
+    re.IGNORECASE,
+)
 _COMMENT = re.compile(
     r",\s+(?:[^,]+ (?:together|altogether|included|combined|counted|in total)|(?:including|counting) [^,]+)$",
     re.IGNORECASE,
@@ -102,6 +109,8 @@ def normalize(text: str) -> str:
     asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,¿¡")
     while polite := _POLITE.match(asked):
         asked = asked[polite.end() :]
-    asked = _COMMENT.sub("", _TRAILING.sub("", asked)).strip(" ?!.,")
+    while (shorter := _TRAILING.sub("", asked).strip(" ?!.,")) != asked:
+        asked = shorter
+    asked = _COMMENT.sub("", asked).strip(" ?!.,")
     asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
     return re.sub(r"^(what|where)(?:'s|s)\b", r"\1 is", asked, flags=re.IGNORECASE)

@@ -196,6 +196,11 @@ class SceneFacts:
         query = f"SELECT (COUNT(DISTINCT ?s) AS ?n) WHERE {{ ?s u2k:primPath [] . {pattern} }}"
         return int(self.dataset.select(query)[0]["n"].value)
 
+    @cached_property
+    def has_rooms(self) -> bool:
+        """Whether objects are in rooms."""
+        return self.count("?s u2k:inRoom []") > 0
+
     # Joints.
 
     @cached_property

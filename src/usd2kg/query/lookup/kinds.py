@@ -8,6 +8,7 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import RDFS, SKOS
 from usd2kg.grounding import concepts_named
+from usd2kg.knowledge import word_map
 from usd2kg.ontology import expand_curie
 from usd2kg.query.lookup.copies import find_copies
 from usd2kg.query.lookup.facts import SceneFacts
@@ -16,6 +17,7 @@ from usd2kg.query.settings import WORDS
 
 __all__ = ["Kinds"]
 
+_INTERCHANGEABLE = word_map("query", "interchangeable")
 _CLASSES = "SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }"
 _CONCEPTS = "SELECT DISTINCT ?c ?l WHERE { ?c a skos:Concept . OPTIONAL { ?c skos:prefLabel ?l } }"
 
@@ -61,7 +63,9 @@ class Kinds:
     def _concepts_named(self, name: str) -> list[ox.NamedNode]:
         wanted = name_words(name)
         *before, last = name.split() or [name]
-        iris = {name, expand_curie(name), *concepts_named(name), *concepts_named(" ".join([*before, singular(last)]))}
+        head = singular(last)
+        names = [name, *(" ".join([*before, noun]) for noun in (head, _INTERCHANGEABLE.get(head)) if noun)]
+        iris = {name, expand_curie(name), *(iri for one in names for iri in concepts_named(one))}
         return [
             node for node, label in self._concepts if node.value in iris or (wanted and name_words(label) == wanted)
         ]

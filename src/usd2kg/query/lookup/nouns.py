@@ -26,6 +26,8 @@ _EVERYTHING = word_set("query", "general_nouns")
 _QUESTION_WORDS = word_set("query", "question_words")
 _AREAS = word_set("query", "area_nouns")
 _FRAMES = word_set("query", "framing_nouns")
+_CONNECTIVES = word_set("query", "connectives")
+_WHOLE_PLACES = word_set("query", "whole_places")
 _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
 _RELATIONS = {
@@ -106,7 +108,8 @@ class Nouns:
         words = split_phrase(text)
         if not words:
             raise UnknownWordError(f"{exact!r} names no thing; expected a noun, such as table")
-        if foreign := [word for word in words if word in _QUESTION_WORDS]:
+        # A trash can is a noun of the lexicon.
+        if (foreign := [word for word in words if word in _QUESTION_WORDS]) and not concepts_named(" ".join(words)):
             raise UnknownWordError(f"{foreign[0]!r} is not understood in a name")
         found = self._find(" ".join(words))
         if found is not None and found.iris:
@@ -129,8 +132,9 @@ class Nouns:
         restricted = self._restricted(text) or self._modified(text)
         if restricted is not None:
             return restricted
+        is_name = bool(concepts_named(text)) or _CONNECTIVES.isdisjoint(text.split())
         # The noun is known, and no object is one.
-        return Things((), text) if is_noun(text) or self._kinds.find(text) else None
+        return Things((), text) if is_name and (is_noun(text) or self._kinds.find(text)) else None
 
     def _named(self, text: str) -> list[str]:
         """Return the objects with this name, of this kind, or with these words, by the first criterion with a match."""
@@ -238,7 +242,8 @@ class Nouns:
         if first is None:
             return None
         near = self.around(_RELATIONS[parts["relation"]], parts["second"], is_direct=False)
-        return Things(tuple(iri for iri in first.iris if iri in near), text)
+        shown = f"{first.text} {parts['relation']} {parts['second']}"
+        return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
     def around(self, relation: str, text: str, *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to the things that a noun phrase means, or in a part of the scene.
@@ -256,8 +261,14 @@ class Nouns:
         if relation == "inside" and not found and (area := self.in_area(text)):
             return area
         if not anchors.iris:
+            if relation == "inside" and self.is_whole_scene(anchors.text):
+                return set(self._facts.things)
             raise GraphError(f"there is no {anchors.text} in this scene{anchors.suffix}")
         return found
+
+    def is_whole_scene(self, text: str) -> bool:
+        """Return whether a noun means the scene: the shop, or the room where the graph has none."""
+        return text in _WHOLE_PLACES and not (text == "room" and self._facts.has_rooms)
 
     def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""

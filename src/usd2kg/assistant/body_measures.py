@@ -1,0 +1,126 @@
+"""BodyMeasures: measures of the bodies of things, and the words for them."""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from usd2kg.errors import GraphError
+from usd2kg.query.body_table import Body
+from usd2kg.query.lookup import Nouns, SceneFacts, Things
+
+__all__ = ["COMPARED", "MASS", "MEASURES", "PLACE", "SAME", "SIZE", "SUPERLATIVES", "BodyMeasures", "Measure"]
+
+
+class Measure(NamedTuple):
+    """A measure of bodies."""
+
+    name: str
+    unit: str
+    of: Callable[[Body], float | None]
+
+
+def _side(body: Body, axis: int | None) -> float | None:
+    """Return the height of a box, or the longer (1) or shorter (0) of its level sides, in metres."""
+    if body.lower is None or body.upper is None:
+        return None
+    size = body.upper - body.lower
+    return float(size[2]) if axis is None else float(sorted(size[:2])[axis])
+
+
+def _volume(body: Body) -> float | None:
+    return None if body.extents is None else float(np.prod(body.extents)) ** (1 / 3)
+
+
+def _bottom(body: Body) -> float | None:
+    return None if body.lower is None else float(body.lower[2])
+
+
+HEIGHT = Measure("tall", "m", lambda body: _side(body, None))
+WIDTH = Measure("wide", "m", lambda body: _side(body, 1))
+DEPTH = Measure("deep", "m", lambda body: _side(body, 0))
+LENGTH = Measure("long", "m", lambda body: None if body.extents is None else body.extents[2])
+THICKNESS = Measure("thick", "m", lambda body: None if body.extents is None else body.extents[0])
+MASS = Measure("heavy", "kg", lambda body: body.mass)
+SIZE = Measure("large", "m", _volume)
+PLACE = Measure("high up", "m", _bottom)
+MEASURES = {
+    **dict.fromkeys(("tall", "high", "height", "hoch"), HEIGHT),
+    **dict.fromkeys(("wide", "broad", "width", "breadth", "breit"), WIDTH),
+    **dict.fromkeys(("deep", "depth", "tief"), DEPTH),
+    **dict.fromkeys(("long", "length", "lang"), LENGTH),
+    **dict.fromkeys(("thick",), THICKNESS),
+    **dict.fromkeys(("heavy", "weight", "mass", "schwer"), MASS),
+    **dict.fromkeys(("big", "large", "small", "size", "dimensions", "groß"), SIZE),
+}
+SUPERLATIVES = {
+    **dict.fromkeys(("heaviest", "schwerste"), (MASS, 1)),
+    **dict.fromkeys(("lightest", "leichteste"), (MASS, -1)),
+    **dict.fromkeys(("tallest", "höchste"), (HEIGHT, 1)),
+    "shortest": (HEIGHT, -1),
+    **dict.fromkeys(("largest", "biggest", "größte"), (SIZE, 1)),
+    **dict.fromkeys(("smallest", "kleinste"), (SIZE, -1)),
+    "widest": (WIDTH, 1),
+    "narrowest": (WIDTH, -1),
+    "longest": (LENGTH, 1),
+    "deepest": (DEPTH, 1),
+    "thinnest": (THICKNESS, -1),
+    "highest": (PLACE, 1),
+    "lowest": (PLACE, -1),
+}
+COMPARED = {
+    **dict.fromkeys(("bigger", "larger"), (SIZE, 1)),
+    "smaller": (SIZE, -1),
+    **dict.fromkeys(("taller", "higher"), (HEIGHT, 1)),
+    "shorter": (HEIGHT, -1),
+    "wider": (WIDTH, 1),
+    "longer": (LENGTH, 1),
+    "heavier": (MASS, 1),
+    "lighter": (MASS, -1),
+}
+SAME = 0.005
+"""Share of a measure by which two things must differ to be unequal."""
+
+
+class BodyMeasures:
+    """Measures of the things that words mean."""
+
+    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+        self._facts = facts
+        self._nouns = nouns
+
+    def gaps(self, iris: Iterable[str], anchors: Sequence[str]) -> dict[str, float]:
+        """Return the distances between boxes in metres, to the nearest anchor; things without a box are left out."""
+        found: dict[str, float] = {}
+        for iri in iris:
+            distances = [gap for anchor in anchors if iri != anchor and (gap := self._gap(iri, anchor)) is not None]
+            if distances:
+                found[iri] = min(distances)
+        return found
+
+    def _gap(self, one: str, other: str) -> float | None:
+        a, b = self._facts.body(one), self._facts.body(other)
+        if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
+            return None
+        return round(float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0))), 4)
+
+    def existing(self, text: str) -> Things:
+        """Return things that exist.
+
+        Raises:
+            GraphError: there are none.
+        """
+        things = self._nouns.find(text)
+        if not things.iris:
+            raise GraphError(f"there is no {things.text} in this scene{things.suffix}")
+        return things
+
+    def values(self, iris: Iterable[str], measure: Measure) -> dict[str, float]:
+        """Return the measure of each thing that has it."""
+        found = {iri: measure.of(self._facts.body(iri)) for iri in iris}
+        return {iri: round(value, 4) for iri, value in found.items() if value is not None}
+
+    def unmeasured(self, things: Things, measure: Measure) -> GraphError:
+        """Return the error that things lack a measure."""
+        missing = "mass" if measure is MASS else "box"
+        return GraphError(f"not known: the graph has no {missing} for {things.text}{things.suffix}")

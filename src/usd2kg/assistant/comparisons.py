@@ -1,0 +1,210 @@
+"""Answers that compare things: superlatives, two things, numbers of things, limits, and whether something fits."""
+
+import re
+from collections.abc import Callable
+
+from usd2kg.assistant.body_measures import COMPARED, MASS, PLACE, SAME, SIZE, SUPERLATIVES, BodyMeasures
+from usd2kg.assistant.free_places import find_free_places
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
+from usd2kg.errors import GraphError
+from usd2kg.query.lookup import Nouns, SceneFacts
+
+__all__ = ["ComparisonAnswers"]
+
+_NUMBERS = {word: number for number, word in enumerate(("two", "three", "four", "five", "six", "seven", "ten"), 2)}
+_NUMBERS["ten"] = 10
+_AMOUNT = re.compile(r"(?P<number>\d*\.?\d+) ?(?P<unit>[a-z\"]*)", re.IGNORECASE)
+_UNITS = {
+    **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), ("m", 1.0)),
+    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), ("m", 0.01)),
+    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), ("m", 0.001)),
+    **dict.fromkeys(("in", "inch", "inches", '"'), ("m", 0.0254)),
+    **dict.fromkeys(("ft", "foot", "feet"), ("m", 0.3048)),
+    **dict.fromkeys(("kg", "kilo", "kilos", "kilogram", "kilograms"), ("kg", 1.0)),
+    **dict.fromkeys(("g", "gram", "grams"), ("kg", 0.001)),
+    **dict.fromkeys(("lb", "lbs", "pound", "pounds"), ("kg", 0.45359237)),
+}
+"""Unit in a question → unit of the measures, and its size in that."""
+_MOST_NAMED = 4
+
+
+class ComparisonAnswers:
+    """Answers that compare things."""
+
+    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+        self._facts = facts
+        self._nouns = nouns
+        self._bodies = BodyMeasures(facts, nouns)
+
+    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
+        """Return the method that answers a frame; None if it is another's."""
+        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+            "superlative": self._superlative,
+            "compare": self._compare,
+            "choose": self._choose,
+            "more": self._more,
+            "limit": self._limit,
+            "fits": self._fits,
+        }
+        return handlers.get(question)
+
+    def _superlative(self, adjective: str, kind: str, count: str = "1") -> InterpretedAnswer:
+        """Return the things that come first by a measure, with those that are equal to the last of them."""
+        things = self._bodies.existing(kind)
+        measure, sign = SUPERLATIVES[adjective.lower()]
+        values = self._bodies.values(things.iris, measure)
+        if not values:
+            raise self._bodies.unmeasured(things, measure)
+        facts = self._facts
+        order = sorted(values, key=lambda iri: (-sign * values[iri], facts.path(iri)))
+        last = values[order[: _NUMBERS.get(count) or int(count)][-1]]
+        best = [iri for iri in order if sign * values[iri] >= sign * last]
+        known = (
+            f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
+        )
+        labels = join_words([facts.label(iri) for iri in best[:_MOST_NAMED]])
+        amount = "" if measure is SIZE or count != "1" else f", {number_text(last, measure.unit)}"
+        shown = f"The {adjective.lower()} {things.text}" if count == "1" else f"The {count} {adjective} {things.text}"
+        sentence = f"{shown}{known}: {labels}{amount}{things.suffix}."
+        column = {"mass_kg" if measure is MASS else "bottom_m" if measure is PLACE else f"{measure.name}_m": values}
+        return InterpretedAnswer(
+            f"{adjective} {things.text}", facts.table(best, **column), number=last, sentence=sentence
+        )
+
+    def _compare(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
+        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        measure, sign = COMPARED[adjective.lower()]
+        values = self._bodies.values([first.iris[0], second.iris[0]], measure)
+        if len(values) < 2:
+            raise self._bodies.unmeasured(first if first.iris[0] not in values else second, measure)
+        one, two = values[first.iris[0]], values[second.iris[0]]
+        is_more = sign * (one - two) > SAME * max(one, two)
+        equal = abs(one - two) <= SAME * max(one, two)
+        numbers = f"{number_text(one, measure.unit)} against {number_text(two, measure.unit)}"
+        how = f"{one**3:.3g} against {two**3:.3g} m³" if measure is SIZE else numbers
+        said = f"{'Yes' if is_more else 'No'}: {'they are equal' if equal else how}."
+        return InterpretedAnswer(
+            f"whether {first.text} is {adjective} than {second.text}", self._facts.table(values), is_more, sentence=said
+        )
+
+    def _choose(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
+        """Return which of two things is more of something."""
+        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        measure, sign = COMPARED[adjective.lower()]
+        values = self._bodies.values([*first.iris, *second.iris], measure)
+        ranges = []
+        for things in (first, second):
+            own = [sign * values[iri] for iri in things.iris if iri in values]
+            if not own:
+                raise self._bodies.unmeasured(things, measure)
+            ranges.append((min(own), max(own)))
+        (low, high), (other_low, other_high) = ranges
+        if low <= other_high and other_low <= high and (low, high) != (other_low, other_high):
+            raise GraphError(f"not known: some {first.text} are {adjective} than some {second.text}, others are not")
+        winner = first if low > other_high else second
+        is_equal = abs(low - other_low) <= SAME * max(abs(low), abs(other_low))
+        numbers = " and ".join(number_text(abs(value), measure.unit) for value in (low, other_low))
+        said = "They are equal" if is_equal else f"{winner.text} is {adjective}"
+        how = "" if measure is SIZE else f": {numbers}"
+        chosen = () if is_equal else winner.iris
+        return InterpretedAnswer(
+            f"which is {adjective}: {first.text} or {second.text}",
+            self._facts.table(chosen),
+            sentence=begin_sentence(f"{said}{how}{first.suffix}{second.suffix}."),
+        )
+
+    def _more(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
+        """Return whether there are more things of one kind than of another."""
+        first, second = self._nouns.find(thing), self._nouns.find(other)
+        one, two = len(first.iris), len(second.iris)
+        is_so = one > two if adjective.lower() == "more" else one < two
+        counts = f"{count_phrase(one, first.text)} and {count_phrase(two, second.text)}"
+        return InterpretedAnswer(
+            f"whether there are {adjective} {first.text} than {second.text}",
+            self._facts.table((*first.iris, *second.iris)),
+            is_so,
+            sentence=f"{'Yes' if is_so else 'No'}: there are {counts}{first.suffix}{second.suffix}.",
+        )
+
+    def _limit(self, adjective: str, amount: str, kind: str = "things") -> InterpretedAnswer:
+        """Return the things whose measure is above or below an amount."""
+        things = self._nouns.find(kind)
+        adjective = {"more": "heavier", "less": "lighter"}.get(adjective.lower(), adjective.lower())
+        measure, sign = COMPARED[adjective]
+        value, unit = _read_amount(amount)
+        if measure is SIZE or unit != measure.unit:
+            raise GraphError(f"{amount!r} does not measure what is {adjective}; expected a number with {measure.unit}")
+        values = self._bodies.values(things.iris, measure)
+        if not values and things.iris:
+            raise self._bodies.unmeasured(things, measure)
+        chosen = [iri for iri in self._facts.sorted(values) if sign * values[iri] > sign * value]
+        known = (
+            f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
+        )
+        named = name_things(self._facts, chosen) or f"no {things.text}"
+        sentence = f"{named}{known} {'is' if len(chosen) < 2 else 'are'} {adjective} than {number_text(value, unit)}"
+        column = {"mass_kg" if measure is MASS else f"{measure.name}_m": values}
+        return InterpretedAnswer(
+            f"{things.text} {adjective} than {amount}",
+            self._facts.table(chosen, **column),
+            number=len(chosen),
+            sentence=begin_sentence(f"{sentence}{things.suffix}."),
+        )
+
+    def _fits(self, other: str, thing: str = "", sides: str = "") -> InterpretedAnswer:
+        """Return whether a thing, or a box of some size, has room on others."""
+        surfaces, facts = self._bodies.existing(other), self._facts
+        moved: tuple[str, ...] = ()
+        if sides:
+            name = f"a box of {sides}"
+            width, depth, height = _read_sides(sides)
+        else:
+            things = self._bodies.existing(thing)
+            name, moved = things.text, things.iris
+            body = facts.body(things.iris[0])
+            if body.lower is None or body.upper is None:
+                raise GraphError(f"not known: the graph has no box for {things.text}, so its size is unknown")
+            width, depth, height = (float(side) for side in body.upper - body.lower)
+        if not any(iri in facts.supporters for iri in surfaces.iris):
+            raise GraphError(f"not known: nothing stands on {surfaces.text}, so the height of its top is unknown")
+        places = find_free_places(facts, (width, depth, height), surfaces.iris, moved)
+        spots = {place.surface: " ".join(f"{value:g}" for value in place.position) for place in places}
+        size = f" ({width:.2f} × {depth:.2f} m)"
+        if places:
+            x, y, z = places[0].position
+            where = f"room for {name}{size} on {facts.label(places[0].surface)}, at ({x:g}, {y:g}, {z:g}) m"
+        else:
+            where = f"no room for {name}{size} on {surfaces.text}"
+        sentence = f"{'Yes' if places else 'No'}: there is {where}{surfaces.suffix}."
+        understood = f"whether {name} fits on {surfaces.text}"
+        return InterpretedAnswer(understood, facts.table(spots, center_m=spots), bool(places), sentence=sentence)
+
+
+def _read_amount(text: str) -> tuple[float, str]:
+    """Return a quantity in metres or kilograms, and that unit.
+
+    >>> _read_amount("40 cm"), _read_amount("500 g")
+    ((0.4, 'm'), (0.5, 'kg'))
+    """
+    found = _AMOUNT.fullmatch(text.strip())
+    if found is None or found["unit"].lower() not in _UNITS:
+        raise GraphError(
+            f"{text!r} is not understood as an amount; expected a number with a unit, such as 40 cm or 2 kg"
+        )
+    unit, size = _UNITS[found["unit"].lower()]
+    return float(found["number"]) * size, unit
+
+
+def _read_sides(text: str) -> tuple[float, float, float]:
+    """Return width, depth and height in metres; a unit after the last number holds for all.
+
+    >>> _read_sides("40 by 30 by 20 cm")
+    (0.4, 0.3, 0.2)
+    """
+    parts = re.split(r" ?(?:by|x|×) ?", text.strip())
+    unit = re.sub(r"[\d. ]", "", parts[-1])
+    sides = [_read_amount(part if re.search(r"[a-z\"]", part) else f"{part} {unit}") for part in parts]
+    if len(sides) != 3 or any(unit != "m" for _, unit in sides):
+        raise GraphError(f"{text!r} is not understood as a size; expected three lengths, such as 40 by 30 by 20 cm")
+    return sides[0][0], sides[1][0], sides[2][0]

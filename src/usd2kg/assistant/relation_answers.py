@@ -1,0 +1,193 @@
+"""Answers about relations: what is on, in, near, above, between or beside others."""
+
+from collections.abc import Callable, Sequence
+
+from usd2kg.assistant.directions import find_beside, find_between
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.measures import MeasureAnswers
+from usd2kg.assistant.phrases import RELATIONS
+from usd2kg.assistant.sentences import begin_sentence, is_plural, name_things
+from usd2kg.assistant.thing_lists import ThingLists, column_of
+from usd2kg.errors import GraphError
+from usd2kg.knowledge import word_set
+from usd2kg.query import GraphStore
+from usd2kg.query.lookup import Nouns, Things, UnknownWordError
+
+__all__ = ["PREPOSITIONS", "RelationAnswers"]
+
+PREPOSITIONS = {
+    "on": "on",
+    "inside": "in",
+    "near": "near",
+    "above": "above",
+    "below": "below",
+    "attached": "attached to",
+    "left": "left of",
+    "right": "right of",
+    "front": "in front of",
+    "behind": "behind",
+}
+"""Relation → preposition."""
+_BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
+"""Relations that the boxes tell where the graph states none."""
+
+
+class RelationAnswers:
+    """Answers about relations of one graph."""
+
+    def __init__(self, graph: GraphStore, nouns: Nouns, measures: MeasureAnswers) -> None:
+        self._graph = graph
+        self._facts = graph.facts
+        self._nouns = nouns
+        self._measures = measures
+        self._things = ThingLists(graph.facts, nouns)
+
+    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
+        """Return the method that answers a frame; None if it is another's."""
+        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+            "between": self._between,
+            "between-two": lambda kind: self._between(*self.pair(kind)),
+            "rel-count": self._rel_count,
+            "rel-is": self._rel_is,
+            "rel-some": self._rel_some,
+            "rel-what": self._rel_what,
+        }
+        return handlers.get(question)
+
+    def _rel_what(self, relation: str, thing: str) -> InterpretedAnswer:
+        return self._related(relation, thing, None)
+
+    def _rel_some(self, relation: str, thing: str = "", kind: str = "things", other: str = "") -> InterpretedAnswer:
+        if other:
+            # “Which chairs have a cushion on them?”: the anchors.
+            anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
+            name = _relation(relation)
+            chosen = [iri for iri in anchors.iris if self._nouns.related(name, [iri], is_direct=False) & targets]
+            return self._things.answer(Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them"))
+        return self._related(relation, thing, kind)
+
+    def _rel_count(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
+        found = self._related(relation, thing, kind)
+        return InterpretedAnswer(
+            f"number of {found.understood}", found.answer, number=len(found.answer.rows), sentence=found.sentence
+        )
+
+    def _rel_is(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
+        found = self._related(relation, thing, kind)
+        yes = bool(found.answer.rows)
+        said = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
+        return InterpretedAnswer(f"whether {found.understood}", found.answer, yes, sentence=said)
+
+    def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:
+        """Return the things of a kind, or all things, in a relation to others."""
+        name, facts = _relation(relation), self._facts
+        what = None if kind is None else self._nouns.find(kind)
+        anchors = self._anchors(name, thing)
+        understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
+        found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
+        if not found and name in _BY_BOXES:
+            found, note = self._by_boxes(name, anchors)
+        if name == "on" and what is not None and found.isdisjoint(what.iris):
+            found = self._fixed_to(anchors.iris)
+        chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors.iris]
+        notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
+        place = f"{PREPOSITIONS[name]} {self._things.the(anchors)}"
+        if chosen:
+            verb = "is" if len(chosen) == 1 else "are"
+            named = name_things(facts, chosen)
+            sentence = begin_sentence(f"{named} {verb} {place}{notes}.")
+        elif what is not None and not what.iris:
+            sentence = begin_sentence(self._things.absent(what))
+        else:
+            named = "Nothing" if what is None else f"No {what.text}"
+            sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
+        return InterpretedAnswer(understood, self._things.located(chosen), sentence=sentence)
+
+    def _fixed_to(self, anchors: Sequence[str]) -> set[str]:
+        """Return what is fixed to things or to parts of them, and these parts: the handles on a cabinet."""
+        parts: set[str] = set()
+        waiting = {*anchors}
+        while waiting:
+            waiting = self._nouns.related("part", waiting, is_direct=True) - parts
+            parts |= waiting
+        return parts | self._nouns.related("attached", [*anchors, *parts], is_direct=True)
+
+    def _anchors(self, relation: str, text: str) -> Things:
+        """Return the things that a relation leads to; none for a part of the scene.
+
+        Raises:
+            GraphError: there are none.
+        """
+        try:
+            things = self._nouns.find(text)
+        except UnknownWordError:
+            if relation == "inside" and self._nouns.in_area(text):
+                return Things((), text)
+            raise
+        if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
+            raise GraphError(self._things.absent(things).removesuffix("."))
+        return things
+
+    def _by_relation(self, name: str, text: str, anchors: Things, *, is_direct: bool) -> set[str]:
+        if name == "below":
+            return self._below(anchors.iris)
+        found = self._nouns.around(name, text, is_direct=is_direct)
+        if name == "on" and self._is_open_storage(anchors):
+            found |= self._nouns.around("inside", text, is_direct=is_direct)
+        return found
+
+    def _by_boxes(self, name: str, anchors: Things) -> tuple[set[str], str]:
+        """Return what is above or beside things by their boxes, and the note that says so.
+
+        Raises:
+            GraphError: the boxes do not say what is beside them.
+        """
+        if name == "above":
+            answers = [self._graph.answer("above", {"thing": self._facts.path(iri)}) for iri in anchors.iris]
+            return {iri for one in answers for path in column_of(one, "path") for iri in self._facts.at_path(path)}, ""
+        found = [find_beside(self._facts, name, iri) for iri in anchors.iris]
+        if any(one is None for one in found):
+            raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
+        note = " (by boxes, seen from amid the things around)"
+        return {iri for one in found for iri in one or ()}, note
+
+    def pair(self, kind: str) -> tuple[str, str]:
+        """Return the prim paths of the two things of a kind.
+
+        Raises:
+            GraphError: there are not two.
+        """
+        things = self._things.found(kind)
+        if len(things.iris) != 2:
+            raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
+        one, other = map(self._facts.path, things.iris)
+        return one, other
+
+    def _between(self, thing: str, other: str) -> InterpretedAnswer:
+        first, second = self._things.found(thing), self._things.found(other)
+        pairs = [(one, two) for one in first.iris for two in second.iris if one != two]
+        if len(pairs) != 1:
+            raise GraphError(f"{thing!r} and {other!r} are {len(pairs)} pairs of things; expected the name of one each")
+        between = find_between(self._facts, *pairs[0])
+        if between is None:
+            raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
+        verb = "is" if len(between) < 2 else "are"
+        named = name_things(self._facts, between) or "nothing"
+        sentence = f"{named} {verb} between {self._things.the(first)} and {self._things.the(second)}."
+        understood = f"things between {first.text} and {second.text}"
+        return InterpretedAnswer(understood, self._things.located(between), sentence=begin_sentence(sentence))
+
+    def _is_open_storage(self, things: Things) -> bool:
+        """Return whether things have boards above each other, so that what is on a board is inside them."""
+        nouns = word_set("assistant", "open_storage")
+        return bool(things.iris) and all(self._facts.kind(iri).split()[-1] in nouns for iri in things.iris)
+
+    def _below(self, anchors: Sequence[str]) -> set[str]:
+        answers = [self._graph.answer("below", {"thing": self._facts.path(iri)}) for iri in anchors]
+        below = {iri for answer in answers for path in column_of(answer, "path") for iri in self._facts.at_path(path)}
+        return below | {iri for anchor in anchors for iri in self._measures.between_legs(anchor)}
+
+
+def _relation(text: str) -> str:
+    """Return the relation that a preposition means."""
+    return next(name for name, words in RELATIONS.items() if text.lower() in words.split("|"))

@@ -1,0 +1,70 @@
+"""ThingLists: things of a graph in tables and sentences."""
+
+from collections.abc import Sequence
+
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, is_plural, name_things, the_thing
+from usd2kg.errors import GraphError
+from usd2kg.query import Answer
+from usd2kg.query.lookup import Nouns, SceneFacts, Things
+
+__all__ = ["ThingLists", "column_of"]
+
+
+class ThingLists:
+    """Finds and names the things that words mean."""
+
+    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+        self._facts = facts
+        self._nouns = nouns
+
+    def answer(self, things: Things) -> InterpretedAnswer:
+        """Return the answer that lists things."""
+        table = self.located(things.iris)
+        if not things.iris:
+            return InterpretedAnswer(f"all {things.text}", table, sentence=begin_sentence(self.absent(things)))
+        verb = "is" if len(things.iris) == 1 else "are"
+        sentence = f"There {verb} {name_things(self._facts, things.iris)}{things.suffix}."
+        return InterpretedAnswer(f"all {things.text}", table, sentence=sentence)
+
+    def absent(self, things: Things) -> str:
+        """Return the sentence that there are no such things; its first letter is small."""
+        verb = "are" if is_plural(things.text) else "is"
+        return f"there {verb} no {things.text} in this scene{things.suffix}."
+
+    def located(self, iris: Sequence[str]) -> Answer:
+        """Return objects with what they are on and in."""
+        facts = self._facts
+        on = {iri: facts.label(anchors[0]) for iri in iris if (anchors := facts.anchors("on", iri))}
+        inside: dict[str, str] = {}
+        for iri in iris:
+            rooms = facts.anchors("room", iri)
+            containers = [anchor for anchor in facts.anchors("inside", iri) if anchor not in rooms]
+            inside.update((iri, facts.label(anchor)) for anchor in (containers or rooms)[:1])
+        return facts.table(facts.sorted(iris), on=on, inside=inside)
+
+    def the(self, things: Things) -> str:
+        """Return things as they are named after they were found: by kind and label, or by number."""
+        labels = [self._facts.label(iri) for iri in things.iris]
+        if not labels:
+            return things.text
+        if len(labels) == 1:
+            return the_thing(self._facts.kind(things.iris[0]), labels[0])
+        return f"the {count_phrase(len(labels), things.text)}"
+
+    def found(self, text: str) -> Things:
+        """Return things that exist.
+
+        Raises:
+            GraphError: there are none.
+        """
+        things = self._nouns.find(text)
+        if not things.iris:
+            raise GraphError(self.absent(things).removesuffix("."))
+        return things
+
+
+def column_of(answer: Answer, name: str) -> list[str]:
+    """Return the cells of a column; empty text for unbound ones."""
+    at = answer.columns.index(name)
+    return [row[at] or "" for row in answer.rows]
