@@ -6,14 +6,12 @@ from collections.abc import Callable
 from usd2kg.assistant.body_measures import COMPARED, MASS, PLACE, SAME, SIZE, SUPERLATIVES, BodyMeasures
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, number_text
+from usd2kg.assistant.sentences import NUMBER_WORDS, begin_sentence, count_phrase, join_words, name_things, number_text
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts
 
 __all__ = ["ComparisonAnswers"]
 
-_NUMBERS = {word: number for number, word in enumerate(("two", "three", "four", "five", "six", "seven", "ten"), 2)}
-_NUMBERS["ten"] = 10
 _AMOUNT = re.compile(r"(?P<number>\d*\.?\d+) ?(?P<unit>[a-z\"]*)", re.IGNORECASE)
 _UNITS = {
     **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), ("m", 1.0)),
@@ -58,7 +56,7 @@ class ComparisonAnswers:
             raise self._bodies.unmeasured(things, measure)
         facts = self._facts
         order = sorted(values, key=lambda iri: (-sign * values[iri], facts.path(iri)))
-        last = values[order[: _NUMBERS.get(count) or int(count)][-1]]
+        last = values[order[: NUMBER_WORDS.get(count) or int(count)][-1]]
         best = [iri for iri in order if sign * values[iri] >= sign * last]
         known = (
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""

@@ -17,6 +17,7 @@ from usd2kg.assistant.sentences import (
     join_words,
     name_things,
     number_text,
+    split_number,
     the_thing,
 )
 from usd2kg.assistant.swept_space import find_in_the_way
@@ -119,6 +120,7 @@ class _Answerer:
 
     def _how_many(self, kind: str) -> InterpretedAnswer:
         things = self._nouns.find(kind)
+        self._things.check_kind(things)
         count = len(things.iris)
         verb = "is" if count == 1 else "are"
         *before, last = things.text.split() or ["thing"]
@@ -139,9 +141,11 @@ class _Answerer:
         return InterpretedAnswer("number of objects of each class", table, number=len(facts.things), sentence=sentence)
 
     def _is_there(self, kind: str) -> InterpretedAnswer:
+        count, kind = split_number(kind)
         things = self._nouns.find(kind)
+        self._things.check_kind(things)
         answer = self._things.answer(things)
-        yes = bool(things.iris)
+        yes = len(things.iris) >= count
         said = (
             f"Yes: {answer.sentence[0].lower()}{answer.sentence[1:]}" if yes else f"No: {self._things.absent(things)}"
         )
@@ -189,6 +193,8 @@ class _Answerer:
                 return self._how_many(kind)
             raise GraphError(self._things.absent(wholes).removesuffix("."))
         parts = self._nouns.related("part", wholes.iris, is_direct=True)
+        if not parts:
+            raise GraphError(f"not known: the graph states no parts of {wholes.text} as objects of their own")
         chosen = [iri for iri in what.iris if iri in parts]
         sentence = f"{begin_sentence(self._things.the(wholes))} has {count_phrase(len(chosen), what.text)}."
         return InterpretedAnswer(

@@ -6,12 +6,13 @@ from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.phrases import RELATIONS
-from usd2kg.assistant.sentences import begin_sentence, is_plural, name_things
+from usd2kg.assistant.sentences import begin_sentence, is_plural, name_things, split_number
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query import GraphStore
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
+from usd2kg.query.lookup.word_forms import split_phrase
 
 __all__ = ["PREPOSITIONS", "RelationAnswers"]
 
@@ -73,8 +74,9 @@ class RelationAnswers:
         )
 
     def _rel_is(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
+        count, kind = split_number(kind)
         found = self._related(relation, thing, kind)
-        yes = bool(found.answer.rows)
+        yes = len(found.answer.rows) >= count
         said = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
         return InterpretedAnswer(f"whether {found.understood}", found.answer, yes, sentence=said)
 
@@ -82,13 +84,19 @@ class RelationAnswers:
         """Return the things of a kind, or all things, in a relation to others."""
         name, facts = _relation(relation), self._facts
         what = None if kind is None else self._nouns.find(kind)
+        if what is not None:
+            self._things.check_kind(what)
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
         found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
         if not found and name in _BY_BOXES:
             found, note = self._by_boxes(name, anchors)
-        if name == "on" and what is not None and found.isdisjoint(what.iris):
-            found = self._fixed_to(anchors.iris)
+        if name == "on" and found.isdisjoint(found if what is None else what.iris):
+            # Pictures hang on a wall, and handles are on a cabinet.
+            found = self._fixed_to(anchors.iris, with_parts=what is not None)
+        if name == "below" and what is not None and found.isdisjoint(what.iris):
+            # A rug is under the table that stands on it.
+            found = {one for iri in anchors.iris for one in facts.anchors("on", iri)}
         chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors.iris]
         notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
         place = f"{PREPOSITIONS[name]} {self._things.the(anchors)}"
@@ -99,18 +107,19 @@ class RelationAnswers:
         elif what is not None and not what.iris:
             sentence = begin_sentence(self._things.absent(what))
         else:
-            named = "Nothing" if what is None else f"No {what.text}"
+            named = "Nothing" if what is None or what.text == "thing" else f"No {what.text}"
             sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
         return InterpretedAnswer(understood, self._things.located(chosen), sentence=sentence)
 
-    def _fixed_to(self, anchors: Sequence[str]) -> set[str]:
-        """Return what is fixed to things or to parts of them, and these parts: the handles on a cabinet."""
+    def _fixed_to(self, anchors: Sequence[str], *, with_parts: bool) -> set[str]:
+        """Return what is fixed to things or to parts of them, and these parts on request."""
         parts: set[str] = set()
         waiting = {*anchors}
         while waiting:
             waiting = self._nouns.related("part", waiting, is_direct=True) - parts
             parts |= waiting
-        return parts | self._nouns.related("attached", [*anchors, *parts], is_direct=True)
+        fixed = self._nouns.related("attached", [*anchors, *parts], is_direct=True)
+        return fixed | parts if with_parts else fixed
 
     def _anchors(self, relation: str, text: str) -> Things:
         """Return the things that a relation leads to; none for a part of the scene.
@@ -118,12 +127,18 @@ class RelationAnswers:
         Raises:
             GraphError: there are none.
         """
+        noun = " ".join(split_phrase(text))
+        if relation == "inside" and self._nouns.is_whole_scene(noun):
+            return Things((), noun)
+        if relation == "inside" and self._nouns.lacks_room(noun):
+            raise GraphError(f"there is no {noun} in this scene")
         try:
             things = self._nouns.find(text)
         except UnknownWordError:
             if relation == "inside" and self._nouns.in_area(text):
                 return Things((), text)
             raise
+        self._things.check_kind(things)
         if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
             raise GraphError(self._things.absent(things).removesuffix("."))
         return things

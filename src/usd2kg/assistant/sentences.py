@@ -7,6 +7,7 @@ from usd2kg.query.lookup import SceneFacts
 from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS, singular
 
 __all__ = [
+    "NUMBER_WORDS",
     "begin_sentence",
     "count_phrase",
     "is_plural",
@@ -14,10 +15,12 @@ __all__ = [
     "name_things",
     "number_text",
     "plural",
+    "split_number",
     "the_thing",
 ]
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+NUMBER_WORDS = {word: number for number, word in enumerate(_NUMBERS) if number}
 _MOST_NAMED = 6
 """Kinds of things that a sentence names."""
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
@@ -91,6 +94,17 @@ def is_plural(noun: str) -> bool:
     (True, False, False)
     """
     return singular(last := noun.rsplit(maxsplit=1)[-1]) != last if noun else False
+
+
+def split_number(text: str) -> tuple[int, str]:
+    """Return the number before a noun, 1 without one, and the noun.
+
+    >>> split_number("two mugs"), split_number("the 3 cups"), split_number("any cup")
+    ((2, 'mugs'), (3, 'cups'), (1, 'any cup'))
+    """
+    first, _, rest = text.removeprefix("the ").partition(" ")
+    number = NUMBER_WORDS.get(first.lower()) or (int(first) if first.isdecimal() else None)
+    return (1, text) if number is None or not rest else (number, rest)
 
 
 def number_text(value: float, unit: str) -> str:

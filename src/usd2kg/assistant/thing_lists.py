@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, count_phrase, is_plural, name_things, the_thing
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, is_plural, join_words, name_things, the_thing
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
 
 __all__ = ["ThingLists", "column_of"]
+
+_MOST_NAMED = 4
 
 
 class ThingLists:
@@ -31,6 +33,16 @@ class ThingLists:
         """Return the sentence that there are no such things; its first letter is small."""
         verb = "are" if is_plural(things.text) else "is"
         return f"there {verb} no {things.text} in this scene{things.suffix}."
+
+    def check_kind(self, things: Things) -> None:
+        """Check that things are what the words say, and not only named after it.
+
+        Raises:
+            GraphError: the words only occur in the names of other things.
+        """
+        if things.is_by_name:
+            labels = join_words([self._facts.label(iri) for iri in things.iris[:_MOST_NAMED]])
+            raise GraphError(f"not known: nothing is known to be {things.text}, which is only in the name of {labels}")
 
     def located(self, iris: Sequence[str]) -> Answer:
         """Return objects with what they are on and in."""

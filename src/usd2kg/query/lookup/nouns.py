@@ -28,6 +28,8 @@ _AREAS = word_set("query", "area_nouns")
 _FRAMES = word_set("query", "framing_nouns")
 _CONNECTIVES = word_set("query", "connectives")
 _WHOLE_PLACES = word_set("query", "whole_places")
+_NUMBERS = word_set("query", "number_words")
+_ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
 _RELATIONS = {
@@ -69,6 +71,8 @@ class Things:
     """The words, without articles."""
     note: str = ""
     """How unusual words were read; empty if as they are."""
+    is_by_name: bool = False
+    """Whether the words only occur in the names of things that are something else: `shoes` in ShoeRack."""
 
     @property
     def suffix(self) -> str:
@@ -106,6 +110,8 @@ class Nouns:
         if named := self._facts.at_path(exact) or self._facts.labelled({exact} - {""}):
             return Things(tuple(self._facts.sorted(named)), exact)
         words = split_phrase(text)
+        while len(words) > 1 and words[0] in _NUMBERS:
+            words = words[1:]
         if not words:
             raise UnknownWordError(f"{exact!r} names no thing; expected a noun, such as table")
         # A trash can is a noun of the lexicon.
@@ -129,6 +135,8 @@ class Nouns:
             return Things(tuple(self._facts.things), "thing")
         if found := self._named(text):
             return Things(tuple(found), text)
+        if (by_words := self._of_words(text)) is not None:
+            return by_words
         restricted = self._restricted(text) or self._modified(text)
         if restricted is not None:
             return restricted
@@ -152,16 +160,31 @@ class Nouns:
             lambda: self._in_place(text) if self._is_plain(text) else (),
             lambda: self._kinds.objects(text),
         )
-        rest: tuple[_Criterion, ...] = (
-            lambda: self._with_words(names),
-            lambda: self._in_place(text),
-            lambda: (iri for asset, iris in facts.assets() if names and names <= name_words(asset) for iri in iris),
-        )
         # One noun is rarely a name, and all names of a large graph take seconds to read.
-        for criterion in (*exact, *kinds, *named, *rest) if text.isalpha() else (*exact, *named, *kinds, *rest):
+        for criterion in (*exact, *kinds, *named) if text.isalpha() else (*exact, *named, *kinds):
             if found := facts.sorted(criterion()):
                 return found
         return []
+
+    def _of_words(self, text: str) -> Things | None:
+        """Return the objects with these words in the label, in the path or in the name of the asset.
+
+        A word that a label begins with is what the thing is for, not what it is, unless nothing else is known of it.
+        """
+        facts, names = self._facts, name_words(text)
+        labelled = facts.sorted(self._with_words(names))
+        if labelled and is_noun(text):
+            head = singular(text.rsplit(maxsplit=1)[-1].lower())
+            exact = [iri for iri in labelled if facts.concept(iri) is None or _head_of(facts.label(iri)) == head]
+            return Things(tuple(exact or labelled), text, is_by_name=not exact)
+        if labelled:
+            return Things(tuple(labelled), text)
+        rest: tuple[_Criterion, ...] = (
+            lambda: self._in_place(text),
+            lambda: (iri for asset, iris in facts.assets() if names and names <= name_words(asset) for iri in iris),
+        )
+        found: list[str] = next((one for criterion in rest if (one := facts.sorted(criterion()))), [])
+        return Things(tuple(found), text) if found else None
 
     def _with_words(self, words: frozenset[str], *, is_whole: bool = False) -> Iterator[str]:
         """Yield the objects whose label has some words; if whole, no others but numbers."""
@@ -218,6 +241,11 @@ class Nouns:
         words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
         return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
 
+    def lacks_room(self, text: str) -> bool:
+        """Return whether a noun means a room that the graph does not have."""
+        noun = " ".join(split_phrase(text))
+        return noun in _ROOM_NOUNS and not self._kinds.objects(noun) and not self.in_area(noun)
+
     def _group(self, iri: str) -> str:
         """Return the path of the groups of an object, without the root that all share."""
         return self._facts.path(iri).rpartition("/")[0].removeprefix(self._root)
@@ -251,6 +279,8 @@ class Nouns:
         Raises:
             GraphError: there are no such things.
         """
+        if relation == "inside" and self.is_whole_scene(" ".join(split_phrase(text))):
+            return set(self._facts.things)
         try:
             anchors = self.find(text)
         except UnknownWordError:
@@ -261,14 +291,14 @@ class Nouns:
         if relation == "inside" and not found and (area := self.in_area(text)):
             return area
         if not anchors.iris:
-            if relation == "inside" and self.is_whole_scene(anchors.text):
-                return set(self._facts.things)
             raise GraphError(f"there is no {anchors.text} in this scene{anchors.suffix}")
         return found
 
     def is_whole_scene(self, text: str) -> bool:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
-        return text in _WHOLE_PLACES and not (text == "room" and self._facts.has_rooms)
+        return (
+            text in _WHOLE_PLACES and not self._kinds.objects(text) and not (text == "room" and self._facts.has_rooms)
+        )
 
     def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""
@@ -320,3 +350,9 @@ class Nouns:
 
     def _is_known(self, word: str) -> bool:
         return word in _RELATIONS or word in _DETERMINERS or is_noun(word)
+
+
+def _head_of(label: str) -> str:
+    """Return the last word of a label in the singular: `rack` of ShoeRack_01."""
+    words = [part.lower() for part in split_identifier(label) if part.isalpha() and len(part) > 1]
+    return singular(words[-1]) if words else ""
