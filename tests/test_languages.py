@@ -1,6 +1,7 @@
 """Reading German, Spanish, French and Italian names."""
 
 import unicodedata
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -9,6 +10,8 @@ from hypothesis import strategies as st
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.knowledge import read_rows
 from usd2kg.languages import language_of, split_compound, translate
+from usd2kg.languages.glossary import load_lexicons
+from usd2kg.languages.inflection import Form
 from usd2kg.words import words_of
 
 ROWS = read_rows("glosses.csv")
@@ -263,3 +266,21 @@ def test_composed_decomposed_and_transliterated_umlauts_are_equal(word):
 
 def test_very_long_words_are_not_split():
     assert split_compound("stuhl" * 2000) == ("stuhl" * 2000,)
+
+
+def test_spellings_are_the_same_with_and_without_the_kept_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    def spellings() -> dict[str, tuple[dict[str, Form], ...]]:
+        load_lexicons.cache_clear()
+        found = load_lexicons()
+        return {language: (dict(one.words), dict(one.modifiers)) for language, one in found.items()}
+
+    monkeypatch.setenv("USD2KG_TABLE_CACHE", "off")
+    computed = spellings()
+    monkeypatch.setenv("USD2KG_TABLE_CACHE", str(tmp_path))
+    assert spellings() == computed
+    (kept,) = tmp_path.glob("*-word-forms.json")
+    assert spellings() == computed
+    for damage in ("", "[]", '{"de": []}'):
+        kept.write_text(damage)
+        assert spellings() == computed
+    load_lexicons.cache_clear()

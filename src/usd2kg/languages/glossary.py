@@ -1,16 +1,22 @@
 """Lexicons of foreign words and phrases, and the splitting of German compounds."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from usd2kg.knowledge import read_rows
 from usd2kg.languages.inflection import Entry, Form, compound_forms, fold, word_forms
 from usd2kg.languages.settings import COMPOUNDS
+from usd2kg.table_cache import open_table_cache
 
 __all__ = ["Glossary", "load_lexicons", "split_compound"]
+
+_LINK_ROLES = frozenset({"link", "with"})
+_FORM_CODES = 16
+"""Costs of 0 to 7, and whether a form reveals its language."""
+_Codes = dict[str, list[dict[str, int]]]
 
 
 @dataclass(slots=True)
@@ -18,9 +24,9 @@ class Glossary:
     """The words of one language by their folded spellings."""
 
     language: str
-    words: dict[str, Form] = field(default_factory=dict)
+    words: Mapping[str, Form]
     """Spellings of whole words and of the last parts of compounds."""
-    modifiers: dict[str, Form] = field(default_factory=dict)
+    modifiers: Mapping[str, Form]
     """Spellings of the other parts of German compounds; empty in other languages."""
     links: dict[str, Entry] = field(default_factory=dict)
     """Words such as `de` and `mit`."""
@@ -64,19 +70,34 @@ class Glossary:
         return self.links.get(fold(word, self.language))
 
     def add(self, entry: Entry) -> None:
-        """Add an entry; phrases must be added after their words."""
-        if entry.role in {"link", "with"}:
+        """Add a link, or a phrase, whose words are known."""
+        if entry.role in _LINK_ROLES:
             self.links[fold(entry.word, entry.language)] = entry
-        elif " " in entry.word:
+        else:
             key = tuple(self.dictionary_form(word) for word in entry.word.split() if self.link(word) is None)
             self.phrases[key] = entry
             self.phrase_starts.add(key[0])
-        else:
-            forms = list(word_forms(entry))
-            if entry.role != "stem":
-                _keep_cheapest(self.words, forms)
-            if entry.language == "de":
-                _keep_cheapest(self.modifiers, chain(forms, compound_forms(entry)))
+
+
+class _FormTable(Mapping[str, Form]):
+    """Spelling → form, from numbers that are decoded when they are needed."""
+
+    def __init__(self, codes: Mapping[str, int], entries: Sequence[Entry]) -> None:
+        self._codes = codes
+        self._entries = entries
+
+    def __getitem__(self, text: str) -> Form:
+        number, code = divmod(self._codes[text], _FORM_CODES)
+        return Form(self._entries[number], code // 2, code % 2 == 1)
+
+    def __contains__(self, text: object) -> bool:
+        return text in self._codes
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._codes)
+
+    def __len__(self) -> int:
+        return len(self._codes)
 
 
 class _Split(NamedTuple):
@@ -100,15 +121,53 @@ def _keep_cheapest(forms: dict[str, Form], found: Iterable[tuple[str, Form]]) ->
 
 @lru_cache(maxsize=1)
 def load_lexicons() -> dict[str, Glossary]:
-    """Return language → lexicon, in the order of the vocabulary; read once."""
+    """Return language → lexicon, in the order of the vocabulary; read once. The spellings are kept between commands."""
     entries = [
         Entry(row["language"], row["word"], tuple(row["english"].split()), row["homograph"] == "yes", row["role"])
         for row in read_rows("glosses.csv")
     ]
-    lexicons = {entry.language: Glossary(entry.language) for entry in entries}
-    for entry in sorted(entries, key=lambda entry: " " in entry.word):
+    codes = open_table_cache(()).get("word-forms", _checked, lambda: _encode_forms(entries), lambda table: table)
+    lexicons = {
+        language: Glossary(language, _FormTable(words, entries), _FormTable(modifiers, entries))
+        for language, (words, modifiers) in codes.items()
+    }
+    links = [entry for entry in entries if entry.role in _LINK_ROLES]
+    # Phrases are listed by their words without links.
+    for entry in (*links, *(entry for entry in entries if " " in entry.word and entry.role not in _LINK_ROLES)):
         lexicons[entry.language].add(entry)
     return lexicons
+
+
+def _encode_forms(entries: Sequence[Entry]) -> _Codes:
+    """Return language → spellings of words and of modifiers, each with the number of its entry, cost and homography."""
+    found: dict[str, tuple[dict[str, Form], dict[str, Form]]] = {}
+    for entry in entries:
+        words, modifiers = found.setdefault(entry.language, ({}, {}))
+        if entry.role in _LINK_ROLES or " " in entry.word:
+            continue
+        forms = list(word_forms(entry))
+        if entry.role != "stem":
+            _keep_cheapest(words, forms)
+        if entry.language == "de":
+            _keep_cheapest(modifiers, chain(forms, compound_forms(entry)))
+    numbers = {entry: number for number, entry in enumerate(entries)}
+    return {
+        language: [
+            {
+                text: numbers[form.entry] * _FORM_CODES + form.cost * 2 + form.reveals_language
+                for text, form in table.items()
+            }
+            for table in tables
+        ]
+        for language, tables in found.items()
+    }
+
+
+def _checked(table: Any) -> _Codes:
+    """Return a kept table; raise ValueError if it is damaged."""
+    if not isinstance(table, dict) or any(len(parts) != 2 for parts in table.values()):
+        raise ValueError("expected two tables a language")
+    return table
 
 
 def split_compound(word: str) -> tuple[str, ...]:
