@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from usd2kg.grounding.lexical.settings import SIZE
 from usd2kg.knowledge import read_rows
+from usd2kg.table_cache import open_table_cache
 
 __all__ = [
     "Size",
@@ -188,8 +189,22 @@ def _load_table() -> _SizeTable:
     spread = np.array([float(row["spread"]) for row in rows])
     scales = np.sqrt(spread**2 + SIZE.relative_error**2 + (SIZE.absolute_error / extents) ** 2)
     centres = np.log(extents)
-    peaks = (1 - SIZE.broad_share) * _PEAK_DENSITY**3 / scales.prod(axis=0) / _order_probability(centres, scales)
+    ordered = open_table_cache(()).get(
+        "size-order",
+        lambda kept: _checked(kept, len(rows)),
+        lambda: _order_probability(centres, scales),
+        np.ndarray.tolist,
+    )
+    peaks = (1 - SIZE.broad_share) * _PEAK_DENSITY**3 / scales.prod(axis=0) / ordered
     return _SizeTable(tuple(row["noun"] for row in rows), 0.5 / scales, centres * 0.5 / scales, peaks)
+
+
+def _checked(kept: list[float], count: int) -> _Floats:
+    """Return a kept table; raise ValueError if it is damaged."""
+    found: _Floats = np.array(kept, np.float64)
+    if found.shape != (count,):
+        raise ValueError("expected a number for each row")
+    return found
 
 
 def _order_probability(centres: _Floats, scales: _Floats) -> _Floats:
