@@ -21,8 +21,9 @@ def test_jobs_share_the_workers(tmp_path: Path):
     found = run(tmp_path, [f"good-{number}" for number in range(8)])
     assert len(found) == 8
     processes = {outcome.summary["process"] for outcome in found.values() if outcome.summary}
-    assert 1 <= len(processes) <= 2
-    assert len(list(tmp_path.glob("prepared-*"))) == len(processes), "each worker loads what is shared once"
+    prepared = {int(path.name.partition("-")[2]) for path in tmp_path.glob("prepared-*")}
+    # A worker may get ready when the others have done all.
+    assert processes <= prepared and len(prepared) <= 2
     assert all((tmp_path / f"{name}.ttl").read_text() == name for name in found)
 
 

@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from benchmarks.names.lists import PUBLIC_ONTOLOGIES, iter_ontology_lists
@@ -87,6 +87,7 @@ class TestRoundTrip:
 
     @settings(deadline=None, max_examples=25)
     @given(st.lists(st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=20), min_size=1, max_size=4))
+    @example(labels=["="])
     def test_any_labels(self, labels: list[str]):
         check_round_trip(make_tbox(*(make_class(f"C{at}", label=label) for at, label in enumerate(labels))))
 

@@ -242,7 +242,7 @@ def _is_curated(cells: Mapping[str, str], class_iri: ClassIRI, file: SssomFile, 
     label = cells.get("object_label", "")
     # In another version of the ontology, the class may have another label.
     is_comparable = label and _ontology_hash(file) == tbox.content_hash
-    is_changed = is_comparable and label != _class_label(class_iri, tbox)
+    is_changed = is_comparable and one_line(label) != _class_label(class_iri, tbox)
     return bool(is_changed or cells.get("reviewer_label") or cells.get("reviewer_id"))
 
 
