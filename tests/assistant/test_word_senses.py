@@ -55,6 +55,12 @@ def test_numbers_count(flat: GraphStore, question: str, expected: bool):
     assert ask_offline(flat, question).verdict is expected
 
 
+def test_too_few_are_named(flat: GraphStore):
+    answered = ask_offline(flat, "are there two tables?")
+    assert (answered.verdict, answered.sentence) == (False, "No: there is a table.")
+    assert ask_offline(flat, "is there a piano?").sentence == "No: there is no piano in this scene."
+
+
 def test_what_hangs_on_a_wall_is_attached_to_it(flat: GraphStore):
     assert [row[0] for row in ask_offline(flat, "what hangs on the wall?").answer.rows] == ["Picture"]
 

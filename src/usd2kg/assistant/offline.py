@@ -146,12 +146,10 @@ class _Answerer:
         self._things.check_kind(things)
         answer = self._things.answer(things)
         yes = len(things.iris) >= count
-        said = (
-            f"Yes: {answer.sentence[0].lower()}{answer.sentence[1:]}" if yes else f"No: {self._things.absent(things)}"
-        )
+        said = f"{'Yes' if yes else 'No'}: {answer.sentence[0].lower()}{answer.sentence[1:]}"
         return InterpretedAnswer(f"whether there is {things.text}", answer.answer, yes, sentence=said)
 
-    # Relations.
+    # Places and parts.
 
     def _where(self, thing: str) -> InterpretedAnswer:
         facts, things = self._facts, self._nouns.find(thing)
