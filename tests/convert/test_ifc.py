@@ -1,5 +1,6 @@
 """IFC files are converted at reading: storeys, rooms, elements, kinds of things, identifiers, properties, units."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -258,3 +259,33 @@ def test_a_broken_file_is_one_clear_error(tmp_path: Path, text: str, reason: str
 def test_a_file_without_geometry_is_refused(tmp_path: Path):
     with pytest.raises(SceneError, match="no product has a body that can be tessellated"):
         read_scene(House().save(tmp_path / "house.ifc"))
+
+
+def damaged(folder: Path, damage: Callable[[House], None]) -> Path:
+    house = House()
+    house.put(house.add("IfcWall", "Wall", (0, 0, 0), (4, 0.2, 2.5)), house.storey)
+    damage(house)
+    return house.save(folder / "house.ifc")
+
+
+def without_id(house: House) -> None:
+    house.model.by_type("IfcWall")[0].GlobalId = None
+
+
+def in_a_circle(house: House) -> None:
+    relation = house.model.by_type("IfcRelAggregates")[0]
+    relation.RelatedObjects = [relation.RelatingObject]
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"), [(without_id, r"#\d+ has no GlobalId"), (in_a_circle, r"#\d+ is a part of itself")]
+)
+def test_what_the_library_would_read_for_ever_is_refused(tmp_path: Path, damage: Callable[[House], None], message: str):
+    with pytest.raises(SceneError, match=message):
+        read_scene(damaged(tmp_path, damage))
+
+
+def test_whatever_the_library_raises_is_one_error(tmp_path: Path):
+    (tmp_path / "house.ifczip").write_bytes(b"no zip")
+    with pytest.raises(SceneError, match=r"house\.ifczip: cannot be converted \(File is not a zip file\)"):
+        read_scene(tmp_path / "house.ifczip")

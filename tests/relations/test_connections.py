@@ -1,11 +1,15 @@
 """connects: doors and windows, and the rooms on their two sides."""
 
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.graph.records import thing
 from tests.relations.room_builder import RULES, Placed, artifact, relate
 from tests.relations.test_derived_rooms import BED, FLAT, SOFA, door, shell, wall
 from usd2kg.relations import Relation
+from usd2kg.relations.connections import OUTSIDE, locate_in_boxes
 
 LEAF = door("leaf", (5.02, 3.1, 0), (0.06, 0.9, 2.1))
 
@@ -75,3 +79,16 @@ def test_low_doors_belong_to_cupboards(height: float):
 
 def test_furniture_connects_nothing():
     assert connected(*FLAT, artifact("shelf", (5.02, 3.1, 0), (0.06, 0.9, 2.1))) == {}
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 60))
+def test_points_are_in_the_smallest_box_around_them(seed: int, boxes: int):
+    chance = np.random.default_rng(seed)
+    lower = chance.uniform(0, 10, (boxes, 3))
+    upper = lower + chance.uniform(0.5, 8, (boxes, 3))
+    points = chance.uniform(-1, 19, (200, 3))
+    found = locate_in_boxes(np.arange(boxes) + 100, lower, upper)(points)
+    for point, number in zip(points, found.tolist(), strict=True):
+        around = np.flatnonzero(((point >= lower) & (point <= upper)).all(axis=1))
+        expected = min(around, key=lambda box: (upper - lower)[box].prod()) + 100 if len(around) else OUTSIDE
+        assert number == expected

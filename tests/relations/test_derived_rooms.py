@@ -1,5 +1,7 @@
 """room: rooms that no prim is, from walls and floors."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -224,3 +226,9 @@ def box_corners(lower, upper) -> np.ndarray:
     at = np.array([(a, b, c) for a in x for b in y for c in z], float)
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     return np.array([at[list(half)] for a, b, c, d in sides for half in ((a, b, c), (a, c, d))])
+
+
+def test_a_plan_that_is_a_million_metres_long_has_few_cells():
+    before = time.process_time()
+    relate(wall("long", (0, 0), (1e6, 0.1)), artifact("table", (0, 1, 0), (1, 1, 0.8)), kinds=("room",))
+    assert time.process_time() - before < 10

@@ -93,3 +93,24 @@ def test_a_writer_deletes_what_killed_writers_left(tmp_path: Path, small: NamedG
         path.write_bytes(b"x")
     EmbeddedStore(tmp_path).check()
     assert [path for path in left if path.exists()] == []
+
+
+def test_an_error_of_another_kind_gives_up_no_load(
+    store: EmbeddedStore, small: NamedGraph, other: NamedGraph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    def fail(*_: object) -> None:
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    with monkeypatch.context() as broken:
+        broken.setattr(EmbeddedStore, "_finish", fail)
+        with pytest.raises(StoreError, match="cannot be read or written"):
+            store.remove(small.iri)
+    assert (tmp_path / PENDING_NAME).exists()
+    assert {graph.iri for graph in store.graphs()} == {small.iri, other.iri}
+
+
+def test_a_short_reserve_is_written_anew(store: EmbeddedStore, small: NamedGraph, tmp_path: Path):
+    reserve = tmp_path / "usd2kg.reserve"
+    reserve.write_bytes(b"cut")
+    store.load(small)
+    assert reserve.stat().st_size == RESERVE_BYTES

@@ -3,10 +3,10 @@
 from importlib import import_module
 from pathlib import Path
 
-from usd2kg.convert.converted import Converted
+from usd2kg.convert.converted import Converted, parse_error
 from usd2kg.convert.formats import SourceFormat
 from usd2kg.convert.origin import Origin, hash_file, write_origin
-from usd2kg.errors import SceneError
+from usd2kg.errors import SceneError, Usd2kgError
 
 __all__ = ["convert_stage"]
 
@@ -23,6 +23,11 @@ def convert_stage(path: Path, source_format: SourceFormat) -> Converted:
         raise SceneError(
             f"{path}: {source_format.name} needs {error.name}, which is not installed; run: {source_format.install}"
         ) from error
+    except (Usd2kgError, MemoryError, RecursionError):
+        raise
+    except Exception as error:
+        # The libraries that parse a damaged file may raise anything.
+        raise parse_error(path, error, f"a whole {source_format.name} file") from error
     origin = Origin(path.name, hash_file(path), source_format.name, converted.converter)
     write_origin(converted.stage.GetRootLayer(), origin)
     return converted

@@ -52,7 +52,7 @@ _NOT_READ = {
     ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
     ".graphml": "graphs are not read from GraphML, an export format",
 }
-"""File extension of what usd2kg writes and reads elsewhere → reason."""
+"""File extension of what is not read as a graph → reason."""
 
 
 class GraphPart(NamedTuple):

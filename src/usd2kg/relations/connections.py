@@ -94,12 +94,14 @@ def locate_in_plans(plans: Sequence[FloorPlan], first: int) -> Locate:
 def locate_in_boxes(number: Indices, lower: Array, upper: Array) -> Locate:
     """Return how to find the smallest of boxes with numbers, lower corners (n, 3) and upper corners (n, 3)."""
     largest_first = np.argsort(-(upper - lower).prod(axis=1), kind="stable")
+    rank = np.empty_like(largest_first)
+    rank[largest_first] = np.arange(len(rank))
 
     def locate(points: Array) -> Indices:
-        found = np.full(len(points), OUTSIDE)
-        for box in largest_first.tolist():
-            found[((points >= lower[box]) & (points <= upper[box])).all(axis=1)] = number[box]
-        return found
+        best = np.full(len(points), -1)
+        for point, box in overlapping_pairs(points, points, (lower, upper)):
+            np.maximum.at(best, point, rank[box])
+        return np.where(best >= 0, number[largest_first[best]], OUTSIDE)
 
     return locate
 

@@ -109,8 +109,17 @@ def _grid(
     points = np.concatenate([solid.segments.reshape(-1, 2), *corners]) @ turn
     low, high = points.min(axis=0), points.max(axis=0)
     cell = max(rule.cell, float(np.sqrt((high - low).prod() / max_cells)))
-    x, y = (np.ceil((high - low) / cell).astype(int) + 2 * _PADDING).tolist()
+    x, y = _count_cells(high - low, cell)
+    while x * y > max_cells:
+        # The padding, and a long and narrow plan.
+        cell *= 1.25
+        x, y = _count_cells(high - low, cell)
     return PlanGrid(low - _PADDING * cell, cell, (x, y), turn)
+
+
+def _count_cells(size: Array, cell: float) -> tuple[int, int]:
+    x, y = (np.ceil(size / cell) + 2 * _PADDING).tolist()
+    return int(x), int(y)
 
 
 def _turn(segments: Array) -> Array:

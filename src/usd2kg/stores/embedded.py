@@ -1,5 +1,6 @@
 """EmbeddedStore: many scenes in one folder, without a server."""
 
+import errno
 import logging
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -43,6 +44,10 @@ _DATA_FILES = re.compile(r"CURRENT|MANIFEST-\d+|\d+\.(log|sst)")
 
 class _UnwritableError(StoreError):
     """The folder cannot be written, as on a full disk; it may still be readable."""
+
+
+class _FullDiskError(_UnwritableError):
+    """There is no space left for what has to be written."""
 
 
 class EmbeddedStore:
@@ -89,7 +94,7 @@ class EmbeddedStore:
             StoreError: as for `check`.
         """
         for free_space in (partial(release_reserve, self._folder), self._give_up_pending):
-            with suppress(_UnwritableError):
+            with suppress(_FullDiskError):
                 return self._remove(iri)
             free_space()
         return self._remove(iri)
@@ -243,7 +248,8 @@ class EmbeddedStore:
         try:
             yield
         except OSError as error:
-            raise unusable(
+            kind = _FullDiskError if unusable is _UnwritableError and _is_full(error) else unusable
+            raise kind(
                 f"{self._folder}: cannot be read or written ({one_line(error)}); free disk space, or check the "
                 "permissions of the folder"
             ) from error
@@ -283,3 +289,9 @@ class EmbeddedStore:
             store.bulk_extend(ox.parse(file, format=ox.RdfFormat.N_QUADS))
         store.flush()
         path.unlink()
+
+
+def _is_full(error: OSError) -> bool:
+    """Return whether space or a quota is used up; the engine only says so in words."""
+    text = str(error).lower()
+    return error.errno in {errno.ENOSPC, errno.EDQUOT} or "no space left" in text or "quota" in text

@@ -16,7 +16,8 @@ _NAME = "usd2kg.reserve"
 def keep_reserve(folder: Path) -> None:
     """Write the file that takes the space; without enough space, there is none."""
     path = folder / _NAME
-    if not path.exists():
+    # A process that was killed leaves a short file.
+    if not path.exists() or path.stat().st_size != RESERVE_BYTES:
         try:
             # Not a sparse file, which would reserve nothing.
             path.write_bytes(bytes(RESERVE_BYTES))

@@ -35,12 +35,40 @@ def read_prims(path: Path) -> Converted:
     project = next(iter(model.by_type("IfcProject")), None)
     if project is None:
         raise parse_error(path, "it has no IfcProject", _EXPECTED)
+    _check_structure(path, model)
     shapes = dict(tessellate(model))
     if not shapes:
         raise parse_error(path, "no product has a body that can be tessellated", _EXPECTED)
     stage = new_stage("Z", 1.0)
     _BuildingWriter(stage, shapes, model).write(project, path.stem)
     return Converted(stage, f"ifcopenshell {version('ifcopenshell')}", tuple(_notes(model, shapes)))
+
+
+def _check_structure(path: Path, model: Any) -> None:
+    """Refuse what IfcOpenShell would tessellate for ever: a missing GlobalId, and a whole that is its own part.
+
+    Raises:
+        SceneError: the file has one.
+    """
+    for entity in model.by_type("IfcRoot"):
+        if not entity.GlobalId:
+            raise parse_error(path, f"#{entity.id()} has no GlobalId", _EXPECTED)
+    whole = {
+        part.id(): relation.RelatingObject.id()
+        for relation in model.by_type("IfcRelAggregates")
+        for part in relation.RelatedObjects or ()
+        if relation.RelatingObject is not None
+    }
+    ends: set[int] = set()
+    for start in whole:
+        chain: dict[int, None] = {}
+        at = start
+        while at in whole and at not in ends:
+            if at in chain:
+                raise parse_error(path, f"#{at} is a part of itself", _EXPECTED)
+            chain[at] = None
+            at = whole[at]
+        ends.update(chain)
 
 
 def _open(path: Path) -> Any:

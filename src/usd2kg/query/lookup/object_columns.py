@@ -58,7 +58,7 @@ class _Groups(NamedTuple):
 
 
 class RowPairs:
-    """RowPairs of row numbers, for lookups in both directions."""
+    """Pairs of row numbers, for lookups in both directions."""
 
     def __init__(self, pairs: NDArray[np.int32]) -> None:
         """Wrap (m, 2) pairs, each once, in ascending order."""
@@ -185,9 +185,10 @@ class _ColumnReader:
 
     def _numbers(self, predicate: ox.NamedNode) -> NDArray[np.float64]:
         found = np.full(len(self._iris), np.nan)
-        for iri, value in self._dataset.pairs(predicate):
-            if iri in self._rows:
-                found[self._rows[iri]] = float(value)
+        for node, value in self._dataset.quads(predicate):
+            row = self._rows.get(getattr(node, "value", ""))
+            if row is not None:
+                found[row] = _number(value)
         return found
 
     def _confidences(self) -> NDArray[np.float64]:
