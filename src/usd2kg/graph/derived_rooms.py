@@ -1,4 +1,4 @@
-"""RDF of the rooms that no prim is: their class, outline, area and origin."""
+"""RDF of rooms without a prim: their class, outline, area and origin."""
 
 from collections.abc import Iterable, Iterator, Mapping
 

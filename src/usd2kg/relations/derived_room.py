@@ -1,4 +1,4 @@
-"""A room that no prim is, derived from walls or floors."""
+"""A room without a prim, derived from walls or floors."""
 
 from dataclasses import dataclass
 

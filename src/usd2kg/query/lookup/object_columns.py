@@ -129,7 +129,7 @@ class ObjectColumns:
 
 
 def load_object_columns(dataset: Dataset) -> ObjectColumns:
-    """Return the table of a dataset: from its folder, if it has one, where the first call leaves it."""
+    """Return the columns of a dataset: from its folder, if it has one, where the first call leaves it."""
     path = None if dataset.folder is None else dataset.folder / _FILE
     return keep_columns(path, _from_columns, lambda: _ColumnReader(dataset).table(), _to_columns)
 
