@@ -289,3 +289,14 @@ def test_whatever_the_library_raises_is_one_error(tmp_path: Path):
     (tmp_path / "house.ifczip").write_bytes(b"no zip")
     with pytest.raises(SceneError, match=r"house\.ifczip: cannot be converted \(File is not a zip file\)"):
         read_scene(tmp_path / "house.ifczip")
+
+
+def test_proxies_and_rooms_that_no_project_leads_to_are_read(tmp_path: Path):
+    house = House()
+    house.add("IfcProxy", "Pump", (0, 0, 0), (1, 1, 1), ProxyType="PRODUCT")
+    apart = root.create_entity(house.model, "IfcBuildingStorey", name="Loft")
+    room = house.add("IfcSpace", "Attic", (0, 0, 3), (4, 4, 2))
+    aggregate.assign_object(house.model, products=[room], relating_object=apart)
+    house.put(house.add("IfcFurniture", "Trunk", (1, 1, 3), (1, 0.5, 0.5)), apart)
+    names = {found.name for found in read_scene(house.save(tmp_path / "house.ifc")).objects}
+    assert {"Pump", "Attic", "Trunk"} <= names

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from usd2kg.shapes.plan_grid import PlanGrid, connected_areas, cut_segments, holds_square, outline_loops
 
@@ -89,3 +91,32 @@ def test_triangles_cover_a_turned_square():
     grid.mark_triangles(mask, np.array([[a, b, c], [c, d, a]]))
     # A square of sides 2 ** 0.5 m; the cells along its sides are half outside.
     assert mask.sum() * 0.05**2 == pytest.approx(2.0, abs=4 * 2**0.5 * 0.05)
+
+
+@given(
+    corners=st.lists(st.tuples(*[st.integers(-39, 39)] * 6), min_size=1, max_size=4),
+    degrees=st.sampled_from([0, 17, 45, 90]),
+)
+def test_triangles_cover_the_cells_whose_middles_are_in_them(corners: list[tuple[int, ...]], degrees: int):
+    angle = np.radians(degrees)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    grid = PlanGrid(np.array([-6.0, -6.0]), 0.25, (48, 48), turn)
+    triangles = np.array(corners, float).reshape(-1, 3, 2) / 10 + 0.003
+    mask, sides = np.zeros(grid.shape, bool), np.zeros(grid.shape, bool)
+    grid.mark_triangles(mask, triangles)
+    for side in range(3):
+        grid.mark_segments(sides, triangles[:, [side, (side + 1) % 3]])
+    middles = grid.world(np.argwhere(np.ones(grid.shape, bool)) + 0.5)
+    expected = sides.copy()
+    for a, b, c in triangles:
+        turns = [
+            (q - p)[0] * (middles - p)[:, 1] - (q - p)[1] * (middles - p)[:, 0] for p, q in ((a, b), (b, c), (c, a))
+        ]
+        is_in = np.all([turn > 1e-9 for turn in turns], axis=0) | np.all([turn < -1e-9 for turn in turns], axis=0)
+        expected |= is_in.reshape(grid.shape)
+    assert np.array_equal(mask, expected)
+
+    window, cells = grid.window(triangles.reshape(-1, 2))
+    part = np.zeros(window.shape, bool)
+    window.mark_triangles(part, triangles)
+    assert np.array_equal(mask[cells], part)

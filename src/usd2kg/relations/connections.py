@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.floor_plan import FloorPlan
 from usd2kg.relations.model import Links, margin_above, margin_score
+from usd2kg.relations.row_modes import row_modes
 from usd2kg.relations.thresholds import ConnectsRule
 from usd2kg.shapes import overlapping_pairs
 
@@ -68,12 +69,9 @@ def _look_beside(boxed: BoxedObjects, openings: Indices, sign: float, locate: Lo
     points = np.repeat(boxed.middle[openings, None], offset.shape[1], axis=1)
     points[..., :2] += offset
     room = locate(points.reshape(-1, 3)).reshape(offset.shape[:2])
-    ordered = np.sort(room, axis=1)
-    counts = (ordered[:, :, None] == ordered[:, None, :]).sum(axis=2) * (ordered > UNKNOWN)
-    best, rows = counts.argmax(axis=1), np.arange(len(openings))
+    most, count = row_modes(room, UNKNOWN + 1)
     is_known = (room > UNKNOWN).sum(axis=1)
-    most = counts[rows, best]
-    return _Sides(np.where(most > 0, ordered[rows, best], UNKNOWN), most / np.maximum(is_known, 1))
+    return _Sides(np.where(count > 0, most, UNKNOWN), count / np.maximum(is_known, 1))
 
 
 def locate_in_plans(plans: Sequence[FloorPlan], first: int) -> Locate:

@@ -12,7 +12,15 @@ from usd2kg.relations.derived_room import DerivedRoom
 from usd2kg.relations.storeys import Storey, find_storeys
 from usd2kg.relations.thresholds import RoomPlanRule
 from usd2kg.relations.wall_plan import WallPlan, draw_walls
-from usd2kg.shapes.plan_grid import PlanGrid, connected_areas, holds_square, outline_loops
+from usd2kg.shapes.plan_grid import (
+    PlanGrid,
+    area_bounds,
+    connected_areas,
+    holds_square,
+    outline_loops,
+    rectangle_corners,
+    with_neighbours,
+)
 from usd2kg.words import words_of
 
 __all__ = ["FloorPlan", "draw_floor_plans"]
@@ -64,7 +72,7 @@ def draw_floor_plans(
             found = _rooms_on_floors(plan, is_free, named, rule)
         if len(found.chosen):
             plans.append(_number_rooms(storey, plan, found, len(rooms)))
-            rooms += [_describe(storey, plan, found, area, named) for area in found.chosen.tolist()]
+            rooms += _describe(storey, plan, found, named)
     return plans, _with_unique_names(rooms)
 
 
@@ -93,7 +101,8 @@ def _floor_names(boxed: BoxedObjects, storey: Storey, grid: PlanGrid, words: fro
         name = _room_name(boxed.objects[floor].prim_path.rpartition("/")[2], words)
         if name not in names:
             names.append(name)
-        found[_floor_cells(boxed, floor, grid)] = names.index(name)
+        cells, mask = _floor_cells(boxed, floor, grid)
+        found[cells][mask] = names.index(name)
     return _FloorNames(found, names)
 
 
@@ -107,17 +116,21 @@ def _room_name(name: str, words: frozenset[str]) -> str:
     return "" if found in {"room", "rooms"} else found
 
 
-def _floor_cells(boxed: BoxedObjects, floor: int, grid: PlanGrid) -> Mask:
-    """Return the cells under the faces of a floor, else under its box."""
-    mask = np.zeros(grid.shape, np.bool_)
+def _floor_cells(boxed: BoxedObjects, floor: int, grid: PlanGrid) -> tuple[tuple[slice, slice], Mask]:
+    """Return a window of the grid and its cells under the faces of a floor, else under its box."""
     surface = boxed.surfaces[floor]
-    if surface is None:
-        shapes = boxed.footprints
-        some = slice(floor, floor + 1)
-        grid.mark_rectangles(mask, boxed.middle[some, :2], shapes.half_sides[some], shapes.direction[some])
-    else:
-        grid.mark_triangles(mask, surface.corners[..., :2])
-    return mask
+    if surface is not None:
+        faces = surface.corners[..., :2]
+        window, cells = grid.window(faces.reshape(-1, 2))
+        mask = np.zeros(window.shape, np.bool_)
+        window.mark_triangles(mask, faces)
+        return cells, mask
+    some = slice(floor, floor + 1)
+    middle, half, first = boxed.middle[some, :2], boxed.footprints.half_sides[some], boxed.footprints.direction[some]
+    window, cells = grid.window(rectangle_corners(middle[0], half[0], first[0]))
+    mask = np.zeros(window.shape, np.bool_)
+    window.mark_rectangles(mask, middle, half, first)
+    return cells, mask
 
 
 def _rooms_between_walls(plan: WallPlan, is_free: Mask, named: _FloorNames, rule: RoomPlanRule) -> _Areas:
@@ -151,32 +164,31 @@ def _number_rooms(storey: Storey, plan: WallPlan, found: _Areas, first: int) -> 
     return FloorPlan(storey, plan.grid, room, (room < 0) & ~found.is_outdoors)
 
 
-def _describe(storey: Storey, plan: WallPlan, found: _Areas, area: int, named: _FloorNames) -> DerivedRoom:
-    mask = found.areas == area
-    x, y = np.nonzero(mask)
-    window = slice(x.min(), x.max() + 1), slice(y.min(), y.max() + 1)
-    corner = np.array([x.min(), y.min()])
-    loops = [plan.grid.world(loop + corner) for loop in outline_loops(mask[window])]
-    names = np.bincount(np.maximum(named.name[mask], 0), minlength=len(named.names))
-    return DerivedRoom(
-        name=named.names[int(names.argmax())],
-        rule=found.rule,
-        outline=tuple(tuple((float(a), float(b)) for a, b in loop) for loop in loops),
-        area=float(mask.sum() * plan.grid.cell**2),
-        height=storey.height,
-        confidence=_wall_share(mask, plan, found.areas >= 0),
-    )
-
-
-def _wall_share(mask: Mask, plan: WallPlan, is_inside: Mask) -> float:
-    """Return the share of the cells around an area that are neither assumed to be closed nor in another area."""
-    around = np.zeros(mask.shape, np.bool_)
-    around[1:] |= mask[:-1]
-    around[:-1] |= mask[1:]
-    around[:, 1:] |= mask[:, :-1]
-    around[:, :-1] |= mask[:, 1:]
-    around &= ~mask
-    return 1.0 - float((around & (plan.is_assumed | is_inside)).sum() / max(around.sum(), 1))
+def _describe(storey: Storey, plan: WallPlan, found: _Areas, named: _FloorNames) -> list[DerivedRoom]:
+    """Return the chosen areas as rooms, each looked at in a window with a cell around it."""
+    first, last = area_bounds(found.areas)
+    rooms = []
+    for area in found.chosen.tolist():
+        corner = np.maximum(first[area] - 1, 0)
+        window = tuple(slice(int(low), int(high) + 2) for low, high in zip(corner, last[area], strict=True))
+        areas = found.areas[window]
+        mask = areas == area
+        names = np.bincount(np.maximum(named.name[window][mask], 0), minlength=len(named.names))
+        loops = [plan.grid.world(loop + corner) for loop in outline_loops(mask)]
+        # Cells around the room that are neither assumed to be closed nor in another room.
+        around = with_neighbours(mask) & ~mask
+        unsure = around & (plan.is_assumed[window] | (areas >= 0))
+        rooms.append(
+            DerivedRoom(
+                name=named.names[int(names.argmax())],
+                rule=found.rule,
+                outline=tuple(tuple((float(a), float(b)) for a, b in loop) for loop in loops),
+                area=float(mask.sum() * plan.grid.cell**2),
+                height=storey.height,
+                confidence=1.0 - float(unsure.sum() / max(around.sum(), 1)),
+            )
+        )
+    return rooms
 
 
 def _with_unique_names(rooms: list[DerivedRoom]) -> list[DerivedRoom]:

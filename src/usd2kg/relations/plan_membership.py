@@ -9,6 +9,7 @@ from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.derived_room import DerivedRoom
 from usd2kg.relations.floor_plan import FloorPlan
 from usd2kg.relations.model import Links, margin_above, margin_score
+from usd2kg.relations.row_modes import row_modes
 from usd2kg.relations.thresholds import RoomPlanRule
 
 __all__ = ["find_plan_members"]
@@ -46,16 +47,12 @@ def _members(boxed: BoxedObjects, plan: FloorPlan, here: Indices, rule: RoomPlan
     buried = np.flatnonzero(is_wall.all(axis=1))
     room[buried], _ = _look_up(boxed, plan, here[buried], rule.samples, rule.reach)
     in_plan = room >= 0
-    # Most frequent room of each row; the smallest number wins a tie.
-    ordered = np.sort(room, axis=1)
-    counts = (ordered[:, :, None] == ordered[:, None, :]).sum(axis=2) * (ordered >= 0)
-    best = counts.argmax(axis=1)
-    rows = np.arange(len(here))
+    most, count = row_modes(room, 0)
     known = in_plan.any(axis=1)
     outdoors = (~in_plan & ~is_wall).sum(axis=1)
-    share = counts[rows, best] / np.maximum(in_plan.sum(axis=1) + outdoors, 1)
+    share = count / np.maximum(in_plan.sum(axis=1) + outdoors, 1)
     known &= share >= rule.min_share
-    return here[known], ordered[rows, best][known], share[known]
+    return here[known], most[known], share[known]
 
 
 def _look_up(

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.storeys import Storey
 from usd2kg.relations.thresholds import RoomPlanRule
-from usd2kg.shapes.plan_grid import PlanGrid, connected_areas, cut_segments, touched_areas
+from usd2kg.shapes.plan_grid import PlanGrid, area_bounds, connected_areas, cut_segments, touched_areas
 
 __all__ = ["WallPlan", "draw_walls"]
 
@@ -147,20 +147,11 @@ def _closed_below_lintels(is_crossed: Mask, is_opening: Mask, cell: float, rule:
     for axis in (0, 1):
         grown |= np.roll(grown, 1, axis) | np.roll(grown, -1, axis)
     areas = connected_areas(np.where(grown, 0, -1))
-    x, y = np.nonzero(is_crossed)
-    which = areas[x, y]
-    count = int(areas.max(initial=-1)) + 1
-    extent = np.zeros((count, 2))
-    for axis, place in enumerate((x, y)):
-        low, high = np.full(count, np.iinfo(np.int64).max), np.full(count, -1)
-        np.minimum.at(low, which, place)
-        np.maximum.at(high, which, place)
-        extent[:, axis] = (high - low + 1) * cell
-    is_narrow = extent.max(axis=1, initial=0.0) <= rule.max_opening
+    # Of the crossed cells alone: an area also has cells around them.
+    first, last = area_bounds(np.where(is_crossed, areas, -1))
+    is_narrow = ((last - first + 1) * cell).max(axis=1, initial=0.0) <= rule.max_opening
     is_narrow[touched_areas(areas, is_opening)] = True
-    closed = np.zeros(is_crossed.shape, np.bool_)
-    closed[x, y] = is_narrow[which]
-    return closed
+    return np.asarray(is_crossed & np.append(is_narrow, False)[areas])
 
 
 def _closed_gaps(is_wall: Mask, cell: float, rule: RoomPlanRule) -> Mask:

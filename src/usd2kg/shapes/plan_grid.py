@@ -7,11 +7,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["PlanGrid", "connected_areas", "cut_segments", "holds_square", "outline_loops", "touched_areas"]
+__all__ = [
+    "PlanGrid",
+    "area_bounds",
+    "connected_areas",
+    "cut_segments",
+    "holds_square",
+    "outline_loops",
+    "rectangle_corners",
+    "touched_areas",
+    "with_neighbours",
+]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+
+_TRIANGLES_AT_ONCE = 512
+"""Bounds the memory of large triangles on a large grid."""
 
 
 class PlanGrid(NamedTuple):
@@ -52,8 +65,7 @@ class PlanGrid(NamedTuple):
         """Set the cells under rectangles: middles (n, 2), half sides (n, 2), unit vectors (n, 2) of the first sides."""
         for at, half, first in zip(middle, half_sides, direction, strict=True):
             second = np.array([-first[1], first[0]])
-            corners = np.array([at + i * half[0] * first + j * half[1] * second for i in (-1, 1) for j in (-1, 1)])
-            place = self.cells_of(corners)
+            place = self.cells_of(rectangle_corners(at, half, first))
             low, high = place.min(axis=0), place.max(axis=0) + 1
             x, y = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]), indexing="ij")
             offset = self.world(np.stack([x, y], axis=-1) + 0.5) - at
@@ -66,15 +78,47 @@ class PlanGrid(NamedTuple):
         """Set the cells whose middles are in triangles (n, 3, 2) in the world frame, and those along their sides."""
         for side in range(3):
             self.mark_segments(mask, triangles[:, [side, (side + 1) % 3]])
-        for triangle in triangles:
-            place = self.cells_of(triangle)
-            low, high = place.min(axis=0), place.max(axis=0) + 1
-            x, y = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]), indexing="ij")
-            middles = self.world(np.stack([x, y], axis=-1) + 0.5)
-            along = np.roll(triangle, -1, axis=0) - triangle
-            offset = middles[..., None, :] - triangle
-            side_of = along[:, 0] * offset[..., 1] - along[:, 1] * offset[..., 0]
-            mask[low[0] : high[0], low[1] : high[1]] |= (side_of >= 0).all(axis=-1) | (side_of <= 0).all(axis=-1)
+        placed = (triangles @ self.turn - self.origin) / self.cell
+        # +1 where a run of cells along y starts, -1 behind its end.
+        changes = np.zeros((self.shape[0], self.shape[1] + 1), np.int32)
+        for start in range(0, len(placed), _TRIANGLES_AT_ONCE):
+            _add_runs(changes, placed[start : start + _TRIANGLES_AT_ONCE])
+        mask |= changes[:, :-1].cumsum(axis=1) > 0
+
+    def window(self, points: Array) -> tuple["PlanGrid", tuple[slice, slice]]:
+        """Return the part of the grid around points (n, 2) in the world frame, and its cells in this grid."""
+        place = self.cells_of(points)
+        low, high = place.min(axis=0), place.max(axis=0) + 1
+        shape = (int(high[0] - low[0]), int(high[1] - low[1]))
+        cells = (slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1])))
+        return PlanGrid(self.origin + low * self.cell, self.cell, shape, self.turn), cells
+
+
+def rectangle_corners(middle: Array, half_sides: Array, direction: Array) -> Array:
+    """Return the corners (4, 2) of a rectangle with a middle (2,), half sides (2,) and the direction of the first."""
+    first, second = half_sides[0] * direction, half_sides[1] * np.array([-direction[1], direction[0]])
+    return np.array([middle + i * first + j * second for i in (-1, 1) for j in (-1, 1)])
+
+
+def _add_runs(changes: NDArray[np.int32], corners: Array) -> None:
+    """Add the runs of cells along y whose middles are in triangles (n, 3, 2), in cells; see `mark_triangles`."""
+    columns, rows = changes.shape[0], changes.shape[1] - 1
+    first = np.clip(np.ceil(corners[..., 0].min(axis=1) - 0.5), 0, columns).astype(np.int64)
+    last = np.clip(np.floor(corners[..., 0].max(axis=1) - 0.5), -1, columns - 1).astype(np.int64)
+    count = np.maximum(last - first + 1, 0)
+    which = np.repeat(np.arange(len(corners)), count)
+    column = np.arange(len(which)) - np.repeat(np.cumsum(count) - count - first, count)
+    middle = (column + 0.5)[:, None]
+    start, end = corners[which], np.roll(corners, -1, axis=1)[which]
+    is_crossed = (start[..., 0] <= middle) != (end[..., 0] <= middle)
+    width = np.where(is_crossed, end[..., 0] - start[..., 0], 1.0)
+    y = start[..., 1] + (middle - start[..., 0]) / width * (end[..., 1] - start[..., 1])
+    low = np.ceil(np.where(is_crossed, y, np.inf).min(axis=1, initial=np.inf) - 0.5)
+    high = np.floor(np.where(is_crossed, y, -np.inf).max(axis=1, initial=-np.inf) - 0.5) + 1
+    low, high = (np.clip(end, 0, rows).astype(np.int64) for end in (low, high))
+    is_run = high > low
+    np.add.at(changes, (column[is_run], low[is_run]), 1)
+    np.add.at(changes, (column[is_run], high[is_run]), -1)
 
 
 def cut_segments(corners: Array, height: float) -> Array:
@@ -150,14 +194,30 @@ def holds_square(areas: Indices, side: int) -> Indices:
     return np.unique(first[is_free])
 
 
-def touched_areas(areas: Indices, mask: Mask) -> Indices:
-    """Return the areas that have a cell in a mask or beside one, sorted."""
+def area_bounds(areas: Indices) -> tuple[Indices, Indices]:
+    """Return the first and the last cell (n, 2) of each area, as `connected_areas` numbers them."""
+    count = int(areas.max(initial=-1)) + 1
+    first, last = np.full((count, 2), np.iinfo(np.int64).max), np.full((count, 2), -1)
+    cells = np.nonzero(areas >= 0)
+    for axis, place in enumerate(cells):
+        np.minimum.at(first[:, axis], areas[cells], place)
+        np.maximum.at(last[:, axis], areas[cells], place)
+    return first, last
+
+
+def with_neighbours(mask: Mask) -> Mask:
+    """Return the cells of a mask and those that share a side with one."""
     grown = mask.copy()
     grown[1:] |= mask[:-1]
     grown[:-1] |= mask[1:]
     grown[:, 1:] |= mask[:, :-1]
     grown[:, :-1] |= mask[:, 1:]
-    return np.unique(areas[grown & (areas >= 0)])
+    return grown
+
+
+def touched_areas(areas: Indices, mask: Mask) -> Indices:
+    """Return the areas that have a cell in a mask or beside one, sorted."""
+    return np.unique(areas[with_neighbours(mask) & (areas >= 0)])
 
 
 def outline_loops(mask: Mask) -> list[Array]:

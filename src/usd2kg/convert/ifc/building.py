@@ -11,7 +11,7 @@ from pxr import Kind, Usd, UsdGeom, UsdSemantics, Vt
 
 from usd2kg.convert.converted import Converted, parse_error
 from usd2kg.convert.ifc.entity_facts import entity_data, kind_word, material_names, name_of
-from usd2kg.convert.ifc.tessellation import Shape, tessellate
+from usd2kg.convert.ifc.tessellation import NOT_PHYSICAL, Shape, instances_of, tessellate
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.origin import SOURCE_ID
 from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage
@@ -19,10 +19,10 @@ from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage
 __all__ = ["read_prims"]
 
 _EXPECTED = "an IFC file (2x3, 4 or 4.3) in the STEP format"
-_NOT_WRITTEN = ("IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement", "IfcPort")
-"""Classes without a physical thing of their own."""
 _SPATIAL = ("IfcSpatialElement", "IfcSpatialStructureElement")
 """Spatial elements: since IFC 4, and in IFC 2x3."""
+_WRITTEN = (*_SPATIAL, "IfcElement", "IfcProxy")
+"""Classes whose instances are written even if the project does not lead to them; parts after what contains them."""
 
 
 def read_prims(path: Path) -> Converted:
@@ -84,7 +84,7 @@ def _notes(model: Any, shapes: dict[int, Shape]) -> Iterator[str]:
     lost = [
         entity
         for entity in model.by_type("IfcElement")
-        if entity.Representation is not None and entity.id() not in shapes and not _is_any(entity, _NOT_WRITTEN)
+        if entity.Representation is not None and entity.id() not in shapes and not _is_any(entity, NOT_PHYSICAL)
     ]
     if lost:
         first = ", ".join(f"{entity.is_a()} {entity.GlobalId}" for entity in lost[:3])
@@ -112,7 +112,7 @@ class _BuildingWriter:
         self._materials: MaterialAuthor | None = None
 
     def write(self, project: Any, file_name: str) -> None:
-        """Write the structure below the project, then the elements that are in no structure."""
+        """Write the structure below the project, then the spaces and elements that it does not lead to."""
         root = self._author.define("/", name_of(project))
         self._stage.SetDefaultPrim(root)
         root.SetAssetInfo({"name": file_name})
@@ -123,14 +123,16 @@ class _BuildingWriter:
         self._materials = MaterialAuthor(self._author, path)
         self._written.add(project.id())
         self._write_all(_parts(project), path)
-        self._write_all([entity for entity in self._model.by_type("IfcElement") if not _has_whole(entity)], path)
+        for name in _WRITTEN:
+            apart = [entity for entity in instances_of(self._model, name) or () if not _has_whole(entity)]
+            self._write_all(apart, path)
 
     def _write_all(self, entities: list[Any], parent: str) -> None:
         # (entity, the room that it is in, path above, whether an element is above)
         pending: list[tuple[Any, Any, str, bool]] = [(entity, None, parent, False) for entity in reversed(entities)]
         while pending:
             entity, container, above, in_element = pending.pop()
-            if entity.id() in self._written or _is_any(entity, _NOT_WRITTEN):
+            if entity.id() in self._written or _is_any(entity, NOT_PHYSICAL):
                 continue
             self._written.add(entity.id())
             is_group = _is_any(entity, _SPATIAL) and not entity.is_a("IfcSpace")
@@ -224,5 +226,5 @@ def _contained(entity: Any) -> list[Any]:
 
 
 def _has_whole(entity: Any) -> bool:
-    """Return whether an element is a part of another, which is written with its parts."""
+    """Return whether an entity is a part of another, which is written with its parts."""
     return any(getattr(entity, "Decomposes", ())) or any(getattr(entity, "Nests", ()))

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from usd2kg.convert.prims import SourceMesh
 from usd2kg.srgb import linear_from_srgb
 
-__all__ = ["Shape", "tessellate"]
+__all__ = ["NOT_PHYSICAL", "Shape", "instances_of", "tessellate"]
 
-_WITHOUT_SURFACE = ["IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement"]
-"""Classes that are not tessellated: openings are cut out of walls, the others are no solids."""
+NOT_PHYSICAL = ("IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement", "IfcPort")
+"""Classes without a physical thing of their own: openings are cut out of walls, the others are no solids."""
 
 
 class Shape(NamedTuple):
@@ -29,7 +29,7 @@ def tessellate(model: Any) -> Iterator[tuple[int, Shape]]:
     """Yield (STEP id, shape) of each product with a surface, in no particular order."""
     import ifcopenshell.geom  # noqa: PLC0415
 
-    classes = {entry for entry in _WITHOUT_SURFACE if _is_known(model, entry)}
+    classes = {name for name in NOT_PHYSICAL if instances_of(model, name) is not None}
     settings = ifcopenshell.geom.settings()
     # Only colours that the file states.
     settings.set("apply-default-materials", False)
@@ -43,13 +43,12 @@ def tessellate(model: Any) -> Iterator[tuple[int, Shape]]:
         is_open = bool(iterator.next())
 
 
-def _is_known(model: Any, name: str) -> bool:
-    """Return whether the schema of a file has a class; other names are an error of IfcOpenShell."""
+def instances_of(model: Any, name: str) -> list[Any] | None:
+    """Return the entities of a class and its subclasses; None if the schema of the file does not have the class."""
     try:
-        model.by_type(name)
+        return list(model.by_type(name))
     except RuntimeError:
-        return False
-    return True
+        return None
 
 
 def _mesh(geometry: Any) -> SourceMesh:
